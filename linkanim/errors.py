@@ -1,0 +1,45 @@
+"""Everything that can go wrong and be said in one line.
+
+`BadInput` is the caller's to mend (exit code 2); `WorkFailed` is not (exit code 1).
+A message names the file and key where there is one, the value, the reason and the way out.
+"""
+
+
+class LinkanimError(Exception):
+    """Base of every error that linkanim raises on purpose."""
+
+    exit_code = 1
+
+
+class BadInput(LinkanimError):
+    """What was asked for cannot be done as asked."""
+
+    exit_code = 2
+
+
+class UnitError(BadInput):
+    """A quantity without a unit, with an unknown one, or not a finite number."""
+
+
+class SceneError(BadInput):
+    """A scene file, or a name in the catalogue, that does not describe a linkage."""
+
+
+class AssemblyError(BadInput):
+    """Lengths that cannot be assembled, or not as asked."""
+
+
+class OutOfRange(BadInput):
+    """An input that the linkage cannot reach."""
+
+
+class WorkFailed(LinkanimError):
+    """The input was right and the work still could not be finished."""
+
+
+class NoDisplay(WorkFailed):
+    """There is no screen to open a window on."""
+
+
+class RecordingFailed(WorkFailed):
+    """The encoder or the disk gave up; nothing was left under the name asked for."""
