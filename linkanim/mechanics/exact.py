@@ -1,0 +1,96 @@
+"""Small exact pieces: sums of two floats, unit vectors of angles, differences without rounding."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+QUARTER_TURN_HIGH = math.pi / 2
+QUARTER_TURN_LOW = 6.123233995736766e-17
+"""π/2 is the sum of the two, to 32 digits."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sum:
+    """A number held as an unevaluated sum of two floats; the second is below half a last digit."""
+
+    high: float
+    low: float = 0.0
+
+    def __add__(self, other: Sum) -> Sum:
+        total, error = two_sum(self.high, other.high)
+        return _renormalised(total, error + self.low + other.low)
+
+    def __neg__(self) -> Sum:
+        return Sum(-self.high, -self.low)
+
+    def __sub__(self, other: Sum) -> Sum:
+        return self + -other
+
+    def times(self, factor: float) -> Sum:
+        """Return the product with a float."""
+        high, error = two_product(self.high, factor)
+        return _renormalised(high, error + self.low * factor)
+
+    def __float__(self) -> float:
+        return self.high + self.low
+
+
+def _renormalised(high: float, low: float) -> Sum:
+    return Sum(*two_sum(high, low))
+
+
+def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
+    """Return a + b rounded, and what rounding lost (Knuth; no order of magnitude assumed).
+
+    Works on floats and on noted expressions alike.
+    """
+    total = a + b
+    back = total - a
+    return total, (a - (total - back)) + (b - back)
+
+
+def two_product(a: float, b: float) -> tuple[float, float]:
+    """Return a × b rounded, and what rounding lost (Dekker, with Veltkamp's splitting)."""
+    product = a * b
+    a_high, a_low = _split(a)
+    b_high, b_low = _split(b)
+    return product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+def _split(a: float) -> tuple[float, float]:
+    scaled = a * 134217729.0
+    high = scaled - (scaled - a)
+    return high, a - high
+
+
+def quarter_turns(count: int) -> Sum:
+    """Return count × π/2 as a sum."""
+    return Sum(QUARTER_TURN_HIGH, QUARTER_TURN_LOW).times(float(count))
+
+
+def exact_angle(angle: float) -> Sum:
+    """Return the angle as a sum; the float nearest a multiple of a right angle stands for that multiple."""
+    count = round(angle / QUARTER_TURN_HIGH)
+    multiple = quarter_turns(count)
+    return multiple if multiple.high == angle else Sum(angle)
+
+
+def unit(angle: float) -> tuple[float, float]:
+    """Return (cos, sin), exact at multiples of a right angle."""
+    count = round(angle / QUARTER_TURN_HIGH)
+    if quarter_turns(count).high == angle:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[count % 4]
+    return math.cos(angle), math.sin(angle)
+
+
+def gap(*lengths: float) -> float:
+    """Return the sum of signed lengths, zero where it is below what their last digits can tell.
+
+    Decimal lengths with s + l = p + q are rarely exact in binary: a gap within 2⁻⁵³ of the
+    perimeter is the rounding of the lengths, not a gap.
+    """
+    total = math.fsum(lengths)
+    perimeter = math.fsum(abs(length) for length in lengths)
+    return 0.0 if abs(total) <= perimeter * 2.0**-53 else total

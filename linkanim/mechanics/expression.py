@@ -1,0 +1,191 @@
+"""Arithmetic that is written once and run on floats, on arrays and in blocks.
+
+The formulas of a linkage are ordinary Python on `Value`s. Fed with floats they compute; fed with
+`Expr`s they note what they would compute, each distinct operation once and constants folded, for
+`program` to compile. So a single pose and a million of them come from the same formula.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+COMMUTES = frozenset({"add", "mul", "minimum", "maximum"})
+
+
+class Graph:
+    """The operations noted so far; equal ones are one node."""
+
+    def __init__(self) -> None:
+        self._nodes: dict[tuple[object, ...], Expr] = {}
+
+    def input(self, name: str) -> Expr:
+        """Return the named input of the program."""
+        return self.node("input", name)
+
+    def node(self, op: str, *args: Expr | float | str) -> Expr:
+        """Return the node for this operation, the one noted before where there is one."""
+        if op in COMMUTES:
+            args = tuple(sorted(args, key=_order))
+        key = (op, *args)
+        found = self._nodes.get(key)
+        if found is None:
+            found = Expr(self, op, args, len(self._nodes))
+            self._nodes[key] = found
+        return found
+
+
+class Expr:
+    """One noted operation; its arguments are nodes of the same graph or constants."""
+
+    __slots__ = ("args", "graph", "index", "op")
+
+    def __init__(self, graph: Graph, op: str, args: tuple[Expr | float | str, ...], index: int) -> None:
+        self.graph = graph
+        self.op = op
+        self.args = args
+        self.index = index
+
+    def __add__(self, other: Value) -> Value:
+        return _add(self, other)
+
+    def __radd__(self, other: Value) -> Value:
+        return _add(self, other)
+
+    def __sub__(self, other: Value) -> Value:
+        return _subtract(self, other)
+
+    def __rsub__(self, other: Value) -> Value:
+        return _subtract(other, self)
+
+    def __mul__(self, other: Value) -> Value:
+        return _multiply(self, other)
+
+    def __rmul__(self, other: Value) -> Value:
+        return _multiply(self, other)
+
+    def __truediv__(self, other: Value) -> Value:
+        return _divide(self, other)
+
+    def __rtruediv__(self, other: Value) -> Value:
+        return _divide(other, self)
+
+    def __neg__(self) -> Value:
+        return self.args[0] if self.op == "neg" and isinstance(self.args[0], Expr) else self._new("neg", self)
+
+    def _new(self, op: str, *args: Value) -> Expr:
+        return self.graph.node(op, *args)
+
+
+Value = Expr | float
+
+
+def _order(argument: Expr | float | str) -> tuple[int, int]:
+    """Put constants first and nodes in the order in which they were noted."""
+    return (1, argument.index) if isinstance(argument, Expr) else (0, 0)
+
+
+def _negated(value: Value) -> Expr | None:
+    """Return x where the value is noted as -x."""
+    if isinstance(value, Expr) and value.op == "neg" and isinstance(value.args[0], Expr):
+        return value.args[0]
+    return None
+
+
+def _add(a: Expr, b: Value) -> Value:
+    if isinstance(b, (int, float)) and b == 0:
+        return a
+    for x, y in ((a, b), (b, a)):
+        positive = _negated(y)
+        if positive is not None:
+            return _subtract(x, positive)
+    return a._new("add", a, b)
+
+
+def _subtract(a: Value, b: Value) -> Value:
+    if isinstance(b, (int, float)) and b == 0:
+        return a
+    if isinstance(a, (int, float)) and a == 0:
+        return -b
+    positive = _negated(b)
+    if positive is not None:
+        return a + positive
+    graph = b.graph if isinstance(b, Expr) else a.graph if isinstance(a, Expr) else Graph()
+    return graph.node("sub", a, b)
+
+
+def _multiply(a: Expr, b: Value) -> Value:
+    if isinstance(b, (int, float)):
+        return _scale(a, float(b))
+    for x, y in ((a, b), (b, a)):
+        positive = _negated(x)
+        if positive is not None:
+            return -(positive * y)
+    return a._new("mul", a, b)
+
+
+def _scale(a: Expr, factor: float) -> Value:
+    """Return a × constant, drawing a constant already inside into one."""
+    positive = _negated(a)
+    if factor == 0:
+        return 0.0
+    if factor == 1:
+        return a
+    if factor == -1:
+        return -a
+    if positive is not None:
+        return _scale(positive, -factor)
+    if a.op == "mul" and isinstance(a.args[0], float) and isinstance(a.args[1], Expr):
+        return _scale(a.args[1], factor * a.args[0])
+    return a._new("mul", factor, a)
+
+
+def _divide(a: Value, b: Value) -> Value:
+    if isinstance(b, (int, float)):
+        return a * (1.0 / b) if math.frexp(b)[0] in (0.5, -0.5) else _quotient(a, float(b))
+    if isinstance(a, (int, float)) and a == 0:
+        return 0.0
+    positive = _negated(b)
+    return -(a / positive) if positive is not None else _quotient(a, b)
+
+
+def _quotient(a: Value, b: Value) -> Value:
+    graph = b.graph if isinstance(b, Expr) else a.graph if isinstance(a, Expr) else Graph()
+    return graph.node("div", a, b)
+
+
+def _unary(op: str, plain: Callable[[float], float]) -> Callable[[Value], Value]:
+    def apply(x: Value) -> Value:
+        return x.graph.node(op, x) if isinstance(x, Expr) else plain(x)
+
+    return apply
+
+
+sqrt = _unary("sqrt", math.sqrt)
+tan = _unary("tan", math.tan)
+sin = _unary("sin", math.sin)
+cos = _unary("cos", math.cos)
+
+
+def minimum(a: Value, b: Value) -> Value:
+    """Return the smaller of the two."""
+    if isinstance(a, Expr):
+        return a.graph.node("minimum", a, b)
+    return b.graph.node("minimum", a, b) if isinstance(b, Expr) else min(a, b)
+
+
+def maximum(a: Value, b: Value) -> Value:
+    """Return the larger of the two."""
+    if isinstance(a, Expr):
+        return a.graph.node("maximum", a, b)
+    return b.graph.node("maximum", a, b) if isinstance(b, Expr) else max(a, b)
+
+
+def select(a: Value, b: Value, below: Value, otherwise: Value) -> Value:
+    """Return `below` where a < b, else `otherwise`."""
+    for value in (a, b, below, otherwise):
+        if isinstance(value, Expr):
+            return value.graph.node("select", a, b, below, otherwise)
+    assert isinstance(a, float)
+    assert isinstance(b, float)
+    return below if a < b else otherwise

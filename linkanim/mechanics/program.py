@@ -1,0 +1,231 @@
+"""Compile noted expressions into a function of floats and into passes over blocks of arrays.
+
+`scalar` writes straight-line Python on floats, which is how one frame is solved. `Batch` writes the
+same operations as numpy calls into reused buffers, a block of the array at a time, so that the
+buffers stay in the cache and memory is taken for the results only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .expression import Expr, Value
+
+BLOCK = 4096
+
+INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
+FLOAT_CALLS = {
+    "sqrt": "sqrt({})",
+    "tan": "tan({})",
+    "sin": "sin({})",
+    "cos": "cos({})",
+    "minimum": "min({}, {})",
+    "maximum": "max({}, {})",
+    "select": "({2} if {0} < {1} else {3})",
+}
+UFUNCS: Mapping[str, Callable[..., Any]] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "neg": np.negative,
+    "sqrt": np.sqrt,
+    "tan": np.tan,
+    "sin": np.sin,
+    "cos": np.cos,
+    "minimum": np.minimum,
+    "maximum": np.maximum,
+}
+
+
+def needed(outputs: Sequence[Value]) -> list[Expr]:
+    """Return the nodes that the outputs depend on, arguments before their users."""
+    seen: dict[int, Expr] = {}
+    stack = [value for value in outputs if isinstance(value, Expr)]
+    while stack:
+        node = stack.pop()
+        if node.index not in seen:
+            seen[node.index] = node
+            stack.extend(argument for argument in node.args if isinstance(argument, Expr))
+    return [seen[index] for index in sorted(seen)]
+
+
+def _formula(node: Expr) -> str:
+    template = INFIX.get(node.op) or FLOAT_CALLS[node.op]
+    return template.format(*(_name(argument) for argument in node.args))
+
+
+def _name(value: Value | str) -> str:
+    if not isinstance(value, Expr):
+        return f"({value!r})" if math.isfinite(float(value)) else f"float('{value}')"
+    return str(value.args[0]) if value.op == "input" else f"v{value.index}"
+
+
+def _define(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
+    """Return the function of that name from source text that this module wrote."""
+    space = dict(names)
+    exec(compile(source, f"<linkanim {name}>", "exec"), space)
+    function: Callable[..., Any] = space[name]
+    return function
+
+
+FLOAT_NAMES = {"sqrt": math.sqrt, "tan": math.tan, "sin": math.sin, "cos": math.cos}
+
+
+def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Callable[..., Any]:
+    """Return a function of float inputs that gives the outputs in `layout`.
+
+    `layout` is a Python expression with one `{}` for each output. Raises what `math` raises
+    (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
+    """
+    lines = [
+        f"    {_name(node)} = {_formula(node)}" for node in needed(outputs) if node.op != "input"
+    ]
+    result = layout.format(*(_name(value) for value in outputs))
+    source = "\n".join([f"def pose({', '.join(inputs)}):", *lines, f"    return {result}"])
+    return _define(source, "pose", FLOAT_NAMES)
+
+
+@dataclass(frozen=True)
+class Batch:
+    """A compiled pass over arrays: call it with one value or array (N,) for each input."""
+
+    inputs: tuple[str, ...]
+    outputs: tuple[Value, ...]
+    block: Callable[..., Any]
+    prelude: Callable[..., tuple[float, ...]]
+    buffers: int
+
+    def __call__(
+        self, *values: NDArray[np.floating[Any]] | float, dtype: type[np.floating[Any]] = np.float64
+    ) -> NDArray[np.floating[Any]]:
+        """Return the outputs as rows (outputs, N)."""
+        arrays = [value for value in values if isinstance(value, np.ndarray)]
+        count = arrays[0].shape[0]
+        scalars = self.prelude(*(value for value in values if not isinstance(value, np.ndarray)))
+        results = np.empty((len(self.outputs), count), dtype)
+        work = np.empty((self.buffers, min(BLOCK, count)), dtype)
+        for first in range(0, count, BLOCK):
+            part = slice(first, min(first + BLOCK, count))
+            inside = work[:, : part.stop - first]
+            self.block([array[part] for array in arrays], scalars, list(results[:, part]), list(inside))
+        return results
+
+
+def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
+    """Compile the outputs; `inputs` says of each name whether it is an array."""
+    nodes = needed(outputs)
+    varying = _varying(nodes, inputs)
+    fixed = [node for node in nodes if node.index not in varying and node.op != "input"]
+    plan = _Plan([node for node in nodes if node.index in varying], outputs)
+    return Batch(
+        tuple(inputs),
+        tuple(outputs),
+        _block([name for name, array in inputs.items() if array], fixed, plan, inputs),
+        _prelude([name for name, array in inputs.items() if not array], fixed),
+        plan.buffers,
+    )
+
+
+def _varying(nodes: Sequence[Expr], inputs: Mapping[str, bool]) -> set[int]:
+    """Return the nodes that differ along the array; the others are computed once."""
+    varying: set[int] = set()
+    for node in nodes:
+        if node.op == "input":
+            if inputs[str(node.args[0])]:
+                varying.add(node.index)
+        elif any(isinstance(argument, Expr) and argument.index in varying for argument in node.args):
+            varying.add(node.index)
+    return varying
+
+
+def _prelude(names: Sequence[str], fixed: Sequence[Expr]) -> Callable[..., tuple[float, ...]]:
+    """Return the function that computes from the scalar inputs what does not vary."""
+    lines = [f"    {_name(node)} = {_formula(node)}" for node in fixed]
+    result = "".join(f"{name}, " for name in (*names, *(_name(node) for node in fixed)))
+    source = "\n".join([f"def prelude({', '.join(names)}):", *lines, f"    return ({result})"])
+    return _define(source, "prelude", FLOAT_NAMES)
+
+
+class _Plan:
+    """Where each varying node's values live: its result row, or a buffer free by then."""
+
+    def __init__(self, nodes: Sequence[Expr], outputs: Sequence[Value]) -> None:
+        self.nodes = [node for node in nodes if node.op != "input"]
+        self.places: dict[int, str] = {}
+        self.copies: list[tuple[int, Value]] = []
+        self.buffers = 0
+        inputs = {node.index for node in nodes if node.op == "input"}
+        computed = {node.index for node in self.nodes}
+        for row, value in enumerate(outputs):
+            if isinstance(value, Expr) and value.index in computed - self.places.keys() - inputs:
+                self.places[value.index] = f"o{row}"
+            else:
+                self.copies.append((row, value))
+        self._assign_buffers()
+
+    def _assign_buffers(self) -> None:
+        last = {
+            argument.index: position
+            for position, node in enumerate(self.nodes)
+            for argument in node.args
+            if isinstance(argument, Expr)
+        }
+        free: list[int] = []
+        held: dict[int, int] = {}
+        for position, node in enumerate(self.nodes):
+            for index in [index for index in held if last.get(index, -1) <= position]:
+                free.append(held.pop(index))
+            if node.index not in self.places:
+                held[node.index] = buffer = free.pop() if free else self._grow()
+                self.places[node.index] = f"b{buffer}"
+
+    def _grow(self) -> int:
+        self.buffers += 1
+        return self.buffers - 1
+
+    def name(self, value: Value | str) -> str:
+        """Return the variable that holds the value inside the block function."""
+        if isinstance(value, Expr) and value.index in self.places:
+            return self.places[value.index]
+        return _name(value)
+
+    def lines(self) -> Iterator[str]:
+        """Yield the numpy calls in order."""
+        for node in self.nodes:
+            *arguments, place = [self.name(argument) for argument in (*node.args, node)]
+            if node.op == "select":
+                a, b, below, otherwise = arguments
+                yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
+            else:
+                yield f"{node.op}({', '.join(arguments)}, {place})"
+        for row, value in self.copies:
+            yield f"o{row}[...] = {self.name(value)}"
+
+
+def _block(
+    arrays: Sequence[str], fixed: Sequence[Expr], plan: _Plan, inputs: Mapping[str, bool]
+) -> Callable[..., Any]:
+    """Return the function that runs one block: (arrays, scalars, result rows, buffers)."""
+    scalars = [*(name for name, array in inputs.items() if not array), *(_name(node) for node in fixed)]
+    rows = sorted({place for place in plan.places.values() if place[0] == "o"} | {f"o{row}" for row, _ in plan.copies},
+                  key=lambda place: int(place[1:]))
+    unpack = [
+        _unpacking(arrays, "arrays"),
+        _unpacking(scalars, "scalars"),
+        _unpacking(rows, "rows"),
+        _unpacking([f"b{index}" for index in range(plan.buffers)], "buffers"),
+    ]
+    body = [line for line in (*unpack, *plan.lines()) if line]
+    source = "\n    ".join(["def block(arrays, scalars, rows, buffers):", *(body or ["pass"])])
+    return _define(source, "block", {**UFUNCS, "where": np.where})
+
+
+def _unpacking(names: Sequence[str], source: str) -> str:
+    return f"{', '.join(names)}, = {source}" if names else ""

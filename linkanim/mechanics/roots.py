@@ -1,0 +1,142 @@
+"""The signed root of a loop that is closed from a crank pin, and where it vanishes.
+
+With ψ the crank's angle from the ground line (or a quarter turn behind the normal of a line of
+travel), each such loop closes with q = ±√(U·W), where
+
+    U = cU + K cos²(ψ/2)        W = cW + K sin²(ψ/2)
+
+are sums that carry no cancellation. A positive c never vanishes; c = 0 is a change point, whose
+root is the signed √K cos(ψ/2) or √K sin(ψ/2); a negative c limits the swing of the crank.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import Decimal, localcontext
+from enum import Enum
+from fractions import Fraction
+
+from .exact import Sum, gap, quarter_turns
+
+
+class Kind(Enum):
+    """What one factor of the root does over the crank's turn."""
+
+    PLAIN = "never vanishes"
+    CHANGE_POINT = "touches zero: the smooth path changes its sign"
+    LIMIT = "crosses zero: the crank can go no further"
+
+
+@dataclass(frozen=True, slots=True)
+class Factor:
+    """One factor of the root: `least` + K·cos² (or sin²), between `least` and `most`.
+
+    `reach` is how far ψ may go from the factor's own best position (0 for U, π for W), and
+    `short` what is missing to π; both are sums of two floats, since a rounded limit costs the
+    velocity next to it half its digits.
+    """
+
+    least: float
+    most: float
+    reach: Sum
+    short: Sum
+
+    @property
+    def kind(self) -> Kind:
+        """Tell what the factor does."""
+        if self.least == 0:
+            return Kind.CHANGE_POINT
+        return Kind.PLAIN if self.least > 0 else Kind.LIMIT
+
+
+ALWAYS = Factor(1.0, 1.0, quarter_turns(2), Sum(0.0))
+
+
+@dataclass(frozen=True, slots=True)
+class LoopRoot:
+    """U, W and K of one loop. `reference` is the angle of the crank at ψ = 0."""
+
+    spread: float
+    u: Factor
+    w: Factor
+    reference: Sum
+
+    @property
+    def single(self) -> bool:
+        """True where the root has no factor U (a slot through a pin)."""
+        return self.u is ALWAYS
+
+
+def factor(least: float, most: float, spread: Fraction, exact_most: Fraction) -> Factor:
+    """Return the factor, its reach found to twice a float's digits where it limits the crank."""
+    if least >= 0 or most <= 0:
+        return Factor(least, most, quarter_turns(2), Sum(0.0))
+    reach = _twice_arcsine_of_root(exact_most / spread, math.atan2(math.sqrt(most), math.sqrt(-least)))
+    return Factor(least, most, reach, quarter_turns(2) - reach)
+
+
+def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
+    """Return x with sin²(x/2) = square as a sum of two floats: one Newton step from a float."""
+    with localcontext() as context:
+        context.prec = 60
+        target = Decimal(square.numerator) / Decimal(square.denominator)
+        half = Decimal(half_guess)
+        sine, cosine = _sine_and_cosine(half)
+        step = (target - sine * sine) / (2 * sine * cosine)
+        doubled = 2 * (half + step)
+        high = float(doubled)
+        return Sum(high, float(doubled - Decimal(high)))
+
+
+def _sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine by their series, for angles up to π/2."""
+    sums = [Decimal(0), Decimal(0)]
+    term = Decimal(1)
+    for n in range(1, 60):
+        sums[n % 2] += term if n % 4 in (1, 2) else -term
+        term = term * angle / n
+    cosine, sine = sums[1], sums[0]
+    return sine, cosine
+
+
+def four_bar_root(
+    ground: float, crank: float, coupler: float, rocker: float, reference: Sum
+) -> LoopRoot:
+    """Return the root of crank pin against fixed pin: ground r1, crank r2, bars r3, r4.
+
+    cU = (r3+r4-r1-r2)(r3+r4+r1+r2), cW = (r1-r2-r3+r4)(r1-r2+r3-r4), K = 4 r1 r2.
+    """
+    g, r, a, b = (Fraction(length) for length in (ground, crank, coupler, rocker))
+    spread = 4 * g * r
+    u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2
+    u_least = gap(coupler, rocker, -ground, -crank) * math.fsum((coupler, rocker, ground, crank))
+    w_least = gap(ground, -crank, -coupler, rocker) * gap(ground, -crank, coupler, -rocker)
+    return LoopRoot(
+        float(spread),
+        factor(u_least, float(u_most), spread, u_most),
+        factor(w_least, float(w_most), spread, w_most),
+        reference,
+    )
+
+
+def slider_root(crank: float, rod: float, eccentricity: float, reference: Sum) -> LoopRoot:
+    """Return the root of crank pin against a line: √((r3-e)(r3+e)), e = eccentricity - r2 cos ψ.
+
+    `eccentricity` is how far the crank's pivot lies left of the line of travel.
+    """
+    r, b, e = (Fraction(length) for length in (crank, rod, eccentricity))
+    return LoopRoot(
+        2.0 * crank,
+        factor(gap(rod, -eccentricity, -crank), float(b - e + r), 2 * r, b - e + r),
+        factor(gap(rod, eccentricity, -crank), float(b + e + r), 2 * r, b + e + r),
+        reference,
+    )
+
+
+def slot_root(ground: float, crank: float, offset: float, reference: Sum) -> LoopRoot:
+    """Return the root of a slot through the crank pin: √((L-o)(L+o)), L from slot pivot to pin."""
+    g, r, o = (Fraction(length) for length in (ground, crank, offset))
+    least = gap(ground, -crank, -offset) * gap(ground, -crank, offset)
+    most = (g + r) ** 2 - o**2
+    return LoopRoot(4.0 * ground * crank, ALWAYS, factor(least, float(most), 4 * g * r, most), reference)
