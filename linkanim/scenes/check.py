@@ -1,0 +1,199 @@
+"""A table of a scene file, read key by key; what is wrong is said with its file, key, value and way out."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from fractions import Fraction
+from typing import Any
+
+from linkanim import units
+from linkanim.errors import SceneError, UnitError
+from linkanim.mechanics.linkage import Point
+from linkanim.units import shown
+
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
+_SMALL = 12
+_STEEP = 100
+_FRACTION = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)?", re.A)
+
+
+@dataclass(frozen=True)
+class Table:
+    """One table of the file: its values, its key path, and the unit that bare lengths are in."""
+
+    where: str
+    values: Mapping[str, Any]
+    path: str = ""
+    unit: str = "mm"
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.values
+
+    def key(self, key: str) -> str:
+        """Return the key's full path, as TOML writes it."""
+        last = key if _BARE_KEY.fullmatch(key) else shown(key)
+        return f"{self.path}.{last}" if self.path else last
+
+    def error(self, key: str, reason: str) -> SceneError:
+        """Return (not raise) the error about one key: file, key, value if it has one, and the reason."""
+        value = self.values.get(key)
+        said = "" if value is None or isinstance(value, Mapping | list) else f" = {shown(value)}"
+        return SceneError(f"{self.where}: {self.key(key)}{said}: {reason}")
+
+    def wrong(self, reason: str) -> SceneError:
+        """Return (not raise) the error about this table as a whole."""
+        return SceneError(f"{self.where}: {self.path}: {reason}" if self.path else f"{self.where}: {reason}")
+
+    def only(self, *known: str) -> None:
+        """Refuse keys that are not `known`, each with the nearest known one."""
+        for key in self.values:
+            if key not in known:
+                raise self.error(key, f"unknown key{meant(key, known)}; known here: {', '.join(known)}")
+
+    def need(self, key: str) -> Any:
+        """Return the key's value; SceneError where it is missing."""
+        if key not in self.values:
+            raise self.wrong(f'"{key}" is missing')
+        return self.values[key]
+
+    def table(self, key: str) -> Table:
+        """Return the table under a key, empty where there is none."""
+        value = self.values.get(key, {})
+        if not isinstance(value, Mapping):
+            raise self.error(key, f"must be a table, [{self.key(key)}] or {{ ... }}")
+        return Table(self.where, value, self.key(key), self.unit)
+
+    def tables(self, key: str) -> Iterable[tuple[str, Table]]:
+        """Iterate the named tables under a key ([joints.A], [joints.B], ...)."""
+        group = self.table(key)
+        return ((name, group.table(name)) for name in group.names_given())
+
+    def names_given(self) -> tuple[str, ...]:
+        """Return the names that are this table's keys, each fit to be shown and to be part of a key."""
+        for name in self.values:
+            if not 1 <= len(name) <= 32 or not name.isprintable() or "." in name or name != name.strip():
+                raise self.error(name, "a name has 1 to 32 printable characters, no dot, no outer spaces")
+        return tuple(self.values)
+
+    def text(self, key: str, default: str | None = None) -> str:
+        """Return a text; `default` where it is missing, an error where that is None."""
+        value = self.need(key) if default is None else self.values.get(key, default)
+        if not isinstance(value, str):
+            raise self.error(key, "must be a text in quotes")
+        return value
+
+    def choice(self, key: str, options: tuple[str, ...]) -> str:
+        """Return one of the options, the first where the key is missing."""
+        value = self.values.get(key, options[0])
+        if value not in options:
+            raise self.error(key, f"must be {' or '.join(shown(option) for option in options)}")
+        return str(value)
+
+    def names(self, key: str, count: int | None = None) -> tuple[str, ...]:
+        """Return a list of names, all different, `count` of them if given."""
+        value = self.need(key)
+        if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
+            raise self.error(key, f"must be a list of {count or 'joint'} names, such as [\"A\", \"B\"]")
+        if count is not None and len(value) != count:
+            raise self.error(key, f"must name {count} joints; it names {len(value)}")
+        if len(set(value)) != len(value):
+            raise self.error(key, "names the same joint twice")
+        return tuple(value)
+
+    def length(self, key: str) -> float:
+        """Return a length in the scene's unit, above zero."""
+        return self._positive(key, self.need(key), self._length)
+
+    def lengths(self, key: str, count: int) -> tuple[float, ...]:
+        """Return a list of `count` lengths, each above zero."""
+        items, names = self._items(key, count)
+        return tuple(items.length(name) for name in names)
+
+    def offset(self, key: str) -> float:
+        """Return a length of either sign, 0 where the key is missing."""
+        return self._quantity(key, self.values.get(key, 0), self._length)
+
+    def point(self, key: str) -> Point:
+        """Return two lengths of either sign."""
+        items, (x, y) = self._items(key, 2)
+        return items.offset(x), items.offset(y)
+
+    def angle(self, key: str, default: str | None = None) -> float:
+        """Return an angle in radians; `default` where it is missing, an error where that is None."""
+        value = self.need(key) if default is None else self.values.get(key, default)
+        return self._quantity(key, value, units.angle)
+
+    def speed(self, key: str, default: str) -> float:
+        """Return an angular speed in rad/s, not zero."""
+        value = self._quantity(key, self.values.get(key, default), units.angular_speed)
+        if value == 0.0:
+            raise self.error(key, 'a speed of zero moves nothing; write "20 rpm" (or "-20 rpm", clockwise)')
+        return value
+
+    def positive(self, key: str, parse: Callable[[object], float]) -> float:
+        """Return a quantity above zero, read by one of the functions of `units`."""
+        return self._positive(key, self.need(key), parse)
+
+    def ratio(self, key: str) -> Fraction:
+        """Return a gear ratio, a fraction of denominator 12 at the most, from a number or from "1/3"."""
+        value = self.need(key)
+        exact = _fraction(value)
+        if exact is None or exact == 0:
+            raise self.error(key, 'must be a number other than zero, or a fraction such as "1/3"')
+        near = exact.limit_denominator(_SMALL)
+        if near == 0 or abs(near) > _STEEP:
+            raise self.error(key, f"a gear pair turns between 1/{_SMALL} and {_STEEP} times as fast")
+        if near != exact and (isinstance(value, str) or float(near) != float(value)):
+            raise self.error(key, f'is not a small fraction, so nothing repeats soon; the nearest is "{near}"')
+        return near
+
+    def _items(self, key: str, count: int) -> tuple[Table, tuple[str, ...]]:
+        """Return a list's items as a table, and its keys: errors then say `length[1]`."""
+        value = self.need(key)
+        if not isinstance(value, list) or len(value) != count:
+            example = list(range(10, 10 * count + 1, 10))
+            raise self.error(key, f"must be a list of {count} lengths, such as {example}")
+        names = tuple(f"{key}[{i}]" for i in range(count))
+        return _Items(self.where, dict(zip(names, value, strict=True)), self.path, self.unit), names
+
+    def _length(self, value: object) -> float:
+        return units.length(value, unit=self.unit)
+
+    def _quantity(self, key: str, value: object, parse: Callable[[object], float]) -> float:
+        try:
+            return parse(value)
+        except UnitError as error:
+            raise SceneError(f"{self.where}: {self.key(key)}: {error}") from None
+
+    def _positive(self, key: str, value: object, parse: Callable[[object], float]) -> float:
+        number = self._quantity(key, value, parse)
+        if not number > 0.0:
+            raise self.error(key, "must be above zero")
+        return number
+
+
+class _Items(Table):
+    """The items of a list, under keys such as `length[1]` that need no quotes."""
+
+    def key(self, key: str) -> str:
+        return f"{self.path}.{key}" if self.path else key
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Return ': did you mean "crank"?' for a name close to a known one, else an empty text."""
+    near = get_close_matches(name, list(known), n=1, cutoff=0.6)
+    return f" (did you mean {shown(near[0])}?)" if near else ""
+
+
+def _fraction(value: object) -> Fraction | None:
+    if isinstance(value, str):
+        match = _FRACTION.fullmatch(value)
+        bottom = int(match[2] or 1) if match else 0
+        return Fraction(match[1]) / bottom if match and bottom else None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    return Fraction(value) if isinstance(value, int) or math.isfinite(value) else None

@@ -1,0 +1,102 @@
+"""The long form of a scene file: fixed pins and joints, each a table of [ground] or [joints]."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+from linkanim.mechanics.linkage import RPR, RRP, RRR, Crank, Gear, Joint, Line, Pin, Point, Polar, Rigid
+from linkanim.scenes.check import Table
+
+OPEN = ("open", "crossed")
+LEFT = ("left", "right")
+FORWARD = ("forward", "backward")
+
+
+def side(table: Table, key: str, options: tuple[str, str]) -> int:
+    """Return +1 for the first option (or a missing key) and -1 for the second."""
+    return 1 if table.choice(key, options) == options[0] else -1
+
+
+def on_circle(length: float, angle: float) -> Point:
+    """Return the point at `length` and `angle` (rad) from the origin, exact at multiples of pi/2."""
+    quarter = round(angle / (math.pi / 2))
+    if angle == quarter * (math.pi / 2):
+        along, left = ((1, 0), (0, 1), (-1, 0), (0, -1))[quarter % 4]
+        return along * length, left * length
+    return length * math.cos(angle), length * math.sin(angle)
+
+
+def polar_pin(name: str, base: Pin | None, length: float, angle: float) -> Pin:
+    """Return the fixed pin at `length` and `angle` (rad) from `base`, or from the origin."""
+    x, y = base.position if base else (0.0, 0.0)
+    dx, dy = on_circle(length, angle)
+    return Pin(name, (x + dx, y + dy), Polar(length, angle, base.name if base else None))
+
+
+def read_pin(name: str, ground: Table) -> Pin:
+    """Read a fixed pin: [x, y], or { length, angle } from the origin."""
+    if not isinstance(ground.values[name], Mapping):
+        return Pin(name, ground.point(name))
+    table = ground.table(name)
+    table.only("length", "angle")
+    return polar_pin(name, None, table.length("length"), table.angle("angle"))
+
+
+def read_joint(name: str, table: Table) -> Joint:
+    """Read a joint; which kind it is shows in its keys."""
+    for mark, read in _KINDS.items():
+        if mark in table:
+            return read(name, table)
+    raise table.wrong(f"says no way to find the joint; give it one of {', '.join(_KINDS)}")
+
+
+def _crank(name: str, table: Table) -> Crank:
+    table.only("crank", "length", "gear")
+    gear = _gear(table.table("gear")) if "gear" in table else None
+    return Crank(name, table.text("crank"), table.length("length"), gear)
+
+
+def _gear(table: Table) -> Gear:
+    table.only("with", "ratio", "offset")
+    return Gear(table.text("with"), table.ratio("ratio"), table.angle("offset", "0 deg"))
+
+
+def _slider(name: str, table: Table) -> RRP:
+    table.only("from", "length", "line", "side")
+    line = table.table("line")
+    line.only("through", "angle", "offset")
+    travel = Line(line.text("through"), line.angle("angle", "0 deg"), line.offset("offset"))
+    return RRP(name, table.text("from"), table.length("length"), travel, side(table, "side", FORWARD))
+
+
+def _dyad(name: str, table: Table) -> RRR:
+    table.only("from", "length", "side")
+    start, end = table.names("from", 2)
+    first, second = table.lengths("length", 2)
+    return RRR(name, (start, end), (first, second), side(table, "side", LEFT))
+
+
+def _slot(name: str, table: Table) -> RPR:
+    table.only("slot", "length")
+    slot = table.table("slot")
+    slot.only("pivot", "through", "offset")
+    return RPR(name, slot.text("pivot"), slot.text("through"), table.length("length"), slot.offset("offset"))
+
+
+def _point(name: str, table: Table) -> Rigid:
+    table.only("on", "at")
+    first, second = table.names("on", 2)
+    at = table.point("at")
+    if at == (0.0, 0.0):
+        raise table.error("at", f"is the joint {first} itself; give a point beside it, such as [10, 5]")
+    return Rigid(name, (first, second), at)
+
+
+_KINDS: Mapping[str, Callable[[str, Table], Joint]] = {
+    "crank": _crank,
+    "line": _slider,
+    "from": _dyad,
+    "slot": _slot,
+    "on": _point,
+}

@@ -1,0 +1,218 @@
+"""A scene file's text, or the document in it, to a checked `Scene`."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from linkanim import units
+from linkanim.errors import SceneError
+from linkanim.mechanics.linkage import (
+    RRP,
+    Body,
+    Crank,
+    Damper,
+    Drive,
+    Joint,
+    Linkage,
+    Pin,
+    Rigid,
+    Spring,
+)
+from linkanim.scenes.check import Table, meant
+from linkanim.scenes.joints import read_joint, read_pin
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
+from linkanim.scenes.structure import Clusters, circle, clusters, fixed, needs, solved_order, together
+
+_TOP = (
+    "title", "source", "length_unit", "drive", "ground", "joints", "bodies", "springs", "dampers", "trace",
+    *SHORTHANDS,
+)  # fmt: skip
+DEFAULT_SPEED = "20 rpm"
+
+
+def parse(text: str, where: str) -> dict[str, Any]:
+    """Return the document in a scene file's text; SceneError with the line where it is not TOML."""
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise SceneError(f"{where}: is not a scene file: its brackets are nested too deeply") from None
+    except ValueError as error:
+        raise SceneError(f"{where}: is not TOML: {error}") from None
+
+
+def scene_from(document: Mapping[str, Any], *, name: str, where: str) -> Scene:
+    """Return the scene that a document describes.
+
+    `where` names the file in errors. Lengths come out in the document's `length_unit` (mm if it has none),
+    angles in radians; joints in the order in which they can be solved. SceneError for whatever is unknown,
+    missing or contradictory; AssemblyError for lengths that cannot be assembled.
+    """
+    top = Table(where, document, unit=_length_unit(Table(where, document)))
+    top.only(*_TOP)
+    short = expand(top, _origin(top))
+    joints = _joints(top, short)
+    rigid = clusters(joints)
+    _check_points(top, joints, rigid)
+    linkage = Linkage(
+        joints=joints,
+        drive=_drive(top, joints, short.drive),
+        bodies=_bodies(top, joints, rigid, short.bodies),
+        springs=tuple(_spring(name, table, joints) for name, table in top.tables("springs")),
+        dampers=tuple(_damper(name, table, joints) for name, table in top.tables("dampers")),
+        metre=units.metre(top.unit),
+    )
+    return Scene(
+        name=name,
+        title=top.text("title", name),
+        source=top.text("source", ""),
+        length_unit=top.unit,
+        linkage=linkage,
+        trace=_trace(top, joints, short.trace),
+        document=document,
+    )
+
+
+def _length_unit(top: Table) -> str:
+    return top.choice("length_unit", units.LENGTH_UNITS)
+
+
+def _origin(top: Table) -> Pin:
+    """Return the pin O2 that a shorthand starts from: the file's own, or the origin."""
+    ground = top.table("ground")
+    return read_pin("O2", ground) if "O2" in ground else Pin("O2", (0.0, 0.0))
+
+
+def _joints(top: Table, short: Expansion) -> tuple[Joint, ...]:
+    """Return all joints in solved order: the shorthand's and the file's."""
+    ground = top.table("ground")
+    pins = [read_pin(name, ground) for name in ground.names_given() if not (short.joints and name == "O2")]
+    moving = [read_joint(name, table) for name, table in top.tables("joints")]
+    if not (short.joints or moving):
+        raise top.wrong(f"describes no linkage; give it [joints], or one of {', '.join(SHORTHANDS)}")
+    joints: dict[str, Joint] = {joint.name: joint for joint in short.joints}
+    for section, added in (("ground", pins), ("joints", moving)):
+        for joint in added:
+            if joint.name in joints:
+                raise top.table(section).error(joint.name, "there is already a joint of that name")
+            joints[joint.name] = joint
+    for joint in moving:
+        _check_needs(top, joint, joints)
+    order = solved_order(joints)
+    if len(order) < len(joints):
+        chain = " -> ".join(circle(joints, joints.keys() - {joint.name for joint in order}))
+        raise top.table("joints").wrong(f"{chain}: a joint cannot depend on itself; start from a crank")
+    return order
+
+
+def _check_needs(top: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
+    """Refuse a joint found from one that is not there, from itself, or held by one that is not fixed."""
+    table = top.table("joints").table(joint.name)
+    for key, name in needs(joint):
+        if name not in joints:
+            raise SceneError(f"{table.where}: {table.path}.{key}: {_no_joint(name, joints)}")
+        if name == joint.name:
+            raise SceneError(f"{table.where}: {table.path}.{key}: a joint cannot be found from itself")
+    for key, name in fixed(joint):
+        if not isinstance(joints[name], Pin):
+            pins = ", ".join(pin.name for pin in joints.values() if isinstance(pin, Pin))
+            raise SceneError(f"{table.where}: {table.path}.{key}: {name} moves; name a fixed pin ({pins})")
+    geared = isinstance(joint, Crank) and joint.gear
+    if geared and not isinstance(joints[geared.driver], Crank):
+        raise SceneError(f"{table.where}: {table.path}.gear.with: {geared.driver} is not a crank")
+
+
+def _no_joint(name: str, joints: Iterable[str]) -> str:
+    return f"no joint is called {units.shown(name)}{meant(name, joints)}; there are {', '.join(joints)}"
+
+
+def _check_points(top: Table, joints: tuple[Joint, ...], rigid: Clusters) -> None:
+    """Refuse a point on two joints that do not keep their distance."""
+    for joint in joints:
+        if isinstance(joint, Rigid) and not together(rigid, joint.on):
+            first, second = joint.on
+            table = top.table("joints").table(joint.name)
+            raise table.wrong(f"{first} and {second} are not on one rigid body; name two joints of one bar")
+
+
+def _drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Drive:
+    table = top.table("drive")
+    table.only("joint", "speed", "start")
+    cranks = [joint for joint in joints if isinstance(joint, Crank)]
+    free = [crank.name for crank in cranks if crank.gear is None]
+    if not free:
+        raise top.table("joints").wrong("no crank is free to be driven; add one without a gear, as the input")
+    name = table.text("joint", usual or free[0])
+    if name not in free:
+        raise table.error("joint", f"is not a crank that can be driven; that is {free[0]}")
+    if len(free) > 1:
+        other = next(crank for crank in free if crank != name)
+        way_out = f"gear it: gear = {{ with = {units.shown(name)}, ratio = -1 }}"
+        raise top.table("joints").wrong(f"{other} is a second input beside {name}; {way_out}")
+    return Drive(name, table.speed("speed", DEFAULT_SPEED), table.angle("start", "0 deg"))
+
+
+def _bodies(
+    top: Table, joints: tuple[Joint, ...], rigid: Clusters, usual: tuple[Body, ...]
+) -> tuple[Body, ...]:
+    """Return the shorthand's bodies and the file's; the file's takes the place of one of the same name."""
+    bodies = {body.name: body for body in usual}
+    known = {joint.name: joint for joint in joints}
+    for name, table in top.tables("bodies"):
+        bodies[name] = _block(name, table, known) if "slider" in table else _bar(name, table, known, rigid)
+    return tuple(bodies.values())
+
+
+def _block(name: str, table: Table, joints: Mapping[str, Joint]) -> Body:
+    table.only("slider")
+    slider = table.text("slider")
+    if slider not in joints:
+        raise table.error("slider", _no_joint(slider, joints))
+    if not isinstance(joints[slider], RRP):
+        raise table.error("slider", "does not travel on a line; name a joint that has one")
+    return Body(name, slider=slider)
+
+
+def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: Clusters) -> Body:
+    table.only("joints", "com")
+    members = _members(table, "joints", joints)
+    if len(members) < 2:
+        raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
+    if not together(rigid, members):
+        raise table.error("joints", f"{', '.join(members)} are not joints of one rigid body")
+    return Body(name, members, table.point("com") if "com" in table else None)
+
+
+def _members(table: Table, key: str, joints: Iterable[str], count: int | None = None) -> tuple[str, ...]:
+    """Return a list of names that are all joints."""
+    members = table.names(key, count)
+    for member in members:
+        if member not in joints:
+            raise table.error(key, _no_joint(member, joints))
+    return members
+
+
+def _spring(name: str, table: Table, joints: tuple[Joint, ...]) -> Spring:
+    table.only("between", "stiffness", "free_length")
+    start, end = _members(table, "between", [joint.name for joint in joints], 2)
+    if ("stiffness" in table) != ("free_length" in table):
+        raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
+    if "stiffness" not in table:
+        return Spring(name, (start, end))
+    stiffness = table.positive("stiffness", units.stiffness)
+    return Spring(name, (start, end), stiffness, table.length("free_length"))
+
+
+def _damper(name: str, table: Table, joints: tuple[Joint, ...]) -> Damper:
+    table.only("between", "coefficient")
+    start, end = _members(table, "between", [joint.name for joint in joints], 2)
+    known = "coefficient" in table
+    return Damper(name, (start, end), table.positive("coefficient", units.damping) if known else None)
+
+
+def _trace(top: Table, joints: tuple[Joint, ...], usual: tuple[str, ...]) -> tuple[str, ...]:
+    table = top.table("trace")
+    table.only("joints")
+    return _members(table, "joints", [joint.name for joint in joints]) if "joints" in table else usual

@@ -1,0 +1,188 @@
+"""Quantities as people write them ("60 rpm", "87 deg", "30 mm"), to SI, radians or the scene's unit.
+
+A decimal is converted exactly and rounded once, so that "0.7 cm" is the same length as 7 mm; what is
+equal on paper stays equal, and a change point stays one.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Decimal
+from fractions import Fraction
+from typing import NamedTuple
+
+from linkanim.errors import UnitError
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|[+-]?(?:nan|inf(?:inity)?))", re.I | re.A)
+_PI = Fraction(math.pi)
+
+
+class Kind(NamedTuple):
+    """A kind of quantity: what it is called, its units as factors to the base unit, other spellings."""
+
+    noun: str
+    factors: dict[str, Fraction]
+    aliases: dict[str, str]
+
+
+_ANGLE = Kind("an angle", {"deg": _PI / 180, "rad": Fraction(1)}, {"°": "deg"})
+_SPEED = Kind(
+    "an angular speed",
+    {"rpm": _PI / 30, "rad/s": Fraction(1), "deg/s": _PI / 180},
+    {"°/s": "deg/s"},
+)
+_ACCELERATION = Kind(
+    "an angular acceleration",
+    {"rad/s^2": Fraction(1), "deg/s^2": _PI / 180},
+    {"rad/s²": "rad/s^2", "rad/s2": "rad/s^2", "deg/s²": "deg/s^2", "deg/s2": "deg/s^2", "°/s²": "deg/s^2"},
+)
+_LENGTH = Kind(
+    "a length",
+    {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1), "in": Fraction(254, 10000)},
+    {},
+)
+_STIFFNESS = Kind("a stiffness", {"N/m": Fraction(1), "N/mm": Fraction(1000), "kN/m": Fraction(1000)}, {})
+_DAMPING = Kind(
+    "a damping coefficient",
+    {"N s/m": Fraction(1), "N s/mm": Fraction(1000), "kN s/m": Fraction(1000)},
+    {},
+)
+
+LENGTH_UNITS = tuple(_LENGTH.factors)
+ANGLE_UNITS = tuple(_ANGLE.factors)
+SPEED_UNITS = tuple(_SPEED.factors)
+
+
+def angle(value: object) -> float:
+    """Return an angle in radians: "87 deg" or "1.5 rad".
+
+    A multiple of 90 degrees comes back as that multiple of `math.pi / 2`, rounded once. UnitError
+    where the unit is missing or unknown, or the number is not finite.
+    """
+    return _with_unit(value, _ANGLE)
+
+
+def angular_speed(value: object) -> float:
+    """Return an angular speed in rad/s: "60 rpm", "6.28 rad/s", "360 deg/s"; UnitError as in `angle`."""
+    return _with_unit(value, _SPEED)
+
+
+def angular_acceleration(value: object) -> float:
+    """Return an angular acceleration in rad/s²: "2 rad/s^2", "90 deg/s^2"; UnitError as in `angle`."""
+    return _with_unit(value, _ACCELERATION)
+
+
+def stiffness(value: object) -> float:
+    """Return a spring's stiffness in N/m: "4000 N/m", "4 N/mm"; UnitError as in `angle`."""
+    return _with_unit(value, _STIFFNESS)
+
+
+def damping(value: object) -> float:
+    """Return a damper's coefficient in N·s/m: "200 N s/m"; UnitError as in `angle`."""
+    return _with_unit(value, _DAMPING)
+
+
+def length(value: object, *, unit: str) -> float:
+    """Return a length in `unit`: "30 mm", or a bare number, which is taken in `unit`.
+
+    Zero and negative lengths pass (a coordinate may be either). UnitError where the unit is unknown,
+    or the value is not a finite number.
+    """
+    number, written = _split(value, _LENGTH)
+    factor = _LENGTH.factors[written] / _LENGTH.factors[_length_unit(unit)] if written else Fraction(1)
+    return _rounded(number, factor, value, _LENGTH)
+
+
+def metre(unit: str) -> float:
+    """Return one `unit` of length in metres (0.001 for mm); UnitError for a unit that is not a length."""
+    return float(_LENGTH.factors[_length_unit(unit)])
+
+
+def split(text: str) -> tuple[float, str]:
+    """Part "87 deg" into the number and the unit as written ("" for none); UnitError where it has no number.
+
+    The number is the nearest float, which may be infinite.
+    """
+    match = _NUMBER.match(text)
+    if match is None:
+        raise UnitError(f"{shown(text)} is not a number with a unit, such as 30 mm, 87 deg or 60 rpm")
+    return float(match[1]), text[match.end() :].strip()
+
+
+def shown(value: object) -> str:
+    """Return a value as a message shows it: on one line, text in quotes, cut at 60 characters."""
+    if isinstance(value, str):
+        clean = "".join(c if c.isprintable() else "?" for c in value)
+        return f'"{clean if len(clean) <= 60 else clean[:57] + "..."}"'
+    try:
+        text = str(value).lower() if isinstance(value, bool) else ascii(value)
+    except ValueError:  # Python prints no integer of more than 4300 digits
+        return "a number of thousands of digits"
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _with_unit(value: object, kind: Kind) -> float:
+    number, unit = _split(value, kind)
+    if not unit and math.isfinite(float(number)):
+        raise UnitError(f"{shown(value)} has no unit; write {kind.noun} as {_examples(value, kind)}")
+    return _rounded(number, kind.factors.get(unit, Fraction(1)), value, kind)
+
+
+def _split(value: object, kind: Kind) -> tuple[str, str]:
+    """Part a value into its number as text and its unit's name, "" where there is none."""
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise UnitError(f"{shown(value)} is not {kind.noun}; write {_examples(1, kind)}")
+    if not isinstance(value, str):
+        return _digits(value, kind), ""
+    match = _NUMBER.match(value)
+    if match is None:
+        raise UnitError(f"{shown(value)} is not {kind.noun}; write {_examples(1, kind)}")
+    written = value[match.end() :].strip()
+    return match[1], _named(written, value, kind) if written else ""
+
+
+def _digits(value: float, kind: Kind) -> str:
+    """Return a number's shortest decimal, which is what its writer meant."""
+    try:
+        return repr(float(value))
+    except OverflowError:
+        raise UnitError(f"{shown(value)} is too large for {kind.noun}; write {_examples(1, kind)}") from None
+
+
+def _named(written: str, value: object, kind: Kind) -> str:
+    folded = _folded(written)
+    for name in kind.factors:
+        if _folded(name) == folded:
+            return name
+    if folded in kind.aliases:
+        return kind.aliases[folded]
+    units = ", ".join(kind.factors)
+    raise UnitError(f"{shown(value)} is not {kind.noun}: {shown(written)} is not one of its units, {units}")
+
+
+def _folded(unit: str) -> str:
+    return re.sub(r"[\s*·⋅.]", "", unit).lower()
+
+
+def _rounded(number: str, factor: Fraction, value: object, kind: Kind) -> float:
+    nearest = float(number)
+    if not math.isfinite(nearest):
+        raise UnitError(f"{shown(value)} is not a finite number; write {kind.noun} as {_examples(1, kind)}")
+    if nearest == 0.0:
+        return 0.0
+    try:
+        return float(Fraction(Decimal(number)) * factor)
+    except OverflowError:
+        raise UnitError(f"{shown(value)} is too large for {kind.noun}; write a smaller number") from None
+
+
+def _length_unit(unit: str) -> str:
+    if unit not in _LENGTH.factors:
+        raise UnitError(f"{shown(unit)} is not a unit of length; use one of {', '.join(_LENGTH.factors)}")
+    return unit
+
+
+def _examples(value: object, kind: Kind) -> str:
+    number = str(value).strip() if isinstance(value, str | int | float) else "1"
+    return " or ".join(f'"{number[:24]} {unit}"' for unit in kind.factors)
