@@ -1,0 +1,1 @@
+"""The window: keys, the pure state behind it, tapes and the loop."""

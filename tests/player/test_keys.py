@@ -1,0 +1,144 @@
+"""The key table: one source for window, help and README."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from linkanim.player.actions import Action, is_known
+from linkanim.player.keys import (
+    EDIT_KEYS,
+    KEYS,
+    Bind,
+    Press,
+    Row,
+    as_markdown,
+    as_text,
+    bind_of,
+    help_rows,
+    key_names,
+)
+
+BINDS = [bind for table in (KEYS, EDIT_KEYS) for row in table for bind in row.binds]
+
+
+def asked(press: Press, *, editing: bool = False, typing: bool = False) -> Action | None:
+    bind = bind_of(press, editing=editing, typing=typing)
+    return bind.action if bind else None
+
+
+# Every key of the design, pressed as SDL reports it.
+PLAYING = {
+    "space": (Press("space", " "), Action("pause")),
+    "right": (Press("right"), Action("step", 1)),
+    "shift+right": (Press("right", shift=True), Action("step", 10)),
+    "left": (Press("left"), Action("step", -1)),
+    "shift+left": (Press("left", shift=True), Action("step", -10)),
+    "up": (Press("up"), Action("speed", 1)),
+    "down": (Press("down"), Action("speed", -1)),
+    "d": (Press("d", "d"), Action("direction")),
+    "tab": (Press("tab", "\t"), Action("mechanism", 1)),
+    "shift+tab": (Press("tab", "\t", shift=True), Action("mechanism", -1)),
+    "1": (Press("1", "1"), Action("select", 0)),
+    "9": (Press("9", "9"), Action("select", 8)),
+    "b": (Press("b", "b"), Action("closure")),
+    "shift+b": (Press("b", "B", shift=True), Action("ghost")),
+    "t": (Press("t", "t"), Action("trace")),
+    "v": (Press("v", "v"), Action("vectors", "v")),
+    "a": (Press("a", "a"), Action("vectors", "a")),
+    "c": (Press("c", "c"), Action("chart", 1)),
+    "e": (Press("e", "e"), Action("edit")),
+    "g": (Press("g", "g"), Action("record", "gif")),
+    "m": (Press("m", "m"), Action("record", "mp4")),
+    "s": (Press("s", "s"), Action("screenshot")),
+    "f12": (Press("f12"), Action("screenshot")),
+    "r": (Press("r", "r"), Action("start")),
+    "+ as shift and =": (Press("=", "+", shift=True), Action("zoom", (1.0, 0.0, 0.0))),
+    "+ on its own key": (Press("+", "+"), Action("zoom", (1.0, 0.0, 0.0))),
+    "keypad +": (Press("kp_plus", "+"), Action("zoom", (1.0, 0.0, 0.0))),
+    "-": (Press("-", "-"), Action("zoom", (-1.0, 0.0, 0.0))),
+    "0": (Press("0", "0"), Action("fit")),
+    "home": (Press("home"), Action("fit")),
+    "l": (Press("l", "l"), Action("theme")),
+    "f11": (Press("f11"), Action("fullscreen")),
+    "h": (Press("h", "h"), Action("help")),
+    "f1": (Press("f1"), Action("help")),
+    "? as shift and /": (Press("/", "?", shift=True), Action("help")),
+    "? on another layout": (Press("ß", "?", shift=True), Action("help")),
+    "escape": (Press("escape", "\x1b"), Action("back")),
+    "q": (Press("q", "q"), Action("quit")),
+    "a letter with shift is the letter": (Press("t", "T", shift=True), Action("trace")),
+    "ctrl+s": (Press("s", "\x13", ctrl=True), Action("save")),
+    "ctrl+z": (Press("z", "\x1a", ctrl=True), Action("undo")),
+    "ctrl+y": (Press("y", "\x19", ctrl=True), Action("redo")),
+    "ctrl with another letter": (Press("d", "\x04", ctrl=True), None),
+    "an unbound key": (Press("x", "x"), None),
+}
+
+
+@pytest.mark.parametrize(("press", "action"), PLAYING.values(), ids=PLAYING)
+def test_a_key_asks_for_what_the_table_says(press: Press, action: Action | None) -> None:
+    assert asked(press) == action
+
+
+# With the dimensions open a value may begin with a digit, a point or a minus; then all print is text.
+EDITING = {
+    "up chooses": (Press("up"), False, Action("choose", -1)),
+    "right nudges": (Press("right"), False, Action("nudge", 1)),
+    "shift+left nudges by ten": (Press("left", shift=True), False, Action("nudge", -10)),
+    "a digit begins a value": (Press("7", "7"), False, Action("type", "7")),
+    "zero begins a value": (Press("0", "0"), False, Action("type", "0")),
+    "minus begins a value": (Press("-", "-"), False, Action("type", "-")),
+    "a letter keeps its meaning": (Press("d", "d"), False, Action("direction")),
+    "a letter belongs to the unit": (Press("d", "d"), True, Action("type", "d")),
+    "space belongs to the value": (Press("space", " "), True, Action("type", " ")),
+    "space still pauses": (Press("space", " "), False, Action("pause")),
+    "enter takes": (Press("return", "\r"), True, Action("take")),
+    "backspace erases": (Press("backspace", "\x08"), True, Action("erase")),
+    "escape goes back": (Press("escape", "\x1b"), True, Action("back")),
+    "tab is not text": (Press("tab", "\t"), True, Action("mechanism", 1)),
+    "ctrl+s saves": (Press("s", "s", ctrl=True), True, Action("save")),
+    "ctrl+shift+z is redo": (Press("z", "", shift=True, ctrl=True), False, Action("redo")),
+}
+
+
+@pytest.mark.parametrize(("press", "typing", "action"), EDITING.values(), ids=EDITING)
+def test_a_key_while_the_dimensions_are_open(press: Press, typing: bool, action: Action | None) -> None:
+    assert asked(press, editing=True, typing=typing) == action
+
+
+def test_keys_that_hold_are_those_that_move() -> None:
+    held = {bind.action.name for bind in BINDS if bind.repeats}
+    assert held == {"step", "speed", "zoom", "choose", "nudge", "erase", "undo", "redo"}
+
+
+@pytest.mark.parametrize("bind", BINDS, ids=lambda bind: bind.key)
+def test_every_key_asks_for_a_known_action(bind: Bind) -> None:
+    assert is_known(bind.action)
+
+
+@pytest.mark.parametrize("table", [KEYS, EDIT_KEYS], ids=["playing", "editing"])
+def test_no_key_is_bound_twice_in_a_table(table: tuple[Row, ...]) -> None:
+    keys = [bind.key for row in table for bind in row.binds]
+    assert len(keys) == len(set(keys))
+
+
+def test_help_text_and_readme_show_every_row() -> None:
+    for keys, words in help_rows() + help_rows(editing=True):
+        assert any(keys in line and words in line for line in as_text().splitlines())
+        assert any(keys in line and words in line for line in as_markdown().splitlines())
+
+
+def test_key_names_are_pygame_constants() -> None:
+    import pygame
+
+    missing = [n for n in key_names() if len(n) > 1 and not hasattr(pygame, f"K_{n.upper()}")]
+    assert missing == []
+
+
+def test_the_table_is_read_without_pygame() -> None:
+    code = "import sys, linkanim.player.keys as k; k.as_text(); print('pygame' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
