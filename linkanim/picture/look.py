@@ -1,0 +1,32 @@
+"""What is shown of a scene, apart from the pose: the choices that outlast a frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+ThemeName = Literal["light", "dark"]
+
+VELOCITY = "v"
+ACCELERATION = "a"
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is shown; two pictures of one pose with equal looks and sizes have the same bytes.
+
+    `vectors` holds "v" (velocity) and "a" (acceleration). `chart` names one of
+    `quantities(scene)`, None for no chart. With `background` False what is not drawn stays
+    transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in
+    fractions of the window's height. `ghost` draws the other closure faintly, where it is given.
+    """
+
+    theme: ThemeName = "light"
+    trace: bool = True
+    vectors: frozenset[str] = frozenset()
+    chart: str | None = None
+    hud: bool = True
+    background: bool = True
+    zoom: float = 1.0
+    pan: tuple[float, float] = (0.0, 0.0)
+    ghost: bool = False

@@ -1,0 +1,41 @@
+"""What lies over the picture for a while: help, the edit list, a toast, the marks of state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class EditRow:
+    """One dimension in the edit list: its name, its value as written, and whether it is chosen."""
+
+    label: str
+    value: str
+    chosen: bool = False
+
+
+@dataclass(frozen=True)
+class Panel:
+    """The edit list; `error` is the reason, in words, why the chosen value is refused."""
+
+    rows: tuple[EditRow, ...]
+    title: str = "Edit dimensions"
+    error: str | None = None
+    hint: str = ""
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """What one frame shows beside the scene; the empty one shows nothing.
+
+    `speed` replaces the scene's own speed in the HUD. `help` holds (key, what it does).
+    `notes` are further lines under the HUD.
+    """
+
+    paused: bool = False
+    speed: str | None = None
+    toast: str | None = None
+    recording: str | None = None
+    help: tuple[tuple[str, str], ...] | None = None
+    panel: Panel | None = None
+    notes: tuple[str, ...] = ()
