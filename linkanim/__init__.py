@@ -1,0 +1,43 @@
+"""An arcade-style player for planar linkages.
+
+`load` gives a scene by name or path, `names` the catalogue, `record` turns a scene into a GIF, MP4
+or numbered PNG. Everything is imported when first asked for: `import linkanim` alone brings in
+neither a window nor an encoder.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from linkanim.errors import LinkanimError
+    from linkanim.picture.look import Look
+    from linkanim.recorder import record
+    from linkanim.scenes import load, names
+    from linkanim.scenes.scene import Scene
+
+__version__ = "0.1.0"
+
+__all__ = ["LinkanimError", "Look", "Scene", "__version__", "load", "names", "record"]
+
+_HOME = {
+    "LinkanimError": "linkanim.errors",
+    "Look": "linkanim.picture.look",
+    "Scene": "linkanim.scenes.scene",
+    "load": "linkanim.scenes",
+    "names": "linkanim.scenes",
+    "record": "linkanim.recorder",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Import a public name from the room it lives in; AttributeError for any other."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'linkanim' has no attribute {name!r}")
+    return getattr(import_module(_HOME[name]), name)
+
+
+def __dir__() -> list[str]:
+    """List the public names, imported or not."""
+    return list(__all__)

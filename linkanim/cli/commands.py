@@ -1,0 +1,252 @@
+"""Every command with its options, and which module does its work."""
+
+from __future__ import annotations
+
+import sys
+from argparse import BooleanOptionalAction, Namespace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import cast
+
+from linkanim import __version__, units
+from linkanim.cli import values
+from linkanim.cli.parser import Parser, join_negative, valued
+from linkanim.cli.presets import PRESETS
+from linkanim.errors import BadInput
+from linkanim.units import shown
+
+IN_SCENE = "a built-in scene's name (see `linkanim scenes`), or the path of a scene file"
+EVERY_ANGLE = object()
+"""What `--phase` without a value stands for: each angle of the sweep."""
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command: what it does in a line, its options, and examples of its use."""
+
+    summary: str
+    options: Callable[[Parser], None]
+    examples: tuple[str, ...]
+
+
+def parse(argv: Sequence[str] | None = None) -> Namespace:
+    """Read a command line (default: the process's own); `BadInput` in one sentence where it is wrong."""
+    words = join_negative(sys.argv[1:] if argv is None else argv)
+    return build().parse_args(_with_command(words))
+
+
+def run(options: Namespace) -> None:
+    """Import the module of the chosen command, and only that, and let it do its work."""
+    work = cast(Callable[[Namespace], None], import_module(f"linkanim.cli.{options.command}").run)
+    work(options)
+
+
+def build() -> Parser:
+    """Build the parser with every command in it; imports nothing that draws, solves or encodes."""
+    parser = Parser(
+        prog="linkanim",
+        usage="linkanim [SCENE | FILE.toml | FILE.tape.json]\n       linkanim COMMAND ...",
+        description="Play planar linkages: see them run, solve them exactly, record loops without a seam.",
+        before=_keys,
+        examples=(
+            "linkanim                                  open the window",
+            "linkanim press                            open it on the press",
+            "linkanim record press -o press.gif        one period as a GIF, no display needed",
+            'linkanim solve press --angle "87 deg"',
+        ),
+    )
+    parser.add_argument("--version", action="version", version=f"linkanim {__version__}")
+    add = parser.add_subparsers(
+        dest="command", metavar="COMMAND", prog="linkanim", parser_class=Parser, title="commands"
+    )
+    for name, command in COMMANDS.items():
+        about = command.summary
+        text = f"{about[0].upper()}{about[1:]}."
+        command.options(add.add_parser(name, help=about, description=text, examples=command.examples))
+    return parser
+
+
+def _keys() -> str:
+    from linkanim.player.keys import as_text
+
+    return f"keys in the window:\n{as_text()}\n"
+
+
+def _with_command(words: list[str]) -> list[str]:
+    """Put `play` in front where no command was named."""
+    if not words:
+        return ["play"]
+    first = words[0]
+    if first in COMMANDS or first in ("-h", "--help", "--version"):
+        return words
+    if not first.startswith("-"):
+        _refuse_misspelt(first)
+    return ["play", *words]
+
+
+def _refuse_misspelt(word: str) -> None:
+    """Raise `BadInput` for a first word that is neither a command, a scene nor a path."""
+    from linkanim.scenes import names
+    from linkanim.scenes.check import meant
+
+    known = (*COMMANDS, *names())
+    if word in known or any(mark in word for mark in "./\\"):
+        return
+    raise BadInput(
+        f"{shown(word)} is neither a command ({', '.join(COMMANDS)}), a scene (`linkanim scenes` lists them) "
+        f"nor a file{meant(word, known)}"
+    )
+
+
+def _play(parser: Parser) -> None:
+    parser.add_argument("scene", nargs="?", metavar="SCENE", help=f"{IN_SCENE}, or of a tape")
+
+
+def _record(parser: Parser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help=f"{IN_SCENE}, or of a tape")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="OUT",
+        help="OUT.gif, OUT.mp4 or OUT.png (default: SCENE.gif here)",
+    )
+    parser.add_argument(
+        "--for", dest="preset", choices=tuple(PRESETS), help="size, fps and format for a purpose"
+    )
+    _clip(parser)
+    _look(parser)
+
+
+def _clip(parser: Parser) -> None:
+    """How long, how fast and how large."""
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    parser.add_argument(
+        "--fps", type=valued(values.positive), metavar="N", help="frames a second (default: 25)"
+    )
+    _speed(parser)
+    length = parser.add_mutually_exclusive_group()
+    length.add_argument("--periods", type=valued(values.count), metavar="N", help="true periods (default: 1)")
+    length.add_argument(
+        "--seconds", type=valued(values.positive), metavar="S", help="the clip's length; it need not close"
+    )
+    parser.add_argument("--reverse", action="store_true", help="run backwards")
+
+
+def _look(parser: Parser) -> None:
+    """What is shown."""
+    parser.add_argument(
+        "--trace", action=BooleanOptionalAction, default=True, help="curves of the traced joints"
+    )
+    parser.add_argument("--hud", action=BooleanOptionalAction, default=True, help="the lines of text")
+    parser.add_argument(
+        "--vectors",
+        type=valued(values.vectors),
+        default=frozenset(),
+        metavar="v,a",
+        help="velocity, acceleration",
+    )
+    parser.add_argument("--chart", metavar="QTY", help="a quantity over the period, such as rocker.angle")
+    parser.add_argument("--theme", choices=("light", "dark"), default="light", help="default: light")
+    parser.add_argument("--transparent", action="store_true", help="no background (GIF and PNG)")
+
+
+def _solve(parser: Parser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument(
+        "--angle", type=valued(units.angle), metavar="ANGLE", help='crank angle, such as "87 deg"'
+    )
+    parser.add_argument(
+        "--phase",
+        type=valued(units.angle),
+        nargs="?",
+        const=EVERY_ANGLE,
+        metavar="PHASE",
+        help="phase instead of the crank angle, through limits too; 360 deg is one period of the drive "
+        "(without a value, beside --sweep: sweep the phase)",
+    )
+    parser.add_argument(
+        "--sweep",
+        type=valued(values.sweep),
+        metavar="A:B:STEP",
+        help="a row for each angle from A to B, in degrees",
+    )
+    _speed(parser)
+    parser.add_argument(
+        "--acceleration",
+        type=valued(units.angular_acceleration),
+        default=0.0,
+        metavar="ACC",
+        help='such as "2 rad/s^2" (default: 0)',
+    )
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="one object, or a list of them for a sweep")
+    form.add_argument("--csv", metavar="OUT", help="write the sweep to the file OUT (- for stdout)")
+
+
+def _speed(parser: Parser) -> None:
+    parser.add_argument(
+        "--speed",
+        type=valued(units.angular_speed),
+        metavar="SPEED",
+        help='such as "30 rpm" (default: the scene\'s)',
+    )
+
+
+def _info(parser: Parser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument("--json", action="store_true", help="one object; angles in radians, time in s")
+
+
+def _scenes(parser: Parser) -> None:
+    """`scenes` has no options."""
+
+
+def _gallery(parser: Parser) -> None:
+    parser.add_argument(
+        "--into",
+        type=Path,
+        default=Path("recordings"),
+        metavar="FOLDER",
+        help="where to (default: recordings)",
+    )
+
+
+COMMANDS = {
+    "play": Command(
+        "open the window (the default command)",
+        _play,
+        ("linkanim play press", "linkanim play my-linkage.toml"),
+    ),
+    "record": Command(
+        "write a scene's true period as GIF, MP4 or numbered PNG",
+        _record,
+        (
+            "linkanim record press",
+            'linkanim record crank-rocker -o rocker.mp4 --speed "30 rpm" --chart rocker.angle',
+            "linkanim record press --for beamer",
+        ),
+    ),
+    "solve": Command(
+        "print positions, velocities and accelerations at an angle, or over a sweep",
+        _solve,
+        (
+            'linkanim solve press --angle "87 deg" --speed "10 rad/s" --json',
+            "linkanim solve slider-crank --sweep 0:360:1 --csv slider.csv",
+            "linkanim solve double-rocker --sweep 0:360:5 --phase",
+        ),
+    ),
+    "info": Command(
+        "print class, input range, toggles, change points, transmission angle, stroke",
+        _info,
+        ("linkanim info crank-rocker", "linkanim info my-linkage.toml --json"),
+    ),
+    "scenes": Command("list the built-in scenes, name first", _scenes, ("linkanim scenes",)),
+    "gallery": Command(
+        "record every built-in scene as a small GIF",
+        _gallery,
+        ("linkanim gallery", "linkanim gallery --into slides/linkages"),
+    ),
+}

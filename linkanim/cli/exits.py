@@ -1,0 +1,125 @@
+"""How a command ends: its exit code, and one line on stderr when something went wrong."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from types import FrameType
+from typing import NoReturn
+
+from linkanim.errors import LinkanimError
+
+DONE = 0
+FAILED = 1
+INTERRUPTED = 130
+TERMINATED = 143
+
+
+class Terminated(BaseException):
+    """SIGTERM arrived; not an Exception, so that only clean-up runs on its way out."""
+
+
+def guarded(work: Callable[[], None]) -> int:
+    """Do the work, flush what it printed, and return the exit code; never raises, never a traceback."""
+    try:
+        with _sigterm_raises():
+            _print_anything()
+            work()
+            _flush()
+        return DONE
+    except BaseException as error:
+        return _code_of(error)
+
+
+def _code_of(error: BaseException) -> int:
+    """Say in one line what ended the work, and return the exit code for it."""
+    match error:
+        case SystemExit():
+            return _flushed(error.code)
+        case BrokenPipeError():  # the reader, such as `head`, has all it wanted
+            _forget_stdout()
+            return DONE
+        case KeyboardInterrupt():
+            return _say("interrupted", INTERRUPTED)
+        case Terminated():
+            return _say("terminated", TERMINATED)
+        case LinkanimError():
+            return _say(str(error), error.exit_code)
+        case MemoryError():
+            return _say("there is not enough memory for this", FAILED)
+        case OSError():
+            _forget_stdout()
+            return _say(_reason(error), FAILED)
+        case _:
+            return _say(f"unexpected {type(error).__name__} in {_place(error)}: {error}", FAILED)
+
+
+def _say(message: str, code: int) -> int:
+    line = " ".join(message.split())
+    with suppress(OSError, ValueError):
+        print(f"linkanim: {line}", file=sys.stderr)
+    return code
+
+
+def _reason(error: OSError) -> str:
+    where = f"{error.filename}: " if error.filename else ""
+    return f"{where}{error.strerror or error}"
+
+
+def _place(error: BaseException) -> str:
+    """Return file:line where the error arose, for a report."""
+    trace = error.__traceback__
+    while trace and trace.tb_next:
+        trace = trace.tb_next
+    if trace is None:
+        return "linkanim"
+    return f"{os.path.basename(trace.tb_frame.f_code.co_filename)}:{trace.tb_lineno}"  # noqa: PTH119
+
+
+def _flushed(code: object) -> int:
+    """Return the code argparse left with (0 after --help and --version), once its text is out."""
+    try:
+        _flush()
+    except OSError as error:
+        return _code_of(error)
+    return code if isinstance(code, int) else DONE
+
+
+def _flush() -> None:
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+def _forget_stdout() -> None:
+    """Let the interpreter's last flush go nowhere, or it would report the failure a second time."""
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _print_anything() -> None:
+    """Print '?' for what the terminal's encoding lacks (a degree sign, a Greek letter), not an error."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors="replace")
+
+
+@contextmanager
+def _sigterm_raises() -> Iterator[None]:
+    """Turn SIGTERM into `Terminated` meanwhile; other threads than the main one cannot, and do not."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, _raise_terminated)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _raise_terminated(number: int, frame: FrameType | None) -> NoReturn:
+    raise Terminated

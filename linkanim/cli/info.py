@@ -1,0 +1,50 @@
+"""`linkanim info`: what kind of linkage a scene is."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from linkanim.cli.strict import json_text
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+
+def run(options: Namespace) -> None:
+    """Print the scene's class, limits and what follows from them, in words or as one JSON object."""
+    scene = load(options.scene)
+    if options.json:
+        print(json_text(as_object(scene), indent=2))
+    else:
+        print(as_words(scene))
+
+
+def as_words(scene: Scene) -> str:
+    """Return a label and a value on each line, the values below each other."""
+    lines = (("scene", f"{scene.name}: {scene.title}"), ("source", scene.source), *scene.info.lines)
+    width = max(len(label) for label, _ in lines)
+    return "\n".join(f"{label:<{width}}  {value}" for label, value in lines if value)
+
+
+def as_object(scene: Scene) -> dict[str, object]:
+    """Return what `--json` prints: angles in radians, time in s, lengths in the scene's unit.
+
+    `stroke` and `time_ratio` are there for a linkage with a slider, and null where they have no meaning.
+    """
+    info = scene.info
+    facts: dict[str, object] = {
+        "scene": scene.name,
+        "title": scene.title,
+        "source": scene.source,
+        "length_unit": scene.length_unit,
+        "class": info.class_name,
+        "full_turn": info.full_turn,
+        "input_range": info.input_range,
+        "toggles": info.toggles,
+        "change_points": info.change_points,
+        "true_period": info.true_period,
+        "period_seconds": info.period_seconds,
+        "transmission_angle": info.transmission_angle,
+    }
+    if any(body.slider for body in scene.linkage.bodies):
+        facts |= {"stroke": info.stroke, "time_ratio": info.time_ratio}
+    return facts

@@ -1,0 +1,66 @@
+"""argparse as this command needs it: one line for a usage error, `-30 deg` taken as a value."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable, Sequence
+from typing import IO, NoReturn, TypeVar
+
+from linkanim.errors import BadInput
+
+T = TypeVar("T")
+
+_NEGATIVE = re.compile(r"-\.?\d")
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that raises `BadInput` for a usage error and whose help ends in its examples."""
+
+    def __init__(
+        self, *, examples: Sequence[str] = (), before: Callable[[], str] | None = None, **options: object
+    ) -> None:
+        super().__init__(
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+            **options,  # type: ignore[arg-type]
+        )
+        self._examples = examples
+        self._before = before
+
+    def error(self, message: str) -> NoReturn:
+        """Raise the usage error as one sentence that names the help to read."""
+        raise BadInput(f"{message} (see `{self.prog} --help`)")
+
+    def format_help(self) -> str:
+        """Return argparse's help, what `before` adds, and the examples as its last lines."""
+        added = f"\n{self._before()}" if self._before else ""
+        examples = "".join(f"  {line}\n" for line in self._examples)
+        return f"{super().format_help()}{added}\nexamples:\n{examples}"
+
+    def _print_message(self, message: str, file: IO[str] | None = None) -> None:
+        # argparse's own swallows the error of a full disk or of a reader that left
+        print(message, end="", file=file)
+
+
+def valued(read: Callable[[str], T]) -> Callable[[str], T]:
+    """Let argparse report a `BadInput` of `read` with the option's name in front."""
+
+    def reader(text: str) -> T:
+        try:
+            return read(text)
+        except BadInput as error:
+            raise argparse.ArgumentTypeError(str(error)) from error
+
+    return reader
+
+
+def join_negative(words: Sequence[str]) -> list[str]:
+    """Write `--angle -30deg` as `--angle=-30deg`, or argparse would take -30deg for an option."""
+    joined: list[str] = []
+    for word in words:
+        if joined and joined[-1].startswith("--") and "=" not in joined[-1] and _NEGATIVE.match(word):
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined

@@ -1,0 +1,12 @@
+"""`linkanim play`: the window."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from linkanim.player.loop import run as play
+
+
+def run(options: Namespace) -> None:
+    """Open the window on a scene, a scene file or a tape, and return when it is closed."""
+    play(options.scene)

@@ -1,0 +1,132 @@
+"""`linkanim solve`: the motion at an angle or a phase, or over a sweep of them."""
+
+from __future__ import annotations
+
+import csv
+import math
+import sys
+from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from itertools import chain
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+import numpy as np
+
+from linkanim import units
+from linkanim.cli import outfile, table
+from linkanim.cli.commands import EVERY_ANGLE
+from linkanim.cli.strict import finite, json_text
+from linkanim.cli.tree import Tree, leaves, rows, tree
+from linkanim.errors import BadInput, OutOfRange
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.motion import Motion
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Where to solve: `by` is "angle" (of the crank) or "phase"; one value, or those of a sweep."""
+
+    by: str
+    degrees: tuple[float, ...]
+    radians: tuple[float, ...]
+    sweep: bool
+
+
+def run(options: Namespace) -> None:
+    """Solve what was asked and print it as words, JSON or CSV.
+
+    `BadInput` for options that do not go together; `OutOfRange` for one angle that cannot be reached.
+    In a sweep such an angle has a row of nulls.
+    """
+    asked = _asked(options)
+    if options.csv and options.csv != "-":
+        outfile.refuse_unwritable(Path(options.csv))
+    scene = load(options.scene)
+    speed = scene.linkage.drive.speed if options.speed is None else options.speed
+    motion = _solved(scene, asked, speed, options.acceleration)
+    head = {"scene": scene.name, "angle": None, "phase": None, "speed": speed}
+    head |= {"acceleration": options.acceleration, "length_unit": scene.length_unit}
+    found = _rows(scene, motion, asked)
+    if options.csv:
+        with _file_or_stdout(options.csv) as file:
+            _write_csv(file, asked, found)
+    elif options.json:
+        _print_json(({**head, **row} for row in found), asked.sweep)
+    else:
+        words = table.of_sweep if asked.sweep else table.of_pose
+        print(words(scene, head, found))
+
+
+def _asked(options: Namespace) -> Asked:
+    sweep, angle, phase = options.sweep, options.angle, options.phase
+    if sweep is None:
+        return _one(angle, phase, options.csv)
+    if angle is not None or phase not in (None, EVERY_ANGLE):
+        raise BadInput("--sweep goes with no other angle; write --phase alone to sweep the phase")
+    degrees = tuple(sweep.degrees())
+    radians = tuple(units.angle(f"{value!r} deg") for value in degrees)
+    return Asked("phase" if phase is EVERY_ANGLE else "angle", degrees, radians, sweep=True)
+
+
+def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Asked:
+    if csv_name:
+        raise BadInput("--csv is for a sweep; add --sweep 0:360:1, or take --json")
+    if phase is EVERY_ANGLE:
+        raise BadInput('--phase has no value; write it with its unit, such as --phase "87 deg"')
+    given = [(by, value) for by, value in (("angle", angle), ("phase", phase)) if value is not None]
+    if len(given) != 1:
+        raise BadInput('say where to solve: one of --angle "87 deg", --phase "87 deg" and --sweep 0:360:1')
+    by, value = given[0]
+    return Asked(by, (math.degrees(value),), (value,), sweep=False)
+
+
+def _solved(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Motion:
+    """Solve for all inputs at once; `OutOfRange` where there is one only and it cannot be reached."""
+    inputs = np.array(asked.radians)
+    if asked.by == "phase":
+        return scene.solve(phase=inputs, speed=speed, acceleration=acceleration)
+    motion = scene.solve(angle=inputs, speed=speed, acceleration=acceleration)
+    if not asked.sweep and any(np.isnan(points).any() for points in motion.position.values()):
+        low, high = (f"{math.degrees(limit):.6g} deg" for limit in scene.info.input_range)
+        raise OutOfRange(
+            f"{scene.name}: --angle {asked.degrees[0]:.6g} deg cannot be reached; the crank angle goes from "
+            f"{low} to {high} (--phase runs through both limits)"
+        )
+    return motion
+
+
+def _rows(scene: Scene, motion: Motion, asked: Asked) -> Iterator[Tree]:
+    """Yield what is known at each input; the input is as it was asked, also where nothing else is."""
+    where = {"angle": motion.crank_angle, "phase": motion.phase, asked.by: np.array(asked.radians)}
+    return rows({**where, **tree(scene, motion)}, len(asked.radians))
+
+
+def _print_json(objects: Iterator[Tree], sweep: bool) -> None:
+    """Print one object, or a list of them with a line for each."""
+    if not sweep:
+        print(json_text(next(objects)))
+        return
+    separator = "["
+    for found in objects:
+        print(separator, json_text(found), sep="", end="")
+        separator = ",\n "
+    print("]")
+
+
+def _file_or_stdout(name: str) -> AbstractContextManager[TextIO]:
+    return nullcontext(sys.stdout) if name == "-" else outfile.written(Path(name))
+
+
+def _write_csv(file: TextIO, asked: Asked, found: Iterator[Tree]) -> None:
+    """Write the input in degrees and then every quantity; what is not known is an empty cell."""
+    writer = csv.writer(file, lineterminator="\n")
+    first = next(found)
+    writer.writerow([f"{asked.by}_deg", *(name for name, _ in leaves(first))])
+    for degrees, row in zip(asked.degrees, chain([first], found), strict=True):
+        writer.writerow([degrees, *(finite(value) for _, value in leaves(row))])

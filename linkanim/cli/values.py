@@ -1,0 +1,83 @@
+"""What the options' texts mean: sizes, counts, sweeps; each raises `BadInput` in one sentence."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
+
+from linkanim.errors import BadInput
+
+MOST_ROWS = 1_000_000
+VECTORS = ("v", "a")
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Angles `first`, `first + step`, ... in degrees, `rows` of them; exact decimals as they were typed."""
+
+    first: Decimal
+    step: Decimal
+    rows: int
+
+    def degrees(self) -> list[float]:
+        """Return the angles in degrees, each rounded once from its exact value."""
+        return [float(self.first + self.step * k) for k in range(self.rows)]
+
+
+def sweep(text: str) -> Sweep:
+    """Read `a:b:step` in degrees; b is included where it falls on a step."""
+    parts = text.split(":")
+    if len(parts) != 3:
+        raise BadInput(f"{text!r} is not FIRST:LAST:STEP in degrees, such as 0:360:1")
+    first, last, step = (_decimal(part, text) for part in parts)
+    if step == 0 or (last - first) * step < 0:
+        raise BadInput(f"the step of {text!r} does not lead from {first} to {last}; give one that does")
+    if abs(last - first) >= abs(step) * MOST_ROWS:
+        raise BadInput(f"{text!r} has more than {MOST_ROWS:,} rows; take a longer step")
+    return Sweep(first, step, int((last - first) / step) + 1)
+
+
+def _decimal(part: str, text: str) -> Decimal:
+    try:
+        value = Decimal(part.strip())
+    except InvalidOperation:
+        raise BadInput(f"{part!r} in {text!r} is not a number of degrees") from None
+    if not value.is_finite() or abs(value) > Decimal("1e12"):
+        raise BadInput(f"{part!r} in {text!r} is not a number of degrees between -1e12 and 1e12")
+    return value
+
+
+def size(text: str) -> tuple[int, int]:
+    """Read `1280x720`: whole numbers of pixels, width first."""
+    found = re.fullmatch(r"\s*(\d{1,6})\s*[x×X]\s*(\d{1,6})\s*", text)
+    if not found or "0" in (found[1].lstrip("0") or "0", found[2].lstrip("0") or "0"):
+        raise BadInput(f"{text!r} is not a size; write width x height in pixels, such as 1280x720")
+    return int(found[1]), int(found[2])
+
+
+def positive(text: str) -> float:
+    """Read a finite number greater than zero."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > 0):
+        raise BadInput(f"{text!r} is not a number greater than zero")
+    return value
+
+
+def count(text: str) -> int:
+    """Read a whole number of at least one."""
+    if not re.fullmatch(r"\d{1,6}", text) or int(text) == 0:
+        raise BadInput(f"{text!r} is not a whole number from 1 to 999999")
+    return int(text)
+
+
+def vectors(text: str) -> frozenset[str]:
+    """Read a list such as `v,a`: which of velocity and acceleration are drawn."""
+    chosen = frozenset(part.strip() for part in text.split(","))
+    if not chosen <= set(VECTORS):
+        raise BadInput(f"{text!r} is not a list of vectors; take v (velocity), a (acceleration) or v,a")
+    return chosen

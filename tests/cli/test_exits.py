@@ -1,0 +1,176 @@
+"""Each way of ending has its exit code and at most one line on stderr."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from linkanim.cli import main
+from linkanim.cli.exits import Terminated, guarded
+from linkanim.errors import BadInput, NoDisplay, RecordingFailed, SceneError
+
+
+def raising(error: BaseException) -> Callable[[], None]:
+    def work() -> None:
+        raise error
+
+    return work
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        # the caller's to mend
+        (BadInput("no scene is called 'x'"), 2, "linkanim: no scene is called 'x'"),
+        (SceneError("a.toml: joints.A: length is 0"), 2, "linkanim: a.toml: joints.A: length is 0"),
+        # not the caller's
+        (NoDisplay("there is no display"), 1, "linkanim: there is no display"),
+        (RecordingFailed("the disk is full"), 1, "linkanim: the disk is full"),
+        (OSError(28, "No space left on device"), 1, "linkanim: No space left on device"),
+        (PermissionError(13, "Permission denied", "/x"), 1, "linkanim: /x: Permission denied"),
+        (MemoryError(), 1, "linkanim: there is not enough memory for this"),
+        # several lines in a message are one on stderr
+        (BadInput("one\n  two"), 2, "linkanim: one two"),
+        # from outside
+        (KeyboardInterrupt(), 130, "linkanim: interrupted"),
+        (Terminated(), 143, "linkanim: terminated"),
+    ],
+)
+def test_what_ends_the_work_is_one_line_and_a_code(
+    error: BaseException, code: int, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert guarded(raising(error)) == code
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err == f"{said}\n"
+
+
+def test_a_defect_is_one_line_that_says_where(capsys: pytest.CaptureFixture[str]) -> None:
+    assert guarded(raising(ValueError("odd"))) == 1
+    err = capsys.readouterr().err
+    assert err.startswith("linkanim: unexpected ValueError in test_exits.py:")
+    assert err.count("\n") == 1
+
+
+def test_work_that_ends_well_is_silent(capsys: pytest.CaptureFixture[str]) -> None:
+    assert guarded(lambda: None) == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def test_sigterm_unwinds_the_work_and_the_handler_is_put_back(capsys: pytest.CaptureFixture[str]) -> None:
+    before = signal.getsignal(signal.SIGTERM)
+    cleaned: list[str] = []
+
+    def work() -> None:
+        try:
+            os.kill(os.getpid(), signal.SIGTERM)
+        finally:
+            cleaned.append("cleaned")
+
+    assert guarded(work) == 143
+    assert cleaned == ["cleaned"]
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
+USAGE = [
+    # words that are no command, scene or file
+    (["recrod", "press"], "did you mean"),
+    (["pres"], "did you mean"),
+    (["play", "pres"], "pres"),
+    (["nowhere.toml"], "nowhere.toml"),
+    # missing or too many
+    (["record"], "SCENE"),
+    (["solve"], "SCENE"),
+    (["solve", "press"], "--angle"),
+    (["info", "press", "kite"], "kite"),
+    (["scenes", "--all"], "--all"),
+    # units are written, numbers are finite
+    (["solve", "press", "--angle", "87"], "no unit"),
+    (["solve", "press", "--angle", "-87"], "no unit"),
+    (["solve", "press", "--angle", "nan deg"], "--angle"),
+    (["solve", "press", "--angle", "87 deg", "--speed", "10 mph"], "mph"),
+    # options that do not go together
+    (["solve", "press", "--angle", "1 deg", "--phase", "1 deg"], "one of"),
+    (["solve", "press", "--angle", "1 deg", "--sweep", "0:1:1"], "--sweep"),
+    (["solve", "press", "--angle", "1 deg", "--csv", "a.csv"], "--sweep"),
+    (["solve", "press", "--phase"], "--phase"),
+    (["solve", "press", "--sweep", "0:1:1", "--csv", "a.csv", "--json"], "--json"),
+    (["record", "press", "--periods", "2", "--seconds", "2"], "--seconds"),
+    # sweeps that never arrive, or never end
+    (["solve", "press", "--sweep", "0:360"], "FIRST:LAST:STEP"),
+    (["solve", "press", "--sweep", "0:360:0"], "step"),
+    (["solve", "press", "--sweep", "0:360:-1"], "step"),
+    (["solve", "press", "--sweep", "0:360:1e-9"], "rows"),
+    (["solve", "press", "--sweep", "0:inf:1"], "inf"),
+    (["solve", "press", "--sweep", "a:b:c"], "'a'"),
+    # a recording's options
+    (["record", "press", "--size", "1280"], "1280x720"),
+    (["record", "press", "--size", "0x720"], "0x720"),
+    (["record", "press", "--fps", "0"], "--fps"),
+    (["record", "press", "--fps", "nan"], "--fps"),
+    (["record", "press", "--periods", "0"], "--periods"),
+    (["record", "press", "--periods", "1.5"], "--periods"),
+    (["record", "press", "--seconds", "-1"], "--seconds"),
+    (["record", "press", "--vectors", "v,x"], "v,x"),
+    (["record", "press", "--theme", "blue"], "blue"),
+    (["record", "press", "--for", "cinema"], "cinema"),
+    (["record", "press", "--thene", "dark"], "--thene"),
+]
+
+
+@pytest.mark.parametrize(("words", "named"), USAGE, ids=[" ".join(words) for words, _ in USAGE])
+def test_bad_usage_is_one_line_that_names_the_word(
+    words: list[str],
+    named: str,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(words) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("linkanim: ")
+    assert printed.err.count("\n") == 1
+    assert named in printed.err
+    assert list(tmp_path.iterdir()) == []
+
+
+LINKANIM = [sys.executable, "-m", "linkanim"]
+
+
+def test_a_reader_that_leaves_early_is_not_a_failure() -> None:
+    sweep = [*LINKANIM, "solve", "crank-rocker", "--sweep", "0:3600:1", "--csv", "-"]
+    with subprocess.Popen(sweep, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.readline()
+        process.stdout.close()
+        assert process.stderr.read() == ""
+    assert process.returncode == 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.parametrize("words", [["scenes"], ["--help"]])
+def test_a_full_disk_behind_stdout_is_one_line(words: list[str]) -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run([*LINKANIM, *words], check=False, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 1
+    assert done.stderr == "linkanim: No space left on device\n"
+
+
+def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
+    done = subprocess.run(
+        [*LINKANIM, "--help"],
+        capture_output=True,
+        env={**os.environ, "PYTHONIOENCODING": "ascii"},
+        check=True,
+    )
+    assert b"?" in done.stdout
+    assert done.stderr == b""

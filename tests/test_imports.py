@@ -1,0 +1,131 @@
+"""The rooms' order, and which third parties live in which room, read from the sources themselves."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import linkanim
+
+PACKAGE = Path(linkanim.__file__).parent
+SOURCES = sorted(PACKAGE.rglob("*.py"))
+
+# From the top down; a room imports only from rooms above it. `linkanim` is the package's own
+# __init__ and __main__, which stand below everything: what they offer comes from all rooms.
+RANK = {
+    room: rank
+    for rank, rooms in enumerate(
+        [
+            ("errors",),
+            ("units",),
+            ("mechanics",),
+            ("scenes",),
+            ("picture",),
+            ("player",),
+            ("recorder",),
+            ("bench",),
+            ("cli",),
+            ("linkanim",),
+        ]
+    )
+    for room in rooms
+}
+
+THIRD_PARTIES = {
+    "errors": set(),
+    "units": set(),
+    "mechanics": {"numpy"},
+    "scenes": {"numpy", "tomli_w"},
+    "picture": {"numpy", "pygame"},
+    "player": {"numpy", "pygame"},
+    "recorder": {"numpy", "imageio", "imageio_ffmpeg", "PIL"},
+    "bench": {"numpy", "mpmath", "pylinkage", "scipy"},
+    "cli": {"numpy", "tqdm"},
+    "linkanim": set(),
+}
+
+# The version is text in __init__, which imports nothing by itself.
+BARE = {"linkanim.__version__"}
+
+
+def room_of(path: Path) -> str:
+    first = path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+    return "linkanim" if first in ("__init__", "__main__") else first
+
+
+def module_of(path: Path) -> list[str]:
+    """Return the package that a file's relative imports start from."""
+    return ["linkanim", *path.relative_to(PACKAGE).parent.parts]
+
+
+def imported(path: Path) -> Iterator[str]:
+    """Yield the full name of everything a file imports, at its top or inside a function."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (name.name for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            package = module_of(path)
+            base = package[: len(package) - node.level + 1] if node.level else []
+            module = ".".join([*base, *([node.module] if node.module else [])])
+            yield from (f"{module}.{name.name}" for name in node.names)
+
+
+def is_third_party(name: str) -> bool:
+    return name.split(".")[0] not in {"linkanim", "__future__", *sys.stdlib_module_names}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_a_file_imports_only_from_its_own_room_and_those_above(path: Path) -> None:
+    own = RANK[room_of(path)]
+    inner = [name for name in imported(path) if name.split(".")[0] == "linkanim" and name not in BARE]
+    rooms = {name: [*name.split("."), "linkanim"][1] for name in inner}
+    assert {name: room for name, room in rooms.items() if RANK.get(room, RANK["linkanim"]) > own} == {}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_a_third_party_stays_in_its_rooms(path: Path) -> None:
+    used = {name.split(".")[0] for name in imported(path) if is_third_party(name)}
+    assert used <= THIRD_PARTIES[room_of(path)]
+
+
+def test_every_room_is_read() -> None:
+    rooms = {room_of(path) for path in SOURCES}
+    assert rooms <= set(RANK)
+    assert {"mechanics", "scenes", "picture", "player", "recorder", "cli"} <= rooms
+
+
+HEAVY = ("numpy", "pygame", "PIL", "imageio", "imageio_ffmpeg", "tqdm")
+NO_WINDOW = ("pygame", "PIL", "imageio", "imageio_ffmpeg")
+
+
+# What may not be loaded after each way of starting.
+@pytest.mark.parametrize(
+    ("start", "absent"),
+    [
+        pytest.param("import linkanim", HEAVY, id="import linkanim"),
+        pytest.param("from linkanim import load", NO_WINDOW, id="load"),
+        pytest.param("main(['--help'])", HEAVY, id="--help"),
+        pytest.param("main(['record', '--help'])", HEAVY, id="record --help"),
+        pytest.param("main(['--version'])", HEAVY, id="--version"),
+        pytest.param("main(['scenes'])", NO_WINDOW, id="scenes"),
+        pytest.param("main(['info', 'press'])", NO_WINDOW, id="info"),
+        pytest.param("main(['solve', 'press', '--angle', '87 deg'])", NO_WINDOW, id="solve"),
+    ],
+)
+def test_a_start_loads_no_more_than_it_needs(start: str, absent: tuple[str, ...]) -> None:
+    prologue = "import sys\nfrom linkanim.cli import main\n" if start.startswith("main") else "import sys\n"
+    check = f"\nprint('loaded:', *[name for name in {absent!r} if name in sys.modules])"
+    done = subprocess.run(
+        [sys.executable, "-c", prologue + start + check],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    assert done.stderr == ""
+    assert done.stdout.splitlines()[-1] == "loaded:"
