@@ -148,7 +148,7 @@ class Table:
         if near == 0 or abs(near) > _STEEP:
             raise self.error(key, f"a gear pair turns between 1/{_SMALL} and {_STEEP} times as fast")
         if near != exact and (isinstance(value, str) or float(near) != float(value)):
-            raise self.error(key, f'is not a small fraction, so nothing repeats soon; the nearest is "{near}"')
+            raise self.error(key, f'is not a small fraction, so the loop is long; the nearest is "{near}"')
         return near
 
     def _items(self, key: str, count: int) -> tuple[Table, tuple[str, ...]]:

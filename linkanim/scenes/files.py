@@ -78,7 +78,7 @@ def _file_text(path: str, where: str) -> str:
             data = file.read(_LARGEST + 1)
     except FileNotFoundError:
         near = meant(Path(path).stem, _CATALOGUE)
-        raise SceneError(f"{where}: no such file{near}; `linkanim scenes` lists the built-in scenes") from None
+        raise SceneError(f"{where}: no such file{near}; `linkanim scenes` lists the built-in ones") from None
     except (OSError, ValueError) as error:
         reason = (error.strerror or "") if isinstance(error, OSError) else str(error)
         raise SceneError(f"{where}: cannot be read: {reason.lower() or 'the system refuses'}") from None

@@ -1,0 +1,160 @@
+"""The dimensions of a scene as a list to be edited, and the scene with one of them changed.
+
+A change is made to the document and read again, so that it is checked exactly as a file is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal
+
+from linkanim import units
+from linkanim.scenes.read import DEFAULT_SPEED, scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.shorthand import SHORTHANDS
+
+Kind = Literal["length", "angle", "speed", "offset", "ratio"]
+Key = tuple[str | int, ...]
+
+_BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
+_EXACT = 2**53
+
+_SHORT: Mapping[str, Kind] = {
+    "ground": "length",
+    "crank": "length",
+    "coupler": "length",
+    "rocker": "length",
+    "rod": "length",
+    "lengths": "length",
+    "offset": "offset",
+    "coupler_point": "offset",
+    "coupler_point2": "offset",
+    "ground_angle": "angle",
+    "line_angle": "angle",
+    "link_angle": "angle",
+}
+_PIN: Mapping[str, Kind] = {"length": "length", "angle": "angle"}
+_JOINT: Mapping[str, Kind] = {"length": "length", "at": "offset"}
+_WITHIN: Mapping[str, Mapping[str, Kind]] = {
+    "gear": {"ratio": "ratio", "offset": "angle"},
+    "line": {"angle": "angle", "offset": "offset"},
+    "slot": {"offset": "offset"},
+}
+_DRIVE: Mapping[str, Kind] = {"speed": "speed", "start": "angle"}
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """One number of a scene that can be edited.
+
+    `key` is its path into the document. `value` is in `unit`: the scene's for lengths, the one it is
+    written with for angles and speeds, "" for a gear ratio. An "offset" is a length of either sign.
+    """
+
+    key: Key
+    label: str
+    value: float
+    unit: str
+    kind: Kind
+
+
+def dimensions(scene: Scene) -> tuple[Dimension, ...]:
+    """Return what can be edited, in this order: the shorthand's, the joints', the pins', the drive's.
+
+    Only what the file says is there, and always the drive's speed. None for a scene without a document.
+    """
+    if not scene.document:
+        return ()
+    return tuple(_dimension(scene, key, kind) for key, kind in _keys(scene.document))
+
+
+def with_dimension(scene: Scene, key: Key, value: float | str) -> Scene:
+    """Return the scene with one dimension changed; `scene` itself stays as it is.
+
+    A number, or a text without a unit, is taken in the dimension's unit; a text may name another
+    ("3 cm", "1 rad", "90 deg/s"), and a ratio may be a fraction ("1/3"). KeyError for a key that is
+    not one of the scene's dimensions; SceneError and AssemblyError as reading a file raises them.
+    """
+    found = next((item for item in dimensions(scene) if item.key == tuple(key)), None)
+    if found is None:
+        raise KeyError(key)
+    document = _replaced(scene.document, found.key, _written(value, found))
+    return scene_from(document, name=scene.name, where=scene.name)
+
+
+def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, Kind]]:
+    for name in SHORTHANDS:
+        yield from _numbers(document.get(name, {}), (name,), _SHORT)
+    for name, joint in document.get("joints", {}).items():
+        yield from _numbers(joint, ("joints", name), _JOINT)
+        for inner, kinds in _WITHIN.items():
+            yield from _numbers(joint.get(inner, {}), ("joints", name, inner), kinds)
+    for name, pin in document.get("ground", {}).items():
+        if isinstance(pin, Mapping):
+            yield from _numbers(pin, ("ground", name), _PIN)
+        else:
+            yield from _numbers({name: pin}, ("ground",), {name: "offset"})
+    yield from _numbers({"speed": DEFAULT_SPEED, **document.get("drive", {})}, ("drive",), _DRIVE)
+
+
+def _numbers(table: Mapping[str, Any], path: Key, kinds: Mapping[str, Kind]) -> Iterator[tuple[Key, Kind]]:
+    """Iterate the keys of those numbers in a table that have a kind, item by item where they are lists."""
+    for name, value in table.items():
+        if name in kinds and isinstance(value, list):
+            yield from (((*path, name, i), kinds[name]) for i in range(len(value)))
+        elif name in kinds:
+            yield (*path, name), kinds[name]
+
+
+def _dimension(scene: Scene, key: Key, kind: Kind) -> Dimension:
+    written = _at(scene.document, key)
+    if kind in ("length", "offset"):
+        value, unit = units.length(written, unit=scene.length_unit), scene.length_unit
+    elif kind == "ratio":
+        value, unit = float(Fraction(written)), ""
+    else:
+        value, unit = units.split(written)
+    return Dimension(key, _label(key), value, unit, kind)
+
+
+def _label(key: Key) -> str:
+    """Return "crank" for a shorthand's key, "r3" for a six-bar's, "joints.B.length[0]" for others."""
+    if key[:2] == ("six-bar", "lengths"):
+        return f"r{int(key[2]) + 1}"
+    path = key[1:] if key[0] in SHORTHANDS else key
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
+
+
+def _written(value: float | str, dimension: Dimension) -> object:
+    """Return a new value as the document writes it: a number, or a text with its unit."""
+    text = value.strip() if isinstance(value, str) else repr(value)
+    bare = _BARE.fullmatch(text) is not None
+    if dimension.kind in ("speed", "angle"):
+        return f"{text} {dimension.unit}" if bare else text
+    if not bare:
+        return text
+    number = float(text)
+    return int(number) if number.is_integer() and abs(number) < _EXACT else number
+
+
+def _at(document: Mapping[str, Any], key: Key) -> Any:
+    """Return what stands at a key; the default speed where the file has none."""
+    if key == ("drive", "speed") and "speed" not in document.get("drive", {}):
+        return DEFAULT_SPEED
+    value: Any = document
+    for part in key:
+        value = value[part]
+    return value
+
+
+def _replaced(document: Any, key: Key, value: object) -> Any:
+    """Return the document with another value at a key; the tables around it are new, the rest is shared."""
+    if not key:
+        return value
+    part, rest = key[0], key[1:]
+    if isinstance(document, list):
+        return [_replaced(item, rest, value) if i == part else item for i, item in enumerate(document)]
+    return {**document, part: _replaced(document.get(part, {}), rest, value)}

@@ -1,0 +1,51 @@
+"""A scene back to TOML: text that reads to the same linkage, saved beside what is there, never over it."""
+
+from __future__ import annotations
+
+from itertools import chain, count
+from pathlib import Path
+
+import tomli_w
+
+from linkanim.errors import SceneError, WorkFailed
+from linkanim.scenes.scene import Scene
+
+
+def text(scene: Scene) -> str:
+    """Return the scene as the text of a scene file, which reads back to the same linkage.
+
+    Numbers keep every digit and quantities the unit they were written with; comments are not kept.
+    SceneError for a scene that was made without a document.
+    """
+    if not scene.document:
+        raise SceneError(f"{scene.name}: has no scene file behind it that could be written; load it from one")
+    return tomli_w.dumps(dict(scene.document))
+
+
+def save(scene: Scene, folder: Path) -> Path:
+    """Write the scene into `folder` under a name that is free, and return the file's path.
+
+    The name is the scene's, or that with -2, -3, ...: an older file stays as it is. WorkFailed, with
+    nothing left behind, where the folder cannot be written.
+    """
+    content = text(scene).encode("utf-8")
+    for number in chain([""], (f"-{n}" for n in count(2))):
+        path = folder / f"{scene.name}{number}.toml"
+        try:
+            path.touch(exist_ok=False)
+            return _filled(path, content)
+        except FileExistsError:
+            continue
+        except OSError as error:
+            raise WorkFailed(f"{path}: cannot be written: {(error.strerror or str(error)).lower()}") from None
+    raise AssertionError("there is always a free name")
+
+
+def _filled(path: Path, content: bytes) -> Path:
+    """Write into the empty file made for it, or take that away again."""
+    try:
+        path.write_bytes(content)
+    except OSError:
+        path.unlink()
+        raise
+    return path

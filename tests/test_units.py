@@ -1,0 +1,143 @@
+"""Quantities as written, to radians, rad/s and the scene's unit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkanim import units
+from linkanim.errors import UnitError
+
+mm = partial(units.length, unit="mm")
+
+READ: list[tuple[str, Callable[[object], float], object, float]] = [
+    # Multiples of a right angle are that many times pi/2, so that directions along them can be exact.
+    ("right angle", units.angle, "90 deg", math.pi / 2),
+    ("half turn", units.angle, "180 deg", math.pi),
+    ("three quarters", units.angle, "270 deg", 3 * (math.pi / 2)),
+    ("backwards", units.angle, "-90 deg", -math.pi / 2),
+    ("full turn", units.angle, "360 deg", 2 * math.pi),
+    # Spellings that people use.
+    ("radians", units.angle, "1.5 rad", 1.5),
+    ("no space", units.angle, "1.5rad", 1.5),
+    ("degree sign", units.angle, "180°", math.pi),
+    ("capitals", units.angular_speed, "60 RPM", 2 * math.pi),
+    ("exponent", units.angle, "1e-3 rad", 1e-3),
+    ("no leading digit", units.angle, "+.5 rad", 0.5),
+    ("outer spaces", units.angle, "  2 rad ", 2.0),
+    # Every unit once.
+    ("rpm", units.angular_speed, "20 rpm", 2 * math.pi / 3),
+    ("rad/s", units.angular_speed, "-10 rad/s", -10.0),
+    ("deg/s", units.angular_speed, "180 deg/s", math.pi),
+    ("rad/s^2", units.angular_acceleration, "2 rad/s^2", 2.0),
+    ("rad/s²", units.angular_acceleration, "2 rad/s²", 2.0),
+    ("deg/s^2", units.angular_acceleration, "180 deg/s^2", math.pi),
+    ("N/m", units.stiffness, "4000 N/m", 4000.0),
+    ("N/mm", units.stiffness, "4 N/mm", 4000.0),
+    ("N s/m", units.damping, "200 N s/m", 200.0),
+    ("N·s/m", units.damping, "200 N·s/m", 200.0),
+    ("N*s/m", units.damping, "200 N*s/m", 200.0),
+    ("mm from mm", mm, "30 mm", 30.0),
+    ("mm from cm", mm, "3 cm", 30.0),
+    ("mm from m", mm, "0.03 m", 30.0),
+    ("mm from in", mm, "1 in", 25.4),
+    # A bare length is in the scene's unit.
+    ("bare length", mm, 30, 30.0),
+    ("bare length as text", mm, "30", 30.0),
+    ("negative length", mm, -0.5, -0.5),
+    # A decimal is converted exactly: multiplying floats gives 7.000000000000001 and 0.6000000000000001.
+    ("0.7 cm is 7 mm", mm, "0.7 cm", 7.0),
+    ("0.06 cm is 0.6 mm", mm, "0.06 cm", 0.6),
+    # Below the smallest float there is only zero, however small the exponent says.
+    ("underflow", mm, "1e-999999999 mm", 0.0),
+]
+
+REFUSED: list[tuple[str, Callable[[object], float], object, str]] = [
+    # A bare number could be degrees or radians, rpm or rad/s: it is asked for, not guessed.
+    ("bare angle", units.angle, 87, '"87 deg" or "87 rad"'),
+    ("bare angle as text", units.angle, "87", '"87 deg" or "87 rad"'),
+    ("bare zero", units.angle, 0, '"0 deg"'),
+    ("bare speed", units.angular_speed, 20, '"20 rpm" or "20 rad/s" or "20 deg/s"'),
+    ("bare acceleration", units.angular_acceleration, 0.0, '"0.0 rad/s^2"'),
+    ("bare stiffness", units.stiffness, 4000, '"4000 N/m"'),
+    ("bare damping", units.damping, 200, '"200 N s/m"'),
+    # The unit of another quantity, or of none.
+    ("length as angle", units.angle, "30 mm", "deg, rad"),
+    ("angle as speed", units.angular_speed, "30 deg", "rpm, rad/s, deg/s"),
+    ("no such unit", mm, "3 furlong", "mm, cm, m, in"),
+    ("two numbers", mm, "3 4 mm", "mm, cm, m, in"),
+    # Not finite.
+    ("nan", units.angle, "nan deg", "finite"),
+    ("inf", units.angular_speed, "-inf rpm", "finite"),
+    ("overflow", units.angular_speed, "1e999 rpm", "finite"),
+    ("nan float", mm, math.nan, "finite"),
+    ("inf float", mm, math.inf, "finite"),
+    ("bare inf", units.angle, math.inf, "finite"),
+    ("beyond floats after conversion", mm, "1e308 m", "too large"),
+    ("integer beyond floats", mm, 10**400, "too large"),
+    ("integer beyond printing", mm, 16**9000, "too large"),
+    # Not numbers. True is 1 to Python, but not to a reader.
+    ("true", mm, True, "true is not a length"),
+    ("false angle", units.angle, False, "false is not an angle"),
+    ("empty", units.angle, "", "is not an angle"),
+    ("a word", mm, "long", "is not a length"),
+    ("digits with underscores", mm, "1_000", "is not a length"),
+    ("a list", mm, [30], "is not a length"),
+    ("nothing", units.angle, None, "is not an angle"),
+]
+
+
+@pytest.mark.parametrize(("parse", "value", "wanted"), [row[1:] for row in READ], ids=[row[0] for row in READ])
+def test_a_quantity_is_read_to_the_last_bit(
+    parse: Callable[[object], float], value: object, wanted: float
+) -> None:
+    assert parse(value) == wanted
+
+
+@pytest.mark.parametrize(
+    ("parse", "value", "said"), [row[1:] for row in REFUSED], ids=[row[0] for row in REFUSED]
+)
+def test_what_is_no_quantity_is_refused_with_what_would_be(
+    parse: Callable[[object], float], value: object, said: str
+) -> None:
+    with pytest.raises(UnitError) as refusal:
+        parse(value)
+    assert said in str(refusal.value)
+    assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(("unit", "wanted"), [("mm", 0.001), ("cm", 0.01), ("m", 1.0), ("in", 0.0254)])
+def test_a_metre_is_told_for_each_length_unit(unit: str, wanted: float) -> None:
+    assert units.metre(unit) == wanted
+
+
+def test_an_unknown_scene_unit_is_refused() -> None:
+    with pytest.raises(UnitError, match="mm, cm, m, in"):
+        units.metre("ft")
+
+
+def test_a_message_stays_short_and_on_one_line_whatever_was_written() -> None:
+    with pytest.raises(UnitError) as refusal:
+        units.angle("x\n" * 5000)
+    assert len(str(refusal.value)) < 200
+    assert "\n" not in str(refusal.value)
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_a_float_written_in_radians_reads_back(value: float) -> None:
+    assert units.angle(f"{value!r} rad") == value
+
+
+@given(st.floats(-1e6, 1e6))
+def test_degrees_agree_with_the_library(value: float) -> None:
+    assert units.angle(f"{value!r} deg") == pytest.approx(math.radians(value), rel=4e-16, abs=5e-324)
+
+
+@given(st.integers(-4000, 4000))
+def test_quarter_turns_are_exact(quarters: int) -> None:
+    assert units.angle(f"{90 * quarters} deg") == quarters * (math.pi / 2)
