@@ -60,8 +60,8 @@ LOOKS: Mapping[str, Callable[[object], bool]] = {
     "chart": _whole,  # quantities further
     "theme": _nothing,
     "help": _nothing,
-    "zoom": _numbers(3),  # notches, about (x, y) from the middle in window heights, y up
-    "pan": _numbers(2),  # window heights, y up
+    "zoom": _numbers(3),  # notches, about the point (x, y): window heights from the picture's middle, y down
+    "pan": _numbers(2),  # window heights, right and down
     "fit": _nothing,
 }
 EDITING: Mapping[str, Callable[[object], bool]] = {

@@ -69,6 +69,10 @@ class Clock:
         stays = self.paused if paused is None else paused
         return replace(self, frame=frame, phase=phase, steps=0, paused=stays)
 
+    def at_rate(self, frame: int, rate: float) -> Self:
+        """Return the clock with another scene's own speed, phase continuous."""
+        return self if rate == self.rate else replace(self._anchored(frame), rate=rate)
+
     def _anchored(self, frame: int) -> Self:
         """Move the anchor to `frame`; a paused clock keeps its steps countable."""
         if self.paused:

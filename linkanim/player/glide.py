@@ -1,0 +1,51 @@
+"""A changed length is followed smoothly: the scenes between the old one and the new."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkanim.errors import LinkanimError
+from linkanim.scenes.edit import Key, dimensions, with_dimension
+from linkanim.scenes.scene import Scene
+
+FRAMES = 12
+_FOLLOWED = ("length", "offset", "angle")
+
+
+@dataclass(frozen=True)
+class Glide:
+    """Dimensions on their way since frame `since`: (key, from, to), and the scene shown meanwhile."""
+
+    scene: Scene
+    since: int
+    ways: tuple[tuple[Key, float, float], ...]
+
+
+def glide(before: Scene, after: Scene, frame: int) -> Glide | None:
+    """Return the way from one scene to the other; None where no length or angle differs."""
+    old = {item.key: item for item in dimensions(before)}
+    ways = tuple(
+        (item.key, old[item.key].value, item.value)
+        for item in dimensions(after)
+        if item.kind in _FOLLOWED and item.key in old
+        if item.unit == old[item.key].unit and item.value != old[item.key].value
+    )
+    return Glide(before, frame, ways) if ways else None
+
+
+def followed(way: Glide, after: Scene, frame: int) -> Glide | None:
+    """Return the glide at `frame`; None when `after` is reached.
+
+    A scene on the way that cannot be assembled is left out: the last one stays.
+    """
+    part = (frame - way.since) / FRAMES
+    if part >= 1.0:
+        return None
+    eased = part * part * (3.0 - 2.0 * part)
+    scene = after
+    try:
+        for key, start, end in way.ways:
+            scene = with_dimension(scene, key, start + (end - start) * eased)
+    except LinkanimError:
+        return way
+    return Glide(scene, way.since, way.ways)

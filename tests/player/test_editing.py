@@ -1,0 +1,150 @@
+"""Editing: what is taken, what is refused where it is typed, undo and redo, the smooth way between."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+
+from linkanim.player.actions import Action
+from linkanim.player.glide import FRAMES
+from linkanim.player.state import State, advance, begin
+from linkanim.scenes import load
+from linkanim.scenes.edit import dimensions
+
+
+def value(state: State, label: str) -> float:
+    return next(item.value for item in dimensions(state.scene) if item.label == label)
+
+
+def after(state: State, *asked: Action | str) -> State:
+    for one in asked:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+def typed(state: State, text: str) -> State:
+    return after(state, *(Action("type", letter) for letter in text), "take")
+
+
+@pytest.fixture
+def crank() -> State:
+    """The crank-rocker's list, standing at its crank (50 mm)."""
+    return after(begin(load("crank-rocker")), "edit", Action("choose", 1))
+
+
+# A bare number is taken in the dimension's unit; any other unit of its kind is converted.
+TAKEN = {
+    "bare": ("40", 40.0),
+    "cm": ("4 cm", 40.0),
+    "no space": ("4cm", 40.0),
+    "in": ("1.5 in", 38.1),
+    "m": ("0.045m", 45.0),
+}
+
+
+@pytest.mark.parametrize(("text", "expected"), TAKEN.values(), ids=TAKEN)
+def test_a_typed_value_is_taken(crank: State, text: str, expected: float) -> None:
+    state = typed(crank, text)
+    assert value(state, "crank") == expected
+    assert (state.editing.typed, state.editing.refusal) == ("", None)
+
+
+REFUSED = {
+    "not a number": ("x1", "not a length"),
+    "negative": ("-3", "above zero"),
+    "zero": ("0", "above zero"),
+    "another kind of unit": ("30 deg", '"deg" is not one of its units'),
+    "too large for a number": ("1e400", "not a finite number"),
+}
+
+
+@pytest.mark.parametrize(("text", "reason"), REFUSED.values(), ids=REFUSED)
+def test_a_refusal_says_why_and_the_last_good_linkage_runs_on(crank: State, text: str, reason: str) -> None:
+    state = typed(crank, text)
+    assert state.scene is crank.scene
+    assert reason in str(state.editing.refusal)
+    assert state.editing.typed == text
+
+
+def test_a_refused_value_can_be_mended(crank: State) -> None:
+    mended = typed(after(typed(crank, "-4"), "erase", "erase"), "41")
+    assert (value(mended, "crank"), mended.editing.refusal) == (41.0, None)
+
+
+def test_a_speed_is_typed_in_any_of_its_units(crank: State) -> None:
+    at_speed = after(crank, Action("choose", -3))
+    state = typed(at_speed, "180 deg/s")
+    assert state.clock.rate == pytest.approx(3.141592653589793)
+    assert state.phase == pytest.approx(at_speed.clock.at(state.frame))
+
+
+def test_as_many_nudges_back_end_on_the_same_value(crank: State) -> None:
+    there = after(crank, *[Action("nudge", 1)] * 3, Action("nudge", -10))
+    assert value(there, "crank") == 43.0
+    assert after(there, Action("nudge", 10), *[Action("nudge", -1)] * 3).scene == crank.scene
+
+
+def test_undo_and_redo_walk_the_changes(crank: State) -> None:
+    changed = after(crank, Action("nudge", 1), Action("nudge", 1))
+    assert value(after(changed, "undo"), "crank") == 51.0
+    assert after(changed, "undo", "undo").scene == crank.scene
+    assert after(changed, "undo", "undo", "undo").scene == crank.scene
+    assert after(changed, "undo", "undo", "redo", "redo", "redo").scene == changed.scene
+
+
+def test_a_change_after_undo_ends_the_redo(crank: State) -> None:
+    state = after(crank, Action("nudge", 1), "undo", Action("nudge", -1), "redo")
+    assert value(state, "crank") == 49.0
+
+
+def test_the_other_closure_is_undone_too(crank: State) -> None:
+    assert after(crank, "closure", "undo").scene == crank.scene
+
+
+def test_the_list_goes_round(crank: State) -> None:
+    rows = len(dimensions(crank.scene))
+    assert after(crank, Action("choose", rows)).editing.chosen == crank.editing.chosen
+
+
+def test_choosing_lets_go_of_what_was_begun(crank: State) -> None:
+    assert after(crank, Action("type", "7"), Action("choose", 1)).editing.typed == ""
+
+
+def test_escape_closes_what_lies_on_top_first(crank: State) -> None:
+    state = after(crank, Action("type", "7"), "help", "back")
+    assert (state.help, state.editing.typed) == (False, "7")
+    state = after(state, "back")
+    assert (state.editing.open, state.editing.typed) == (True, "")
+    state = after(state, "back")
+    assert (state.editing.open, state.effects) == (False, ())
+
+
+def test_another_mechanism_begins_unedited(crank: State) -> None:
+    state = after(crank, Action("nudge", 1), Action("mechanism", 1))
+    assert state.editing.open
+    assert not state.editing.changed
+
+
+def shown_crank(state: State) -> float:
+    return next(item.value for item in dimensions(state.shown) if item.label == "crank")
+
+
+def test_a_length_is_followed_smoothly(crank: State) -> None:
+    lengths = []
+    state = typed(crank, "40")
+    for _ in range(FRAMES + 1):
+        lengths.append(shown_crank(state))
+        state = advance(state)
+    assert lengths[0] == 50.0
+    assert lengths[-1] == 40.0
+    assert lengths == sorted(lengths, reverse=True)
+    assert max(a - b for a, b in pairwise(lengths)) < 2.0
+    assert state.shown is state.scene
+
+
+def test_a_second_change_starts_from_what_is_shown(crank: State) -> None:
+    halfway = after(typed(crank, "40"), *[Action("note", "")] * (FRAMES // 2), Action("type", "60"))
+    again = after(halfway, "take")
+    assert value(again, "crank") == 60.0
+    assert shown_crank(again) == pytest.approx(shown_crank(halfway), abs=2.0)

@@ -1,0 +1,221 @@
+"""`advance` as a table of actions, and the rules that hold for every state."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from linkanim.picture.look import Look
+from linkanim.player.actions import KNOWN, Action
+from linkanim.player.state import (
+    ATTRACT_AFTER,
+    ATTRACT_EACH,
+    HANDLERS,
+    TOAST_FRAMES,
+    State,
+    advance,
+    begin,
+)
+from linkanim.scenes import load, names
+
+
+@pytest.fixture
+def rocker() -> State:
+    """The crank-rocker, one second in."""
+    return run(begin(load("crank-rocker")), 60)
+
+
+def run(state: State, frames: int) -> State:
+    for _ in range(frames):
+        state = advance(state)
+    return state
+
+
+def after(state: State, *asked: Action | str) -> State:
+    for one in asked:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+def test_every_known_action_has_a_handler() -> None:
+    assert set(HANDLERS) == set(KNOWN)
+
+
+def test_a_second_turns_the_crank_by_its_speed(rocker: State) -> None:
+    assert rocker.phase == rocker.scene.linkage.drive.speed
+
+
+# What an action changes, read off the state after it.
+CHANGES: dict[str, tuple[Action, Callable[[State], object], object]] = {
+    "pause": (Action("pause"), lambda s: s.clock.paused, True),
+    "direction": (Action("direction"), lambda s: s.clock.direction, -1),
+    "faster": (Action("speed", 1), lambda s: round(s.clock.speed / s.clock.rate, 9), 1.25),
+    "slower": (Action("speed", -1), lambda s: round(s.clock.speed / s.clock.rate, 9), 0.8),
+    "start": (Action("start"), lambda s: s.phase, 0.0),
+    "scrub": (Action("scrub", 1.5), lambda s: (s.phase, s.clock.paused), (1.5, True)),
+    "mechanism": (Action("mechanism", 1), lambda s: s.scene.name, "drag-link"),
+    "mechanism back": (Action("mechanism", -1), lambda s: s.scene.name, names()[-1]),
+    "select": (Action("select", 4), lambda s: s.scene.name, names()[4]),
+    "trace": (Action("trace"), lambda s: s.look.trace, False),
+    "velocity": (Action("vectors", "v"), lambda s: s.look.vectors, {"v"}),
+    "acceleration": (Action("vectors", "a"), lambda s: s.look.vectors, {"a"}),
+    "ghost": (Action("ghost"), lambda s: s.look.ghost, True),
+    "theme": (Action("theme"), lambda s: s.look.theme, "dark"),
+    "help": (Action("help"), lambda s: s.help, True),
+    "zoom": (Action("zoom", (1.0, 0.0, 0.0)), lambda s: s.look.zoom, 1.25),
+    "pan": (Action("pan", (0.25, -0.5)), lambda s: s.look.pan, (0.25, -0.5)),
+    "record": (Action("record", "mp4"), lambda s: s.effects, (Action("record", "mp4"),)),
+    "screenshot": (Action("screenshot"), lambda s: s.effects, (Action("screenshot"),)),
+    "fullscreen": (Action("fullscreen"), lambda s: s.effects, (Action("fullscreen"),)),
+    "save": (Action("save"), lambda s: s.effects, (Action("save"),)),
+    "quit": (Action("quit"), lambda s: s.effects, (Action("quit"),)),
+    "escape quits": (Action("back"), lambda s: s.effects, (Action("quit"),)),
+}
+
+
+@pytest.mark.parametrize(("action", "read", "expected"), CHANGES.values(), ids=CHANGES)
+def test_an_action_changes_the_state(
+    rocker: State, action: Action, read: Callable[[State], object], expected: object
+) -> None:
+    assert read(rocker) != expected
+    assert read(after(rocker, action)) == expected
+
+
+# Pairs that undo each other: the picture's inputs are the same again.
+UNDONE = {
+    "trace": ("trace", "trace"),
+    "theme": ("theme", "theme"),
+    "ghost": ("ghost", "ghost"),
+    "help": ("help", "help"),
+    "escape closes help": ("help", "back"),
+    "velocity": (Action("vectors", "v"), Action("vectors", "v")),
+    "acceleration": (Action("vectors", "a"), Action("vectors", "a")),
+    "direction": ("direction", "direction"),
+    "speed": (Action("speed", 3), Action("speed", -3)),
+    "step": (Action("step", 10), Action("step", -10)),
+    "zoom about the middle": (Action("zoom", (3.0, 0.0, 0.0)), Action("zoom", (-3.0, 0.0, 0.0))),
+    "zoom out and in": (Action("zoom", (-5.0, 0.0, 0.0)), Action("zoom", (5.0, 0.0, 0.0))),
+    "zoom about a corner": (Action("zoom", (2.0, 0.8, -0.3)), Action("zoom", (-2.0, 0.8, -0.3))),
+    "pan": (Action("pan", (0.1, 0.2)), Action("pan", (-0.1, -0.2))),
+    "pan and fit": (Action("pan", (0.1, 0.2)), "fit"),
+    "zoom and fit": (Action("zoom", (2.0, 0.5, 0.5)), "fit"),
+    "closure": ("closure", "closure"),
+}
+
+
+@pytest.mark.parametrize(("first", "second"), UNDONE.values(), ids=UNDONE)
+def test_a_paused_picture_comes_back(rocker: State, first: Action | str, second: Action | str) -> None:
+    paused = after(rocker, "pause")
+
+    def shown(state: State) -> object:
+        return state.scene, state.phase, state.look, state.help, state.clock.speed
+
+    assert shown(after(paused, first)) != shown(paused)
+    assert shown(after(paused, first, second)) == shown(paused)
+
+
+@pytest.mark.parametrize("action", [Action("direction"), Action("speed", 2), Action("pause")], ids=str)
+def test_the_phase_has_no_jump(rocker: State, action: Action) -> None:
+    step = abs(rocker.clock.speed) / 60
+    moved = after(rocker, action)
+    assert abs(moved.phase - rocker.phase) <= step * 1.0001
+    assert abs(after(moved, action).phase - moved.phase) <= 2 * step
+
+
+def test_a_mechanism_starts_from_its_start(rocker: State) -> None:
+    faster = after(rocker, Action("speed", 2), "direction", Action("zoom", (2.0, 0.0, 0.0)), "theme")
+    onward = after(faster, Action("mechanism", 1))
+    assert (onward.phase, onward.look) == (0.0, Look(theme="dark"))
+    assert onward.clock.speed == onward.scene.linkage.drive.speed
+
+
+def test_a_mechanism_stays_paused(rocker: State) -> None:
+    assert after(rocker, "pause", Action("mechanism", 1)).clock.paused
+
+
+def test_the_shelf_goes_round(rocker: State) -> None:
+    there = after(rocker, *[Action("mechanism", 1)] * len(names()))
+    assert there.scene == rocker.scene
+    assert after(rocker, Action("mechanism", 1), Action("mechanism", -1)).scene == rocker.scene
+
+
+def test_a_scene_of_ones_own_stands_before_the_catalogue() -> None:
+    own = replace(load("press"), name="mine")
+    state = begin(own)
+    assert state.scene is own
+    assert after(state, Action("mechanism", 1)).scene == load(names()[0])
+    assert after(state, Action("mechanism", 1), Action("mechanism", -1)).scene is own
+
+
+def test_numbers_choose_of_the_catalogue_also_beside_a_scene_of_ones_own() -> None:
+    state = begin(replace(load("press"), name="mine"))
+    assert after(state, Action("select", 0)).scene == load(names()[0])
+
+
+def test_a_number_past_the_shelf_changes_nothing(rocker: State) -> None:
+    alone = replace(rocker, shelf=(rocker.scene,), place=0)
+    assert after(alone, Action("select", 5)).scene is rocker.scene
+
+
+def test_the_other_closure_keeps_the_phase(rocker: State) -> None:
+    crossed = after(rocker, "closure")
+    assert crossed.scene.linkage != rocker.scene.linkage
+    assert crossed.phase == run(rocker, 1).phase
+
+
+def test_escape_closes_help_before_it_quits(rocker: State) -> None:
+    assert after(rocker, "help", "back").effects == ()
+    assert after(rocker, "help", "back", "back").effects == (Action("quit"),)
+
+
+def test_effects_last_one_frame(rocker: State) -> None:
+    assert run(after(rocker, "screenshot"), 1).effects == ()
+
+
+def test_a_recording_is_stopped_by_either_key(rocker: State) -> None:
+    running = after(rocker, Action("record", "gif"))
+    assert running.recording is not None
+    stopped = after(running, Action("record", "mp4"))
+    assert stopped.recording is None
+    assert stopped.effects == (Action("render", "gif"),)
+
+
+def test_a_toast_is_gone_after_three_seconds(rocker: State) -> None:
+    told = after(rocker, Action("note", "written"))
+    assert run(told, TOAST_FRAMES - 1).toast is not None
+    assert run(told, TOAST_FRAMES).toast is None
+
+
+def test_a_steady_state_does_not_grow(rocker: State) -> None:
+    later = run(rocker, 1000)
+    assert replace(later, frame=rocker.frame) == rocker
+
+
+def test_left_alone_it_walks_through_the_catalogue() -> None:
+    state = run(begin(load("crank-rocker"), attract=True), ATTRACT_AFTER - 1)
+    assert state.scene.name == names()[0]
+    seen = [run(state, 1 + k * ATTRACT_EACH).scene.name for k in range(3)]
+    assert seen == [*names()[1:4]]
+
+
+def test_it_walks_on_running() -> None:
+    state = run(after(begin(load("crank-rocker"), attract=True), "pause"), ATTRACT_AFTER + 60)
+    assert math.isclose(state.phase, state.clock.speed, rel_tol=0.05)
+
+
+def test_a_key_ends_the_walk() -> None:
+    state = run(begin(attract=True), ATTRACT_AFTER)
+    touched = after(state, "trace")
+    assert run(touched, ATTRACT_AFTER - 1).scene == state.scene
+
+
+def test_without_being_asked_it_stays() -> None:
+    assert run(begin(), ATTRACT_AFTER + 1).scene.name == names()[0]
+
+
+def test_a_recording_is_not_walked_away_from() -> None:
+    state = after(begin(attract=True), Action("record", "gif"))
+    assert run(state, 2 * ATTRACT_AFTER).scene.name == names()[0]
