@@ -1,0 +1,1 @@
+"""What a linkage is and how it moves; numpy is all it needs."""

@@ -51,7 +51,7 @@ def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
     return total, (a - (total - back)) + (b - back)
 
 
-def two_product(a: float, b: float) -> tuple[float, float]:
+def two_product(a: Any, b: Any) -> tuple[Any, Any]:
     """Return a × b rounded, and what rounding lost (Dekker, with Veltkamp's splitting)."""
     product = a * b
     a_high, a_low = _split(a)
@@ -59,7 +59,7 @@ def two_product(a: float, b: float) -> tuple[float, float]:
     return product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
 
 
-def _split(a: float) -> tuple[float, float]:
+def _split(a: Any) -> tuple[Any, Any]:
     scaled = a * 134217729.0
     high = scaled - (scaled - a)
     return high, a - high
@@ -68,6 +68,10 @@ def _split(a: float) -> tuple[float, float]:
 def quarter_turns(count: int) -> Sum:
     """Return count × π/2 as a sum."""
     return Sum(QUARTER_TURN_HIGH, QUARTER_TURN_LOW).times(float(count))
+
+
+HALF_TURN = quarter_turns(2)
+FULL_TURN = quarter_turns(4)
 
 
 def exact_angle(angle: float) -> Sum:

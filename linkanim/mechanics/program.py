@@ -161,6 +161,7 @@ class _Plan:
         self.places: dict[int, str] = {}
         self.copies: list[tuple[int, Value]] = []
         self.buffers = 0
+        self.rows = len(outputs)
         inputs = {node.index for node in nodes if node.op == "input"}
         computed = {node.index for node in self.nodes}
         for row, value in enumerate(outputs):
@@ -214,12 +215,10 @@ def _block(
 ) -> Callable[..., Any]:
     """Return the function that runs one block: (arrays, scalars, result rows, buffers)."""
     scalars = [*(name for name, array in inputs.items() if not array), *(_name(node) for node in fixed)]
-    rows = sorted({place for place in plan.places.values() if place[0] == "o"} | {f"o{row}" for row, _ in plan.copies},
-                  key=lambda place: int(place[1:]))
     unpack = [
         _unpacking(arrays, "arrays"),
         _unpacking(scalars, "scalars"),
-        _unpacking(rows, "rows"),
+        _unpacking([f"o{row}" for row in range(plan.rows)], "rows"),
         _unpacking([f"b{index}" for index in range(plan.buffers)], "buffers"),
     ]
     body = [line for line in (*unpack, *plan.lines()) if line]

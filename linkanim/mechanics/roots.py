@@ -101,12 +101,13 @@ def _sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
 
 
 def four_bar_root(
-    ground: float, crank: float, coupler: float, rocker: float, reference: Sum
+    ground: float, crank: float, bars: tuple[float, float], reference: Sum
 ) -> LoopRoot:
     """Return the root of crank pin against fixed pin: ground r1, crank r2, bars r3, r4.
 
     cU = (r3+r4-r1-r2)(r3+r4+r1+r2), cW = (r1-r2-r3+r4)(r1-r2+r3-r4), K = 4 r1 r2.
     """
+    coupler, rocker = bars
     g, r, a, b = (Fraction(length) for length in (ground, crank, coupler, rocker))
     spread = 4 * g * r
     u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2

@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
+from linkanim.errors import BadInput
 from linkanim.mechanics.linkage import Linkage
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from linkanim.mechanics.classify import Info
+    from linkanim.mechanics.mechanism import Mechanism
+    from linkanim.mechanics.motion import Motion, Pose
 
 
 @dataclass(frozen=True)
 class Scene:
-    """A linkage to show; lengths in `length_unit`, angles in radians."""
+    """A linkage to show; lengths in `length_unit`, angles in radians, time in seconds."""
 
     name: str
     title: str
@@ -21,3 +31,70 @@ class Scene:
     trace: tuple[str, ...] = ()
     document: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
     """The scene file as it was read, for editing and writing it back."""
+
+    @cached_property
+    def mechanism(self) -> Mechanism:
+        """The linkage put together; AssemblyError where it cannot be."""
+        from linkanim.mechanics.mechanism import mechanism
+
+        return mechanism(self.linkage)
+
+    @cached_property
+    def info(self) -> Info:
+        """The linkage's class, input range, toggles, change points and what else is told of it."""
+        from linkanim.mechanics.classify import classify
+
+        return classify(self.mechanism, self.length_unit)
+
+    @property
+    def period(self) -> float:
+        """The true period in phase: 2π, or a whole multiple where it takes longer to be back."""
+        return 2 * math.pi * self.mechanism.periods
+
+    def solve(
+        self,
+        *,
+        angle: ArrayLike | None = None,
+        phase: ArrayLike | None = None,
+        speed: ArrayLike | None = None,
+        acceleration: ArrayLike = 0.0,
+        derivatives: int = 2,
+    ) -> Motion:
+        """Return the motion at crank angles or at phases (radians), scalar or (N,).
+
+        `speed` (rad/s) and `acceleration` (rad/s²) are those of what is given: of the crank's angle,
+        or of the phase; the scene's own speed where none is given. `derivatives` 0, 1 or 2 says how
+        much is worked out. An angle outside the input's range gives NaN; rates at a limit are
+        infinite. BadInput where neither or both of angle and phase are given.
+        """
+        if (angle is None) == (phase is None):
+            raise BadInput("give either angle= or phase=, in radians")
+        if derivatives not in (0, 1, 2):
+            raise BadInput(f"derivatives={derivatives}: give 0 (positions), 1 (velocities) or 2 (accelerations)")
+        return self.mechanism.solve(
+            angle=angle,
+            phase=phase,
+            speed=self.linkage.drive.speed if speed is None else speed,
+            acceleration=acceleration,
+            derivatives=derivatives,
+        )
+
+    def cycle(self, count: int, *, derivatives: int = 2) -> Motion:
+        """Return the motion at `count` phases, equally spaced over one true period, the end left out."""
+        import numpy as np
+
+        if count < 1:
+            raise BadInput(f"cycle({count}): a cycle needs at least one phase")
+        return self.solve(phase=np.arange(count) * (self.period / count), derivatives=derivatives)
+
+    def pose(
+        self,
+        phase: float,
+        derivatives: int = 2,
+        *,
+        speed: float | None = None,
+        acceleration: float = 0.0,
+    ) -> Pose:
+        """Return the motion at one phase in plain floats: the way of a frame."""
+        rate = self.linkage.drive.speed if speed is None else speed
+        return self.mechanism.pose(float(phase), float(rate), float(acceleration), derivatives)

@@ -1,0 +1,141 @@
+"""The input of a linkage, noted: its angle, rates, and the ends of its swing.
+
+A turning input has θ = start + φ. A swinging one has θ = mid - amp·cos φ; with
+u = amp cos²(φ/2) and v = amp sin²(φ/2), half the ways left to its upper and lower limit, the roots
+√u and √v keep their signs, so the motion runs through both limits and back on the other closure.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from .exact import Sum, two_product, two_sum
+from .expression import Graph, Value, sqrt, tan
+from .planar import Slope
+
+
+def half_angle(angle: Value) -> tuple[Value, Value]:
+    """Return (sin, cos) of half the angle, signed over two turns, from one tan of a quarter of it.
+
+    The tangent is the one circular function that numpy computes a vector at a time.
+    """
+    t = tan(angle * 0.25)
+    share = 1.0 / (t * t + 1.0)
+    return (t + t) * share, (1.0 - t) * (1.0 + t) * share
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """The two limits of a swing: half the way left to each, and its signed root."""
+
+    u: Slope
+    v: Slope
+    root_u: Slope
+    root_v: Slope
+    by_phase: bool
+
+    def share_of_rate(self, rate: Slope, upper: bool, lower: bool) -> Slope:
+        """Return θ' divided by √u where `upper` and by √v where `lower`: regular by phase."""
+        if not self.by_phase:
+            share = rate / self.root_u if upper else rate
+            return share / self.root_v if lower else share
+        share = rate.scaled(2.0)
+        share = share if upper else share * self.root_u
+        return share if lower else share * self.root_v
+
+
+@dataclass(frozen=True, slots=True)
+class Clock:
+    """What the input does at one instant.
+
+    `angle` is θ without `origin`; `rate` and `second` are its derivatives in time; `pace` is the
+    derivative of what drives it (φ' or θ') with its own derivative.
+    """
+
+    angle: Value
+    origin: Sum
+    rate: Value
+    second: Value
+    pace: Slope
+    ends: Ends | None = None
+
+    def half(self, reference: Sum, ratio: Fraction = Fraction(1)) -> tuple[Value, Value]:
+        """Return (sin, cos) of half of ratio × θ - reference, to the last digit at any number of turns."""
+        shift = _scaled_sum(self.origin, ratio) - reference
+        scaled, low = _scaled(self.angle, ratio)
+        if shift.high == 0 and shift.low == 0 and _is_zero(low):
+            return half_angle(scaled)
+        total, error = two_sum(scaled, shift.high)
+        sine, cosine = half_angle(total)
+        rest = (error + low + shift.low) * 0.5
+        return sine + cosine * rest, cosine - sine * rest
+
+
+def _is_zero(value: Value) -> bool:
+    return isinstance(value, float) and value == 0.0
+
+
+def _scaled_sum(value: Sum, ratio: Fraction) -> Sum:
+    return value if ratio == 1 else Sum(*_fraction_of(value, ratio))
+
+
+def _fraction_of(value: Sum, ratio: Fraction) -> tuple[float, float]:
+    exact = (Fraction(value.high) + Fraction(value.low)) * ratio
+    high = float(exact)
+    return high, float(exact - Fraction(high))
+
+
+def _scaled(x: Value, ratio: Fraction) -> tuple[Value, Value]:
+    """Return ratio × x rounded, and what rounding lost."""
+    p, q = float(ratio.numerator), float(ratio.denominator)
+    product, lost = two_product(x, p) if abs(p) != 1 else (x * p, 0.0)
+    if q == 1:
+        return product, lost
+    quotient = product / q
+    back, error = two_product(quotient, q)
+    return quotient, ((product - back) - error + lost) / q
+
+
+def turn(x: Value, pace: Slope, origin: Sum) -> Clock:
+    """Return the clock of an input that turns fully: θ = origin + x."""
+    return Clock(x, origin, pace.value, pace.rate, pace)
+
+
+def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> Clock:
+    """Return the clock of a swing driven by its phase."""
+    sine, cosine = half_angle(phase)
+    scale = math.sqrt(amplitude)
+    root_u, root_v = cosine * scale, sine * scale
+    half_rate = pace.value * 0.5
+    u, v, both = root_u * root_u, root_v * root_v, root_u * root_v
+    ends = Ends(
+        Slope(u, -(both * pace.value)),
+        Slope(v, both * pace.value),
+        Slope(root_u, -(root_v * half_rate)),
+        Slope(root_v, root_u * half_rate),
+        by_phase=True,
+    )
+    rate = (both + both) * pace.value
+    second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
+    return Clock(v - u, middle, rate, second, pace, ends)
+
+
+def swing_by_angle(u: Value, v: Value, pace: Slope, middle: Sum) -> Clock:
+    """Return the clock of a swing driven by its angle, given half the ways left to its limits."""
+    root_u, root_v = sqrt(u), sqrt(v)
+    half_rate = pace.value * 0.5
+    ends = Ends(
+        Slope(u, -half_rate),
+        Slope(v, half_rate),
+        Slope(root_u, -(half_rate * 0.5) / root_u),
+        Slope(root_v, (half_rate * 0.5) / root_v),
+        by_phase=False,
+    )
+    return Clock(v - u, middle, pace.value, pace.rate, pace, ends)
+
+
+def inputs(graph: Graph, names: tuple[str, ...]) -> tuple[Value, ...]:
+    """Return the named inputs of a program."""
+    return tuple(graph.input(name) for name in names)

@@ -1,0 +1,319 @@
+"""A linkage made ready to be solved: assembled once, its programs compiled when first needed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import clock as clocks
+from .assembly import Swing, Turn, gearings
+from .exact import FULL_TURN, Sum, exact_angle, two_product, two_sum
+from .expression import Graph, Value
+from .linkage import Linkage, Pin
+from .motion import Array, Motion, Pose, Setting
+from .path import Assembly, assemble
+from .planar import MovingPoint, Slope
+from .program import Batch, batch, scalar
+from .traversal import Kinematics
+
+VECTORS = ("position", "velocity", "acceleration", "com_position", "com_velocity", "com_acceleration")
+NUMBERS = ("angular_velocity", "angular_acceleration", "travel", "travel_velocity", "travel_acceleration")
+DERIVATIVE_OF = dict(zip((*VECTORS, *NUMBERS), (0, 1, 2, 0, 1, 2, 1, 2, 0, 1, 2), strict=True))
+
+Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One way of asking: by phase or by angle, how many derivatives, whether the input accelerates."""
+
+    by_phase: bool
+    derivatives: int
+    accelerates: bool
+    varying_rate: bool = False
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A linkage with its loops, path and signs, and the programs that solve it."""
+
+    linkage: Linkage
+    assembly: Assembly
+
+    @property
+    def periods(self) -> int:
+        """The number of drive periods after which every joint is back."""
+        return self.assembly.path.periods
+
+    @cached_property
+    def setting(self) -> Setting:
+        """What motions and poses share."""
+        return Setting(self.linkage, gearings(self.linkage))
+
+    @cached_property
+    def _programs(self) -> dict[object, Any]:
+        return {}
+
+    def pose(self, phase: float, speed: float, acceleration: float, derivatives: int) -> Pose:
+        """Return one instant, solved in plain floats."""
+        variant = Variant(True, derivatives, acceleration != 0.0)
+        program = self._programs.get(variant)
+        if program is None:
+            program = self._programs[variant] = self._scalar(variant)
+        try:
+            found = program(phase, speed, acceleration)
+        except (ZeroDivisionError, ValueError):
+            found = self._pose_from_arrays(variant, phase, speed, acceleration)
+        return Pose(self.setting, (phase, speed, acceleration), found)
+
+    def _trace(self, variant: Variant) -> tuple[tuple[str, ...], tuple[Value, Value, Value], Rows]:
+        """Note the formulas: the inputs' names, the crank's angle and rates, and all quantities."""
+        graph = Graph()
+        pace = Slope(graph.input("w"), graph.input("a") if variant.accelerates else 0.0)
+        names, clock = self._clock(graph, pace, by_phase=variant.by_phase)
+        kinematics = self.assembly.walk(clock)
+        angle = clock.angle + float(clock.origin)
+        return names, (angle, clock.rate, clock.second), _rows(kinematics, self.assembly.unscale, variant)
+
+    def _clock(self, graph: Graph, pace: Slope, *, by_phase: bool) -> tuple[tuple[str, ...], clocks.Clock]:
+        path = self.assembly.path
+        if isinstance(path, Turn):
+            origin = exact_angle(path.start) if by_phase else Sum(0.0)
+            return ("x",), clocks.turn(graph.input("x"), pace, origin)
+        if by_phase:
+            return ("x",), clocks.swing_by_phase(graph.input("x"), pace, path.middle, path.amplitude)
+        u, v = graph.input("u"), graph.input("v")
+        return ("u", "v"), clocks.swing_by_angle(u, v, pace, path.middle)
+
+    def _scalar(self, variant: Variant) -> Any:
+        names, crank, rows = self._trace(variant)
+        outputs: list[Value] = list(crank)
+        parts = ["({}, {}, {})"]
+        for values in rows.values():
+            items = []
+            for name, components in values.items():
+                outputs.extend(components)
+                items.append(f"{name!r}: ({{}}, {{}})" if len(components) == 2 else f"{name!r}: {{}}")
+            parts.append("{{" + ", ".join(items).replace("{", "{").replace("}", "}") + "}}")
+        return scalar((*names, "w", "a"), outputs, f"({', '.join(parts)})")
+
+    def _pose_from_arrays(self, variant: Variant, phase: float, speed: float, second: float) -> tuple[Any, ...]:
+        """Return what the scalar program gives, NaN and infinities included, where floats raise."""
+        motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=variant.derivatives)
+        vectors = [
+            {name: (float(value[0]), float(value[1])) for name, value in getattr(motion, kind).items()}
+            for kind in VECTORS
+        ]
+        numbers = [
+            {name: float(value) for name, value in getattr(motion, kind).items()} for kind in NUMBERS
+        ]
+        crank = (float(motion.crank_angle), float(motion.crank_rate), float(motion.crank_second))
+        return (crank, *vectors, *numbers)
+
+    def solve(
+        self,
+        *,
+        angle: ArrayLike | None = None,
+        phase: ArrayLike | None = None,
+        speed: ArrayLike,
+        acceleration: ArrayLike = 0.0,
+        derivatives: int = 2,
+    ) -> Motion:
+        """Return the motion at crank angles, or at phases; scalar or any shape."""
+        by_phase = phase is not None
+        given = np.asarray(phase if phase is not None else angle, dtype=np.float64)
+        rates = [np.asarray(rate, dtype=np.float64) for rate in (speed, acceleration)]
+        shape = np.broadcast_shapes(given.shape, *(rate.shape for rate in rates))
+        x = np.ascontiguousarray(np.broadcast_to(given, shape)).reshape(-1)
+        w, a = (_rate(rate, shape) for rate in rates)
+        variant = Variant(by_phase, derivatives, _nonzero(a), isinstance(w, np.ndarray) or isinstance(a, np.ndarray))
+        if variant.varying_rate:
+            w, a = np.broadcast_to(w, x.shape).copy(), np.broadcast_to(a, x.shape).copy()
+        reach = None if by_phase else self._reach(x)
+        with np.errstate(all="ignore"):
+            crank, rows, results = self._run(variant, x, w, a, reach)
+        return self._motion(variant, _Given(x, w, a, shape, reach), crank, rows, results)
+
+    def _run(self, variant: Variant, x: Array, w: Any, a: Any, reach: _Reach | None) -> tuple[Any, Rows, Array]:
+        program, crank, rows = self._batch(variant)
+        inputs = (x,) if reach is None else (reach.u, reach.v)
+        rates = (w, a) if variant.accelerates else (w,)
+        return crank, rows, program(*inputs, *rates)
+
+    def _batch(self, variant: Variant) -> tuple[Batch, tuple[Value, Value, Value], Rows]:
+        found = self._programs.get(("batch", variant))
+        if found is None:
+            names, crank, rows = self._trace(variant)
+            rates = ("w", "a") if variant.accelerates else ("w",)
+            varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
+            pins = {joint.name for joint in self.linkage.joints if isinstance(joint, Pin)}
+            outputs = [
+                component
+                for values in rows.values()
+                for name, components in values.items()
+                if name not in pins
+                for component in components
+            ]
+            if isinstance(self.assembly.path, Swing):
+                outputs.extend(crank)
+            found = self._programs["batch", variant] = (batch(varying, outputs), crank, rows)
+        return found
+
+    def _reach(self, angle: Array) -> _Reach | None:
+        path = self.assembly.path
+        return None if isinstance(path, Turn) else _reach(angle, path)
+
+    def _motion(self, variant: Variant, given: _Given, crank: Any, rows: Rows, results: Array) -> Motion:
+        _mark(results, given.reach, sum(DERIVATIVE_OF[kind] == 0 for kind in rows))
+        pins = {joint.name: joint.position for joint in self.linkage.joints if isinstance(joint, Pin)}
+        taken = _Taker(results, given.shape, pins)
+        found = {kind: taken.quantity(kind, values) for kind, values in rows.items()}
+        swing = isinstance(self.assembly.path, Swing)
+        angles = self._crank(given, variant, taken.rest() if swing else None)
+        return Motion(
+            self.setting,
+            *angles[:2],
+            input_speed=_shaped(given.w, given.shape),
+            input_acceleration=_shaped(given.a, given.shape),
+            crank_rate=angles[2],
+            crank_second=angles[3],
+            **found,
+        )
+
+    def _crank(self, given: _Given, variant: Variant, swing: list[Array] | None) -> tuple[Any, Any, Any, Any]:
+        """Return phase, crank angle and its two rates."""
+        x, path = given.x.reshape(given.shape), self.assembly.path
+        w, a = _shaped(given.w, given.shape), _shaped(given.a, given.shape)
+        if isinstance(path, Turn):
+            return (x, x + path.start, w, a) if variant.by_phase else (x - path.start, x, w, a)
+        assert swing is not None
+        if variant.by_phase:
+            return x, *swing
+        assert given.reach is not None
+        phase = 2 * np.arctan2(np.sqrt(given.reach.v), np.sqrt(given.reach.u))
+        return phase.reshape(given.shape), x, w, a
+
+
+@dataclass(frozen=True)
+class _Given:
+    """What was asked, flattened, and the shape in which to answer."""
+
+    x: Array
+    w: Any
+    a: Any
+    shape: tuple[int, ...]
+    reach: _Reach | None
+
+
+@dataclass(frozen=True)
+class _Reach:
+    """Half the ways from angles to the two limits, and which angles are a limit as near as a float can say."""
+
+    u: Array
+    v: Array
+    at_limit: NDArray[np.bool_]
+
+
+def _reach(angle: Array, swing: Swing) -> _Reach:
+    """Return how far angles are from the limits, reduced by whole turns without rounding.
+
+    Outside the swing the ways are NaN. The float nearest a limit may lie just outside: it counts
+    as the limit itself.
+    """
+    turns = np.rint((angle - float(swing.middle)) / (2 * math.pi))
+    whole, lost = two_product(-turns, FULL_TURN.high)
+    high, error = two_sum(angle, whole)
+    low = error + lost - turns * FULL_TURN.low
+    v, u = _way(high, low, swing.low, 1.0), _way(high, low, swing.high, -1.0)
+    nearest = np.spacing(np.maximum(np.abs(angle), 0.25)) / 2
+    at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
+    outside = (np.minimum(u, v) < 0) & ~at_limit
+    clipped = [np.where(outside, np.nan, np.maximum(way, 0.0) / 2) for way in (u, v)]
+    return _Reach(clipped[0], clipped[1], at_limit)
+
+
+def _way(high: Array, low: Array, limit: Sum, sign: float) -> Array:
+    """Return sign × (angle - limit), both sums of two floats."""
+    total, error = two_sum(high, -limit.high)
+    way: Array = sign * (total + (error + (low - limit.low)))
+    return way
+
+
+def _mark(results: Array, reach: _Reach | None, positions: int) -> None:
+    """Make undefined rates infinite where the input stands at its limit."""
+    if reach is None or not reach.at_limit.any():
+        return
+    columns = results[:, reach.at_limit]
+    inside = ~np.isnan(columns[:1])
+    results[:, reach.at_limit] = np.where(np.isnan(columns) & inside, np.inf, columns)
+
+
+class _Taker:
+    """Hands out the rows of the results, in the order in which they were asked for."""
+
+    def __init__(self, results: Array, shape: tuple[int, ...], pins: Mapping[str, tuple[float, float]]) -> None:
+        results.flags.writeable = False
+        self._results, self._shape, self._pins, self._row = results, shape, pins, 0
+
+    def quantity(self, kind: str, values: Mapping[str, tuple[Value, ...]]) -> dict[str, Array]:
+        return {name: self._take(kind, name, len(components)) for name, components in values.items()}
+
+    def _take(self, kind: str, name: str, count: int) -> Array:
+        if name in self._pins and kind in VECTORS[:3]:
+            at = self._pins[name] if kind == "position" else (0.0, 0.0)
+            return np.broadcast_to(np.array(at), (*self._shape, 2))
+        rows = self._results[self._row : self._row + count]
+        self._row += count
+        if count == 1:
+            return rows[0].reshape(self._shape)
+        return rows.T.reshape((*self._shape, 2)) if len(self._shape) != 1 else rows.T
+
+    def rest(self) -> list[Array]:
+        return [row.reshape(self._shape) for row in self._results[self._row :]]
+
+
+def _rate(rate: Array, shape: tuple[int, ...]) -> Any:
+    return float(rate) if rate.ndim == 0 else np.ascontiguousarray(np.broadcast_to(rate, shape)).reshape(-1)
+
+
+def _nonzero(rate: Any) -> bool:
+    return isinstance(rate, np.ndarray) or rate != 0.0
+
+
+def _shaped(rate: Any, shape: tuple[int, ...]) -> Any:
+    return rate.reshape(shape) if isinstance(rate, np.ndarray) else rate
+
+
+def _rows(kinematics: Kinematics, unscale: float, variant: Variant) -> Rows:
+    """Return every quantity's values up to the derivatives asked for, lengths in the scene's unit."""
+    found: dict[str, Mapping[str, tuple[Value, ...]]] = {}
+    for kind, values in _quantities(kinematics, unscale):
+        found[kind] = values if DERIVATIVE_OF[kind] <= variant.derivatives else {}
+    return found
+
+
+def _quantities(k: Kinematics, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:
+    for kinds, points in ((VECTORS[:3], k.points), (VECTORS[3:], k.centres)):
+        for kind, part in zip(kinds, ("position", "velocity", "acceleration"), strict=True):
+            yield kind, {name: _pair(point, part, unscale) for name, point in points.items()}
+    yield "angular_velocity", {name: (turning.rate,) for name, turning in k.bodies.items()}
+    yield "angular_acceleration", {name: (turning.second,) for name, turning in k.bodies.items()}
+    for kind, part in zip(NUMBERS[2:], ("value", "rate", "second"), strict=True):
+        yield kind, {name: (getattr(travel, part) * unscale,) for name, travel in k.travels.items()}
+
+
+def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:
+    vector = getattr(point, part).scaled(unscale)
+    return vector.x, vector.y
+
+
+@lru_cache(maxsize=64)
+def mechanism(linkage: Linkage) -> Mechanism:
+    """Return the linkage made ready; AssemblyError where it cannot be put together."""
+    return Mechanism(linkage, assemble(linkage))

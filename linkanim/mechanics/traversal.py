@@ -1,0 +1,278 @@
+"""One walk over a linkage: every joint, body and centre of mass, with first and second derivatives.
+
+Each joint is closed from the joints before it. What turns as one piece is a `Group`: a bar, the
+points fixed to it, and how fast it turns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from linkanim.errors import AssemblyError
+
+from .assembly import Gearing, Loop, Path, Swing, gearings
+from .clock import Clock
+from .closures import (
+    PinLoop,
+    SignedRoot,
+    meet,
+    moving_factors,
+    moving_square,
+    moving_triangle,
+    pin_triangle,
+    plain_root,
+    signed_root,
+    slot_direction,
+    slot_turning,
+)
+from .exact import unit
+from .expression import Value, sqrt
+from .linkage import RPR, RRP, RRR, Body, Crank, Linkage, Pin, Rigid
+from .planar import Moving, MovingPoint, Slope, Turning, Vec, carried
+
+Closure = Callable[[str, Value, Value], SignedRoot | None]
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """What turns as one piece: `local` places its joints (complex, first joint at 0, second on the axis)."""
+
+    turning: Turning
+    local: Mapping[str, complex]
+    arms: Mapping[tuple[str, str], Vec] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """What the walk finds; positions in the scene's unit."""
+
+    points: Mapping[str, MovingPoint]
+    centres: Mapping[str, MovingPoint]
+    bodies: Mapping[str, Turning]
+    travels: Mapping[str, Moving]
+    margins: Mapping[str, Value]
+    """For each dyad closed from moving points: U·W, negative where it cannot be assembled."""
+
+
+@dataclass
+class _Walk:
+    linkage: Linkage
+    loops: Mapping[str, Loop]
+    signs: Mapping[str, int]
+    path: Path | None
+    clock: Clock
+    gears: Mapping[str, Gearing]
+    near_limit: Closure
+    points: dict[str, MovingPoint] = field(default_factory=dict)
+    groups: list[Group] = field(default_factory=list)
+    travels: dict[str, Moving] = field(default_factory=dict)
+    margins: dict[str, Value] = field(default_factory=dict)
+
+
+def _nowhere(name: str, u: Value, w: Value) -> SignedRoot | None:
+    return None
+
+
+def walk(
+    linkage: Linkage,
+    loops: Mapping[str, Loop],
+    signs: Mapping[str, int],
+    path: Path | None,
+    clock: Clock,
+    near_limit: Closure = _nowhere,
+) -> Kinematics:
+    """Return the motion of everything in the linkage at the clock's instant."""
+    w = _Walk(linkage, loops, signs, path, clock, gearings(linkage), near_limit)
+    pins = {joint.name: complex(*joint.position) for joint in linkage.joints if isinstance(joint, Pin)}
+    w.groups.append(Group(Turning(), pins))
+    for joint in linkage.joints:
+        match joint:
+            case Pin():
+                w.points[joint.name] = MovingPoint(Vec(*joint.position))
+            case Crank():
+                _crank(w, joint)
+            case RRR():
+                _two_bars(w, joint)
+            case RRP():
+                _slider(w, joint)
+            case RPR():
+                _slot(w, joint)
+            case Rigid():
+                w.points[joint.name] = _attached(w, joint.on, joint.at, joint.name)
+    return Kinematics(w.points, _centres(w), _bodies(w), _body_travels(w), w.margins)
+
+
+def _pace(w: _Walk, gearing: Gearing) -> Slope:
+    ratio = float(gearing.ratio)
+    return Slope(w.clock.rate * ratio, w.clock.second * ratio)
+
+
+def _crank(w: _Walk, joint: Crank) -> None:
+    gearing = w.gears[joint.name]
+    s, c = w.clock.half(-gearing.offset, gearing.ratio)
+    arm = Vec(joint.length - (s * s) * (2.0 * joint.length), (s * c) * (2.0 * joint.length))
+    pace = _pace(w, gearing)
+    turning = Turning(pace.value, pace.rate)
+    w.points[joint.name] = w.points[joint.pivot] + carried(arm, turning)
+    _add_bar(w, (joint.pivot, joint.name), joint.length, turning, arm)
+
+
+def _add_bar(w: _Walk, ends: tuple[str, str], length: float, turning: Turning, arm: Vec) -> None:
+    w.groups.append(Group(turning, {ends[0]: 0j, ends[1]: complex(length)}, {ends: arm}))
+
+
+def _loop_root(w: _Walk, loop: Loop, sign: int) -> tuple[SignedRoot, tuple[Value, Value], Slope]:
+    pace = _pace(w, loop.gearing)
+    half = w.clock.half(loop.root.reference - loop.gearing.offset, loop.gearing.ratio)
+    swing = (w.path.low, w.path.high) if isinstance(w.path, Swing) else None
+    return signed_root(loop.root, half, pace, w.clock, swing).times(sign), half, pace
+
+
+def _two_bars(w: _Walk, joint: RRR) -> None:
+    loop, sign = w.loops.get(joint.name), w.signs[joint.name]
+    ends, lengths = joint.ends, joint.lengths
+    if loop is not None and loop.swapped:
+        ends, lengths, sign = (ends[1], ends[0]), (lengths[1], lengths[0]), -sign
+    p, q = w.points[ends[0]], w.points[ends[1]]
+    if loop is not None and loop.ground is not None:
+        root, half, pace = _loop_root(w, loop, sign)
+        pin = PinLoop(loop.ground.length, loop.ground.direction, loop.crank.length, half, pace)
+        triangle = pin_triangle(pin, lengths, root)
+    else:
+        root = _moving_root(w, joint.name, p, q, lengths).times(sign)
+        triangle = moving_triangle(p, q, lengths, root)
+    meeting = meet(p, q, lengths, triangle)
+    w.points[joint.name] = meeting.point
+    _add_bar(w, (ends[0], joint.name), lengths[0], meeting.turning_a, meeting.arm_a)
+    _add_bar(w, (ends[1], joint.name), lengths[1], meeting.turning_b, meeting.arm_b)
+
+
+def _moving_root(
+    w: _Walk, name: str, p: MovingPoint, q: MovingPoint, lengths: tuple[float, float]
+) -> SignedRoot:
+    square = moving_square(p, q)
+    u, v = moving_factors(square.value, lengths)
+    w.margins[name] = u * v
+    return w.near_limit(name, u, v) or plain_root(u, v, square.rate, square.second, single=False)
+
+
+def _slider(w: _Walk, joint: RRP) -> None:
+    point, line = w.points[joint.end], joint.line
+    along, base = Vec(*unit(line.angle)), w.points[line.through]
+    way = point.position - base.position
+    aside, forward = along.cross(way) - line.offset, along.dot(way)
+    root = _slider_root(w, joint, aside, along)
+    rho, q = root.ratio, root.q
+    turning = Turning(-rho.value, -rho.rate)
+    travel = Moving(
+        forward + q,
+        along.dot(point.velocity) - aside * rho.value,
+        along.dot(point.acceleration) - (along.cross(point.velocity) * rho.value + aside * rho.rate),
+    )
+    start = base.position + along.left().scaled(line.offset)
+    w.points[joint.name] = MovingPoint(
+        start + along.scaled(travel.value), along.scaled(travel.rate), along.scaled(travel.second)
+    )
+    w.travels[joint.name] = travel
+    arm = along.scaled(q) - along.left().scaled(aside)
+    _add_bar(w, (joint.end, joint.name), joint.length, turning, arm)
+
+
+def _slider_root(w: _Walk, joint: RRP, aside: Value, along: Vec) -> SignedRoot:
+    """Return √(b² - e²) with e how far the bar's end lies left of the line."""
+    loop, sign = w.loops.get(joint.name), w.signs[joint.name]
+    if loop is not None:
+        return _loop_root(w, loop, sign)[0]
+    point, b = w.points[joint.end], joint.length
+    u, v = b - aside, b + aside
+    w.margins[joint.name] = u * v
+    rate, second = along.cross(point.velocity), along.cross(point.acceleration)
+    return (w.near_limit(joint.name, u, v) or plain_root(u, v, rate, second, single=False)).times(sign)
+
+
+def _slot(w: _Walk, joint: RPR) -> None:
+    pivot, pin = w.points[joint.pivot], w.points[joint.through]
+    loop, sign, offset = w.loops.get(joint.name), w.signs[joint.name], joint.offset
+    if loop is not None and loop.ground is not None:
+        root, half, pace = _loop_root(w, loop, sign)
+        ground = PinLoop(loop.ground.length, loop.ground.direction, loop.crank.length, half, pace)
+        turn = pin_triangle(ground, (0.0, 0.0), root).turn
+        direction = _loop_direction(ground, root, offset, sign)
+    else:
+        root = _moving_slot_root(w, joint).times(sign)
+        turn = moving_triangle(pin, pivot, (0.0, 0.0), root).turn
+        direction = slot_direction(pin.position - pivot.position, root.q, offset)
+    turning = slot_turning(turn, root, offset) if offset else turn
+    arm = direction.scaled(joint.length)
+    w.points[joint.name] = pivot + carried(arm, turning)
+    _add_bar(w, (joint.pivot, joint.name), joint.length, turning, arm)
+
+
+def _loop_direction(ground: PinLoop, root: SignedRoot, offset: float, sign: int) -> Vec:
+    """Return the slotted bar's direction; a slot through its own pivot turns at half the crank's angle."""
+    if ground.ground == ground.crank and offset == 0:
+        s, c = ground.half
+        return Vec(-s, c).times(ground.direction).scaled(float(sign))
+    return slot_direction(-ground.across(), root.q, offset)
+
+
+def _moving_slot_root(w: _Walk, joint: RPR) -> SignedRoot:
+    pivot, pin, offset = w.points[joint.pivot], w.points[joint.through], joint.offset
+    square = moving_square(pivot, pin)
+    distance = sqrt(square.value)
+    v = (distance - offset) * (distance + offset)
+    w.margins[joint.name] = v
+    return w.near_limit(joint.name, 1.0, v) or plain_root(1.0, v, square.rate, square.second, single=True)
+
+
+def _group_of(w: _Walk, names: tuple[str, ...], owner: str) -> Group:
+    for group in w.groups:
+        if all(name in group.local for name in names):
+            return group
+    raise AssemblyError(f"{owner}: {' and '.join(names)} are not joints of one rigid body")
+
+
+def _arm(w: _Walk, group: Group, start: str, end: str) -> Vec:
+    """Return the vector from one joint of a rigid body to another."""
+    if (start, end) in group.arms:
+        return group.arms[start, end]
+    if (end, start) in group.arms:
+        return -group.arms[end, start]
+    return w.points[end].position - w.points[start].position
+
+
+def _attached(w: _Walk, on: tuple[str, str], at: tuple[float, float], name: str | None = None) -> MovingPoint:
+    """Return the point `at` along on[0] -> on[1] and to its left; as a joint of the body where named."""
+    group = _group_of(w, on, f"joint {name}" if name else "centre of mass")
+    base = group.local[on[1]] - group.local[on[0]]
+    share = complex(*at) / abs(base)
+    arm = _arm(w, group, *on).times(Vec(share.real, share.imag))
+    if name is not None:
+        local = {**group.local, name: group.local[on[0]] + base * share}
+        w.groups[w.groups.index(group)] = Group(group.turning, local, {**group.arms, (on[0], name): arm})
+    return w.points[on[0]] + carried(arm, group.turning)
+
+
+def _bodies(w: _Walk) -> dict[str, Turning]:
+    return {
+        body.name: _group_of(w, body.joints, f"body {body.name}").turning
+        for body in w.linkage.bodies
+        if body.slider is None
+    }
+
+
+def _centres(w: _Walk) -> dict[str, MovingPoint]:
+    return {
+        body.name: _attached(w, _axis(body), body.com)
+        for body in w.linkage.bodies
+        if body.com is not None and body.slider is None
+    }
+
+
+def _axis(body: Body) -> tuple[str, str]:
+    return body.joints[0], body.joints[1]
+
+
+def _body_travels(w: _Walk) -> dict[str, Moving]:
+    return {body.name: w.travels[body.slider] for body in w.linkage.bodies if body.slider is not None}
