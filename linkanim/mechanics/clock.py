@@ -12,18 +12,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .exact import Sum, two_product, two_sum
-from .expression import Graph, Value, sqrt, tan
+from .expression import Graph, Value, cos, sqrt, tan
 from .planar import Slope
 
 
-def half_angle(angle: Value) -> tuple[Value, Value]:
+def half_angle(angle: Value, *, sharp: bool = False) -> tuple[Value, Value]:
     """Return (sin, cos) of half the angle, signed over two turns, from one tan of a quarter of it.
 
-    The tangent is the one circular function that numpy computes a vector at a time.
+    The tangent is the one circular function that numpy computes a vector at a time. The cosine is
+    then right to the last digit of 1; where it is `sharp`, to its own last digit next to its zeros.
     """
     t = tan(angle * 0.25)
     share = 1.0 / (t * t + 1.0)
-    return (t + t) * share, (1.0 - t) * (1.0 + t) * share
+    return (t + t) * share, cos(angle * 0.5) if sharp else (1.0 - t) * (1.0 + t) * share
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,16 +62,19 @@ class Clock:
     pace: Slope
     ends: Ends | None = None
 
-    def half(self, reference: Sum, ratio: Fraction = Fraction(1)) -> tuple[Value, Value]:
+    def half(
+        self, reference: Sum, ratio: Fraction = Fraction(1), *, sharp: bool = False
+    ) -> tuple[Value, Value]:
         """Return (sin, cos) of half of ratio × θ - reference, to the last digit at any number of turns."""
         shift = _scaled_sum(self.origin, ratio) - reference
         scaled, low = _scaled(self.angle, ratio)
         if shift.high == 0 and shift.low == 0 and _is_zero(low):
-            return half_angle(scaled)
+            return half_angle(scaled, sharp=sharp)
         total, error = two_sum(scaled, shift.high)
-        sine, cosine = half_angle(total)
+        sine, cosine = half_angle(total, sharp=sharp)
         rest = (error + low + shift.low) * 0.5
-        return sine + cosine * rest, cosine - sine * rest
+        bend = rest * 0.5
+        return sine + (cosine - sine * bend) * rest, cosine - (sine + cosine * bend) * rest
 
 
 def _is_zero(value: Value) -> bool:

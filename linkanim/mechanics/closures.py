@@ -317,16 +317,18 @@ def _limited_part(
     whole = regular.value
     whole = whole * ends.root_u.value if at_upper else whole
     whole = whole * ends.root_v.value if at_lower else whole
-    return _Part(whole, regular, touching, at_upper, at_lower)
+    # cos(ψ/2) of U, sin(ψ/2) of W: positive inside the limits, and small next to a limit near π.
+    left = Slope(sin(minimum(x.value, y.value) + 0.5 * short), touching.rate)
+    return _Part(whole, regular, left, at_upper, at_lower)
 
 
 def _root_of_sine(x: Slope, supplement: Value, divided: bool) -> Slope:
     """Return √sin x, or √(sin x / x) where `divided`; near π the supplement keeps the digits."""
-    sine = sin(minimum(x.value, supplement))
+    safe = maximum(x.value, SMALLEST)
+    sine = sin(minimum(safe, supplement))
     if not divided:
         root = sqrt(sine)
         return Slope(root, root * 0.5 * (cos(x.value) / sine) * x.rate)
-    safe = maximum(x.value, SMALLEST)
     root = sqrt(sine / safe)
     return Slope(root, root * 0.5 * _logarithmic_slope(x.value, safe, sine) * x.rate)
 

@@ -170,7 +170,7 @@ def _just_after_start(loop: Loop | None, path: Path) -> int:
         clock = clocks.turn(JUST_AFTER, pace, exact_angle(path.start))
     else:
         clock = clocks.swing_by_phase(JUST_AFTER, pace, path.middle, path.amplitude)
-    half = clock.half(loop.root.reference - loop.gearing.offset, loop.gearing.ratio)
+    half = loop.half(clock)
     return 1 if float(signed_root(loop.root, half, pace, clock, swing).q) >= 0 else -1  # type: ignore[arg-type]
 
 

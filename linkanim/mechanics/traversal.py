@@ -124,7 +124,7 @@ def _add_bar(w: _Walk, ends: tuple[str, str], length: float, turning: Turning, a
 
 def _loop_root(w: _Walk, loop: Loop, sign: int) -> tuple[SignedRoot, tuple[Value, Value], Slope]:
     pace = _pace(w, loop.gearing)
-    half = w.clock.half(loop.root.reference - loop.gearing.offset, loop.gearing.ratio)
+    half = loop.half(w.clock)
     swing = (w.path.low, w.path.high) if isinstance(w.path, Swing) else None
     return signed_root(loop.root, half, pace, w.clock, swing).times(sign), half, pace
 
