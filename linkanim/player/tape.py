@@ -1,0 +1,74 @@
+"""Tapes: what was done, frame by frame, so that the same pictures can be made again at any size."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from linkanim.player.actions import Action
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.state import State, advance
+
+NOT_TAPED = frozenset({"record", "screenshot", "fullscreen", "save", "quit", "note"})
+"""Actions that are done outside the picture."""
+
+
+@dataclass(frozen=True)
+class Tape:
+    """Actions by frame, and the state at frame 0; `size` is the window's when it was made."""
+
+    start: State
+    frames: int
+    actions: tuple[tuple[int, Action], ...] = ()
+    size: tuple[int, int] = (1280, 720)
+
+    @property
+    def is_loop(self) -> bool:
+        """Whether nothing was done: such a recording is the scene's seamless loop."""
+        return not self.actions
+
+    @property
+    def seconds(self) -> float:
+        """How long it ran."""
+        return self.frames / FRAMES_PER_SECOND
+
+    def states(self) -> Iterator[State]:
+        """Iterate the states of frames 0 … `frames`, as the window went through them."""
+        by_frame: dict[int, list[Action]] = {}
+        for frame, action in self.actions:
+            by_frame.setdefault(frame, []).append(action)
+        state = self.start
+        yield state
+        for frame in range(1, self.frames + 1):
+            state = advance(state, by_frame.get(frame, ()))
+            yield state
+
+    def pictures(self, fps: float) -> Iterator[tuple[State, float]]:
+        """Iterate (state, phase) at `fps` pictures a second; phases are exact between frames, too."""
+        states = self.states()
+        state, count = next(states), max(1, round(self.seconds * fps))
+        for picture in range(count):
+            time = picture * FRAMES_PER_SECOND / fps
+            while state.frame < math.floor(time):
+                state = next(states)
+            yield state, state.clock.at(time)
+
+
+def starting(state: State) -> State:
+    """Return the state as a tape starts from it: frame 0, standing where it stands, nothing to be done."""
+    clock = state.clock.go(0, state.phase)
+    return State(
+        scene=state.scene,
+        clock=clock,
+        shelf=state.shelf,
+        place=state.place,
+        look=state.look,
+        help=state.help,
+        editing=state.editing,
+    )
+
+
+def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:
+    """Return those of the actions that belong on a tape: what shows, not what is done outside."""
+    return tuple(action for action in actions if action.name not in NOT_TAPED)

@@ -1,0 +1,182 @@
+"""Tapes: the same pictures again, a file that reads back, refusals in one line."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from linkanim.errors import BadInput
+from linkanim.player.actions import Action
+from linkanim.player.state import State, advance, begin
+from linkanim.player.tape import Tape, starting, taped
+from linkanim.player.tape_file import from_document, read, to_document, write
+from linkanim.scenes import load
+
+SESSION = (
+    (5, Action("speed", 2)),
+    (9, Action("direction")),
+    (20, Action("edit")),
+    (22, Action("choose", 1)),
+    (25, Action("nudge", -10)),
+    (31, Action("closure")),
+    (40, Action("zoom", (2.0, 0.3, -0.1))),
+    (44, Action("undo")),
+    (50, Action("mechanism", 1)),
+    (60, Action("scrub", 2.5)),
+    (61, Action("pause")),
+    (75, Action("vectors", "v")),
+)
+
+
+def shown(state: State) -> object:
+    return state.shown.linkage, state.look, state.clock.paused
+
+
+@pytest.fixture
+def live() -> State:
+    """A window some time after its start, with an edit behind it that can still be undone."""
+    state = begin(replace(load("six-bar"), name="mine"))
+    for action in ("edit", "nudge", "edit"):
+        state = advance(state, [Action(action, 1 if action == "nudge" else None)])
+    for _ in range(100):
+        state = advance(state)
+    return state
+
+
+@pytest.fixture
+def tape(live: State) -> Tape:
+    """That session, taped."""
+    return Tape(starting(live), 90, SESSION, (640, 360))
+
+
+def test_a_tape_goes_through_the_states_of_its_session(live: State, tape: Tape) -> None:
+    by_frame = dict(SESSION)
+    for again in tape.states():
+        if again.frame:
+            live = advance(live, [by_frame[again.frame]] if again.frame in by_frame else [])
+        assert shown(again) == shown(live)
+        assert again.phase == pytest.approx(live.phase, rel=1e-12, abs=1e-12)
+
+
+def test_undo_goes_back_past_the_start_of_the_tape(tape: Tape) -> None:
+    undone = replace(tape, actions=((1, Action("undo")),))
+    *_, last = undone.states()
+    assert last.scene.linkage == load("six-bar").linkage
+
+
+def test_a_file_reads_back(tape: Tape, tmp_path: Path) -> None:
+    path = tmp_path / "mine.tape.json"
+    write(tape, path)
+    assert read(path) == tape
+
+
+def test_a_file_is_never_written_over(tape: Tape, tmp_path: Path) -> None:
+    path = tmp_path / "mine.tape.json"
+    path.write_text("mine")
+    with pytest.raises(Exception, match="cannot be written"):
+        write(tape, path)
+    assert path.read_text() == "mine"
+
+
+def test_a_tape_with_nothing_done_is_a_loop(tape: Tape) -> None:
+    assert replace(tape, actions=()).is_loop
+    assert not tape.is_loop
+
+
+def test_what_is_done_outside_is_not_taped() -> None:
+    asked = (
+        Action("record", "gif"),
+        Action("trace"),
+        Action("screenshot"),
+        Action("note", "x"),
+        Action("quit"),
+    )
+    assert taped(asked) == (Action("trace"),)
+
+
+@pytest.mark.parametrize("fps", [10, 25, 30, 60, 100])
+def test_pictures_come_at_any_rate(tape: Tape, fps: int) -> None:
+    steady = replace(tape, actions=())
+    pictures = list(steady.pictures(fps))
+    assert len(pictures) == round(1.5 * fps)
+    speed = steady.start.clock.speed
+    for k, (_, phase) in enumerate(pictures):
+        assert phase == pytest.approx(steady.start.phase + speed * k / fps)
+
+
+def test_a_picture_shows_what_was_done_before_it(tape: Tape) -> None:
+    states = list(tape.states())
+    for k, (state, _) in enumerate(tape.pictures(25)):
+        assert state == states[int(k * 60 / 25)]
+
+
+Spoil = Callable[[dict[str, Any]], object]
+
+# A tape that is not ours, or not this version's, or broken at one place: the line names the place.
+SPOILT: dict[str, tuple[Spoil, str]] = {
+    "another version": (lambda d: d.update(linkanim_tape=2), "version 2; this linkanim reads version 1"),
+    "a version that is text": (lambda d: d.update(linkanim_tape="1"), "version '1'"),
+    "no tape": (lambda d: d.pop("linkanim_tape"), "is not a tape"),
+    "an unknown action": (
+        lambda d: d["actions"].append([90, "explode"]),
+        "explode.*is not an action of this",
+    ),
+    "an action of another value": (lambda d: d["actions"].append([90, "speed", "fast"]), "fast"),
+    "an action without its value": (lambda d: d["actions"].append([90, "speed"]), "is not an action"),
+    "a bool for a number": (lambda d: d["actions"].append([90, "step", True]), "is not an action"),
+    "a name that is no text": (lambda d: d["actions"].append([90, ["speed"]]), "is not an action"),
+    "what is done outside": (lambda d: d["actions"].append([90, "quit"]), "is not an action"),
+    "an entry of another form": (lambda d: d["actions"].append("speed"), r"\[frame, name\]"),
+    "frames out of order": (lambda d: d["actions"].append([3, "trace"]), "order of their frames"),
+    "a frame past the end": (lambda d: d["actions"].append([91, "trace"]), "up to 90"),
+    "frames below zero": (lambda d: d.update(frames=-1), "frames: -1 is not a whole number"),
+    "no frames": (lambda d: d.pop("frames"), "has no frames"),
+    "a phase that is text": (
+        lambda d: d["start"].update(phase="0"),
+        'start.phase: "0" is not',
+    ),
+    "a level off the ladder": (lambda d: d["start"].update(level=99), "start.level: 99"),
+    "vectors of another kind": (lambda d: d["start"]["look"].update(vectors=["x"]), "start.look.vectors"),
+    "a place off the shelf": (lambda d: d["start"].update(place=99), "start.place: 99"),
+    "an unknown scene on the shelf": (lambda d: d["shelf"].append("nothing"), "shelf"),
+    "a broken scene": (lambda d: d["scene"]["document"].update(speed=1), "speed"),
+    "a size of one number": (lambda d: d.update(size=[3]), "size"),
+}
+
+
+@pytest.mark.parametrize(("spoil", "reason"), SPOILT.values(), ids=SPOILT)
+def test_a_spoilt_tape_is_refused_in_one_line(tape: Tape, spoil: Spoil, reason: str) -> None:
+    document = json.loads(json.dumps(to_document(tape)))
+    spoil(document)
+    with pytest.raises(BadInput, match=reason) as refusal:
+        from_document(document, "mine.tape.json")
+    assert str(refusal.value).startswith("mine.tape.json: ")
+    assert "\n" not in str(refusal.value)
+
+
+NO_JSON = {
+    "text": "hello",
+    "empty": "",
+    "NaN": '{"linkanim_tape": NaN}',
+    "deep": "[" * 100_000,
+    "binary": "\0\1",
+}
+
+
+@pytest.mark.parametrize("text", NO_JSON.values(), ids=NO_JSON)
+def test_a_file_that_is_not_json_is_refused(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "x.tape.json"
+    path.write_text(text)
+    with pytest.raises(BadInput, match="is not JSON"):
+        read(path)
+
+
+@pytest.mark.parametrize("name", ["missing.json", "."], ids=["missing", "a folder"])
+def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(BadInput, match="cannot be read"):
+        read(tmp_path / name)
