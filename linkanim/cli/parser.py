@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Callable, Sequence
-from typing import IO, NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from linkanim.errors import BadInput
 
@@ -38,7 +38,7 @@ class Parser(argparse.ArgumentParser):
         examples = "".join(f"  {line}\n" for line in self._examples)
         return f"{super().format_help()}{added}\nexamples:\n{examples}"
 
-    def _print_message(self, message: str, file: IO[str] | None = None) -> None:
+    def _print_message(self, message: str, file: Any = None) -> None:
         # argparse's own swallows the error of a full disk or of a reader that left
         print(message, end="", file=file)
 

@@ -7,25 +7,23 @@ import math
 import sys
 from argparse import Namespace
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 import numpy as np
 
 from linkanim import units
-from linkanim.cli import outfile, table
+from linkanim.cli import table
 from linkanim.cli.commands import EVERY_ANGLE
 from linkanim.cli.strict import finite, json_text
 from linkanim.cli.tree import Tree, leaves, rows, tree
 from linkanim.errors import BadInput, OutOfRange
+from linkanim.mechanics.motion import Motion
+from linkanim.recorder.safe import checked_target, replacing
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
-
-if TYPE_CHECKING:
-    from linkanim.mechanics.motion import Motion
 
 
 @dataclass(frozen=True)
@@ -45,8 +43,7 @@ def run(options: Namespace) -> None:
     In a sweep such an angle has a row of nulls.
     """
     asked = _asked(options)
-    if options.csv and options.csv != "-":
-        outfile.refuse_unwritable(Path(options.csv))
+    target = _target(options.csv)
     scene = load(options.scene)
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     motion = _solved(scene, asked, speed, options.acceleration)
@@ -54,8 +51,7 @@ def run(options: Namespace) -> None:
     head |= {"acceleration": options.acceleration, "length_unit": scene.length_unit}
     found = _rows(scene, motion, asked)
     if options.csv:
-        with _file_or_stdout(options.csv) as file:
-            _write_csv(file, asked, found)
+        _write_csv(target, asked, found)
     elif options.json:
         _print_json(({**head, **row} for row in found), asked.sweep)
     else:
@@ -119,11 +115,20 @@ def _print_json(objects: Iterator[Tree], sweep: bool) -> None:
     print("]")
 
 
-def _file_or_stdout(name: str) -> AbstractContextManager[TextIO]:
-    return nullcontext(sys.stdout) if name == "-" else outfile.written(Path(name))
+def _target(name: str | None) -> Path | None:
+    """Return the CSV file to write, None for stdout; `BadInput` where it could not be written."""
+    return None if name in (None, "-") else checked_target(str(name), (".csv",))
 
 
-def _write_csv(file: TextIO, asked: Asked, found: Iterator[Tree]) -> None:
+def _write_csv(target: Path | None, asked: Asked, found: Iterator[Tree]) -> None:
+    if target is None:
+        _csv_rows(sys.stdout, asked, found)
+        return
+    with replacing(target) as part, part.open("w", encoding="utf-8", newline="") as file:
+        _csv_rows(file, asked, found)
+
+
+def _csv_rows(file: TextIO, asked: Asked, found: Iterator[Tree]) -> None:
     """Write the input in degrees and then every quantity; what is not known is an empty cell."""
     writer = csv.writer(file, lineterminator="\n")
     first = next(found)

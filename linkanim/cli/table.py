@@ -106,7 +106,7 @@ def _number(value: float) -> str:
     """Return seven digits; words for what has no finite value."""
     if not math.isfinite(value):
         return "unbounded" if math.isinf(value) else "-"
-    return f"{value:.7g}"
+    return f"{value + 0.0:.7g}"  # -0.0 + 0.0 is 0.0
 
 
 def _degrees(value: float) -> str:

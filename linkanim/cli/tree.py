@@ -6,15 +6,13 @@ The tree is that of `solve --json`; its leaves are arrays (N,), a value for each
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.motion import Motion, Strut
 from linkanim.scenes.scene import Scene
-
-if TYPE_CHECKING:
-    from linkanim.mechanics.motion import Motion
 
 Leaf = NDArray[np.float64]
 Tree = dict[str, Any]
@@ -71,7 +69,7 @@ def _slider(motion: Motion, body: str) -> Tree:
     }
 
 
-def _element(element: Any) -> Tree:
+def _element(element: Strut) -> Tree:
     force = np.full(np.shape(element.length), np.nan) if element.force is None else element.force
     return {"length": element.length, "rate": element.rate, "force": force}
 

@@ -160,7 +160,9 @@ def test_a_reader_that_leaves_early_is_not_a_failure() -> None:
 @pytest.mark.parametrize("words", [["scenes"], ["--help"]])
 def test_a_full_disk_behind_stdout_is_one_line(words: list[str]) -> None:
     with Path("/dev/full").open("w") as full:
-        done = subprocess.run([*LINKANIM, *words], check=False, stdout=full, stderr=subprocess.PIPE, text=True)
+        done = subprocess.run(
+            [*LINKANIM, *words], check=False, stdout=full, stderr=subprocess.PIPE, text=True
+        )
     assert done.returncode == 1
     assert done.stderr == "linkanim: No space left on device\n"
 

@@ -1,0 +1,245 @@
+"""`linkanim solve`: published values, strict JSON, sweeps, tables, files."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import linkanim
+from linkanim.cli import main
+
+Solve = Callable[..., str]
+
+
+@pytest.fixture
+def solve(capsys: pytest.CaptureFixture[str]) -> Solve:
+    """Return a function that runs `linkanim solve` and gives back what it printed."""
+
+    def run(*words: str) -> str:
+        assert main(["solve", *words]) == 0
+        printed = capsys.readouterr()
+        assert printed.err == ""
+        return printed.out
+
+    return run
+
+
+@pytest.fixture
+def solved(solve: Solve) -> Callable[..., Any]:
+    """Return a function that runs `linkanim solve --json` and gives back what it read."""
+
+    def refuse(name: str) -> None:
+        raise AssertionError(f"{name} is not strict JSON")
+
+    return lambda *words: json.loads(solve(*words, "--json"), parse_constant=refuse)
+
+
+# Term report on a six-bar punch press, tables 3.1 and 3.2, at 87 degrees and 10 rad/s: (body, key, value,
+# half a unit of the last printed digit); the slider's in metres.
+PUBLISHED = [
+    ("3", "angular_velocity", 3.3271, 5e-5),
+    ("4", "angular_velocity", -1.2005, 5e-5),
+    ("6", "angular_velocity", -5.4143, 5e-5),
+    ("5", "velocity", -132.8, 5e-2),
+    ("3", "angular_acceleration", 12.7419, 5e-5),
+    ("4", "angular_acceleration", -11.3763, 5e-5),
+    ("6", "angular_acceleration", -14.2372, 5e-5),
+    ("5", "acceleration", -2770.8, 5e-2),
+]
+
+
+@pytest.mark.parametrize(("body", "key", "value", "half_digit"), PUBLISHED)
+def test_the_press_has_its_published_values(
+    solved: Callable[..., Any], body: str, key: str, value: float, half_digit: float
+) -> None:
+    pose = solved("press", "--angle", "87 deg", "--speed", "10 rad/s")
+    assert pose["bodies"][body][key] == pytest.approx(value, abs=half_digit, rel=0)
+
+
+def test_one_pose_is_one_object_of_the_agreed_form(solved: Callable[..., Any]) -> None:
+    pose = solved("press", "--angle", "87 deg", "--speed", "10 rad/s")
+    head = ["scene", "angle", "phase", "speed", "acceleration", "length_unit"]
+    assert list(pose) == [*head, "joints", "bodies", "springs", "dampers"]
+    assert {key: pose[key] for key in head} == {
+        "scene": "press",
+        "angle": math.radians(87),
+        "phase": pytest.approx(math.radians(87), abs=1e-15),
+        "speed": 10.0,
+        "acceleration": 0.0,
+        "length_unit": "mm",
+    }
+    assert set(pose["joints"]) == {"O2", "O7", "G", "S", "A", "B", "C", "D", "H"}
+    assert {key: len(pair) for key, pair in pose["joints"]["B"].items()} == {
+        "position": 2,
+        "velocity": 2,
+        "acceleration": 2,
+    }
+    turning = {"angle", "angular_velocity", "angular_acceleration", "coefficients"}
+    assert set(pose["bodies"]["3"]) == {*turning, "com"}
+    assert set(pose["bodies"]["3"]["com"]) == {"position", "velocity", "acceleration"}
+    assert set(pose["bodies"]["5"]) == {"travel", "velocity", "acceleration", "coefficients"}
+    assert set(pose["springs"]["return"]) == set(pose["dampers"]["cushion"]) == {"length", "rate", "force"}
+
+
+def test_the_json_is_what_the_library_solves(solved: Callable[..., Any]) -> None:
+    pose = solved("press", "--angle", "1.25 rad", "--speed", "-3 rad/s", "--acceleration", "2 rad/s^2")
+    motion = linkanim.load("press").solve(angle=[1.25], speed=-3.0, acceleration=2.0)
+    assert pose["joints"]["B"]["acceleration"] == motion.acceleration["B"][0].tolist()
+    assert pose["bodies"]["3"]["coefficients"] == [float(part[0]) for part in motion.coefficient["3"]]
+    assert pose["springs"]["return"]["force"] == motion.spring["return"].force[0]
+
+
+# a value that begins with a minus sign is not an option, with or without a space or an equals sign
+@pytest.mark.parametrize("words", [["--angle", "-30 deg"], ["--angle", "-30deg"], ["--angle=-30 deg"]])
+def test_negative_values_are_values(solved: Callable[..., Any], words: list[str]) -> None:
+    pose = solved("crank-rocker", *words, "--speed", "-10rpm", "--acceleration", "-.5 rad/s^2")
+    assert pose["angle"] == -math.pi / 6
+    assert pose["speed"] == pytest.approx(-math.pi / 3, rel=1e-15)
+    assert pose["acceleration"] == -0.5
+
+
+def test_without_a_speed_it_is_the_scenes(solved: Callable[..., Any]) -> None:
+    assert (
+        solved("crank-rocker", "--angle", "0 deg")["speed"]
+        == linkanim.load("crank-rocker").linkage.drive.speed
+    )
+
+
+def nulls(node: object) -> int:
+    if isinstance(node, dict):
+        return sum(map(nulls, node.values()))
+    if isinstance(node, list):
+        return sum(map(nulls, node))
+    return int(node is None)
+
+
+def test_at_a_limit_what_is_unbounded_is_null_and_positions_are_not(solved: Callable[..., Any]) -> None:
+    pose = solved("double-rocker", "--phase", "0 deg")
+    limit = linkanim.load("double-rocker").info.input_range
+    assert pose["angle"] == pytest.approx(min(limit, key=lambda angle: abs(angle - pose["angle"])), abs=1e-15)
+    assert nulls([joint["position"] for joint in pose["joints"].values()]) == 0
+    assert pose["bodies"]["coupler"]["coefficients"] == [None, None]
+
+
+def test_an_angle_out_of_reach_is_refused_with_the_range(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", "double-rocker", "--angle", "180 deg"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    low, high = (
+        f"{math.degrees(limit):.6g} deg" for limit in linkanim.load("double-rocker").info.input_range
+    )
+    assert f"from {low} to {high}" in printed.err
+    assert "180 deg" in printed.err
+    assert printed.err.count("\n") == 1
+
+
+# first:last:step, the degrees that come out; the last is in where it falls on a step, exactly in decimals
+SWEEPS = [
+    ("0:360:90", [0.0, 90.0, 180.0, 270.0, 360.0]),
+    ("0:100:40", [0.0, 40.0, 80.0]),
+    ("0:0.3:0.1", [0.0, 0.1, 0.2, 0.3]),
+    ("-30:30:30", [-30.0, 0.0, 30.0]),
+    ("90:-90:-90", [90.0, 0.0, -90.0]),
+    ("5:5:1", [5.0]),
+]
+
+
+@pytest.mark.parametrize(("sweep", "degrees"), SWEEPS)
+def test_a_sweep_goes_to_its_end(solved: Callable[..., Any], sweep: str, degrees: list[float]) -> None:
+    found = solved("crank-rocker", "--sweep", sweep)
+    assert [math.degrees(pose["angle"]) for pose in found] == pytest.approx(degrees, abs=1e-12)
+
+
+def test_in_a_sweep_what_is_out_of_reach_is_a_row_of_nulls(solved: Callable[..., Any]) -> None:
+    found = solved("double-rocker", "--sweep", "60:180:120")
+    reached, beyond = (pose["joints"]["B"]["position"] for pose in found)
+    assert nulls(reached) == 0
+    assert beyond == [None, None]
+    assert found[1]["angle"] == math.pi
+
+
+def test_a_sweep_of_the_phase_goes_through_the_limits(solved: Callable[..., Any]) -> None:
+    found = solved("double-rocker", "--sweep", "0:360:5", "--phase")
+    assert [pose["phase"] for pose in found] == pytest.approx([math.radians(5 * k) for k in range(73)])
+    assert nulls([pose["joints"] for pose in found]) == 0
+    assert found[0]["joints"]["B"]["position"] == pytest.approx(
+        found[-1]["joints"]["B"]["position"], rel=1e-12
+    )
+
+
+def test_body_angles_do_not_jump_in_a_sweep(solved: Callable[..., Any]) -> None:
+    found = solved("drag-link", "--sweep", "0:720:5")
+    angles = [pose["bodies"]["rocker"]["angle"] for pose in found]
+    steps = [after - before for before, after in pairwise(angles)]
+    assert max(map(abs, steps)) < 0.5
+    assert angles[-1] - angles[0] == pytest.approx(4 * math.pi, rel=1e-12)
+
+
+def test_csv_holds_the_numbers_of_the_json(
+    solve: Solve, solved: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert solve("press", "--sweep", "0:350:10", "--csv", "press.csv") == ""
+    with Path("press.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    found = solved("press", "--sweep", "0:350:10")
+    assert [float(row["angle_deg"]) for row in rows] == [10.0 * k for k in range(36)]
+    for row, pose in zip(rows, found, strict=True):
+        assert float(row["joints.B.velocity.y"]) == pose["joints"]["B"]["velocity"][1]
+        assert float(row["bodies.5.travel"]) == pose["bodies"]["5"]["travel"]
+        assert float(row["bodies.3.coefficients.2"]) == pose["bodies"]["3"]["coefficients"][1]
+        assert float(row["dampers.cushion.rate"]) == pose["dampers"]["cushion"]["rate"]
+    assert [path.name for path in tmp_path.iterdir()] == ["press.csv"]
+
+
+def test_csv_goes_to_stdout_and_leaves_unknown_cells_empty(solve: Solve) -> None:
+    lines = solve("double-rocker", "--sweep", "60:180:120", "--csv", "-").splitlines()
+    head, reached, beyond = (line.split(",") for line in lines)
+    place = head.index("joints.B.position.x")
+    assert float(reached[place]) > 0
+    assert beyond[place] == ""
+    assert beyond[0] == "180.0"
+
+
+# name, what the one line says
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        (".", "is a folder"),
+        ("missing/a.csv", "there is no folder"),
+        ("a.xlsx", ".csv"),
+    ],
+)
+def test_a_csv_that_cannot_be_is_refused_before_any_work(
+    name: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["solve", "press", "--sweep", "0:10:1", "--csv", name]) == 2
+    assert said in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_words_of_a_pose_name_everything(solve: Solve) -> None:
+    words = solve("press", "--angle", "87 deg", "--speed", "10 rad/s")
+    assert "crank angle 87 deg" in words
+    firsts = [line.split("  ")[0] for line in words.splitlines()]
+    for name in ("O2", "A", "B", "com of 3", "2", "7", "5", "spring return", "damper cushion"):
+        assert name in firsts
+    assert "3.327055" in words
+
+
+def test_the_words_of_a_limit_say_unbounded(solve: Solve) -> None:
+    assert "unbounded" in solve("double-rocker", "--phase", "0 deg")
+
+
+def test_the_words_of_a_sweep_are_a_line_for_each_angle(solve: Solve) -> None:
+    lines = solve("slider-crank", "--sweep", "0:90:45").splitlines()
+    assert [line.split()[0] for line in lines] == ["angle", "0", "45", "90"]
+    assert "slider mm" in lines[0]
