@@ -1,0 +1,233 @@
+"""Frames to a file, by the ffmpeg that imageio-ffmpeg carries.
+
+Frames go through a pipe as they are drawn, so that drawing and encoding overlap and memory does not
+grow with their number. A GIF gets one palette for all frames and no dithering, an MP4 is H.264 as
+slides play it, its colours tagged bt709 so that they come back as they were.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+import signal
+import subprocess
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from threading import Thread
+from typing import IO
+
+import numpy as np
+from imageio_ffmpeg import get_ffmpeg_exe
+from PIL import Image
+
+from linkanim.errors import RecordingFailed
+from linkanim.recorder.palette import Bytes
+from linkanim.recorder.plan import Format
+
+Frame = bytes | bytearray | memoryview
+"""A frame's bytes, row by row: blue, green, red, and alpha or one that means nothing."""
+
+_THREADS = 2
+"""Fixed, for H.264's bytes depend on it."""
+
+_BT709 = "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"
+_EXACT = ("-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact")
+_LAST_WORDS = 8
+
+
+@dataclass(frozen=True)
+class Stream:
+    """Raw frames as they come: width and height in pixels, frames a second, whether alpha counts."""
+
+    size: tuple[int, int]
+    rate: Fraction
+    alpha: bool = False
+
+    @property
+    def frame_bytes(self) -> int:
+        """The length of one frame."""
+        return 4 * self.size[0] * self.size[1]
+
+
+@contextmanager
+def encoding(
+    stream: Stream, form: Format, part: Path, palette: Bytes | None = None
+) -> Iterator[Callable[[Frame], None]]:
+    """Give a function that takes the frames, one after the other, and have them encoded into `part`.
+
+    `part` is a file, for PNG a folder that gets 0001.png, ...; `palette` (n, 3) is for GIF. When the
+    block ends the encoder is done; whatever else ends it, the encoder is gone. `RecordingFailed` where
+    the encoder cannot be started, stops early or reports an error.
+    """
+    into = _OUTPUTS[form](stream, palette)
+    goal = part / "%04d.png" if form == "png" else part
+    with _running([*_input(stream), *into, *_EXACT, f"file:{_escaped(goal, form)}"]) as write:
+        yield write
+
+
+def count_frames(part: Path, form: Format) -> int:
+    """Read back how many frames a file (for PNG: a folder) holds; 0 where it cannot be read."""
+    if form == "png":
+        return sum(1 for _ in part.glob("*.png"))
+    asking = [_ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", "-map", "0:v:0"]
+    told = subprocess.run(
+        [*asking, "-c", "copy", "-f", "null", "-progress", "-", "-"], capture_output=True, check=False
+    )
+    counts = [
+        line[6:] for line in told.stdout.decode(errors="replace").splitlines() if line.startswith("frame=")
+    ]
+    return int(counts[-1]) if counts and told.returncode == 0 else 0
+
+
+def _ffmpeg() -> str:
+    try:
+        return str(get_ffmpeg_exe())
+    except RuntimeError as error:
+        raise RecordingFailed("imageio-ffmpeg has no ffmpeg here; set IMAGEIO_FFMPEG_EXE to one") from error
+
+
+def _input(stream: Stream) -> list[str]:
+    width, height = stream.size
+    pixels = "bgra" if stream.alpha else "bgr0"
+    quiet = ["-hide_banner", "-loglevel", "error", "-y"]
+    raw = ["-f", "rawvideo", "-pix_fmt", pixels, "-s", f"{width}x{height}", "-framerate", str(stream.rate)]
+    return [_ffmpeg(), *quiet, *raw, "-i", "pipe:0"]
+
+
+def _gif(stream: Stream, palette: Bytes | None) -> list[str]:
+    if palette is None:
+        raise ValueError("a GIF needs its palette")
+    mapping = "[0:v][1:v]paletteuse=dither=none:diff_mode=rectangle:alpha_threshold=128"
+    return ["-i", _palette_uri(palette), "-lavfi", mapping, "-loop", "0", "-f", "gif"]
+
+
+def _mp4(stream: Stream, palette: Bytes | None) -> list[str]:
+    width, height = stream.size
+    filters = ["scale=out_range=tv:out_color_matrix=bt709", "format=yuv420p", _BT709]
+    if width % 2 or height % 2:
+        right, bottom = width % 2, height % 2
+        filters = [
+            "format=gbrp",
+            f"pad={width + right}:{height + bottom}",
+            f"fillborders=right={right}:bottom={bottom}:mode=smear",
+            *filters,
+        ]
+    h264 = ["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-threads", str(_THREADS)]
+    return ["-vf", ",".join(filters), *h264, "-movflags", "+faststart", "-f", "mp4"]
+
+
+def _png(stream: Stream, palette: Bytes | None) -> list[str]:
+    return [
+        "-pix_fmt",
+        "rgba" if stream.alpha else "rgb24",
+        "-pred",
+        "mixed",
+        "-start_number",
+        "1",
+        "-f",
+        "image2",
+    ]
+
+
+_OUTPUTS: dict[Format, Callable[[Stream, Bytes | None], list[str]]] = {"gif": _gif, "mp4": _mp4, "png": _png}
+
+
+def _palette_uri(palette: Bytes) -> str:
+    """Return the palette as the 16 x 16 picture the encoder asks for, its last colour transparent."""
+    colours = np.zeros((256, 4), np.uint8)
+    colours[:255, 3] = 255
+    colours[:255, :3] = palette[np.minimum(np.arange(255), len(palette) - 1)]
+    file = io.BytesIO()
+    Image.fromarray(colours.reshape(16, 16, 4)).save(file, "PNG")
+    return "data:image/png;base64," + base64.b64encode(file.getvalue()).decode()
+
+
+def _escaped(goal: Path, form: Format) -> str:
+    """Return a path for the encoder; of numbered files only the last part is a pattern."""
+    if form != "png":
+        return str(goal)
+    return str(goal.parent).replace("%", "%%") + f"/{goal.name}"
+
+
+class _GoneError(Exception):
+    """The encoder does not read any more; what it said and its exit code tell why."""
+
+
+@contextmanager
+def _running(command: list[str]) -> Iterator[Callable[[Frame], None]]:
+    """Run the encoder and give the function that writes to it."""
+    process = _started(command)
+    try:
+        pipe, words = _streams(process)
+
+        def write(frame: Frame) -> None:
+            try:
+                pipe.write(frame)
+            except BrokenPipeError as error:
+                raise _GoneError from error
+
+        with suppress(_GoneError):
+            yield write
+        with suppress(BrokenPipeError):
+            pipe.close()
+        _refuse_failure(process.wait(), words())
+    finally:
+        _stop(process)
+
+
+def _started(command: list[str]) -> subprocess.Popen[bytes]:
+    """Start the encoder in a session of its own: Ctrl-C in the terminal is for us, and we stop it."""
+    pipe = subprocess.PIPE
+    try:
+        return subprocess.Popen(
+            command, stdin=pipe, stdout=subprocess.DEVNULL, stderr=pipe, start_new_session=True
+        )
+    except OSError as error:
+        raise RecordingFailed(
+            f"the encoder {command[0]} cannot be started: {error.strerror or error}"
+        ) from error
+
+
+def _streams(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], Callable[[], list[str]]]:
+    """Return the encoder's input, and a function that waits for its last words."""
+    if process.stdin is None or process.stderr is None:
+        raise RecordingFailed("the encoder has no pipes")
+    words: deque[bytes] = deque(maxlen=_LAST_WORDS)
+    listener = Thread(target=words.extend, args=(process.stderr,), daemon=True)
+    listener.start()
+
+    def said() -> list[str]:
+        listener.join()
+        return [line.decode(errors="replace").strip() for line in words]
+
+    return process.stdin, said
+
+
+def _refuse_failure(code: int, words: list[str]) -> None:
+    if code == 0:
+        return
+    how = f"was stopped by {_signal_name(-code)}" if code < 0 else f"gave up with code {code}"
+    said = [re.sub(r"^\[.*?\] ", "", line) for line in words[-1:]]
+    raise RecordingFailed(": ".join([f"the encoder {how}", *said]))
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def _stop(process: subprocess.Popen[bytes]) -> None:
+    """Leave no process behind, however the work ended."""
+    process.kill()
+    process.wait()
+    for pipe in (process.stdin, process.stderr):
+        if pipe is not None:
+            with suppress(OSError):
+                pipe.close()

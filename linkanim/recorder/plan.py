@@ -1,0 +1,209 @@
+"""How a clip is cut: how many frames, how long each stands, and at which phases."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal, NamedTuple
+
+from linkanim.errors import BadInput
+
+Format = Literal["gif", "mp4", "png"]
+
+MOST_FRAMES = 20_000
+FEWEST_PER_PERIOD = 2
+SIDES = (16, 8192)
+"""The smallest and the largest width or height, in pixels."""
+
+RATES = (0.01, 1000)
+"""The lowest and the highest number of frames a second."""
+
+_CENTISECONDS = 100
+_SHORTEST_DELAY = 2
+"""Browsers show a delay of 1 cs as 10 cs."""
+_LONGEST_DELAY = 65_535
+_FINEST = 10_000
+"""Largest denominator of a clip's length in seconds; with `MOST_FRAMES` it keeps a rate within 32 bits."""
+
+
+class Clip(NamedTuple):
+    """What is asked for: `speed` is dφ/dt (rad/s, signed), `period` the true period (rad of phase).
+
+    `periods` true periods, or `seconds` where it is not None; `fps` frames a second.
+    """
+
+    speed: float
+    period: float
+    fps: float = 25.0
+    periods: int = 1
+    seconds: float | None = None
+    reverse: bool = False
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is recorded: `frames` at `rate` frames a second share out `sweep` of phase (rad, signed).
+
+    The frame after the last would be at phase `sweep`: a whole number of true periods, where `closes`.
+    """
+
+    frames: int
+    rate: Fraction
+    sweep: float
+    clip: Clip
+    closes: bool
+
+    def phase(self, frame: int) -> float:
+        """Return the phase (rad) of a frame; closed form, so the frames are equally spaced."""
+        return self.sweep * (frame / self.frames)
+
+    @property
+    def seconds(self) -> float:
+        """The clip's length as written."""
+        return float(self.frames / self.rate)
+
+    @property
+    def speed(self) -> float:
+        """The signed dφ/dt as recorded (rad/s)."""
+        return self.sweep / self.seconds
+
+    @property
+    def period_seconds(self) -> float:
+        """The length of one true period as recorded."""
+        return self.clip.period / abs(self.speed)
+
+    @property
+    def delay_cs(self) -> int:
+        """How long a GIF's frame stands, in hundredths of a second."""
+        return int(_CENTISECONDS / self.rate)
+
+    @property
+    def speed_text(self) -> str:
+        """The speed as recorded, in words."""
+        return f"{_short(_rpm(self.speed))} rpm"
+
+    @property
+    def moved(self) -> bool:
+        """Whether rounding moved the clip's length by more than a hundredth of a second."""
+        return abs(self.seconds - float(_asked_seconds(self.clip))) > 0.01 + 1e-9
+
+    @property
+    def summary(self) -> str:
+        """The clip in words: frames, length, periods and speed, with what rounding moved."""
+        clip = f"{self.frames} frames at {_short(float(self.rate))} fps, {_short(self.seconds)} s"
+        said = f"{clip}, {self._extent} at {self.speed_text}"
+        asked = _rpm(math.copysign(self.clip.speed, self.speed))
+        if self.moved and self.closes:
+            said += f" ({_short(asked)} rpm asked, {self.speed_text} recorded)"
+        elif self.moved:
+            said += f" ({_short(self.clip.seconds or 0.0)} s asked)"
+        return said
+
+    @property
+    def _extent(self) -> str:
+        if not self.closes:
+            return "not closed"
+        if self.clip.periods == 1:
+            return "one period"
+        return f"{self.clip.periods} periods of {_short(self.period_seconds)} s"
+
+
+def make_plan(clip: Clip, form: Format) -> Plan:
+    """Choose frames and rate together, so that frames / rate is the length asked for.
+
+    GIF: the delay is whole hundredths of a second, the one beside 1/fps that comes nearer to the length.
+    MP4: frames = round(length x fps) at the exact rate frames / length. PNG: at `fps`, as numbered
+    frames are played. `BadInput` for a speed of zero, a number that is not finite, fewer than two
+    frames a period, or more than `MOST_FRAMES`.
+    """
+    _refuse_nonsense(clip)
+    frames, rate = _cut(_asked_seconds(clip), Fraction(clip.fps).limit_denominator(_FINEST), clip, form)
+    _refuse_too_few(clip, frames)
+    sign = -1.0 if clip.reverse else 1.0
+    if clip.seconds is None:
+        sweep = math.copysign(clip.period * clip.periods, clip.speed)
+    else:
+        sweep = clip.speed * float(frames / rate)
+    return Plan(frames, rate, sign * sweep, clip, closes=clip.seconds is None)
+
+
+def refuse_size(size: tuple[int, int]) -> None:
+    """Raise `BadInput` for a picture that is too small to read or too large to encode."""
+    low, high = SIDES
+    if not all(low <= side <= high for side in size):
+        width, height = size
+        raise BadInput(
+            f"a size of {width}x{height} cannot be recorded; both sides must be {low} to {high} pixels"
+        )
+
+
+def _asked_seconds(clip: Clip) -> Fraction:
+    """Return the clip's length asked for, as the simplest fraction that a file can hold."""
+    seconds = clip.periods * clip.period / abs(clip.speed) if clip.seconds is None else clip.seconds
+    return Fraction(seconds).limit_denominator(_FINEST)
+
+
+def _cut(length: Fraction, fps: Fraction, clip: Clip, form: Format) -> tuple[int, Fraction]:
+    """Return (frames, frames a second)."""
+    if form == "gif":
+        return _centiseconds(length * _CENTISECONDS, fps)
+    frames = round(length * fps)
+    exact = form == "mp4" and clip.seconds is None and frames > 0
+    return frames, frames / length if exact else fps
+
+
+def _centiseconds(length: Fraction, fps: Fraction) -> tuple[int, Fraction]:
+    """Return (frames, rate) of a GIF `length` hundredths of a second long."""
+    ideal = _CENTISECONDS / fps
+    delays = {min(max(round_(ideal), _SHORTEST_DELAY), _LONGEST_DELAY) for round_ in (math.floor, math.ceil)}
+
+    def misses(delay: int) -> tuple[Fraction, Fraction]:
+        return abs(round(length / delay) * delay - length), abs(delay - ideal)
+
+    best = min(sorted(delays), key=misses)
+    return round(length / best), Fraction(_CENTISECONDS, best)
+
+
+def _refuse_nonsense(clip: Clip) -> None:
+    """Raise `BadInput` for what is not a number of its kind, or makes a clip of absurd length."""
+    if not math.isfinite(clip.speed) or clip.speed == 0.0:
+        raise BadInput(f"a speed of {clip.speed:g} rad/s has no period to record; give one such as 30 rpm")
+    slowest, fastest = RATES
+    if not slowest <= clip.fps <= fastest:
+        raise BadInput(
+            f"{clip.fps:g} frames a second cannot be recorded; give {slowest} to {fastest}, such as 25"
+        )
+    if clip.periods < 1:
+        raise BadInput(f"{clip.periods} periods cannot be recorded; give a whole number from 1")
+    if clip.seconds is not None and not (math.isfinite(clip.seconds) and clip.seconds > 0.0):
+        raise BadInput(f"{clip.seconds:g} s cannot be recorded; give a positive number of seconds")
+    seconds = clip.periods * clip.period / abs(clip.speed) if clip.seconds is None else clip.seconds
+    if seconds * clip.fps > MOST_FRAMES:
+        raise BadInput(
+            f"{_short(seconds)} s at {_short(clip.fps)} fps are {_short(seconds * clip.fps)} frames,"
+            f" more than {MOST_FRAMES}; raise the speed, or lower the frames a second or the length"
+        )
+
+
+def _refuse_too_few(clip: Clip, frames: int) -> None:
+    """Raise `BadInput` where frames are so few that no motion can be seen."""
+    if clip.seconds is None and frames < FEWEST_PER_PERIOD * clip.periods:
+        period = clip.period / abs(clip.speed)
+        raise BadInput(
+            f"one period at {_short(_rpm(clip.speed))} rpm lasts {_short(period)} s, too short for"
+            f" {FEWEST_PER_PERIOD} frames at {_short(clip.fps)} fps;"
+            " lower the speed, or raise the frames a second"
+        )
+    if frames < 1:
+        raise BadInput(
+            f"{_short(clip.seconds or 0.0)} s at {_short(clip.fps)} fps is less than a frame; ask for longer"
+        )
+
+
+def _rpm(speed: float) -> float:
+    return speed * 30.0 / math.pi
+
+
+def _short(number: float) -> str:
+    return f"{number:.4g}" if abs(number) < 1000 else f"{number:.0f}"

@@ -1,0 +1,123 @@
+"""From frames that can be drawn to a file that loops."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol, cast
+
+import numpy as np
+
+from linkanim.errors import BadInput, RecordingFailed
+from linkanim.recorder import safe
+from linkanim.recorder.encode import Frame, Stream, count_frames, encoding
+from linkanim.recorder.palette import Bytes, Colour, make_palette
+from linkanim.recorder.plan import Format, Plan, refuse_size
+
+SUFFIXES = (".gif", ".mp4", ".png")
+Progress = Callable[[int, int], None]
+
+_SAMPLES = 8
+
+
+class Frames(Protocol):
+    """Pictures that can be drawn in any order, all of one size."""
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+
+    @property
+    def alpha(self) -> bool:
+        """Whether the fourth byte of a pixel is its opacity; else it means nothing."""
+
+    @property
+    def colours(self) -> Sequence[Colour]:
+        """The colours that a GIF's palette has to have exactly."""
+
+    def draw(self, frame: int) -> Frame:
+        """Return a frame's bytes, which may be overwritten by the next call."""
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A finished recording: where it is (for PNG: its first frame) and what it holds."""
+
+    path: Path
+    plan: Plan
+    size: tuple[int, int]
+    bytes: int
+
+    @property
+    def frames(self) -> int:
+        """The number of frames."""
+        return self.plan.frames
+
+    @property
+    def seconds(self) -> float:
+        """The length as written."""
+        return self.plan.seconds
+
+    @property
+    def speed_asked(self) -> float:
+        """The dφ/dt that was asked for, rad/s."""
+        return self.plan.clip.speed
+
+    @property
+    def speed(self) -> float:
+        """The dφ/dt as recorded, rad/s, signed."""
+        return self.plan.speed
+
+    @property
+    def summary(self) -> str:
+        """The recording in a line: file, frames, length, speed as recorded, size."""
+        width, height = self.size
+        return f"{self.path}: {self.plan.summary}, {width}x{height}, {self.bytes / 1e6:.2f} MB"
+
+
+def checked_path(path: str | os.PathLike[str]) -> tuple[Path, Format]:
+    """Return the path and the format its ending stands for; `BadInput` as `safe.checked_target`."""
+    target = safe.checked_target(path, SUFFIXES)
+    return target, cast(Format, target.suffix.lower()[1:])
+
+
+def write(
+    frames: Frames, plan: Plan, path: str | os.PathLike[str], progress: Progress | None = None
+) -> Recording:
+    """Draw and encode `plan.frames` frames into a file whose ending says the format.
+
+    The file appears when it is whole, or not at all; one that was there is replaced then. `progress` is
+    called with (frames done, frames in all). `BadInput` before any work where the path, the size or
+    transparency in MP4 cannot be; `RecordingFailed` where disk or encoder give up.
+    """
+    target, form = checked_path(path)
+    refuse_size(frames.size)
+    if frames.alpha and form == "mp4":
+        raise BadInput(f"{target.name}: MP4 has no transparency; record a GIF or PNG, or keep the background")
+    finished = safe.numbering if form == "png" else safe.replacing
+    with finished(target) as part:
+        _encode(frames, plan, part, form, progress)
+        held = count_frames(part, form)
+        if held != plan.frames:
+            raise RecordingFailed(f"{held} of {plan.frames} frames came out")
+    made = safe.numbered(target) if form == "png" else [target]
+    return Recording(made[0], plan, frames.size, sum(file.stat().st_size for file in made))
+
+
+def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Progress | None) -> None:
+    palette = _palette(frames, plan.frames) if form == "gif" else None
+    stream = Stream(frames.size, plan.rate, frames.alpha)
+    with encoding(stream, form, part, palette) as send:
+        for frame in range(plan.frames):
+            send(frames.draw(frame))
+            if progress is not None:
+                progress(frame + 1, plan.frames)
+
+
+def _palette(frames: Frames, count: int) -> Bytes:
+    """Return the palette of a few frames spread over the clip."""
+    chosen = sorted({k * count // _SAMPLES for k in range(_SAMPLES)})
+    samples = (np.frombuffer(frames.draw(k), np.uint8) for k in chosen)
+    return make_palette(samples, frames.colours, alpha=frames.alpha)

@@ -1,0 +1,75 @@
+"""A scene's motion as frames, and `record`."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import astuple
+from typing import TYPE_CHECKING
+
+from linkanim.picture.look import Look
+from linkanim.picture.offscreen import offscreen, pixel_bytes
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.painter import Painter
+from linkanim.picture.theme import theme_of
+from linkanim.recorder.plan import Clip, Plan, make_plan, refuse_size
+from linkanim.recorder.recording import Progress, Recording, checked_path, write
+
+if TYPE_CHECKING:
+    from linkanim.recorder.encode import Frame
+    from linkanim.recorder.palette import Colour
+    from linkanim.scenes.scene import Scene
+
+
+class SceneFrames:
+    """Pictures of a scene at the phases of a plan; each overwrites the one before."""
+
+    def __init__(self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look) -> None:
+        self.size = size
+        self.alpha = not look.background
+        self.colours = theme_colours(look)
+        self._scene = scene
+        self._plan = plan
+        self._painter = Painter(scene, size, look)
+        self._surface = offscreen(size, alpha=self.alpha)
+        self._overlay = Overlay(speed=plan.speed_text)
+
+    def draw(self, frame: int) -> Frame:
+        """Return the bytes of a frame, valid until the next."""
+        pose = self._scene.pose(self._plan.phase(frame), speed=self._plan.speed)
+        self._painter.paint(self._surface, pose, self._overlay)
+        return pixel_bytes(self._surface)
+
+
+def record(
+    scene: Scene,
+    path: str | os.PathLike[str],
+    *,
+    size: tuple[int, int] = (1280, 720),
+    fps: float = 25.0,
+    speed: float | None = None,
+    periods: int = 1,
+    seconds: float | None = None,
+    reverse: bool = False,
+    look: Look = Look(),  # noqa: B008 -- frozen
+    progress: Progress | None = None,
+) -> Recording:
+    """Record whole periods of a scene's motion as a GIF, MP4 or numbered PNG, by the path's ending.
+
+    `size` in pixels; `speed` is dφ/dt in rad/s, the scene's own where None; `seconds` sets the length
+    instead of `periods` (true periods), and the clip need not close then. `progress` is called with
+    (frames done, frames in all). The file appears when it is whole, or not at all. `BadInput` for
+    what cannot be recorded, before any work; `RecordingFailed` where disk or encoder give up.
+    """
+    _, form = checked_path(path)
+    refuse_size(size)
+    rate = scene.linkage.drive.speed if speed is None else speed
+    plan = make_plan(Clip(rate, scene.period, fps, periods, seconds, reverse), form)
+    return write(SceneFrames(scene, plan, size, look), plan, path, progress)
+
+
+def theme_colours(look: Look) -> tuple[Colour, ...]:
+    """Return every colour of the look's theme, flat areas of which a GIF has to show exactly."""
+    plain: list[Colour] = []
+    for value in astuple(theme_of(look.theme)):
+        plain += value if isinstance(value[0], tuple) else [value]
+    return tuple(dict.fromkeys(plain))

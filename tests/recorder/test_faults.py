@@ -1,0 +1,313 @@
+"""Whatever goes wrong: no broken file, no process left, and what was there before stays."""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from moving_disc import TWO_SECONDS, MovingDisc, disc
+
+from linkanim.errors import BadInput, RecordingFailed
+from linkanim.recorder import encode, recording, safe
+from linkanim.recorder.plan import Format
+from linkanim.recorder.recording import write
+
+FORMS: tuple[Format, ...] = ("gif", "mp4", "png")
+BEFORE = b"what was there before"
+
+needs_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds processes through /proc")
+
+
+@pytest.fixture(params=FORMS)
+def form(request: pytest.FixtureRequest) -> Format:
+    chosen: Format = request.param
+    return chosen
+
+
+@pytest.fixture
+def target(tmp_path: Path, form: Format) -> Path:
+    """Return a name in a folder in which earlier recordings of all kinds lie."""
+    for name in ("disc.gif", "disc.mp4", "disc.png", "disc-0001.png", "disc-0099.png", "other-0099.png"):
+        (tmp_path / name).write_bytes(BEFORE)
+    return tmp_path / f"disc.{form}"
+
+
+def untouched(folder: Path) -> bool:
+    names = {"disc.gif", "disc.mp4", "disc.png", "disc-0001.png", "disc-0099.png", "other-0099.png"}
+    found = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+    return found == dict.fromkeys(names, BEFORE) and len(list(folder.iterdir())) == len(names)
+
+
+def children(pid: int) -> list[int]:
+    tasks = Path(f"/proc/{pid}/task").iterdir()
+    return [int(child) for task in tasks for child in (task / "children").read_text().split()]
+
+
+def gone(pid: int) -> bool:
+    """Wait until a process that need not be ours is gone, at most ten seconds."""
+    try:
+        handle = os.pidfd_open(pid)
+    except ProcessLookupError:
+        return True
+    try:
+        return bool(select.select([handle], [], [], 10.0)[0])
+    finally:
+        os.close(handle)
+
+
+def at_frame(number: int, act: Callable[[], None], form: Format) -> MovingDisc:
+    """Return a disc that acts when a frame is drawn while the encoder runs."""
+    plan = disc(form).plan
+    drawn: list[int] = []
+
+    def watch(frame: int) -> None:
+        drawn.append(frame)
+        running = form != "gif" or len(drawn) > 8  # a GIF's palette is sampled first
+        if running and frame == number:
+            act()
+
+    return MovingDisc(plan, on_draw=watch)
+
+
+class Stop(BaseException):
+    """What a signal's handler raises."""
+
+
+@needs_proc
+@pytest.mark.parametrize("error", [KeyboardInterrupt, Stop, MemoryError])
+def test_whatever_interrupts_leaves_nothing(target: Path, form: Format, error: type[BaseException]) -> None:
+    def interrupt() -> None:
+        raise error
+
+    frames = at_frame(20, interrupt, form)
+    with pytest.raises(error):
+        write(frames, frames.plan, target)
+    assert untouched(target.parent)
+    assert children(os.getpid()) == []
+
+
+@needs_proc
+def test_a_killed_encoder_is_one_line(target: Path, form: Format) -> None:
+    def kill() -> None:
+        for child in children(os.getpid()):
+            os.kill(child, signal.SIGKILL)
+
+    frames = at_frame(3, kill, form)
+    with pytest.raises(RecordingFailed, match="SIGKILL") as caught:
+        write(frames, frames.plan, target)
+    assert "\n" not in str(caught.value)
+    assert untouched(target.parent)
+
+
+def test_an_encoder_that_cannot_be_started_is_one_line(
+    target: Path, form: Format, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(encode, "get_ffmpeg_exe", lambda: "/no/such/encoder")
+    frames = disc(form)
+    with pytest.raises(RecordingFailed, match="/no/such/encoder"):
+        write(frames, frames.plan, target)
+    assert untouched(target.parent)
+
+
+def test_an_encoder_that_is_not_installed_is_one_line(
+    target: Path, form: Format, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def missing() -> str:
+        raise RuntimeError("No ffmpeg exe could be found.")
+
+    monkeypatch.setattr(encode, "get_ffmpeg_exe", missing)
+    frames = disc(form)
+    with pytest.raises(RecordingFailed, match="IMAGEIO_FFMPEG_EXE"):
+        write(frames, frames.plan, target)
+    assert untouched(target.parent)
+
+
+def test_missing_frames_are_noticed(target: Path, form: Format, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(recording, "count_frames", lambda part, form: encode.count_frames(part, form) - 1)
+    frames = disc(form)
+    with pytest.raises(RecordingFailed, match="49 of 50 frames"):
+        write(frames, frames.plan, target)
+    assert untouched(target.parent)
+
+
+def test_counting_tells_a_truncated_file(tmp_path: Path) -> None:
+    frames = disc("mp4")
+    write(frames, frames.plan, tmp_path / "disc.mp4")
+    assert encode.count_frames(tmp_path / "disc.mp4", "mp4") == 50
+    whole = (tmp_path / "disc.mp4").read_bytes()
+    (tmp_path / "disc.mp4").write_bytes(whole[: len(whole) // 2])
+    assert encode.count_frames(tmp_path / "disc.mp4", "mp4") < 50
+    (tmp_path / "disc.mp4").write_bytes(b"")
+    assert encode.count_frames(tmp_path / "disc.mp4", "mp4") == 0
+
+
+CHILD = """
+import sys
+sys.path[:0] = sys.argv[3:]
+from moving_disc import disc, TWO_SECONDS
+from linkanim.errors import RecordingFailed
+from linkanim.recorder.recording import write
+
+def started(done, total):
+    if done == 10:
+        print("running", flush=True)
+
+frames = disc(sys.argv[2], TWO_SECONDS._replace(periods=300), size=(320, 240))
+{before}
+try:
+    write(frames, frames.plan, sys.argv[1], started)
+except RecordingFailed as error:
+    sys.exit(str(error))
+"""
+
+
+@pytest.fixture
+def child(target: Path, form: Format) -> Iterator[subprocess.Popen[str]]:
+    with start(target, form) as process:
+        yield process
+        process.kill()
+
+
+def start(target: Path, form: Format, before: str = "") -> subprocess.Popen[str]:
+    here = Path(__file__).parent
+    places = [str(here), str(here.parents[1])]
+    command = [sys.executable, "-c", CHILD.format(before=before), str(target), form, *places]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def running(process: subprocess.Popen[str]) -> int:
+    """Wait until frames are being encoded; return the encoder's process id."""
+    assert process.stdout is not None
+    assert process.stdout.readline() == "running\n"
+    (encoder,) = children(process.pid)
+    return encoder
+
+
+@needs_proc
+def test_ctrl_c_leaves_nothing(child: subprocess.Popen[str], target: Path) -> None:
+    encoder = running(child)
+    child.send_signal(signal.SIGINT)
+    child.communicate()
+    assert gone(encoder)
+    assert untouched(target.parent)
+
+
+@needs_proc
+def test_a_killed_run_leaves_no_process_and_the_next_one_clears_up(
+    child: subprocess.Popen[str], target: Path, form: Format
+) -> None:
+    encoder = running(child)
+    child.kill()
+    child.communicate()
+    assert gone(encoder)
+    assert target.read_bytes() == BEFORE
+    assert [path for path in target.parent.iterdir() if path.name.startswith(".linkanim-")]
+    frames = disc("gif")
+    write(frames, frames.plan, target.with_name("next.gif"))
+    target.with_name("next.gif").unlink()
+    assert untouched(target.parent)
+
+
+FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (MOST, MOST))"
+
+
+@needs_proc
+def test_a_full_disk_is_one_line(target: Path, form: Format) -> None:
+    limit = "300" if form == "png" else "20000"
+    with start(target, form, FULL.replace("MOST", limit)) as process:
+        _, said = process.communicate()
+    assert process.returncode == 1
+    assert len(said.splitlines()) == 1
+    assert "encoder" in said
+    assert untouched(target.parent)
+
+
+def test_temporaries_of_living_runs_stay(tmp_path: Path) -> None:
+    living = tmp_path / f".linkanim-{os.getppid()}-0123abcd.part"
+    living.touch()
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    (tmp_path / f".linkanim-{dead.pid}-0123abcd.part").mkdir()
+    (tmp_path / f".linkanim-{dead.pid}-4567abcd.part").touch()
+    (tmp_path / f".linkanim-{dead.pid}.part.gif").touch()  # not a name of ours
+    safe.clear_stale(tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == {living.name, f".linkanim-{dead.pid}.part.gif"}
+
+
+def test_a_folder_that_takes_no_files_is_one_line(tmp_path: Path, form: Format) -> None:
+    folder = Path("/proc/self") if os.geteuid() == 0 else tmp_path
+    tmp_path.chmod(0o500)
+    frames = disc(form)
+    try:
+        with pytest.raises(RecordingFailed, match="disc"):
+            write(frames, frames.plan, folder / f"disc.{form}")
+    finally:
+        tmp_path.chmod(0o700)
+
+
+# (what is asked for, relative to a folder with a folder `there.gif` in it; what the sentence names)
+REFUSED = [
+    ("there.gif", "is a folder"),
+    ("", "is a folder"),
+    ("absent/disc.gif", "no folder"),
+    ("there.gif/deeper/disc.gif", "no folder"),
+    ("file.txt/disc.gif", "no folder"),
+    ("disc", "ending"),
+    ("disc.jpeg", "ending"),
+    (".gif", "ending"),
+]
+
+
+@pytest.mark.parametrize(("asked", "named"), REFUSED)
+def test_paths_that_cannot_be_are_refused_before_any_work(tmp_path: Path, asked: str, named: str) -> None:
+    (tmp_path / "there.gif").mkdir()
+    (tmp_path / "file.txt").touch()
+    frames = at_frame(0, pytest.fail, "mp4")
+    with pytest.raises(BadInput, match=named):
+        write(frames, frames.plan, tmp_path / asked)
+    assert {path.name for path in tmp_path.iterdir()} == {"there.gif", "file.txt"}
+
+
+def test_a_link_stays_a_link(tmp_path: Path) -> None:
+    (tmp_path / "real.gif").write_bytes(BEFORE)
+    (tmp_path / "link.gif").symlink_to("real.gif")
+    frames = disc("gif")
+    write(frames, frames.plan, tmp_path / "link.gif")
+    assert (tmp_path / "link.gif").is_symlink()
+    assert (tmp_path / "real.gif").read_bytes().startswith(b"GIF89a")
+
+
+def test_older_higher_numbered_frames_go_and_others_stay(tmp_path: Path) -> None:
+    kept = ["disc-99.png", "disc-0001.gif", "disc2-0001.png", "adisc-0099.png", "disc.png"]
+    for name in ("disc-0001.png", "disc-0051.png", "disc-12345.png", *kept):
+        (tmp_path / name).write_bytes(BEFORE)
+    frames = disc("png")
+    write(frames, frames.plan, tmp_path / "disc.png")
+    made = [f"disc-{k:04d}.png" for k in range(1, 51)]
+    assert {path.name for path in tmp_path.iterdir()} == {*made, *kept}
+    assert (tmp_path / "disc-0001.png").read_bytes() != BEFORE
+
+
+def test_numbered_frames_that_cannot_all_move_do_not_move_at_all(tmp_path: Path) -> None:
+    for name in ("disc-0001.png", "disc-0099.png"):
+        (tmp_path / name).write_bytes(BEFORE)
+    (tmp_path / "disc-0030.png").mkdir()
+    frames = disc("png")
+    with pytest.raises(RecordingFailed):
+        write(frames, frames.plan, tmp_path / "disc.png")
+    assert {path.name for path in tmp_path.iterdir()} == {"disc-0001.png", "disc-0030.png", "disc-0099.png"}
+    assert (tmp_path / "disc-0001.png").read_bytes() == BEFORE
+    assert (tmp_path / "disc-0099.png").read_bytes() == BEFORE
+
+
+@pytest.mark.parametrize("seconds", [0.04, 2.0])
+def test_a_short_clip_is_written_as_a_long_one(tmp_path: Path, seconds: float, form: Format) -> None:
+    frames = disc(form, TWO_SECONDS._replace(seconds=seconds))
+    made = write(frames, frames.plan, tmp_path / f"disc.{form}")
+    assert made.frames == round(seconds * 25)

@@ -1,0 +1,61 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from linkanim.recorder.palette import make_palette
+
+
+def frame(*colours: tuple[int, int, int], alpha: int = 0) -> NDArray[np.uint8]:
+    """Pixels in a row: blue, green, red, alpha."""
+    return np.array([(blue, green, red, alpha) for red, green, blue in colours], np.uint8)
+
+
+def as_set(palette: NDArray[np.uint8]) -> set[tuple[int, ...]]:
+    return {tuple(colour) for colour in palette.tolist()}
+
+
+def test_few_colours_are_all_kept() -> None:
+    samples = [frame((1, 2, 3), (4, 5, 6)), frame((4, 5, 6), (7, 8, 9))]
+    assert as_set(make_palette(samples)) == {(1, 2, 3), (4, 5, 6), (7, 8, 9)}
+
+
+def test_given_colours_come_first_and_once() -> None:
+    palette = make_palette([frame((1, 2, 3), (4, 5, 6))], [(4, 5, 6), (9, 9, 9), (4, 5, 6)])
+    assert palette.tolist() == [[4, 5, 6], [9, 9, 9], [1, 2, 3]]
+
+
+@pytest.mark.parametrize(("alpha", "kept"), [(255, True), (128, True), (127, False), (0, False)])
+def test_only_opaque_pixels_count_where_alpha_does(alpha: int, kept: bool) -> None:
+    palette = make_palette([frame((1, 2, 3), alpha=alpha), frame((9, 9, 9), alpha=255)], alpha=True)
+    assert ((1, 2, 3) in as_set(palette)) == kept
+
+
+def test_a_picture_without_opaque_pixels_has_the_given_colours() -> None:
+    assert make_palette([frame((1, 2, 3))], [(7, 7, 7)], alpha=True).tolist() == [[7, 7, 7]]
+
+
+def ramps() -> NDArray[np.uint8]:
+    """Three flat colours, and thousands of mixtures that come up once each."""
+    rng = np.random.default_rng(1)
+    flat = [(252, 252, 250)] * 5000 + [(213, 94, 0)] * 900 + [(0, 114, 178)] * 900
+    return frame(*flat, *map(tuple, rng.integers(0, 256, (4000, 3)).tolist()))
+
+
+def test_flat_colours_are_exact_among_thousands() -> None:
+    palette = make_palette([ramps()])
+    assert len(palette) == 255
+    assert {(252, 252, 250), (213, 94, 0), (0, 114, 178)} <= as_set(palette)
+
+
+def test_the_others_lie_near_a_palette_colour() -> None:
+    pixels = ramps()[:, 2::-1].astype(int)
+    palette = make_palette([ramps()]).astype(int)
+    nearest = np.sqrt(((pixels[:, None] - palette[None]) ** 2).sum(axis=2).min(axis=1))
+    assert nearest.max() < 60  # uniform in the cube: 255 cells are 40 wide, their corners 35 away
+    assert nearest[6800:].mean() < 25
+
+
+def test_equal_samples_give_equal_palettes() -> None:
+    assert make_palette([ramps()]).tobytes() == make_palette([ramps()]).tobytes()
