@@ -92,7 +92,9 @@ REFUSED: list[tuple[str, Callable[[object], float], object, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("parse", "value", "wanted"), [row[1:] for row in READ], ids=[row[0] for row in READ])
+@pytest.mark.parametrize(
+    ("parse", "value", "wanted"), [row[1:] for row in READ], ids=[row[0] for row in READ]
+)
 def test_a_quantity_is_read_to_the_last_bit(
     parse: Callable[[object], float], value: object, wanted: float
 ) -> None:

@@ -18,6 +18,7 @@ from linkanim.units import shown
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _SMALL = 12
 _STEEP = 100
+_LARGEST = 1e100
 _FRACTION = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)?", re.A)
 
 
@@ -72,6 +73,10 @@ class Table:
         group = self.table(key)
         return ((name, group.table(name)) for name in group.names_given())
 
+    def subtables(self) -> tuple[str, ...]:
+        """Return the keys whose values are tables themselves."""
+        return tuple(key for key, value in self.values.items() if isinstance(value, Mapping))
+
     def names_given(self) -> tuple[str, ...]:
         """Return the names that are this table's keys, each fit to be shown and to be part of a key."""
         for name in self.values:
@@ -97,7 +102,7 @@ class Table:
         """Return a list of names, all different, `count` of them if given."""
         value = self.need(key)
         if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
-            raise self.error(key, f"must be a list of {count or 'joint'} names, such as [\"A\", \"B\"]")
+            raise self.error(key, f'must be a list of {count or "joint"} names, such as ["A", "B"]')
         if count is not None and len(value) != count:
             raise self.error(key, f"must name {count} joints; it names {len(value)}")
         if len(set(value)) != len(value):
@@ -165,14 +170,19 @@ class Table:
 
     def _quantity(self, key: str, value: object, parse: Callable[[object], float]) -> float:
         try:
-            return parse(value)
+            number = parse(value)
         except UnitError as error:
             raise SceneError(f"{self.where}: {self.key(key)}: {error}") from None
+        if abs(number) > _LARGEST:
+            raise self.error(key, f"is beyond what can be computed; write less than {_LARGEST:g}")
+        return number
 
     def _positive(self, key: str, value: object, parse: Callable[[object], float]) -> float:
         number = self._quantity(key, value, parse)
         if not number > 0.0:
             raise self.error(key, "must be above zero")
+        if number < 1.0 / _LARGEST:
+            raise self.error(key, f"is beyond what can be computed; write more than {1.0 / _LARGEST:g}")
         return number
 
 

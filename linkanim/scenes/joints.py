@@ -48,6 +48,7 @@ def read_joint(name: str, table: Table) -> Joint:
     for mark, read in _KINDS.items():
         if mark in table:
             return read(name, table)
+    table.only(*_KINDS, "length", "side", "gear", "at")
     raise table.wrong(f"says no way to find the joint; give it one of {', '.join(_KINDS)}")
 
 

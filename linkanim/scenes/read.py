@@ -7,9 +7,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from linkanim import units
-from linkanim.errors import SceneError
+from linkanim.errors import AssemblyError, SceneError
 from linkanim.mechanics.linkage import (
+    RPR,
     RRP,
+    RRR,
     Body,
     Crank,
     Damper,
@@ -24,7 +26,17 @@ from linkanim.scenes.check import Table, meant
 from linkanim.scenes.joints import read_joint, read_pin
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
-from linkanim.scenes.structure import Clusters, circle, clusters, fixed, needs, solved_order, together
+from linkanim.scenes.structure import (
+    Frame,
+    Frames,
+    bodies,
+    circle,
+    coincide,
+    fixed,
+    holding,
+    needs,
+    solved_order,
+)
 
 _TOP = (
     "title", "source", "length_unit", "drive", "ground", "joints", "bodies", "springs", "dampers", "trace",
@@ -54,8 +66,8 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str) -> Scene:
     top.only(*_TOP)
     short = expand(top, _origin(top))
     joints = _joints(top, short)
-    rigid = clusters(joints)
-    _check_points(top, joints, rigid)
+    rigid = bodies(joints)
+    _check_rigid(top, joints, rigid)
     linkage = Linkage(
         joints=joints,
         drive=_drive(top, joints, short.drive),
@@ -64,7 +76,7 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str) -> Scene:
         dampers=tuple(_damper(name, table, joints) for name, table in top.tables("dampers")),
         metre=units.metre(top.unit),
     )
-    return Scene(
+    scene = Scene(
         name=name,
         title=top.text("title", name),
         source=top.text("source", ""),
@@ -73,6 +85,17 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str) -> Scene:
         trace=_trace(top, joints, short.trace),
         document=document,
     )
+    _check_assembly(top, scene)
+    return scene
+
+
+def _check_assembly(top: Table, scene: Scene) -> None:
+    """Refuse lengths that cannot be put together, saying in which file and table they stand."""
+    try:
+        _ = scene.mechanism
+    except AssemblyError as error:
+        section = next((key for key in SHORTHANDS if key in top), "joints")
+        raise AssemblyError(f"{top.where}: {section}: {error}") from None
 
 
 def _length_unit(top: Table) -> str:
@@ -85,10 +108,15 @@ def _origin(top: Table) -> Pin:
     return read_pin("O2", ground) if "O2" in ground else Pin("O2", (0.0, 0.0))
 
 
+def _pins(ground: Table, short: Expansion) -> list[Pin]:
+    """Return the file's fixed pins, those given by coordinates first: so TOML writers order tables too."""
+    names = [name for name in ground.names_given() if not (short.joints and name == "O2")]
+    return [read_pin(name, ground) for name in sorted(names, key=lambda name: name in ground.subtables())]
+
+
 def _joints(top: Table, short: Expansion) -> tuple[Joint, ...]:
     """Return all joints in solved order: the shorthand's and the file's."""
-    ground = top.table("ground")
-    pins = [read_pin(name, ground) for name in ground.names_given() if not (short.joints and name == "O2")]
+    pins = _pins(top.table("ground"), short)
     moving = [read_joint(name, table) for name, table in top.tables("joints")]
     if not (short.joints or moving):
         raise top.wrong(f"describes no linkage; give it [joints], or one of {', '.join(SHORTHANDS)}")
@@ -119,22 +147,54 @@ def _check_needs(top: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
         if not isinstance(joints[name], Pin):
             pins = ", ".join(pin.name for pin in joints.values() if isinstance(pin, Pin))
             raise SceneError(f"{table.where}: {table.path}.{key}: {name} moves; name a fixed pin ({pins})")
+    _check_moved(table, joint, joints)
     geared = isinstance(joint, Crank) and joint.gear
     if geared and not isinstance(joints[geared.driver], Crank):
         raise SceneError(f"{table.where}: {table.path}.gear.with: {geared.driver} is not a crank")
+
+
+def _check_moved(table: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
+    """Refuse a slider or a slotted bar that nothing moves."""
+    key, name = {RRP: ("from", "end"), RPR: ("slot.through", "through")}.get(type(joint), ("", ""))
+    if key and isinstance(joints[getattr(joint, name)], Pin):
+        reason = f"{getattr(joint, name)} is fixed, so nothing would move; name a joint that moves"
+        raise SceneError(f"{table.where}: {table.path}.{key}: {reason}")
 
 
 def _no_joint(name: str, joints: Iterable[str]) -> str:
     return f"no joint is called {units.shown(name)}{meant(name, joints)}; there are {', '.join(joints)}"
 
 
-def _check_points(top: Table, joints: tuple[Joint, ...], rigid: Clusters) -> None:
-    """Refuse a point on two joints that do not keep their distance."""
+def _check_rigid(top: Table, joints: tuple[Joint, ...], rigid: Frames) -> None:
+    """Refuse points that are not on one body, and bars on one body that do not meet."""
     for joint in joints:
-        if isinstance(joint, Rigid) and not together(rigid, joint.on):
-            first, second = joint.on
-            table = top.table("joints").table(joint.name)
-            raise table.wrong(f"{first} and {second} are not on one rigid body; name two joints of one bar")
+        if isinstance(joint, Rigid):
+            _check_point(top.table("joints").table(joint.name), joint, rigid)
+        elif isinstance(joint, RRR) and (frame := holding(rigid, joint.ends)):
+            _check_brace(top.table("joints").table(joint.name), joint, frame)
+
+
+def _check_point(table: Table, joint: Rigid, rigid: Frames) -> None:
+    first, second = joint.on
+    frame = holding(rigid, joint.on)
+    if frame is None:
+        raise table.wrong(f"{first} and {second} are not on one rigid body; name two joints of one bar")
+    if coincide(frame, first, second):
+        raise table.wrong(
+            f"{first} and {second} are one point, so no direction leads from {first} to {second}"
+        )
+
+
+def _check_brace(table: Table, joint: RRR, frame: Frame) -> None:
+    """Refuse a dyad between two joints of one body whose bars are too short or too long for it."""
+    first, second = joint.ends
+    a, b = joint.lengths
+    distance = abs(frame[first] - frame[second])
+    if coincide(frame, first, second) or not abs(a - b) <= distance <= a + b:
+        raise AssemblyError(
+            f"{table.where}: {table.path}: the bars of {a:g} and {b:g} cannot meet: {first} and {second} are "
+            f"{distance:g} apart on one rigid body, and {abs(a - b):g} to {a + b:g} would do"
+        )
 
 
 def _drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Drive:
@@ -155,14 +215,14 @@ def _drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Drive:
 
 
 def _bodies(
-    top: Table, joints: tuple[Joint, ...], rigid: Clusters, usual: tuple[Body, ...]
+    top: Table, joints: tuple[Joint, ...], rigid: Frames, usual: tuple[Body, ...]
 ) -> tuple[Body, ...]:
     """Return the shorthand's bodies and the file's; the file's takes the place of one of the same name."""
-    bodies = {body.name: body for body in usual}
+    found = {body.name: body for body in usual}
     known = {joint.name: joint for joint in joints}
     for name, table in top.tables("bodies"):
-        bodies[name] = _block(name, table, known) if "slider" in table else _bar(name, table, known, rigid)
-    return tuple(bodies.values())
+        found[name] = _block(name, table, known) if "slider" in table else _bar(name, table, known, rigid)
+    return tuple(found.values())
 
 
 def _block(name: str, table: Table, joints: Mapping[str, Joint]) -> Body:
@@ -175,13 +235,18 @@ def _block(name: str, table: Table, joints: Mapping[str, Joint]) -> Body:
     return Body(name, slider=slider)
 
 
-def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: Clusters) -> Body:
+def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: Frames) -> Body:
     table.only("joints", "com")
     members = _members(table, "joints", joints)
     if len(members) < 2:
         raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
-    if not together(rigid, members):
+    frame = holding(rigid, members)
+    if frame is None:
         raise table.error("joints", f"{', '.join(members)} are not joints of one rigid body")
+    if coincide(frame, members[0], members[1]):
+        raise table.error(
+            "joints", f"{members[0]} and {members[1]} are one point; name another first or second"
+        )
     return Body(name, members, table.point("com") if "com" in table else None)
 
 

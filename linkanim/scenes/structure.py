@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from functools import reduce
 
 from linkanim.mechanics.linkage import RPR, RRP, RRR, Crank, Joint, Pin, Rigid
 
-Clusters = tuple[frozenset[str], ...]
+Frame = Mapping[str, complex]
+Frames = tuple[Frame, ...]
+
+_ONE_POINT = 1e-12
 
 
 def needs(joint: Joint) -> tuple[tuple[str, str], ...]:
@@ -70,35 +73,50 @@ def circle(joints: Mapping[str, Joint], stuck: Iterable[str]) -> tuple[str, ...]
         path.append(name)
 
 
-def clusters(joints: Iterable[Joint]) -> Clusters:
-    """Return the sets of joints that keep their distances, the ground first; joints in solved order."""
-    return reduce(_joined, joints, (frozenset(),))
+def bodies(joints: Iterable[Joint]) -> Frames:
+    """Return the sets of joints that keep their distances, the ground first; joints in solved order.
+
+    Each maps its joints to their places in the body's own frame: x along its first bar, y to the left.
+    """
+    return reduce(_joined, joints, ({},))
 
 
-def together(rigid: Clusters, names: Iterable[str]) -> bool:
-    """Say whether all the joints belong to one rigid body."""
-    wanted = frozenset(names)
-    return any(wanted <= cluster for cluster in rigid)
+def holding(rigid: Frames, names: Iterable[str]) -> Frame | None:
+    """Return the rigid body that has all these joints; None where they are on different ones."""
+    wanted = set(names)
+    return next((frame for frame in rigid if wanted <= frame.keys()), None)
 
 
-def _joined(rigid: Clusters, joint: Joint) -> Clusters:
-    """Add one joint: to the ground, to the body that holds both its ends, or as bars of its own."""
+def coincide(frame: Frame, first: str, second: str) -> bool:
+    """Say whether two joints of a body are one point, so that no direction runs from one to the other."""
+    size = max(abs(frame[first]), abs(frame[second]))
+    return abs(frame[first] - frame[second]) <= _ONE_POINT * size
+
+
+def _joined(rigid: Frames, joint: Joint) -> Frames:
+    """Add one joint: to the ground, to the body that it is a point of, or as the end of new bars."""
     if isinstance(joint, Pin):
-        return (rigid[0] | {joint.name}, *rigid[1:])
-    bars = tuple(_bars(joint))
-    ends = {end for bar in bars for end in bar if end != joint.name}
-    for i, cluster in enumerate(rigid):
-        if len(ends) == 2 and ends <= cluster:
-            return (*rigid[:i], cluster | {joint.name}, *rigid[i + 1 :])
-    return (*rigid, *(frozenset(bar) for bar in bars))
+        return ({**rigid[0], joint.name: complex(*joint.position)}, *rigid[1:])
+    if not isinstance(joint, Rigid):
+        return (*rigid, *({end: 0j, joint.name: complex(length)} for end, length in _bars(joint)))
+    frame = holding(rigid, joint.on)
+    if frame is None or coincide(frame, *joint.on):
+        return rigid
+    start, end = (frame[name] for name in joint.on)
+    place = start + complex(*joint.at) * (end - start) / abs(end - start)
+    return tuple({**frame, joint.name: place} if other is frame else other for other in rigid)
 
 
-def _bars(joint: Joint) -> Iterator[tuple[str, str]]:
+def _bars(joint: Joint) -> tuple[tuple[str, float], ...]:
+    """Return the bars that end in a joint: from which joint, how long."""
     match joint:
-        case Crank(pivot=pivot) | RPR(pivot=pivot):
-            yield pivot, joint.name
-        case RRP(end=end):
-            yield end, joint.name
-        case RRR(ends=(first, second)) | Rigid(on=(first, second)):
-            yield first, joint.name
-            yield second, joint.name
+        case (
+            Crank(pivot=start, length=length)
+            | RPR(pivot=start, length=length)
+            | RRP(end=start, length=length)
+        ):
+            return ((start, length),)
+        case RRR(ends=ends, lengths=lengths):
+            return ((ends[0], lengths[0]), (ends[1], lengths[1]))
+        case _:
+            return ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import chain, count
 from pathlib import Path
 
@@ -9,6 +10,8 @@ import tomli_w
 
 from linkanim.errors import SceneError, WorkFailed
 from linkanim.scenes.scene import Scene
+
+_LIST = re.compile(r" = \[\n((?:    .*,\n)+)\]$", re.MULTILINE)
 
 
 def text(scene: Scene) -> str:
@@ -19,7 +22,7 @@ def text(scene: Scene) -> str:
     """
     if not scene.document:
         raise SceneError(f"{scene.name}: has no scene file behind it that could be written; load it from one")
-    return tomli_w.dumps(dict(scene.document))
+    return _LIST.sub(_on_one_line, tomli_w.dumps(dict(scene.document)))
 
 
 def save(scene: Scene, folder: Path) -> Path:
@@ -39,6 +42,12 @@ def save(scene: Scene, folder: Path) -> Path:
         except OSError as error:
             raise WorkFailed(f"{path}: cannot be written: {(error.strerror or str(error)).lower()}") from None
     raise AssertionError("there is always a free name")
+
+
+def _on_one_line(found: re.Match[str]) -> str:
+    """Return a list as people write it, [283, 165], rather than an item a line."""
+    items = (line.strip().removesuffix(",") for line in found[1].splitlines())
+    return f" = [{', '.join(items)}]"
 
 
 def _filled(path: Path, content: bytes) -> Path:

@@ -1,0 +1,213 @@
+"""Dimensions change one at a time, checked as a file is; a scene written is the scene read."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkanim.errors import SceneError, WorkFailed
+from linkanim.mechanics.linkage import Crank
+from linkanim.scenes import load, names
+from linkanim.scenes.edit import Key, dimensions, with_dimension
+from linkanim.scenes.read import parse, scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.write import save, text
+
+COUPLER: Key = ("four-bar", "coupler")
+
+
+def reread(scene: Scene) -> Scene:
+    return scene_from(parse(text(scene), "written"), name=scene.name, where="written")
+
+
+def labels(scene: Scene) -> list[str]:
+    return [dimension.label for dimension in dimensions(scene)]
+
+
+def test_a_four_bars_dimensions_are_its_keys() -> None:
+    assert labels(load("crank-rocker")) == [
+        "ground",
+        "crank",
+        "coupler",
+        "rocker",
+        "coupler_point[0]",
+        "coupler_point[1]",
+        "drive.speed",
+        "drive.start",
+    ]
+
+
+def test_a_six_bars_lengths_are_r1_to_r8() -> None:
+    assert labels(load("six-bar"))[:8] == ["r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8"]
+
+
+def test_the_long_forms_dimensions_are_told_by_their_path() -> None:
+    found = {item.label: (item.value, item.unit, item.kind) for item in dimensions(load("press"))}
+    assert found["joints.B.length[0]"] == (283.0, "mm", "length")
+    assert found["joints.D.gear.ratio"] == (-1.0, "", "ratio")
+    assert found["joints.D.gear.offset"] == (-72.55, "deg", "angle")
+    assert found["joints.C.line.angle"] == (90.0, "deg", "angle")
+    assert found["joints.C.line.offset"] == (0.0, "mm", "offset")
+    assert found["joints.H.at[1]"] == (45.0, "mm", "offset")
+    assert found["ground.O7.length"] == (330.0, "mm", "length")
+    assert found["ground.G[1]"] == (-800.0, "mm", "offset")
+    assert found["drive.speed"] == (20.0, "rpm", "speed")
+
+
+def test_the_speed_can_be_edited_where_the_file_leaves_it_out() -> None:
+    bare = scene_from(
+        tomllib.loads("[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"),
+        name="bare",
+        where="bare",
+    )
+    assert labels(bare)[-1] == "drive.speed"
+    faster = with_dimension(bare, ("drive", "speed"), 40)
+    assert faster.linkage.drive.speed == 2 * bare.linkage.drive.speed
+
+
+def test_a_scene_without_a_file_has_nothing_to_edit_or_write() -> None:
+    made = Scene("made", "Made", "", "mm", load("press").linkage)
+    assert dimensions(made) == ()
+    with pytest.raises(SceneError, match="no scene file"):
+        text(made)
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "typed", "written"),
+    [
+        # Without a unit it is the dimension's own.
+        ("crank-rocker", COUPLER, 95.5, 95.5),
+        ("crank-rocker", COUPLER, "95.5", 95.5),
+        ("crank-rocker", COUPLER, 95.0, 95),
+        ("crank-rocker", ("drive", "speed"), "30", "30 rpm"),
+        ("crank-rocker", ("drive", "speed"), -30.0, "-30.0 rpm"),
+        ("six-bar", ("six-bar", "link_angle"), "-45", "-45 deg"),
+        # With a unit it stays as it was typed.
+        ("crank-rocker", COUPLER, " 9.5 cm ", "9.5 cm"),
+        ("crank-rocker", ("drive", "speed"), "2 rad/s", "2 rad/s"),
+        ("press", ("joints", "D", "gear", "ratio"), "-1/2", "-1/2"),
+        # The item of a list.
+        ("six-bar", ("six-bar", "lengths", 2), 91, 91),
+        ("press", ("joints", "B", "length", 1), "170", 170),
+        ("press", ("ground", "G", 1), "-790", -790),
+    ],
+)
+def test_a_value_takes_its_place_in_the_document(
+    name: str, key: Key, typed: float | str, written: object
+) -> None:
+    before = load(name)
+    after = with_dimension(before, key, typed)
+    found: Any = after.document
+    for part in key:
+        found = found[part]
+    assert found == written
+    assert type(found) is type(written)
+    assert before.document == load(name).document
+    assert after.linkage != before.linkage
+
+
+@pytest.mark.parametrize(
+    ("key", "typed", "said"),
+    [
+        (COUPLER, "", "not a length"),
+        (COUPLER, "abc", "not a length"),
+        (COUPLER, "-3", "above zero"),
+        (COUPLER, 0, "above zero"),
+        (COUPLER, float("nan"), "finite"),
+        (COUPLER, "1e999", "finite"),
+        (COUPLER, "3 deg", "mm, cm, m, in"),
+        (("drive", "speed"), "0", "moves nothing"),
+        (("drive", "speed"), "3 mm", "rpm, rad/s, deg/s"),
+        (("drive", "start"), "x", "not an angle"),
+    ],
+)
+def test_a_value_that_cannot_be_is_refused_and_names_its_key(key: Key, typed: float | str, said: str) -> None:
+    with pytest.raises(SceneError) as refusal:
+        with_dimension(load("crank-rocker"), key, typed)
+    assert str(refusal.value).startswith("crank-rocker: " + ".".join(str(part) for part in key))
+    assert said in str(refusal.value)
+
+
+def test_only_dimensions_can_be_changed() -> None:
+    with pytest.raises(KeyError):
+        with_dimension(load("crank-rocker"), ("four-bar", "assembly"), "crossed")
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_dimension_given_its_own_value_changes_nothing(name: str) -> None:
+    scene = load(name)
+    for dimension in dimensions(scene):
+        assert with_dimension(scene, dimension.key, dimension.value).linkage == scene.linkage
+
+
+@pytest.mark.parametrize("name", names())
+def test_a_scene_of_the_catalogue_written_reads_back(name: str) -> None:
+    scene = load(name)
+    assert reread(scene) == scene
+    assert reread(scene).document == scene.document
+
+
+LENGTHS = st.floats(1e-80, 1e80) | st.integers(1, 10**9)
+ANGLES = st.floats(-1e3, 1e3).map(lambda value: f"{value!r} deg") | st.floats(-9, 9).map(
+    lambda value: f"{value!r} rad"
+)
+OFFSETS = st.floats(-1e9, 1e9)
+TITLES = st.text(st.characters(codec="utf-8"), max_size=20)
+
+
+@given(
+    title=TITLES,
+    lengths=st.lists(LENGTHS, min_size=4, max_size=4),
+    angle=ANGLES,
+    point=st.tuples(OFFSETS, st.floats(1, 9)),
+    unit=st.sampled_from(["mm", "cm", "m", "in"]),
+    pin=st.tuples(OFFSETS, OFFSETS),
+)
+def test_whatever_a_document_says_is_written_to_the_last_bit(
+    title: str,
+    lengths: list[float],
+    angle: str,
+    point: tuple[float, float],
+    unit: str,
+    pin: tuple[float, float],
+) -> None:
+    bars = dict(zip(("ground", "crank", "coupler", "rocker"), lengths, strict=True))
+    document = {
+        "title": title,
+        "length_unit": unit,
+        "ground": {"O2": list(pin), "G": {"length": lengths[0], "angle": angle}},
+        "four-bar": {**bars, "ground_angle": angle, "coupler_point": list(point)},
+    }
+    scene = Scene("any", title, "", unit, load("kite").linkage, document=document)
+    assert parse(text(scene), "any") == document
+
+
+def test_saving_never_takes_the_place_of_a_file(tmp_path: Path) -> None:
+    scene = with_dimension(load("press"), ("joints", "A", "length"), 54)
+    (tmp_path / "press.toml").write_text("mine")
+    paths = [save(scene, tmp_path) for _ in range(2)]
+    assert [path.name for path in paths] == ["press-2.toml", "press-3.toml"]
+    assert (tmp_path / "press.toml").read_text() == "mine"
+    saved = load(paths[0])
+    assert saved.linkage == scene.linkage
+    assert saved.linkage.by_name["A"] == Crank("A", "O2", 54.0)
+
+
+def test_a_folder_that_is_not_there_fails_in_one_line(tmp_path: Path) -> None:
+    with pytest.raises(WorkFailed, match="cannot be written: no such file"):
+        save(load("press"), tmp_path / "nowhere")
+
+
+def test_a_disk_that_fills_up_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(path: Path, data: bytes) -> int:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(WorkFailed, match="no space left"):
+        save(load("press"), tmp_path)
+    assert list(tmp_path.iterdir()) == []

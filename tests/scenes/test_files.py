@@ -1,0 +1,123 @@
+"""Scenes come by name from the catalogue, or by path from a file."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from linkanim.errors import BadInput, SceneError
+from linkanim.scenes import load, names, titles
+
+FOUR_BAR = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
+TEN = [
+    "crank-rocker",
+    "drag-link",
+    "double-rocker",
+    "triple-rocker",
+    "slider-crank",
+    "six-bar",
+    "parallelogram",
+    "antiparallelogram",
+    "rocker-driven",
+    "press",
+]
+
+
+def test_the_catalogue_begins_with_the_scenes_of_the_reports() -> None:
+    assert list(names()[:10]) == TEN
+
+
+def test_a_file_is_named_by_its_stem(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(FOUR_BAR)
+    assert load(path).name == load(str(path)).name == "mine"
+    assert load(path).linkage == load(str(path)).linkage
+
+
+def test_a_byte_order_mark_is_no_hindrance(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + FOUR_BAR.encode())
+    assert load(path).linkage.joints
+
+
+def test_a_path_object_is_a_path_even_without_suffix(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("press").write_text(FOUR_BAR)
+    assert "rocker" in {body.name for body in load(Path("press")).linkage.bodies}
+    assert "7" in {body.name for body in load("press").linkage.bodies}
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ("pres", 'did you mean "press"?'),
+        ("drag_link", 'did you mean "drag-link"?'),
+        ("zzz", "`linkanim scenes` lists them"),
+        ("", "`linkanim scenes` lists them"),
+        ("a\nb", "`linkanim scenes` lists them"),
+    ],
+)
+def test_an_unknown_name_is_answered_with_the_nearest(asked: str, said: str) -> None:
+    with pytest.raises(BadInput) as refusal:
+        load(asked)
+    assert said in str(refusal.value)
+    assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("path", "content", "said"),
+    [
+        ("none.toml", None, "no such file"),
+        ("press.toml", None, 'did you mean "press"?'),
+        ("nowhere/press.toml", None, "no such file"),
+        ("a\0b.toml", None, "cannot be read"),
+        ("x" * 300 + ".toml", None, "cannot be read"),
+        ("big.toml", b"# " + b"x" * 1_000_000, "larger than 1 MB"),
+        ("latin.toml", b"title = 'x'\n# \xe9t\xe9\n", "not UTF-8 text (line 2)"),
+        ("zip.toml", b"PK\x03\x04\xff\xfe\x00", "not UTF-8"),
+        ("nul.toml", b"\x00" * 10, "not TOML"),
+        ("words.toml", b"this is\nnot a scene\n", "not TOML"),
+        ("empty.toml", b"", "describes no linkage"),
+    ],
+)
+def test_a_file_that_is_no_scene_is_refused_by_name(
+    path: str, content: bytes | None, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    if content is not None:
+        Path(path).write_bytes(content)
+    with pytest.raises(SceneError) as refusal:
+        load(path)
+    assert str(refusal.value).startswith(path.replace("\0", "?"))
+    assert said in str(refusal.value)
+    assert "\n" not in str(refusal.value)
+
+
+def test_a_folder_is_not_a_scene(tmp_path: Path) -> None:
+    folder = tmp_path / "folder.toml"
+    folder.mkdir()
+    with pytest.raises(SceneError, match=r"folder\.toml: is a folder"):
+        load(folder)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are a POSIX thing")
+def test_a_pipe_is_refused_rather_than_waited_for(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.toml"
+    os.mkfifo(pipe)
+    with pytest.raises(SceneError, match="not a file"):
+        load(pipe)
+
+
+def test_titles_are_told_for_every_name() -> None:
+    assert tuple(titles()) == names()
+    assert all(title and title[0].isupper() for title in titles().values())
+
+
+def test_listing_the_catalogue_needs_no_window_encoder_or_arrays() -> None:
+    heavy = "{'pygame', 'imageio_ffmpeg', 'PIL', 'numpy'}"
+    check = f"import sys; from linkanim.scenes import titles; titles(); assert not {heavy} & set(sys.modules)"
+    assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0

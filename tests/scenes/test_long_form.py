@@ -1,0 +1,127 @@
+"""Joints may stand in any order in the file; what depends on what decides."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkanim.mechanics.linkage import (
+    RPR,
+    RRP,
+    RRR,
+    Body,
+    Crank,
+    Damper,
+    Drive,
+    Gear,
+    Line,
+    Pin,
+    Polar,
+    Rigid,
+    Spring,
+)
+from linkanim.scenes import load
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.scene import Scene
+
+PINS = "[ground]\nO2 = [0, 0]\nO4 = [100, 0]\n"
+JOINTS = {
+    "A": "[joints.A]\ncrank = 'O2'\nlength = 30\n",
+    "B": "[joints.B]\nfrom = ['A', 'O4']\nlength = [90, 80]\n",
+    "H": "[joints.H]\non = ['A', 'B']\nat = [20, 30]\n",
+    "K": "[joints.K]\non = ['A', 'H']\nat = [20, 30]\n",
+    "C": "[joints.C]\nfrom = 'B'\nlength = 200\nline = { through = 'O4', angle = '0 deg' }\n",
+}
+
+
+def read(text: str) -> Scene:
+    return scene_from(tomllib.loads(text), name="my", where="my.toml")
+
+
+def order(text: str) -> list[str]:
+    return [joint.name for joint in read(text).linkage.joints]
+
+
+def test_the_press_is_read_as_it_is_described() -> None:
+    scene = load("press")
+    joints = scene.linkage.by_name
+    down = joints["O7"]
+    assert isinstance(down, Pin)
+    assert down.polar == Polar(330.0, -1.8757053471183058)
+    assert down.position == pytest.approx((-99.0681, -314.7785), abs=1e-4)
+    assert joints["A"] == Crank("A", "O2", 55.0)
+    assert joints["D"] == Crank("D", "O7", 61.0, Gear("A", Fraction(-1), -1.2662363723218861))
+    assert joints["B"] == RRR("B", ("A", "D"), (283.0, 165.0), 1)
+    assert joints["C"] == RRP("C", "B", 322.0, Line("O2", math.pi / 2), -1)
+    assert joints["H"] == Rigid("H", ("A", "B"), (140.0, 45.0))
+    assert [body.name for body in scene.linkage.bodies] == ["2", "3", "4", "5", "6", "7"]
+    assert scene.linkage.bodies[3] == Body("5", slider="C")
+    assert scene.linkage.springs == (Spring("return", ("C", "G"), 4000.0, 280.0),)
+    assert scene.linkage.dampers == (Damper("cushion", ("H", "S"), 200.0),)
+    assert scene.linkage.drive == Drive("A", 2 * math.pi / 3, 0.0)
+
+
+def test_a_slotted_bar_turns_about_a_fixed_pin() -> None:
+    slot = "[joints.P]\nslot = { pivot = 'O4', through = 'A', offset = -5 }\nlength = 300\n"
+    assert read(PINS + JOINTS["A"] + slot).linkage.by_name["P"] == RPR("P", "O4", "A", 300.0, -5.0)
+
+
+@given(st.permutations(sorted(JOINTS)))
+def test_each_joint_comes_after_those_it_is_found_from(names: list[str]) -> None:
+    found = order(PINS + "".join(JOINTS[name] for name in names))
+    assert set(found) == {"O2", "O4", *JOINTS}
+    for before, after in (("A", "B"), ("B", "H"), ("H", "K"), ("B", "C"), ("O4", "A")):
+        assert found.index(before) < found.index(after)
+
+
+def test_joints_that_can_stand_as_written_do() -> None:
+    assert order(PINS + "".join(JOINTS[name] for name in "ABCHK")) == ["O2", "O4", *"ABCHK"]
+    assert order(PINS + "".join(JOINTS[name] for name in "ABHKC")) == ["O2", "O4", *"ABHKC"]
+
+
+def test_a_chain_of_ten_thousand_joints_written_backwards_is_read() -> None:
+    points = [
+        f"[joints.p{i}]\non = ['A', '{f'p{i - 1}' if i else 'B'}']\nat = [1, 2]\n" for i in range(10_000)
+    ]
+    assert order(PINS + "".join(reversed(points)) + JOINTS["B"] + JOINTS["A"])[-1] == "p9999"
+
+
+@pytest.mark.parametrize(
+    "members",
+    [
+        ["A", "B", "H"],
+        # K is on the coupler too, though by way of H.
+        ["H", "K"],
+        # The fixed pins are one body, the frame.
+        ["O2", "O4"],
+        ["B", "C"],
+    ],
+)
+def test_joints_of_one_rigid_body_may_be_drawn_as_one(members: list[str]) -> None:
+    text = PINS + "".join(JOINTS.values()) + f"[bodies]\nx = {{ joints = {members} }}\n"
+    assert read(text).linkage.bodies == (Body("x", tuple(members)),)
+
+
+def test_a_dyad_may_brace_two_points_of_one_body() -> None:
+    braced = "[joints.T]\nfrom = ['A', 'H']\nlength = [40, 40]\n"
+    assert order(PINS + JOINTS["A"] + JOINTS["B"] + JOINTS["H"] + braced)[-1] == "T"
+
+
+def test_a_file_says_little_and_the_rest_is_usual() -> None:
+    scene = read(PINS + JOINTS["A"] + JOINTS["B"])
+    assert (scene.title, scene.source, scene.length_unit, scene.trace) == ("my", "", "mm", ())
+    assert scene.linkage.drive == Drive("A", 2 * math.pi / 3, 0.0)
+
+
+def test_the_first_free_crank_is_driven_wherever_the_geared_one_stands() -> None:
+    geared = (
+        "[joints.D]\ncrank = 'O4'\nlength = 9\ngear = { with = 'A', ratio = '-1/3', offset = '10 deg' }\n"
+    )
+    scene = read(PINS + geared + JOINTS["A"])
+    assert scene.linkage.drive.joint == "A"
+    assert [joint.name for joint in scene.linkage.joints] == ["O2", "O4", "A", "D"]

@@ -1,0 +1,312 @@
+"""What is not a scene is refused in one line that names the file, the key, the reason and a way out."""
+
+from __future__ import annotations
+
+import contextlib
+import tomllib
+
+import pytest
+
+from linkanim.errors import AssemblyError, SceneError
+from linkanim.scenes.read import parse, scene_from
+
+FOUR_BAR = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
+LONG = """
+[ground]
+O2 = [0, 0]
+O4 = [100, 0]
+[joints.A]
+crank = "O2"
+length = 30
+[joints.B]
+from = ["A", "O4"]
+length = [90, 80]
+"""
+ON_B = "coupler_point = [90, 0]\n"
+GEARED = '[joints.D]\ncrank = "O4"\nlength = 20\ngear = { with = "A", ratio = %s }\n'
+
+REFUSED: list[tuple[str, str, str, str]] = [
+    # Keys and tables that are not known: a misspelt key must not be passed over in silence.
+    ("misspelt top table", FOUR_BAR + "[drve]\n", "drve", 'did you mean "drive"'),
+    ("misspelt top key", "titel = 'x'\n" + FOUR_BAR, "titel", 'did you mean "title"'),
+    ("misspelt length", FOUR_BAR.replace("coupler", "cuopler"), "four-bar.cuopler", 'did you mean "coupler"'),
+    ("key of another kind", LONG + "line = 3\n", "joints.B.line", "must be a table"),
+    (
+        "a list where a slider has one end",
+        LONG + "line = { through = 'O2', angle = '0 deg' }\n",
+        "joints.B.from",
+        "must be a text",
+    ),
+    ("misspelt kind", LONG.replace("from", "form"), "joints.B.form", 'did you mean "from"'),
+    ("stray key in a joint", LONG + "colour = 'red'\n", "joints.B.colour", "known here: from, length, side"),
+    ("stray key in gear", LONG + GEARED % "1, phase = 0", "joints.D.gear.phase", "with, ratio, offset"),
+    ("stray key in drive", FOUR_BAR + "[drive]\nrpm = 20\n", "drive.rpm", "joint, speed, start"),
+    # Names that are not known.
+    (
+        "unknown pivot",
+        LONG.replace('crank = "O2"', 'crank = "O3"'),
+        "joints.A.crank",
+        "there are O2, O4, A, B",
+    ),
+    ("unknown end", LONG.replace('["A"', '["a"'), "joints.B.from", 'no joint is called "a"'),
+    ("unknown trace", FOUR_BAR + "[trace]\njoints = ['Q']\n", "trace.joints", "there are O2, O4, A, B"),
+    ("unknown driven joint", FOUR_BAR + "[drive]\njoint = 'Q'\n", "drive.joint", "that is A"),
+    ("unknown spring end", FOUR_BAR + "[springs.s]\nbetween = ['A', 'Q']\n", "springs.s.between", '"Q"'),
+    ("unknown damper end", FOUR_BAR + "[dampers.d]\nbetween = ['Q', 'A']\n", "dampers.d.between", '"Q"'),
+    ("unknown gear", LONG + GEARED.replace('"A"', '"Z"') % 1, "joints.D.gear.with", '"Z"'),
+    ("unknown slider", FOUR_BAR + "[bodies]\nx = { slider = 'Q' }\n", "bodies.x.slider", '"Q"'),
+    # A joint cannot be found from itself, however long the way round.
+    ("self", LONG.replace('["A"', '["B"'), "joints.B.from", "itself"),
+    (
+        "circle",
+        LONG + "[joints.C]\non = ['A', 'D']\nat = [1, 1]\n[joints.D]\non = ['A', 'C']\nat = [1, 1]\n",
+        "joints",
+        "-> ",
+    ),
+    ("geared to itself", LONG + (GEARED % 1).replace('"A"', '"D"'), "joints.D.gear.with", "itself"),
+    # One shorthand a file, and no second joint of a name.
+    (
+        "two shorthands",
+        FOUR_BAR + "[slider-crank]\ncrank = 1\nrod = 3\n",
+        "[four-bar] and [slider-crank]",
+        "keep one",
+    ),
+    ("a name twice", FOUR_BAR + "[joints.A]\ncrank = 'O2'\nlength = 3\n", "joints.A", "already"),
+    ("a pin like a joint", LONG + "[joints.O2]\ncrank = 'O4'\nlength = 3\n", "joints.O2", "already"),
+    ("nothing at all", "title = 'x'\n", "no linkage", "four-bar"),
+    # Lengths.
+    ("zero", FOUR_BAR.replace("30", "0"), "four-bar.crank = 0", "above zero"),
+    ("negative", FOUR_BAR.replace("30", "-30"), "four-bar.crank = -30", "above zero"),
+    ("nan", FOUR_BAR.replace("30", "nan"), "four-bar.crank", "finite"),
+    ("inf", FOUR_BAR.replace("30", "inf"), "four-bar.crank", "finite"),
+    ("far too long", FOUR_BAR.replace("30", "1e101"), "four-bar.crank", "beyond"),
+    ("far too short", FOUR_BAR.replace("30", "1e-101"), "four-bar.crank", "beyond"),
+    ("far away", "[ground]\nO2 = [-1e101, 0]\n" + FOUR_BAR, "ground.O2[0]", "beyond"),
+    ("1e999", FOUR_BAR.replace("30", "1e999"), "four-bar.crank", "finite"),
+    ("a word", FOUR_BAR.replace("30", "'long'"), "four-bar.crank", "not a length"),
+    ("true", FOUR_BAR.replace("30", "true"), "four-bar.crank", "true is not a length"),
+    ("an angle", FOUR_BAR.replace("30", "'30 deg'"), "four-bar.crank", "mm, cm, m, in"),
+    ("one length for two bars", LONG.replace("[90, 80]", "90"), "joints.B.length", "list of 2"),
+    ("the second of two", LONG.replace("[90, 80]", "[90, -80]"), "joints.B.length[1] = -80", "above zero"),
+    ("missing length", FOUR_BAR.replace("crank = 30\n", ""), "four-bar", '"crank" is missing'),
+    ("seven of eight", "[six-bar]\nlengths = [1, 2, 3, 4, 5, 6, 7]\n", "six-bar.lengths", "list of 8"),
+    (
+        "zero polar pin",
+        LONG.replace("[100, 0]", "{ length = 0, angle = '0 deg' }"),
+        "ground.O4.length",
+        "above zero",
+    ),
+    ("pin of three", LONG.replace("[100, 0]", "[100, 0, 0]"), "ground.O4", "list of 2"),
+    ("unknown length unit", "length_unit = 'ft'\n" + FOUR_BAR, "length_unit", '"mm" or "cm" or "m" or "in"'),
+    # Angles and speeds carry their unit.
+    ("bare angle", FOUR_BAR + "ground_angle = 30\n", "four-bar.ground_angle", '"30 deg"'),
+    ("bare speed", FOUR_BAR + "[drive]\nspeed = 20\n", "drive.speed", '"20 rpm"'),
+    ("bare start", FOUR_BAR + "[drive]\nstart = 0\n", "drive.start", '"0 deg"'),
+    ("no speed", FOUR_BAR + "[drive]\nspeed = '0 rpm'\n", "drive.speed", "moves nothing"),
+    # Gears: the ratio says after how many turns the motion repeats.
+    ("not a fraction", LONG + GEARED % 3.14159, "joints.D.gear.ratio = 3.14159", '"22/7"'),
+    ("rounded third", LONG + GEARED % 0.333, "joints.D.gear.ratio", '"1/3"'),
+    ("thirteenth", LONG + GEARED % "'5/13'", "joints.D.gear.ratio", '"3/8"'),
+    ("zero ratio", LONG + GEARED % 0, "joints.D.gear.ratio", "other than zero"),
+    ("zero below", LONG + GEARED % "'1/0'", "joints.D.gear.ratio", "other than zero"),
+    ("nan ratio", LONG + GEARED % "nan", "joints.D.gear.ratio", "other than zero"),
+    ("very steep", LONG + GEARED % 1e300, "joints.D.gear.ratio", "100"),
+    ("very slow", LONG + GEARED % 1e-300, "joints.D.gear.ratio", "1/12"),
+    ("true ratio", LONG + GEARED % "true", "joints.D.gear.ratio", "other than zero"),
+    (
+        "no ratio",
+        LONG + '[joints.D]\ncrank = "O4"\nlength = 2\ngear = { with = "A" }\n',
+        "gear",
+        '"ratio" is missing',
+    ),
+    ("geared to no crank", LONG + (GEARED % 1).replace('"A"', '"B"'), "joints.D.gear.with", "not a crank"),
+    # One input.
+    ("two inputs", LONG + "[joints.D]\ncrank = 'O4'\nlength = 20\n", "D is a second input", "gear"),
+    (
+        "no input",
+        "[ground]\nO = [0, 0]\nG = [9, 0]\n[joints.P]\non = ['O', 'G']\nat = [1, 2]\n",
+        "joints",
+        "no crank is free",
+    ),
+    ("driving the geared", LONG + GEARED % 1 + "[drive]\njoint = 'D'\n", "drive.joint", "that is A"),
+    # What is held by the ground must be a fixed pin.
+    (
+        "crank on a moving pin",
+        LONG + "[joints.D]\ncrank = 'A'\nlength = 2\ngear = { with = 'A', ratio = 1 }\n",
+        "joints.D.crank",
+        "A moves",
+    ),
+    (
+        "line through a moving pin",
+        LONG + "[joints.C]\nfrom = 'B'\nlength = 99\nline = { through = 'A', angle = '0 deg' }\n",
+        "joints.C.line.through",
+        "A moves; name a fixed pin (O2, O4)",
+    ),
+    (
+        "slot about a moving pin",
+        LONG + "[joints.C]\nslot = { pivot = 'B', through = 'A' }\nlength = 9\n",
+        "joints.C.slot.pivot",
+        "B moves",
+    ),
+    # Points and bodies are rigid.
+    ("point on two bars", LONG + "[joints.P]\non = ['O2', 'B']\nat = [1, 2]\n", "joints.P", "rigid"),
+    (
+        "point on its own joint",
+        LONG + "[joints.P]\non = ['A', 'B']\nat = [0, 0]\n",
+        "joints.P.at",
+        "A itself",
+    ),
+    ("coupler point on A", FOUR_BAR + "coupler_point = [0, 0]\n", "four-bar.coupler_point", "A itself"),
+    ("point on one joint", LONG + "[joints.P]\non = ['A', 'A']\nat = [1, 2]\n", "joints.P.on", "twice"),
+    (
+        "body of two bars",
+        FOUR_BAR + "[bodies]\nx = { joints = ['A', 'B', 'O4'] }\n",
+        "bodies.x.joints",
+        "rigid",
+    ),
+    ("body of one joint", FOUR_BAR + "[bodies]\nx = { joints = ['A'] }\n", "bodies.x.joints", "two joints"),
+    ("slider that turns", FOUR_BAR + "[bodies]\nx = { slider = 'B' }\n", "bodies.x.slider", "travel"),
+    ("body of nothing", FOUR_BAR + "[bodies.x]\n", "bodies.x", '"joints" is missing'),
+    ("joint of no kind", LONG + "[joints.C]\nlength = 3\n", "joints.C", "crank, line, from, slot, on"),
+    # Where two joints are one point no direction leads from one to the other.
+    (
+        "point on one point twice",
+        FOUR_BAR + ON_B + "[joints.Q]\non = ['B', 'P']\nat = [1, 2]\n",
+        "joints.Q",
+        "one point",
+    ),
+    (
+        "body that has no direction",
+        FOUR_BAR + ON_B + "[bodies]\nx = { joints = ['B', 'P'] }\n",
+        "bodies.x",
+        "one point",
+    ),
+    # A slider or a slot that hangs on fixed pins only does not move.
+    (
+        "slider on a fixed pin",
+        LONG + "[joints.C]\nfrom = 'O4'\nlength = 99\nline = { through = 'O2' }\n",
+        "joints.C.from",
+        "moves",
+    ),
+    (
+        "slot on a fixed pin",
+        LONG + "[joints.C]\nslot = { pivot = 'O2', through = 'O4' }\nlength = 9\n",
+        "joints.C.slot.through",
+        "moves",
+    ),
+    # Springs and dampers.
+    (
+        "half a force",
+        FOUR_BAR + "[springs.s]\nbetween = ['A', 'O4']\nstiffness = '4 N/m'\n",
+        "springs.s",
+        "free_length",
+    ),
+    (
+        "bare stiffness",
+        FOUR_BAR + "[springs.s]\nbetween = ['A', 'O4']\nfree_length = 3\nstiffness = 4\n",
+        "springs.s.stiffness",
+        '"4 N/m"',
+    ),
+    (
+        "negative damping",
+        FOUR_BAR + "[dampers.d]\nbetween = ['A', 'O4']\ncoefficient = '-4 N s/m'\n",
+        "dampers.d.coefficient",
+        "above zero",
+    ),
+    ("spring on one joint", FOUR_BAR + "[springs.s]\nbetween = ['A', 'A']\n", "springs.s.between", "twice"),
+    (
+        "spring of three",
+        FOUR_BAR + "[springs.s]\nbetween = ['A', 'B', 'O4']\n",
+        "springs.s.between",
+        "2 joints",
+    ),
+    # Choices, and tables that are something else.
+    ("no such assembly", FOUR_BAR + "assembly = 'closed'\n", "four-bar.assembly", '"open" or "crossed"'),
+    ("no such side", LONG + "side = 'up'\n", "joints.B.side", '"left" or "right"'),
+    ("a list as side", LONG + "side = ['left']\n", "joints.B.side", '"left" or "right"'),
+    ("a number as title", "title = 3\n" + FOUR_BAR, "title = 3", "text in quotes"),
+    ("a number as drive", "drive = 3\n" + FOUR_BAR, "drive = 3", "must be a table"),
+    ("a list as joints", "joints = [1]\n" + FOUR_BAR, "joints", "must be a table"),
+    ("a number as body", FOUR_BAR + "[bodies]\nx = 3\n", "bodies.x = 3", "must be a table"),
+    ("numbers as names", FOUR_BAR + "[trace]\njoints = [1]\n", "trace.joints", "list of joint names"),
+    # Names become keys of tables, JSON and charts ("B.velocity").
+    ("a dot in a name", LONG + "[joints.'a.b']\non = ['A', 'B']\nat = [1, 2]\n", 'joints."a.b"', "no dot"),
+    ("a line in a name", LONG + "[joints.\"a\\nb\"]\non = ['A', 'B']\nat = [1, 2]\n", "joints", "printable"),
+    ("an empty name", LONG + "[joints.'']\non = ['A', 'B']\nat = [1, 2]\n", "joints", "1 to 32"),
+    # Not TOML at all.
+    ("not TOML", FOUR_BAR + "crank 30\n", "is not TOML", "line 6"),
+    ("a key twice", FOUR_BAR + "crank = 30\n", "is not TOML", "line 6"),
+    ("deep brackets", "x = " + "[" * 5000, "", "brackets"),
+    ("endless integer", FOUR_BAR.replace("30", "3" * 5000), "is not TOML", ""),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "reason"), [row[1:] for row in REFUSED], ids=[row[0] for row in REFUSED]
+)
+def test_a_bad_scene_is_refused_in_one_line(text: str, where: str, reason: str) -> None:
+    with pytest.raises(SceneError) as refusal:
+        scene_from(parse(text, "my.toml"), name="my", where="my.toml")
+    said = str(refusal.value)
+    assert said.startswith("my.toml: ")
+    assert where in said
+    assert reason in said
+    assert "\n" not in said
+
+
+@pytest.mark.parametrize("text", [FOUR_BAR, LONG, LONG + GEARED % -1])
+def test_the_texts_that_are_spoilt_above_are_good_before(text: str) -> None:
+    assert scene_from(tomllib.loads(text), name="my", where="my.toml").linkage.joints
+
+
+@pytest.mark.parametrize(
+    "ratio", ["1", "-1", "0.5", "'1/3'", "'-5/12'", "0.1", "0.3333333333333333", "' 2 / 6 '", "'0.25'"]
+)
+def test_small_fractions_are_gear_ratios(ratio: str) -> None:
+    linkage = scene_from(tomllib.loads(LONG + GEARED % ratio), name="my", where="my.toml").linkage
+    geared = [crank.gear for crank in linkage.cranks if crank.gear]
+    assert [gear.ratio.denominator <= 12 for gear in geared] == [True]
+
+
+UNASSEMBLED: list[tuple[str, str, str, str]] = [
+    # s + p + q < l: no angle of the crank closes the loop.
+    ("ground too long", FOUR_BAR.replace("100", "400"), "four-bar", "joint B"),
+    ("crank too long", FOUR_BAR.replace("30", "300"), "four-bar", "joint B"),
+    ("long form", LONG.replace("[90, 80]", "[9, 8]"), "joints", "joint B"),
+    ("offset too large", "[slider-crank]\ncrank = 40\nrod = 120\noffset = 161\n", "slider-crank", "joint B"),
+    ("rod too short", "[slider-crank]\ncrank = 4\nrod = 12\noffset = -17\n", "slider-crank", "joint B"),
+    (
+        "slot too far aside",
+        LONG + "[joints.C]\nslot = { pivot = 'O4', through = 'A', offset = 131 }\nlength = 9\n",
+        "joints",
+        "joint C",
+    ),
+    # A brace on one body either fits or does not, whatever the input does.
+    ("brace too short", LONG + "[joints.T]\nfrom = ['A', 'B']\nlength = [40, 40]\n", "joints.T", "90 apart"),
+    ("brace too long", LONG + "[joints.T]\nfrom = ['A', 'B']\nlength = [10, 110]\n", "joints.T", "90 apart"),
+    (
+        "brace on one point",
+        FOUR_BAR + ON_B + "[joints.T]\nfrom = ['P', 'B']\nlength = [9, 9]\n",
+        "joints.T",
+        "0 apart",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "reason"), [row[1:] for row in UNASSEMBLED], ids=[row[0] for row in UNASSEMBLED]
+)
+def test_lengths_that_cannot_be_assembled_are_refused_when_read(text: str, where: str, reason: str) -> None:
+    with pytest.raises(AssemblyError) as refusal:
+        scene_from(parse(text, "my.toml"), name="my", where="my.toml")
+    said = str(refusal.value)
+    assert said.startswith(f"my.toml: {where}")
+    assert reason in said
+    assert "\n" not in said
+
+
+@pytest.mark.parametrize("length", range(0, 290, 3))
+def test_a_file_cut_short_is_refused_or_read_but_never_fails(length: int) -> None:
+    whole = LONG + GEARED % -1 + "[bodies]\nx = { joints = ['A', 'B'] }\n"
+    with contextlib.suppress(SceneError):
+        assert scene_from(parse(whole[:length], "my.toml"), name="my", where="my.toml").name == "my"
