@@ -109,7 +109,7 @@ def turn(x: Value, pace: Slope, origin: Sum) -> Clock:
 
 def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> Clock:
     """Return the clock of a swing driven by its phase."""
-    sine, cosine = half_angle(phase)
+    sine, cosine = half_angle(phase, sharp=True)
     scale = math.sqrt(amplitude)
     root_u, root_v = cosine * scale, sine * scale
     half_rate = pace.value * 0.5

@@ -280,7 +280,7 @@ def _part(
     touching: Slope,
     scale: float,
     clock: Clock,
-    limits: tuple[float, float] | None,
+    limits: _Beyond | None,
 ) -> _Part:
     if factor.kind is Kind.CHANGE_POINT:
         return _Part(touching.value * scale, Slope(scale), Slope(1.0))
@@ -290,8 +290,20 @@ def _part(
     return _Part(whole, Slope(whole, rate * 0.5 / whole), touching)
 
 
-def _limits(root: LoopRoot, factor: Factor, swing: tuple[Sum, Sum] | None) -> tuple[float, float] | None:
-    """Return how far beyond the upper and lower end of the swing the factor's own limits lie, halved."""
+@dataclass(frozen=True, slots=True)
+class _Beyond:
+    """How far the factor's own limits lie beyond the ends of the swing, halved; 0 where they are the ends.
+
+    `sign` is that of cos(ψ/2) (sin(ψ/2) for W) over the whole swing.
+    """
+
+    upper: float
+    lower: float
+    sign: float
+
+
+def _limits(root: LoopRoot, factor: Factor, swing: tuple[Sum, Sum] | None) -> _Beyond | None:
+    """Return where the factor's own limits lie; None where it does not limit the input."""
     if swing is None or factor.kind is not Kind.LIMIT:
         return None
     best = root.reference if factor is root.u else root.reference + HALF_TURN
@@ -300,25 +312,25 @@ def _limits(root: LoopRoot, factor: Factor, swing: tuple[Sum, Sum] | None) -> tu
     best = best + FULL_TURN.times(float(turns))
     beyond = (best + factor.reach) - high, low - (best - factor.reach)
     upper, lower = (0.5 * float(way) if float(way) > 1e-15 else 0.0 for way in beyond)
-    return upper, lower
+    return _Beyond(upper, lower, -1.0 if turns % 2 else 1.0)
 
 
 def _limited_part(
-    clock: Clock, beyond: tuple[float, float], short: float, scale: float, touching: Slope
+    clock: Clock, beyond: _Beyond, short: float, scale: float, touching: Slope
 ) -> _Part:
     """Return √(K sin x sin y), x and y half the ways to the factor's two limits, x + y + short = π."""
     ends = clock.ends
     assert ends is not None
-    x = Slope(ends.u.value + beyond[0], ends.u.rate)
-    y = Slope(ends.v.value + beyond[1], ends.v.rate)
-    at_upper, at_lower = beyond[0] == 0, beyond[1] == 0
+    x = Slope(ends.u.value + beyond.upper, ends.u.rate)
+    y = Slope(ends.v.value + beyond.lower, ends.v.rate)
+    at_upper, at_lower = beyond.upper == 0, beyond.lower == 0
     regular = _root_of_sine(x, y.value + short, at_upper) * _root_of_sine(y, x.value + short, at_lower)
     regular = regular.scaled(scale)
     whole = regular.value
     whole = whole * ends.root_u.value if at_upper else whole
     whole = whole * ends.root_v.value if at_lower else whole
-    # cos(ψ/2) of U, sin(ψ/2) of W: positive inside the limits, and small next to a limit near π.
-    left = Slope(sin(minimum(x.value, y.value) + 0.5 * short), touching.rate)
+    # cos(ψ/2) of U, sin(ψ/2) of W: small next to a limit near π, and sharp there this way.
+    left = Slope(sin(minimum(x.value, y.value) + 0.5 * short) * beyond.sign, touching.rate)
     return _Part(whole, regular, left, at_upper, at_lower)
 
 
