@@ -7,6 +7,7 @@ neither a window nor an encoder.
 
 from __future__ import annotations
 
+import os
 from importlib import import_module
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
     from linkanim.recorder import record
     from linkanim.scenes import load, names
     from linkanim.scenes.scene import Scene
+
+# Here, because every import of pygame comes after it: its greeting would stand among a command's output.
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 __version__ = "0.1.0"
 
