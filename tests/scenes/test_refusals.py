@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import datetime
 import tomllib
+from collections.abc import Iterator
+from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from linkanim.errors import AssemblyError, SceneError
+from linkanim.errors import AssemblyError, BadInput, SceneError
+from linkanim.scenes import load
 from linkanim.scenes.read import parse, scene_from
 
 FOUR_BAR = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
@@ -310,3 +316,47 @@ def test_a_file_cut_short_is_refused_or_read_but_never_fails(length: int) -> Non
     whole = LONG + GEARED % -1 + "[bodies]\nx = { joints = ['A', 'B'] }\n"
     with contextlib.suppress(SceneError):
         assert scene_from(parse(whole[:length], "my.toml"), name="my", where="my.toml").name == "my"
+
+
+def nodes(document: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    """Iterate the paths of all tables, lists and values of a document."""
+    yield path
+    if isinstance(document, dict | list):
+        for key, value in document.items() if isinstance(document, dict) else enumerate(document):
+            yield from nodes(value, (*path, key))
+
+
+def spoilt(document: Any, path: tuple[str | int, ...], value: object) -> Any:
+    """Return the document with another value at a path."""
+    if not path:
+        return value
+    if isinstance(document, list):
+        return [spoilt(item, path[1:], value) if i == path[0] else item for i, item in enumerate(document)]
+    return {**document, path[0]: spoilt(document[path[0]], path[1:], value)}
+
+
+JUNK: st.SearchStrategy[object] = st.recursive(
+    st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text(max_size=8)
+    | st.sampled_from(["A", "B", "O2", "P", "90 deg", "20 rpm", "3 mm", "left", "1/3"])
+    | st.sampled_from([10**400, datetime.date.min]),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=4), inner, max_size=3),
+    max_leaves=4,
+)
+
+
+@settings(max_examples=300)
+@given(st.data())
+def test_a_scene_spoilt_anywhere_is_refused_or_read_but_never_fails(data: st.DataObject) -> None:
+    document = load(data.draw(st.sampled_from(["press", "crank-rocker", "slider-crank", "six-bar"]))).document
+    path = data.draw(st.sampled_from([path for path in nodes(document) if path]))
+    bad = spoilt(document, path, data.draw(JUNK))
+    try:
+        scene_from(bad, name="my", where="my.toml")
+        said = "my.toml: "
+    except BadInput as error:
+        said = str(error)
+    assert said.startswith("my.toml: ")
+    assert "\n" not in said
