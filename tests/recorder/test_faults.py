@@ -158,7 +158,7 @@ def started(done, total):
     if done == 10:
         print("running", flush=True)
 
-frames = disc(sys.argv[2], TWO_SECONDS._replace(periods=300), size=(320, 240))
+frames = disc(sys.argv[2], TWO_SECONDS._replace(periods={periods}), size=(160, 120))
 {before}
 try:
     write(frames, frames.plan, sys.argv[1], started)
@@ -174,10 +174,10 @@ def child(target: Path, form: Format) -> Iterator[subprocess.Popen[str]]:
         process.kill()
 
 
-def start(target: Path, form: Format, before: str = "") -> subprocess.Popen[str]:
+def start(target: Path, form: Format, before: str = "", periods: int = 300) -> subprocess.Popen[str]:
     here = Path(__file__).parent
     places = [str(here), str(here.parents[1])]
-    command = [sys.executable, "-c", CHILD.format(before=before), str(target), form, *places]
+    command = [sys.executable, "-c", CHILD.format(before=before, periods=periods), str(target), form, *places]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
@@ -219,8 +219,8 @@ FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (MOST, MOST))
 
 @needs_proc
 def test_a_full_disk_is_one_line(target: Path, form: Format) -> None:
-    limit = "300" if form == "png" else "20000"
-    with start(target, form, FULL.replace("MOST", limit)) as process:
+    limit = "300" if form == "png" else "5000"
+    with start(target, form, FULL.replace("MOST", limit), periods=10) as process:
         _, said = process.communicate()
     assert process.returncode == 1
     assert len(said.splitlines()) == 1
