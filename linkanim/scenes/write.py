@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from itertools import chain, count
 from pathlib import Path
 
 import tomli_w
@@ -32,16 +31,16 @@ def save(scene: Scene, folder: Path) -> Path:
     nothing left behind, where the folder cannot be written.
     """
     content = text(scene).encode("utf-8")
-    for number in chain([""], (f"-{n}" for n in count(2))):
-        path = folder / f"{scene.name}{number}.toml"
+    number = 1
+    while True:
+        path = folder / f"{scene.name}{f'-{number}' if number > 1 else ''}.toml"
         try:
             path.touch(exist_ok=False)
             return _filled(path, content)
         except FileExistsError:
-            continue
+            number += 1
         except OSError as error:
             raise WorkFailed(f"{path}: cannot be written: {(error.strerror or str(error)).lower()}") from None
-    raise AssertionError("there is always a free name")
 
 
 def _on_one_line(found: re.Match[str]) -> str:
