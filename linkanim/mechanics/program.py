@@ -205,7 +205,7 @@ class _Plan:
                 a, b, below, otherwise = arguments
                 yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
             else:
-                yield f"{node.op}({', '.join(arguments)}, {place})"
+                yield f"{node.op}({', '.join(arguments)}, out={place})"
         for row, value in self.copies:
             yield f"o{row}[...] = {self.name(value)}"
 
