@@ -102,6 +102,11 @@ def _refuse_misspelt(word: str) -> None:
 
 def _play(parser: Parser) -> None:
     parser.add_argument("scene", nargs="?", metavar="SCENE", help=f"{IN_SCENE}, or of a tape")
+    parser.add_argument(
+        "--attract", action="store_true", help="walk through the scenes when no key is pressed for a minute"
+    )
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="the window's, in pixels")
+    _theme(parser)
 
 
 def _record(parser: Parser) -> None:
@@ -118,6 +123,7 @@ def _record(parser: Parser) -> None:
     )
     _clip(parser)
     _look(parser)
+    parser.add_argument("--progress", action="store_true", help="show it also where stderr is no terminal")
 
 
 def _clip(parser: Parser) -> None:
@@ -149,8 +155,12 @@ def _look(parser: Parser) -> None:
         help="velocity, acceleration",
     )
     parser.add_argument("--chart", metavar="QTY", help="a quantity over the period, such as rocker.angle")
-    parser.add_argument("--theme", choices=("light", "dark"), default="light", help="default: light")
+    _theme(parser)
     parser.add_argument("--transparent", action="store_true", help="no background (GIF and PNG)")
+
+
+def _theme(parser: Parser) -> None:
+    parser.add_argument("--theme", choices=("light", "dark"), default="light", help="default: light")
 
 
 def _solve(parser: Parser) -> None:
@@ -218,7 +228,7 @@ COMMANDS = {
     "play": Command(
         "open the window (the default command)",
         _play,
-        ("linkanim play press", "linkanim play my-linkage.toml"),
+        ("linkanim play press", "linkanim play my-linkage.toml --theme dark"),
     ),
     "record": Command(
         "write a scene's true period as GIF, MP4 or numbered PNG",

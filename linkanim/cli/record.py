@@ -20,7 +20,7 @@ def run(options: Namespace) -> None:
     """Record what was asked; print the file's path on stdout, and what it holds on stderr."""
     scene = load(options.scene)
     preset = PRESETS.get(options.preset, DEFAULT)
-    with bar() as progress:
+    with bar(shown=options.progress) as progress:
         recording = record(
             scene,
             options.output or Path(f"{scene.name}{preset.suffix}"),
@@ -50,12 +50,16 @@ def look_of(options: Namespace) -> Look:
 
 
 @contextmanager
-def bar() -> Iterator[Callable[[int, int], None]]:
-    """Give a function that is told (frames done, frames in all); silent where stderr is no terminal."""
-    with tqdm(unit=" frames", leave=False, disable=None, file=sys.stderr) as shown:
+def bar(*, shown: bool = False) -> Iterator[Callable[[int, int], None]]:
+    """Give a function that is told (frames done, frames in all), and draws a bar of it on stderr.
+
+    Nothing is drawn where stderr is no terminal, unless it is to be `shown` all the same.
+    """
+    # tqdm takes None for "not on a terminal"
+    with tqdm(unit=" frames", leave=False, disable=False if shown else None, file=sys.stderr) as drawn:
 
         def progress(done: int, total: int) -> None:
-            shown.total = total
-            shown.update(done - shown.n)
+            drawn.total = total
+            drawn.update(done - drawn.n)
 
         yield progress

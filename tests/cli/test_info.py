@@ -1,0 +1,76 @@
+"""`linkanim info` and `linkanim scenes`."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+import linkanim
+from linkanim.cli import main
+
+KEYS = {
+    "class",
+    "input_range",
+    "toggles",
+    "change_points",
+    "true_period",
+    "period_seconds",
+    "transmission_angle",
+}
+
+
+@pytest.mark.parametrize("name", linkanim.names())
+def test_info_of_every_scene_is_strict_json_with_the_agreed_keys(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["info", name, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert set(told) >= KEYS
+    assert told["scene"] == name
+    low, high = told["input_range"]
+    assert low < high
+    scene = linkanim.load(name)
+    assert told["true_period"] == round(scene.period / (2 * math.pi))
+    assert told["period_seconds"] == pytest.approx(scene.period / abs(scene.linkage.drive.speed), rel=1e-12)
+
+
+# a slider has a stroke; a four-bar has none, and says nothing of it
+@pytest.mark.parametrize(("name", "has"), [("slider-crank", True), ("press", True), ("crank-rocker", False)])
+def test_stroke_and_time_ratio_are_told_of_sliders(
+    name: str, has: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["info", name, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert ("stroke" in told, "time_ratio" in told) == (has, has)
+
+
+def test_the_slider_cranks_stroke_and_time_ratio_are_those_of_the_closed_form(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["info", "slider-crank", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    lengths = linkanim.load("slider-crank").document["slider-crank"]
+    crank, rod, offset = lengths["crank"], lengths["rod"], lengths["offset"]
+    far, near = rod + crank, rod - crank
+    assert told["stroke"] == pytest.approx(
+        math.sqrt(far**2 - offset**2) - math.sqrt(near**2 - offset**2), rel=1e-14
+    )
+    lag = math.asin(offset / near) - math.asin(offset / far)
+    ratio = (math.pi + abs(lag)) / (math.pi - abs(lag))
+    assert told["time_ratio"] == pytest.approx(ratio, rel=1e-14)
+
+
+def test_the_words_are_a_label_and_a_value_a_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["info", "crank-rocker"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ["scene", "crank-rocker:", "Crank-rocker"]
+    assert len({len(line) - len(line.split("  ", 1)[1].lstrip()) for line in lines}) == 1
+
+
+def test_scenes_is_a_line_for_each_with_its_name_first(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["scenes"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert tuple(line.split()[0] for line in lines) == linkanim.names()
+    assert all(len(line.split()) > 1 for line in lines)
