@@ -200,7 +200,9 @@ def _reversed(pair: tuple[T, T]) -> tuple[T, T]:
 
 def _pin_loop(linkage: Linkage, joint: RRR, gears: Mapping[str, Gearing]) -> Loop | None:
     for swapped in (False, True):
-        ends, lengths = (_reversed(joint.ends), _reversed(joint.lengths)) if swapped else (joint.ends, joint.lengths)
+        ends, lengths = joint.ends, joint.lengths
+        if swapped:
+            ends, lengths = _reversed(ends), _reversed(lengths)
         if ends[0] in gears and isinstance(linkage.joint(ends[1]), Pin):
             crank = _crank(linkage, ends[0])
             ground = ground_between(linkage, crank.pivot, ends[1])

@@ -315,9 +315,7 @@ def _limits(root: LoopRoot, factor: Factor, swing: tuple[Sum, Sum] | None) -> _B
     return _Beyond(upper, lower, -1.0 if turns % 2 else 1.0)
 
 
-def _limited_part(
-    clock: Clock, beyond: _Beyond, short: float, scale: float, touching: Slope
-) -> _Part:
+def _limited_part(clock: Clock, beyond: _Beyond, short: float, scale: float, touching: Slope) -> _Part:
     """Return √(K sin x sin y), x and y half the ways to the factor's two limits, x + y + short = π."""
     ends = clock.ends
     assert ends is not None

@@ -13,13 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import clock as clocks
 from .assembly import Swing, Turn, gearings
-from .exact import FULL_TURN, Sum, exact_angle, two_product, two_sum
+from .exact import Sum, exact_angle
 from .expression import Graph, Value
 from .linkage import Linkage, Pin
 from .motion import Array, Motion, Pose, Setting
 from .path import Assembly, assemble
 from .planar import MovingPoint, Slope
 from .program import Batch, batch, scalar
+from .reach import Reach, reach
 from .traversal import Kinematics
 
 VECTORS = ("position", "velocity", "acceleration", "com_position", "com_velocity", "com_acceleration")
@@ -96,23 +97,20 @@ class Mechanism:
         outputs: list[Value] = list(crank)
         parts = ["({}, {}, {})"]
         for values in rows.values():
-            items = []
-            for name, components in values.items():
-                outputs.extend(components)
-                items.append(f"{name!r}: ({{}}, {{}})" if len(components) == 2 else f"{name!r}: {{}}")
-            parts.append("{{" + ", ".join(items).replace("{", "{").replace("}", "}") + "}}")
+            outputs.extend(component for components in values.values() for component in components)
+            parts.append(_dict_display(values))
         return scalar((*names, "w", "a"), outputs, f"({', '.join(parts)})")
 
-    def _pose_from_arrays(self, variant: Variant, phase: float, speed: float, second: float) -> tuple[Any, ...]:
+    def _pose_from_arrays(
+        self, variant: Variant, phase: float, speed: float, second: float
+    ) -> tuple[Any, ...]:
         """Return what the scalar program gives, NaN and infinities included, where floats raise."""
         motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=variant.derivatives)
         vectors = [
             {name: (float(value[0]), float(value[1])) for name, value in getattr(motion, kind).items()}
             for kind in VECTORS
         ]
-        numbers = [
-            {name: float(value) for name, value in getattr(motion, kind).items()} for kind in NUMBERS
-        ]
+        numbers = [{name: float(value) for name, value in getattr(motion, kind).items()} for kind in NUMBERS]
         crank = (float(motion.crank_angle), float(motion.crank_rate), float(motion.crank_second))
         return (crank, *vectors, *numbers)
 
@@ -132,48 +130,52 @@ class Mechanism:
         shape = np.broadcast_shapes(given.shape, *(rate.shape for rate in rates))
         x = np.ascontiguousarray(np.broadcast_to(given, shape)).reshape(-1)
         w, a = (_rate(rate, shape) for rate in rates)
-        variant = Variant(by_phase, derivatives, _nonzero(a), isinstance(w, np.ndarray) or isinstance(a, np.ndarray))
-        if variant.varying_rate:
+        varying = isinstance(w, np.ndarray) or isinstance(a, np.ndarray)
+        variant = Variant(by_phase, derivatives, _nonzero(a), varying)
+        if varying:
             w, a = np.broadcast_to(w, x.shape).copy(), np.broadcast_to(a, x.shape).copy()
-        reach = None if by_phase else self._reach(x)
+        ways = None if by_phase else self._reach(x)
+        asked = _Given(x, w, a, shape, ways)
         with np.errstate(all="ignore"):
-            crank, rows, results = self._run(variant, x, w, a, reach)
-        return self._motion(variant, _Given(x, w, a, shape, reach), crank, rows, results)
+            return self._motion(variant, asked, *self._run(variant, asked))
 
-    def _run(self, variant: Variant, x: Array, w: Any, a: Any, reach: _Reach | None) -> tuple[Any, Rows, Array]:
-        program, crank, rows = self._batch(variant)
-        inputs = (x,) if reach is None else (reach.u, reach.v)
-        rates = (w, a) if variant.accelerates else (w,)
-        return crank, rows, program(*inputs, *rates)
+    def _run(self, variant: Variant, given: _Given) -> tuple[Rows, Array]:
+        program, rows = self.program(variant)
+        inputs = (given.x,) if given.reach is None else (given.reach.u, given.reach.v)
+        rates = (given.w, given.a) if variant.accelerates else (given.w,)
+        return rows, np.asarray(program(*inputs, *rates), dtype=np.float64)
 
-    def _batch(self, variant: Variant) -> tuple[Batch, tuple[Value, Value, Value], Rows]:
-        found = self._programs.get(("batch", variant))
+    def program(self, variant: Variant) -> tuple[Batch, Rows]:
+        """Return the program over arrays for one way of asking, and which rows it fills."""
+        found: tuple[Batch, Rows] | None = self._programs.get(("batch", variant))
         if found is None:
             names, crank, rows = self._trace(variant)
             rates = ("w", "a") if variant.accelerates else ("w",)
             varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
-            pins = {joint.name for joint in self.linkage.joints if isinstance(joint, Pin)}
             outputs = [
                 component
-                for values in rows.values()
+                for kind, values in rows.items()
                 for name, components in values.items()
-                if name not in pins
+                if not self._is_fixed(kind, name)
                 for component in components
             ]
             if isinstance(self.assembly.path, Swing):
                 outputs.extend(crank)
-            found = self._programs["batch", variant] = (batch(varying, outputs), crank, rows)
+            found = self._programs["batch", variant] = (batch(varying, outputs), rows)
         return found
 
-    def _reach(self, angle: Array) -> _Reach | None:
-        path = self.assembly.path
-        return None if isinstance(path, Turn) else _reach(angle, path)
+    def _is_fixed(self, kind: str, name: str) -> bool:
+        return kind in VECTORS[:3] and isinstance(self.linkage.joint(name), Pin)
 
-    def _motion(self, variant: Variant, given: _Given, crank: Any, rows: Rows, results: Array) -> Motion:
-        _mark(results, given.reach, sum(DERIVATIVE_OF[kind] == 0 for kind in rows))
+    def _reach(self, angle: Array) -> Reach | None:
+        path = self.assembly.path
+        return None if isinstance(path, Turn) else reach(angle, path)
+
+    def _motion(self, variant: Variant, given: _Given, rows: Rows, results: Array) -> Motion:
+        _mark(results, given.reach)
         pins = {joint.name: joint.position for joint in self.linkage.joints if isinstance(joint, Pin)}
         taken = _Taker(results, given.shape, pins)
-        found = {kind: taken.quantity(kind, values) for kind, values in rows.items()}
+        found: dict[str, Any] = {kind: taken.quantity(kind, values) for kind, values in rows.items()}
         swing = isinstance(self.assembly.path, Swing)
         angles = self._crank(given, variant, taken.rest() if swing else None)
         return Motion(
@@ -194,7 +196,8 @@ class Mechanism:
             return (x, x + path.start, w, a) if variant.by_phase else (x - path.start, x, w, a)
         assert swing is not None
         if variant.by_phase:
-            return x, *swing
+            angle, rate, second = swing
+            return x, angle, rate, second
         assert given.reach is not None
         phase = 2 * np.arctan2(np.sqrt(given.reach.v), np.sqrt(given.reach.u))
         return phase.reshape(given.shape), x, w, a
@@ -208,44 +211,10 @@ class _Given:
     w: Any
     a: Any
     shape: tuple[int, ...]
-    reach: _Reach | None
+    reach: Reach | None
 
 
-@dataclass(frozen=True)
-class _Reach:
-    """Half the ways from angles to the two limits, and which angles are a limit as near as a float can say."""
-
-    u: Array
-    v: Array
-    at_limit: NDArray[np.bool_]
-
-
-def _reach(angle: Array, swing: Swing) -> _Reach:
-    """Return how far angles are from the limits, reduced by whole turns without rounding.
-
-    Outside the swing the ways are NaN. The float nearest a limit may lie just outside: it counts
-    as the limit itself.
-    """
-    turns = np.rint((angle - float(swing.middle)) / (2 * math.pi))
-    whole, lost = two_product(-turns, FULL_TURN.high)
-    high, error = two_sum(angle, whole)
-    low = error + lost - turns * FULL_TURN.low
-    v, u = _way(high, low, swing.low, 1.0), _way(high, low, swing.high, -1.0)
-    nearest = np.spacing(np.maximum(np.abs(angle), 0.25)) / 2
-    at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
-    outside = (np.minimum(u, v) < 0) & ~at_limit
-    clipped = [np.where(outside, np.nan, np.maximum(way, 0.0) / 2) for way in (u, v)]
-    return _Reach(clipped[0], clipped[1], at_limit)
-
-
-def _way(high: Array, low: Array, limit: Sum, sign: float) -> Array:
-    """Return sign × (angle - limit), both sums of two floats."""
-    total, error = two_sum(high, -limit.high)
-    way: Array = sign * (total + (error + (low - limit.low)))
-    return way
-
-
-def _mark(results: Array, reach: _Reach | None, positions: int) -> None:
+def _mark(results: Array, reach: Reach | None) -> None:
     """Make undefined rates infinite where the input stands at its limit."""
     if reach is None or not reach.at_limit.any():
         return
@@ -257,7 +226,9 @@ def _mark(results: Array, reach: _Reach | None, positions: int) -> None:
 class _Taker:
     """Hands out the rows of the results, in the order in which they were asked for."""
 
-    def __init__(self, results: Array, shape: tuple[int, ...], pins: Mapping[str, tuple[float, float]]) -> None:
+    def __init__(
+        self, results: Array, shape: tuple[int, ...], pins: Mapping[str, tuple[float, float]]
+    ) -> None:
         results.flags.writeable = False
         self._results, self._shape, self._pins, self._row = results, shape, pins, 0
 
@@ -270,12 +241,21 @@ class _Taker:
             return np.broadcast_to(np.array(at), (*self._shape, 2))
         rows = self._results[self._row : self._row + count]
         self._row += count
-        if count == 1:
-            return rows[0].reshape(self._shape)
-        return rows.T.reshape((*self._shape, 2)) if len(self._shape) != 1 else rows.T
+        # A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
+        values: Array = rows[0] if count == 1 else rows.T
+        return values.reshape((*self._shape, *values.shape[1:])) if len(self._shape) != 1 else values
 
     def rest(self) -> list[Array]:
         return [row.reshape(self._shape) for row in self._results[self._row :]]
+
+
+def _dict_display(values: Mapping[str, tuple[Value, ...]]) -> str:
+    """Return the layout of a dict of the values' names, for str.format."""
+    items = (
+        repr(name).replace("{", "{{").replace("}", "}}") + (": ({}, {})" if len(components) == 2 else ": {}")
+        for name, components in values.items()
+    )
+    return "{{" + ", ".join(items) + "}}"
 
 
 def _rate(rate: Array, shape: tuple[int, ...]) -> Any:

@@ -137,7 +137,7 @@ class Motion:
         body = self.setting.body(name)
         crank = self.setting.crank_of(body)
         if crank is not None:
-            return _crank_angle(self.crank_angle, *crank)
+            return np.asarray(_crank_angle(self.crank_angle, *crank))
         way = self.position[body.joints[1]] - self.position[body.joints[0]]
         principal: Array = np.arctan2(way[..., 1], way[..., 0])
         return principal if principal.ndim == 0 else self._unwrapped(principal, name)
@@ -218,9 +218,7 @@ class Pose:
         "velocity",
     )
 
-    def __init__(
-        self, setting: Setting, drive: tuple[float, float, float], found: tuple[Any, ...]
-    ) -> None:
+    def __init__(self, setting: Setting, drive: tuple[float, float, float], found: tuple[Any, ...]) -> None:
         self.setting = setting
         self.phase, self.input_speed, self.input_acceleration = drive
         (

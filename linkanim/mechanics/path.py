@@ -89,7 +89,8 @@ def _scaled(linkage: Linkage, scale: float) -> Linkage:
         body if body.com is None else replace(body, com=(body.com[0] * scale, body.com[1] * scale))
         for body in linkage.bodies
     )
-    return replace(linkage, joints=tuple(_scaled_joint(joint, scale) for joint in linkage.joints), bodies=bodies)
+    joints = tuple(_scaled_joint(joint, scale) for joint in linkage.joints)
+    return replace(linkage, joints=joints, bodies=bodies)
 
 
 def _scaled_joint(joint: Joint, scale: float) -> Joint:

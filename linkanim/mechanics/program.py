@@ -84,9 +84,7 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     `layout` is a Python expression with one `{}` for each output. Raises what `math` raises
     (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
     """
-    lines = [
-        f"    {_name(node)} = {_formula(node)}" for node in needed(outputs) if node.op != "input"
-    ]
+    lines = [f"    {_name(node)} = {_formula(node)}" for node in needed(outputs) if node.op != "input"]
     result = layout.format(*(_name(value) for value in outputs))
     source = "\n".join([f"def pose({', '.join(inputs)}):", *lines, f"    return {result}"])
     return _define(source, "pose", FLOAT_NAMES)

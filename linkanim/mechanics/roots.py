@@ -105,9 +105,7 @@ def _sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
     return sine, cosine
 
 
-def four_bar_root(
-    ground: float, crank: float, bars: tuple[float, float], reference: Sum
-) -> LoopRoot:
+def four_bar_root(ground: float, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:
     """Return the root of crank pin against fixed pin: ground r1, crank r2, bars r3, r4.
 
     cU = (r3+r4-r1-r2)(r3+r4+r1+r2), cW = (r1-r2-r3+r4)(r1-r2+r3-r4), K = 4 r1 r2.

@@ -1,0 +1,326 @@
+"""What kind of linkage it is, how far its input goes, and what a lecturer tells of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .assembly import Loop, Turn
+from .exact import HALF_TURN, Sum
+from .linkage import RPR, RRP, RRR
+from .mechanism import Mechanism
+from .motion import Motion
+from .roots import Kind
+
+SAMPLES = 1440
+TRIPLE_ROCKERS = {
+    "ground": "outward/outward",
+    "input": "outward/inward",
+    "output": "inward/outward",
+    "coupler": "inward/inward",
+}
+GRASHOF = {
+    "ground": "drag-link (double crank)",
+    "input": "crank-rocker",
+    "output": "crank-rocker driven at its rocker",
+    "coupler": "double-rocker",
+}
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """The four lengths of a four-bar seen from its input, and which of the two closures it has."""
+
+    ground: float
+    input: float
+    coupler: float
+    output: float
+    sign: int
+    change_points: int
+
+    @property
+    def links(self) -> dict[str, float]:
+        """The links by their part."""
+        return {
+            "ground": self.ground,
+            "input": self.input,
+            "coupler": self.coupler,
+            "output": self.output,
+        }
+
+    @property
+    def margin(self) -> float:
+        """p + q - s - l: positive for Grashof linkages, zero at a change point."""
+        s, p, q, longest = sorted(self.links.values())
+        return 0.0 if self.change_points else math.fsum((p, q, -s, -longest))
+
+
+@dataclass(frozen=True)
+class Info:
+    """What is told of a linkage; angles in radians, lengths in the scene's unit."""
+
+    class_name: str
+    grashof: str | None
+    input_range: tuple[float, float]
+    full_turn: bool
+    toggles: tuple[float, ...]
+    change_points: tuple[float, ...]
+    circuits: int | None
+    true_period: int
+    period_seconds: float
+    transmission_angle: tuple[float, float] | None
+    stroke: float | None
+    time_ratio: float | None
+    turning_links: tuple[str, ...]
+    lines: tuple[tuple[str, str], ...]
+    """Label and value of each fact, in words."""
+
+
+def classify(mechanism: Mechanism, length_unit: str) -> Info:
+    """Return what is told of a linkage."""
+    loops, path = mechanism.assembly.loops, mechanism.assembly.path
+    four_bar = _four_bar(mechanism)
+    slider = _stroke(mechanism)
+    turns = isinstance(path, Turn)
+    info = Info(
+        class_name=_class_name(mechanism, four_bar),
+        grashof=_grashof(four_bar) if four_bar else None,
+        input_range=(0.0, 2 * math.pi) if isinstance(path, Turn) else (float(path.low), float(path.high)),
+        full_turn=turns,
+        toggles=() if isinstance(path, Turn) else (float(path.low), float(path.high)),
+        change_points=tuple(_change_points(mechanism)),
+        circuits=_circuits(four_bar) if four_bar and len(loops) == 1 else None,
+        true_period=mechanism.periods,
+        period_seconds=2 * math.pi * mechanism.periods / abs(mechanism.linkage.drive.speed),
+        transmission_angle=_transmission(mechanism),
+        stroke=slider[0] if slider else None,
+        time_ratio=slider[1] if slider else None,
+        turning_links=tuple(_turning(mechanism)),
+        lines=(),
+    )
+    return replace(info, lines=tuple(_lines(info, length_unit)))
+
+
+def _four_bar(mechanism: Mechanism) -> FourBar | None:
+    """Return the four-bar loop that the input drives directly, where there is one."""
+    for name, loop in mechanism.assembly.loops.items():
+        joint = mechanism.linkage.joint(name)
+        if isinstance(joint, RRR) and loop.pin == mechanism.linkage.drive.joint and loop.ground:
+            a, b = joint.lengths[::-1] if loop.swapped else joint.lengths
+            sign = mechanism.assembly.signs[name] * (-1 if loop.swapped else 1)
+            scale = mechanism.assembly.unscale
+            touching = (loop.root.u.kind, loop.root.w.kind).count(Kind.CHANGE_POINT)
+            return FourBar(loop.ground.length * scale, loop.crank.length * scale, a, b, sign, touching)
+    return None
+
+
+def _class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
+    linkage = mechanism.linkage
+    kinds = [type(joint) for joint in linkage.joints]
+    dyads = sum(kind in (RRR, RRP, RPR) for kind in kinds)
+    geared = any(crank.gear for crank in linkage.cranks)
+    slider = " with slider" if RRP in kinds else ""
+    if geared and RRR in kinds:
+        return f"geared five-bar{slider}"
+    if four_bar is not None:
+        name = _four_bar_name(four_bar)
+        return name if dyads == 1 else f"{_bars(dyads)}: {name} and {_rest(dyads)}"
+    if dyads == 1 and RRP in kinds:
+        return _slider_name(mechanism)
+    if dyads == 1 and RPR in kinds:
+        return _slot_name(mechanism)
+    return f"{_bars(dyads)} linkage{slider}"
+
+
+def _bars(dyads: int) -> str:
+    """Name the linkage by its links: ground, crank and two for each dyad."""
+    return {1: "four-bar", 2: "six-bar", 3: "eight-bar"}.get(dyads, f"{2 * dyads + 2}-bar")
+
+
+def _rest(dyads: int) -> str:
+    return "a second dyad" if dyads == 2 else f"{dyads - 1} further dyads"
+
+
+def _four_bar_name(bar: FourBar) -> str:
+    if bar.change_points:
+        return _change_point_name(bar)
+    if bar.margin > 0:
+        return "Grashof " + GRASHOF[_part(bar, min)]
+    return f"triple-rocker ({TRIPLE_ROCKERS[_part(bar, max)]})"
+
+
+def _part(bar: FourBar, pick: Callable[..., str]) -> str:
+    """Return the part of the shortest (min) or longest (max) link."""
+    return pick(bar.links, key=lambda part: bar.links[part])
+
+
+def _change_point_name(bar: FourBar) -> str:
+    same = math.isclose
+    if same(bar.ground, bar.coupler, rel_tol=1e-15) and same(bar.input, bar.output, rel_tol=1e-15):
+        return "parallelogram" if bar.sign > 0 else "antiparallelogram"
+    g, r, a, b = bar.ground, bar.input, bar.coupler, bar.output
+    pairs = (g, r, a, b), (g, b, a, r)
+    if any(same(a, b, rel_tol=1e-15) and same(c, d, rel_tol=1e-15) for a, b, c, d in pairs):
+        return "kite (change point)"
+    return "change-point " + GRASHOF[_part(bar, min)]
+
+
+def _slider_name(mechanism: Mechanism) -> str:
+    loop = next(iter(mechanism.assembly.loops.values()), None)
+    if loop is None:
+        return "slider linkage"
+    eccentric = loop.root.u.least != loop.root.w.least
+    turns = isinstance(mechanism.assembly.path, Turn)
+    return ("offset " if eccentric else "in-line ") + ("slider-crank" if turns else "slider-rocker")
+
+
+def _slot_name(mechanism: Mechanism) -> str:
+    loop = next(iter(mechanism.assembly.loops.values()), None)
+    if loop is None or loop.ground is None:
+        return "inverted slider-crank"
+    kind = "rotating" if loop.ground.length < loop.crank.length else "swinging"
+    return f"inverted slider-crank, {kind} slotted bar"
+
+
+def _grashof(bar: FourBar) -> str:
+    s, p, q, longest = sorted(bar.links.values())
+    relation = "=" if bar.change_points else "<" if bar.margin > 0 else ">"
+    return f"s + l = {s + longest:g} {relation} p + q = {p + q:g}"
+
+
+def _circuits(bar: FourBar) -> int:
+    """Return how many separate motions the lengths allow: two for Grashof, else one."""
+    return 2 if bar.margin > 0 else 1
+
+
+def _change_points(mechanism: Mechanism) -> Iterator[float]:
+    """Yield the input's angles at its change points, within one turn."""
+    for loop in mechanism.assembly.loops.values():
+        if loop.pin != mechanism.linkage.drive.joint:
+            continue
+        for factor, extra in ((loop.root.u, HALF_TURN), (loop.root.w, Sum(0.0))):
+            angle = float(loop.root.reference + extra)
+            if factor.kind is Kind.CHANGE_POINT and _within(mechanism, angle):
+                yield angle % (2 * math.pi)
+
+
+def _within(mechanism: Mechanism, angle: float) -> bool:
+    path = mechanism.assembly.path
+    if isinstance(path, Turn):
+        return True
+    return abs(math.remainder(angle - float(path.middle), 2 * math.pi)) <= path.amplitude
+
+
+def _transmission(mechanism: Mechanism) -> tuple[float, float] | None:
+    """Return the least and greatest angle between the bars of a dyad (rod and the line's normal)."""
+    ranges = [_loop_transmission(mechanism, name, loop) for name, loop in mechanism.assembly.loops.items()]
+    ranges += [
+        _sampled_transmission(mechanism, joint)
+        for joint in mechanism.linkage.joints
+        if isinstance(joint, RRR) and joint.name not in mechanism.assembly.loops
+    ]
+    known = [pair for pair in ranges if pair is not None]
+    return (min(low for low, _ in known), max(high for _, high in known)) if known else None
+
+
+def _loop_transmission(mechanism: Mechanism, name: str, loop: Loop) -> tuple[float, float] | None:
+    """Return it from U and W at the ends of the input's range: tan²(μ/2) = W/U."""
+    if loop.root.single:
+        return None
+    u, w = loop.root.u, loop.root.w
+    low = 2 * math.atan2(math.sqrt(max(w.least, 0.0)), math.sqrt(u.most))
+    high = 2 * math.atan2(math.sqrt(w.most), math.sqrt(max(u.least, 0.0)))
+    if isinstance(mechanism.linkage.joint(name), RRP):
+        # The rod's lean to the line is |μ - 90°|; its angle to the normal's guide force is what counts.
+        lean = max(abs(low - math.pi / 2), abs(high - math.pi / 2))
+        reaches_zero = low <= math.pi / 2 <= high
+        least = 0.0 if reaches_zero else min(abs(low - math.pi / 2), abs(high - math.pi / 2))
+        return math.pi / 2 - lean, math.pi / 2 - least
+    return low, high
+
+
+def _sampled_transmission(mechanism: Mechanism, joint: RRR) -> tuple[float, float]:
+    motion = _cycle(mechanism, 0)
+    arms = [motion.position[joint.name] - motion.position[end] for end in joint.ends]
+    cross = arms[0][..., 0] * arms[1][..., 1] - arms[0][..., 1] * arms[1][..., 0]
+    dot = (arms[0] * arms[1]).sum(axis=-1)
+    angle = np.arctan2(np.abs(cross), dot)
+    return float(angle.min()), float(angle.max())
+
+
+def _cycle(mechanism: Mechanism, derivatives: int) -> Motion:
+    phases = np.linspace(0.0, 2 * math.pi * mechanism.periods, SAMPLES, endpoint=False)
+    return mechanism.solve(phase=phases, speed=1.0, derivatives=derivatives)
+
+
+def _stroke(mechanism: Mechanism) -> tuple[float, float] | None:
+    """Return the first slider's stroke, and the slow way's time over the quick way's."""
+    slider = next((body for body in mechanism.linkage.bodies if body.slider is not None), None)
+    if slider is None:
+        return None
+    motion = _cycle(mechanism, 0)
+    travel = motion.travel[slider.name]
+    span = float(travel.max() - travel.min())
+    if span == 0:
+        return 0.0, 1.0
+    ends = [_reversal(mechanism, slider.name, int(index)) for index in (travel.argmax(), travel.argmin())]
+    high, low = (mechanism.pose(end, 1.0, 0.0, 0).travel[slider.name] for end in ends)
+    way = (ends[1] - ends[0]) % (2 * math.pi * mechanism.periods)
+    back = 2 * math.pi * mechanism.periods - way
+    return high - low, max(way, back) / min(way, back)
+
+
+def _reversal(mechanism: Mechanism, name: str, index: int) -> float:
+    """Return the phase next to a sample at which the slider's velocity changes sign, by bisection."""
+    step = 2 * math.pi * mechanism.periods / SAMPLES
+    low, high = (index - 1) * step, (index + 1) * step
+    rising = mechanism.pose(low, 1.0, 0.0, 1).travel_velocity[name] > 0
+    for _ in range(60):
+        middle = (low + high) / 2
+        if (mechanism.pose(middle, 1.0, 0.0, 1).travel_velocity[name] > 0) == rising:
+            low = middle
+        else:
+            high = middle
+    return (low + high) / 2
+
+
+def _turning(mechanism: Mechanism) -> Iterator[str]:
+    """Yield the bodies that turn fully over one true period."""
+    motion = _cycle(mechanism, 1)
+    closing = 2 * math.pi * mechanism.periods / SAMPLES
+    for body in mechanism.linkage.bodies:
+        if body.slider is None:
+            turned = float(np.sum(motion.angular_velocity[body.name])) * closing
+            if abs(turned) > math.pi:
+                yield body.name
+
+
+def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
+    yield "class", info.class_name
+    if info.grashof:
+        yield "Grashof", info.grashof
+    low, high = (math.degrees(angle) for angle in info.input_range)
+    yield "input", "turns fully" if info.full_turn else f"swings {low:.4g}°…{high:.4g}°"
+    if info.turning_links:
+        yield "turns fully", ", ".join(info.turning_links)
+    if info.toggles:
+        yield "toggles at", _degrees(info.toggles)
+    if info.change_points:
+        yield "change points", _degrees(info.change_points)
+    if info.circuits:
+        yield "circuits", str(info.circuits)
+    if info.transmission_angle:
+        yield "transmission angle", _degrees(info.transmission_angle, "…")
+    if info.stroke is not None:
+        yield "stroke", f"{info.stroke:.6g} {unit}"
+    if info.time_ratio is not None:
+        yield "time ratio", f"{info.time_ratio:.4f}"
+    turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
+    yield "true period", f"{turns}, {info.period_seconds:.4g} s"
+
+
+def _degrees(angles: tuple[float, ...], between: str = ", ") -> str:
+    return between.join(f"{math.degrees(angle):.4g}°" for angle in angles)

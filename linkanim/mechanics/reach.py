@@ -1,0 +1,48 @@
+"""How far given angles are from the limits of a swing, to the last digit at any number of turns."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .assembly import Swing
+from .exact import FULL_TURN, Sum, two_product, two_sum
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Half the ways from angles to the two limits; which angles are a limit, as near as a float can say."""
+
+    u: Array
+    v: Array
+    at_limit: NDArray[np.bool_]
+
+
+def reach(angle: Array, swing: Swing) -> Reach:
+    """Return how far angles are from the limits, reduced by whole turns without rounding.
+
+    Outside the swing the ways are NaN. The float nearest a limit may lie just outside: it counts
+    as the limit itself.
+    """
+    turns = np.rint((angle - float(swing.middle)) / (2 * math.pi))
+    whole, lost = two_product(-turns, FULL_TURN.high)
+    high, error = two_sum(angle, whole)
+    low = error + lost - turns * FULL_TURN.low
+    v, u = _way(high, low, swing.low, 1.0), _way(high, low, swing.high, -1.0)
+    nearest = np.spacing(np.maximum(np.abs(angle), 0.25)) / 2
+    at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
+    outside = (np.minimum(u, v) < 0) & ~at_limit
+    clipped = [np.where(outside, np.nan, np.maximum(way, 0.0) / 2) for way in (u, v)]
+    return Reach(clipped[0], clipped[1], at_limit)
+
+
+def _way(high: Array, low: Array, limit: Sum, sign: float) -> Array:
+    """Return sign × (angle - limit), both sums of two floats."""
+    total, error = two_sum(high, -limit.high)
+    way: Array = sign * (total + (error + (low - limit.low)))
+    return way
