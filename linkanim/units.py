@@ -1,7 +1,7 @@
 """Quantities as people write them ("60 rpm", "87 deg", "30 mm"), to SI, radians or the scene's unit.
 
-A decimal is converted exactly (with `math.pi` for π) and rounded once, so that "0.7 cm" is the same length
-as 7 mm; what is equal on paper stays equal, and a change point stays one.
+A decimal is converted exactly (with `math.pi` for π) and rounded once, so that "0.07 cm" is the same length
+as 0.7 mm; what is equal on paper stays equal, and a change point stays one.
 """
 
 from __future__ import annotations

@@ -50,9 +50,10 @@ READ: list[tuple[str, Callable[[object], float], object, float]] = [
     ("bare length", mm, 30, 30.0),
     ("bare length as text", mm, "30", 30.0),
     ("negative length", mm, -0.5, -0.5),
-    # A decimal is converted exactly: multiplying floats gives 7.000000000000001 and 0.6000000000000001.
-    ("0.7 cm is 7 mm", mm, "0.7 cm", 7.0),
-    ("0.06 cm is 0.6 mm", mm, "0.06 cm", 0.6),
+    # A decimal is converted exactly: multiplied as floats these are one digit off in the last place.
+    ("0.07 cm is 0.7 mm", mm, "0.07 cm", 0.7),
+    ("0.57 cm is 5.7 mm", mm, "0.57 cm", 5.7),
+    ("0.3 in is 7.62 mm", mm, "0.3 in", 7.62),
     # Below the smallest float there is only zero, however small the exponent says.
     ("underflow", mm, "1e-999999999 mm", 0.0),
 ]
