@@ -1,0 +1,105 @@
+"""Axes of a chart: where values lie along them, and few ticks at round numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, floor, isfinite, log10
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+_WILD = 8.0
+"""A peak this many times the span of the middle nine tenths is cut off, or all else would be a line."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """The range of an axis, linear or logarithmic, and its ticks as (value, label)."""
+
+    low: float
+    high: float
+    ticks: tuple[tuple[float, str], ...]
+    log: bool = False
+
+    def share(self, values: ArrayLike) -> NDArray[np.float64]:
+        """Return where values lie, 0 at the low end and 1 at the high one; NaN where a log has none."""
+        low, high, at = self._scaled(self.low), self._scaled(self.high), self._scaled(values)
+        share: NDArray[np.float64] = (at - low) / (high - low)
+        return share
+
+    def _scaled(self, values: ArrayLike) -> Any:
+        array = np.asarray(values, float)
+        return np.log10(np.where(array > 0, array, np.nan)) if self.log else array
+
+
+def linear(low: float, high: float, *, most: int = 5, unit: str = "") -> Axis:
+    """Return an axis from `low` to `high` with at most so many ticks, at 1, 2 or 5 times a power of ten.
+
+    In degrees (`unit` "°") ticks lie at parts of a turn.
+    """
+    step = _degrees(high - low, most) if unit == "°" else _step(high - low, most)
+    first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
+    ticks = tuple((k * step, f"{number(k * step, step)}{unit}") for k in range(first, last + 1))
+    return Axis(low, high, ticks)
+
+
+def decades(low: float, high: float, *, most: int = 8) -> Axis:
+    """Return a logarithmic axis over the whole decades that hold `low` to `high`, both positive."""
+    first, last = floor(log10(low) + 1e-9), ceil(log10(high) - 1e-9)
+    last = max(last, first + 1)
+    every = max(ceil((last - first) / most), 1)
+    powers = range(first, last + 1, every)
+    return Axis(10.0**first, 10.0**last, tuple((10.0**power, power_of_ten(power)) for power in powers), log=True)
+
+
+def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "") -> Axis:
+    """Return a linear axis that holds the finite values, with a little room; wild peaks run out of it."""
+    finite = values[np.isfinite(values)]
+    low, high = _span(finite) if finite.size else (0.0, 1.0)
+    size = max(abs(low), abs(high))
+    if high - low <= 1e-9 * size or high == low:
+        low, high = (low - 0.5 * size, high + 0.5 * size) if size else (-1.0, 1.0)
+    room = 0.06 * (high - low)
+    return linear(low - room, high + room, most=most, unit=unit)
+
+
+def number(value: float, step: float) -> str:
+    """Return a number with the decimals that a step between neighbours needs, and a true minus sign."""
+    if not isfinite(value):
+        return "∞" if value > 0 else "−∞" if value < 0 else "–"
+    size = max(abs(value), abs(step))
+    if size >= 1e6 or (0 < size < 1e-4):
+        return f"{value + 0.0:.3g}".replace("-", "−")
+    places = min(max(-floor(log10(step) + 1e-9), 0), 6) if step > 0 else 0
+    text = f"{value:.{places}f}"
+    return f"{text.lstrip('-') if not float(text) else text}".replace("-", "−")
+
+
+def power_of_ten(power: int) -> str:
+    """Return 10 to a whole power as it is written on an axis."""
+    if 0 <= power <= 3:
+        return str(10**power)
+    return f"1e{power}".replace("-", "−")
+
+
+def _span(finite: NDArray[np.float64]) -> tuple[float, float]:
+    low, high = float(finite.min()), float(finite.max())
+    inner = np.quantile(finite, (0.05, 0.95))
+    middle = float(inner[1] - inner[0])
+    if high - low > _WILD * middle > 0:
+        return max(low, float(inner[0]) - middle), min(high, float(inner[1]) + middle)
+    return low, high
+
+
+def _step(span: float, most: int) -> float:
+    rough = span / most
+    power = 10.0 ** floor(log10(rough))
+    return next(power * factor for factor in (1, 2, 5, 10) if power * factor >= rough * (1 - 1e-9))
+
+
+def _degrees(span: float, most: int) -> float:
+    parts = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
+    if span / most <= parts[0] / 2:
+        return _step(span, most)
+    return next((part for part in parts if span / part <= most), 360.0 * ceil(span / most / 360.0))

@@ -1,0 +1,130 @@
+"""Bodies: rounded bars and plates, sliding blocks, the pins on top of them, centres of mass."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkanim.mechanics.linkage import RPR, Body
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts import Part, Places, lined
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.shapes import box, disc, rounded, unit
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import View
+
+BLOCK = (4.6, 3.2)
+"""A slider block's length and height in half widths of a bar."""
+
+
+def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
+    """Return every body, back to front: blocks, then plates, then bars, each in the scene's order."""
+    colours = colours_of(figure, theme)
+    plates = [body for body in figure.bodies if len(body.joints) > 2]
+    bars = [body for body in figure.bodies if len(body.joints) == 2]
+    blocks = [*_sliders(figure, gauge, theme), *(_collar(slot, figure, gauge, theme) for slot in figure.slots)]
+    solid = [_body(body, figure, view, gauge, (theme.outline, colours[body.name])) for body in plates + bars]
+    slotted = [_slot(slot, figure, view, gauge, theme) for slot in figure.slots]
+    return (*_behind(figure, view, gauge, theme), *solid, *slotted, *blocks) if slotted else (*blocks, *solid)
+
+
+def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
+    """Return each body's colour: the driven crank's is the first, one without a name is metal."""
+    drive = figure.linkage.drive.joint
+    named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
+    first = sorted(named, key=lambda body: not _is_crank(body, figure, drive))
+    colours = {body.name: theme.bodies[n % len(theme.bodies)] for n, body in enumerate(first)}
+    return {"": theme.metal, **colours}
+
+
+def _is_crank(body: Body, figure: Figure, joint: str) -> bool:
+    crank = figure.linkage.joint(joint)
+    return joint in body.joints and getattr(crank, "pivot", None) in body.joints
+
+
+def _local(body: Body, figure: Figure, view: View) -> list[complex]:
+    """Return the body's joints in pixels, the first at 0 and the second on the positive real axis."""
+    places = [view.scale * figure.start(name).conjugate() for name in body.joints]
+    turn = unit(places[1] - places[0])
+    return [(place - places[0]) / turn for place in places]
+
+
+def _body(body: Body, figure: Figure, view: View, gauge: Gauge, colours: tuple[Colour, Colour]) -> Part:
+    points = _local(body, figure, view)
+    layers = lined(points, gauge.bar, gauge.outline, colours)
+    return Part(body.joints[0], body.joints[0], body.joints[1], tuple(layers))
+
+
+def _sliders(figure: Figure, gauge: Gauge, theme: Theme) -> list[Part]:
+    return [
+        _block(slider.name, gauge, theme, complex(np.exp(-1j * slider.line.angle)))
+        for slider in figure.sliders
+    ]
+
+
+def _block(joint: str, gauge: Gauge, theme: Theme, turn: complex) -> Part:
+    length, height = (side * gauge.bar for side in BLOCK)
+    edge = 2 * gauge.outline
+    outer, inner = box(length, height, 0.4 * gauge.bar), box(length - edge, height - edge, 0.3 * gauge.bar)
+    layers = (Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner]))
+    return Part(joint, joint, joint, layers)
+
+
+def _collar(slot: RPR, figure: Figure, gauge: Gauge, theme: Theme) -> Part:
+    """Return the block that slides in a slotted bar and turns with it."""
+    block = _block(slot.through, gauge, theme, 1 + 0j)
+    small = tuple(Layer(layer.colour, [0.62 * loop for loop in layer.loops]) for layer in block.layers)
+    return Part(slot.through, slot.pivot, slot.name, small)
+
+
+def _reach(slot: RPR, figure: Figure, view: View) -> tuple[complex, complex]:
+    """Return the ends of a slot in pixels, the pivot at 0 and the bar along the real axis."""
+    pivot, through = figure.cycle.position[slot.pivot], figure.cycle.position[slot.through]
+    far = np.sqrt(np.maximum(np.sum((through - pivot) ** 2, axis=-1) - slot.offset**2, 0))
+    side = -1j * slot.offset
+    return view.scale * (np.nanmin(far) + side), view.scale * (np.nanmax(far) + side)
+
+
+def _behind(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Part]:
+    """Return what a slotted bar needs beyond its joints to carry its slot."""
+    parts = []
+    for slot in figure.slots:
+        points = [0j, *_reach(slot, figure, view)]
+        layers = lined(points, 1.35 * gauge.bar, gauge.outline, (theme.outline, theme.metal))
+        parts.append(Part(slot.pivot, slot.pivot, slot.name, tuple(layers)))
+    return parts
+
+
+def _slot(slot: RPR, figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Part:
+    hollow = mixed(theme.metal, theme.outline, 0.75)
+    layer = Layer(hollow, [rounded(list(_reach(slot, figure, view)), 0.5 * gauge.bar)])
+    return Part(slot.pivot, slot.pivot, slot.name, (layer,))
+
+
+def pin_layers(names: tuple[str, ...], places: Places, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the pins on top of all bodies: a ring around an eye."""
+    outer, inner = disc(gauge.pin + gauge.outline / 2), disc(gauge.pin - gauge.outline / 2)
+    return [
+        Layer(theme.outline, [places[name] + outer for name in names]),
+        Layer(theme.pin, [places[name] + inner for name in names]),
+    ]
+
+
+def mass_layers(centres: list[complex], gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the sign of a centre of mass, a disc with two of its quarters dark, at each place."""
+    radius = 0.48 * gauge.bar
+    outer = disc(radius + gauge.outline)
+    quarter = np.concatenate(([0j], radius * np.exp(1j * np.linspace(0, np.pi / 2, 9))))
+    return [
+        Layer(theme.outline, [centre + outer for centre in centres]),
+        Layer(theme.pin, [centre + sign * quarter for centre in centres for sign in (1, -1)]),
+    ]
+
+
+def mark_layers(centres: list[complex], colours: list[Colour], gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the marks of the joints that are traced."""
+    outer, inner = disc(0.62 * gauge.bar), disc(0.62 * gauge.bar - gauge.outline)
+    layers = [Layer(theme.outline, [centre + outer for centre in centres])]
+    return layers + [
+        Layer(colour, [centre + inner]) for centre, colour in zip(centres, colours, strict=True)
+    ]

@@ -1,0 +1,134 @@
+"""What of a linkage is drawn: its pins, its bodies, and where a cycle takes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import tau
+
+import numpy as np
+
+from linkanim.mechanics.linkage import RPR, RRP, RRR, Body, Crank, Joint, Linkage, Pin, Rigid
+from linkanim.mechanics.motion import Motion
+from linkanim.picture.raster import Loop
+from linkanim.picture.view import Box, View
+from linkanim.scenes.scene import Scene
+
+SAMPLES = 720
+_MOST_PERIODS = 4
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A scene and one cycle of it, from which everything that is drawn once takes its measures."""
+
+    scene: Scene
+    cycle: Motion
+
+    @property
+    def linkage(self) -> Linkage:
+        """What is drawn."""
+        return self.scene.linkage
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The bodies with joints that are named, and a bar for each length that is in none of them."""
+        named = [body for body in self.linkage.bodies if len(body.joints) > 1]
+        held = [set(body.joints) for body in named]
+        bare = [ends for ends in _lengths(self.linkage) if not any(set(ends) <= joints for joints in held)]
+        return (*(Body("", ends) for ends in bare), *named)
+
+    @cached_property
+    def pins(self) -> tuple[str, ...]:
+        """The joints that are pins: those in which bars meet or which something is hung on."""
+        used = {name for joint in self.linkage.joints for name in _pins_of(joint)}
+        hung = {name for strut in (*self.linkage.springs, *self.linkage.dampers) for name in strut.between}
+        ends = {name for body in self.bodies for name in body.joints}
+        fixed = {joint.name for joint in self.linkage.joints if isinstance(joint, Pin)}
+        names = used | hung | (ends & fixed)
+        return tuple(joint.name for joint in self.linkage.joints if joint.name in names)
+
+    @cached_property
+    def fixed(self) -> tuple[str, ...]:
+        """The pins that are fixed to the ground."""
+        by_name = self.linkage.by_name
+        return tuple(name for name in self.pins if isinstance(by_name[name], Pin))
+
+    @cached_property
+    def sliders(self) -> tuple[RRP, ...]:
+        """The joints that travel along a line."""
+        return tuple(joint for joint in self.linkage.joints if isinstance(joint, RRP))
+
+    @cached_property
+    def slots(self) -> tuple[RPR, ...]:
+        """The joints of slotted bars."""
+        return tuple(joint for joint in self.linkage.joints if isinstance(joint, RPR))
+
+    @cached_property
+    def shown(self) -> tuple[str, ...]:
+        """The joints that must be in the picture."""
+        drawn = {name for body in self.bodies for name in body.joints}
+        names = {*self.pins, *drawn, *self.scene.trace, *(joint.name for joint in self.sliders)}
+        return tuple(joint.name for joint in self.linkage.joints if joint.name in names)
+
+    @cached_property
+    def box(self) -> Box:
+        """The rectangle of the scene that the linkage sweeps; the unit square for an empty one."""
+        points = [np.atleast_2d(self.cycle.position[name]) for name in self.shown]
+        if not points:
+            return Box(0.0, 0.0, 1.0, 1.0)
+        swept = np.concatenate(points)
+        low, high = np.nanmin(swept, axis=0), np.nanmax(swept, axis=0)
+        return Box(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+
+    @cached_property
+    def shortest(self) -> float:
+        """The shortest bar, in the scene's unit."""
+        spans = [abs(self.start(body.joints[1]) - self.start(body.joints[0])) for body in self.bodies]
+        return min(spans, default=1.0)
+
+    def start(self, name: str) -> complex:
+        """Return where a joint stands as the cycle begins, in the scene's unit, y up."""
+        x, y = self.cycle.position[name][0]
+        return complex(float(x), float(y))
+
+    def path(self, name: str, view: View) -> Loop:
+        """Return the pixels a joint passes through in one cycle, at equal steps of phase."""
+        points = self.cycle.position[name]
+        path: Loop = view.x + view.scale * points[:, 0] + 1j * (view.y - view.scale * points[:, 1])
+        return path
+
+
+def figure(scene: Scene) -> Figure:
+    """Solve one cycle of the scene, closely enough for a smooth curve at 4K."""
+    periods = min(round(scene.period / tau), _MOST_PERIODS)
+    return Figure(scene, scene.cycle(SAMPLES * periods))
+
+
+def _lengths(linkage: Linkage) -> Iterator[tuple[str, ...]]:
+    """Yield the joints of every rigid length in the definitions."""
+    for joint in linkage.joints:
+        match joint:
+            case Crank(name=name, pivot=pivot) | RPR(name=name, pivot=pivot):
+                yield pivot, name
+            case RRR(name=name, ends=(one, other)):
+                yield one, name
+                yield other, name
+            case RRP(name=name, end=end):
+                yield end, name
+            case Rigid(name=name, on=(one, other)):
+                yield one, other, name
+
+
+def _pins_of(joint: Joint) -> tuple[str, ...]:
+    match joint:
+        case Crank(name=name, pivot=pivot):
+            return pivot, name
+        case RRR(name=name, ends=ends):
+            return *ends, name
+        case RRP(name=name, end=end):
+            return end, name
+        case RPR(pivot=pivot, through=through):
+            return pivot, through
+    return ()

@@ -1,0 +1,153 @@
+"""Gear pairs: two toothed wheels that mesh, or two pulleys where both cranks turn the same way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from linkanim.mechanics.linkage import Crank
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts import Part
+from linkanim.picture.raster import Layer, Loop
+from linkanim.picture.shapes import disc, segments
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import Box, View
+
+_BELT = 0.3
+"""The larger pulley's radius, as a share of the distance between the pivots."""
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel about the pivot of a crank, its radius in the scene's unit; `teeth` is 0 for a pulley.
+
+    `tooth` is the angle of a tooth ahead of the crank, in radians, counter-clockwise.
+    """
+
+    crank: Crank
+    radius: float
+    teeth: int = 0
+    tooth: float = 0.0
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two wheels that drive each other."""
+
+    driver: Wheel
+    driven: Wheel
+
+
+def pairs(figure: Figure) -> tuple[Pair, ...]:
+    """Return the gear pairs with pivots apart, sized so that their pitch circles roll on each other."""
+    cranks = {crank.name: crank for crank in figure.linkage.cranks}
+    found = (_pair(figure, crank, cranks) for crank in cranks.values())
+    return tuple(pair for pair in found if pair)
+
+
+def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> Pair | None:
+    gear = crank.gear
+    if gear is None or gear.driver not in cranks:
+        return None
+    driver = cranks[gear.driver]
+    apart = figure.start(crank.pivot) - figure.start(driver.pivot)
+    ratio = abs(gear.ratio)
+    if apart == 0 or ratio == 0:
+        return None
+    if gear.ratio > 0:
+        large = _BELT * abs(apart)
+        share = float(ratio)
+        return Pair(Wheel(driver, large * min(share, 1)), Wheel(crank, large * min(1 / share, 1)))
+    radius = abs(apart) * float(ratio / (1 + ratio))
+    many = max(1, round(32 / (ratio.numerator + ratio.denominator) * 2))
+    first, second = many * ratio.numerator, many * ratio.denominator
+    contact = float(np.angle(apart))
+    at = contact - _angle(figure, driver)
+    facing = contact + pi - _angle(figure, crank) + pi / second
+    return Pair(Wheel(driver, radius, first, at), Wheel(crank, abs(apart) - radius, second, facing))
+
+
+def _angle(figure: Figure, crank: Crank) -> float:
+    return float(np.angle(figure.start(crank.name) - figure.start(crank.pivot)))
+
+
+def wheels_box(figure: Figure, box: Box) -> Box:
+    """Return the box widened so that every wheel is in it."""
+    for pair in pairs(figure):
+        for wheel in (pair.driver, pair.driven):
+            centre, radius = figure.start(wheel.crank.pivot), 1.06 * wheel.radius
+            box = Box(
+                min(box.left, centre.real - radius),
+                min(box.low, centre.imag - radius),
+                max(box.right, centre.real + radius),
+                max(box.high, centre.imag + radius),
+            )
+    return box
+
+
+def wheel_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return what does not turn: the wheels' discs and the belts."""
+    layers = []
+    for pair in pairs(figure):
+        for wheel in (pair.driver, pair.driven):
+            centre = _centre(figure, view, wheel)
+            layers.append(Layer(theme.gear, [centre + disc(_root(wheel, view, gauge))]))
+        if not pair.driver.teeth:
+            layers.append(Layer(theme.ground, list(_belt(figure, view, pair, gauge))))
+    return layers
+
+
+def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
+    """Return what turns: the teeth, and holes that show how far a wheel has turned."""
+    hole = mixed(theme.gear, theme.background, 0.55)
+    rim = mixed(theme.gear, theme.ground, 0.5)
+    parts = []
+    for pair in pairs(figure):
+        for wheel in (pair.driver, pair.driven):
+            root = _root(wheel, view, gauge)
+            holes = [0.62 * root * np.exp(2j * pi * k / 5) + disc(0.19 * root) for k in range(5)]
+            layers = [Layer(rim, _ring(wheel, view, gauge)), Layer(hole, holes)]
+            parts.append(Part(wheel.crank.pivot, wheel.crank.pivot, wheel.crank.name, tuple(layers)))
+    return tuple(parts)
+
+
+def _centre(figure: Figure, view: View, wheel: Wheel) -> complex:
+    place = figure.start(wheel.crank.pivot)
+    return view.place((place.real, place.imag))
+
+
+def _module(wheel: Wheel, view: View) -> float:
+    return 2 * wheel.radius * view.scale / wheel.teeth if wheel.teeth else 0.0
+
+
+def _root(wheel: Wheel, view: View, gauge: Gauge) -> float:
+    return max(wheel.radius * view.scale - 1.1 * _module(wheel, view) - gauge.line, 1.0)
+
+
+def _ring(wheel: Wheel, view: View, gauge: Gauge) -> list[Loop]:
+    """Return the rim: teeth outside, a circle just inside the disc's edge as its hole."""
+    inner = disc(max(_root(wheel, view, gauge) - gauge.line, 0.5))[::-1]
+    if not wheel.teeth:
+        return [disc(wheel.radius * view.scale), inner]
+    radius, module = wheel.radius * view.scale, _module(wheel, view)
+    steps = np.array([-0.34, -0.17, 0.17, 0.34])
+    heights = np.array([-1.0, 0.85, 0.85, -1.0])
+    turns = (np.arange(wheel.teeth)[:, None] + steps) * 2 * pi / wheel.teeth - wheel.tooth
+    outline = (radius + heights * module) * np.exp(1j * turns)
+    return [outline.ravel(), inner]
+
+
+def _belt(figure: Figure, view: View, pair: Pair, gauge: Gauge) -> Iterator[Loop]:
+    """Yield the two straight runs of an open belt."""
+    one, other = _centre(figure, view, pair.driver), _centre(figure, view, pair.driven)
+    radii = pair.driver.radius * view.scale, pair.driven.radius * view.scale
+    along = (other - one) / abs(other - one)
+    lean = np.arccos((radii[0] - radii[1]) / abs(other - one))
+    for side in (1, -1):
+        normal = along * np.exp(1j * side * lean)
+        ends = np.array([one + radii[0] * normal]), np.array([other + radii[1] * normal])
+        yield from segments(*ends, 1.5 * gauge.line)

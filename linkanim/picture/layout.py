@@ -1,0 +1,75 @@
+"""Where things stand in the window, and how large they are for its size."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkanim.picture.look import Look
+from linkanim.picture.view import Rect
+
+_DRAWN_FOR = (1280, 720)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The parts of a window; `unit` is one pixel of a 1280 × 720 window at this size."""
+
+    size: tuple[int, int]
+    unit: float
+    scene: Rect
+    hud: Rect | None
+    chart: Rect | None
+
+    @property
+    def title_size(self) -> int:
+        """The height of the scene's title in whole pixels."""
+        return max(round(30 * self.unit), 17)
+
+    @property
+    def text_size(self) -> int:
+        """The height of text that must read from the back row."""
+        return max(round(21 * self.unit), 13)
+
+    @property
+    def small_size(self) -> int:
+        """The height of tick labels and hints."""
+        return max(round(17 * self.unit), 12)
+
+
+def layout(size: tuple[int, int], look: Look) -> Layout:
+    """Divide a window: HUD on the left, chart along the bottom, the scene in what is left."""
+    unit = min(size[0] / _DRAWN_FOR[0], size[1] / _DRAWN_FOR[1])
+    whole = Rect(0, 0, *size).inset(20 * unit)
+    chart = None
+    if look.chart:
+        tall = 0.27 * size[1]
+        chart = Rect(whole.x, whole.bottom - tall, whole.width, tall)
+    high = (chart.y - 12 * unit if chart else whole.bottom) - whole.y
+    if not look.hud:
+        return Layout(size, unit, Rect(whole.x, whole.y, whole.width, high), None, chart)
+    hud = Rect(whole.x, whole.y, max(0.255 * size[0], 165.0), high)
+    left = hud.right + 16 * unit
+    return Layout(size, unit, Rect(left, whole.y, max(whole.right - left, 1), high), hud, chart)
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """How thick things are drawn, in pixels."""
+
+    bar: float
+    """Half the width of a bar."""
+    outline: float
+    pin: float
+    line: float
+    """The width of a thin line."""
+
+    @property
+    def pedestal(self) -> float:
+        """How far a ground pin's pedestal reaches from the pin."""
+        return 2.6 * self.bar + 2 * self.outline
+
+
+def gauge(unit: float, shortest: float) -> Gauge:
+    """Return the thicknesses for a window and its shortest bar in pixels, thinner where that is short."""
+    bar = min(10.5 * unit, max(0.2 * shortest, 5.5 * unit))
+    return Gauge(bar=bar, outline=1.7 * unit, pin=0.5 * bar, line=1.8 * unit)

@@ -1,0 +1,204 @@
+"""The painter of one scene at one size and look: what stands still once, what moves at every frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pygame
+
+from linkanim.mechanics.linkage import Crank
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.bodies import body_parts, mark_layers, mass_layers, pin_layers
+from linkanim.picture.chart import Strip, pen_for, strip
+from linkanim.picture.figure import Figure, figure
+from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
+from linkanim.picture.ground import ground_layers
+from linkanim.picture.hud import Hud, hud_for
+from linkanim.picture.layout import Gauge, Layout, gauge, layout
+from linkanim.picture.look import ACCELERATION, VELOCITY, Look
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.panels import Panels
+from linkanim.picture.parts import Part, Places, placed
+from linkanim.picture.raster import Layer, paint, paints
+from linkanim.picture.struts import Coil, Cushion, coils, cushions
+from linkanim.picture.text import Type
+from linkanim.picture.theme import Theme, mixed, theme_of
+from linkanim.picture.trace import Trace, traces
+from linkanim.picture.vectors import Arrows, arrows
+from linkanim.picture.view import View, fit, moved
+from linkanim.scenes.scene import Scene
+
+_GHOST = 0.78
+"""How much of the background is in the other closure's colours."""
+
+
+@dataclass(frozen=True)
+class Cast:
+    """All that moves, ready to be placed."""
+
+    wheels: tuple[Part, ...]
+    struts: tuple[Coil | Cushion, ...]
+    bodies: tuple[Part, ...]
+    traces: tuple[Trace, ...]
+    arrows: tuple[Arrows, ...]
+
+
+class Painter:
+    """Paints poses of one scene at one pixel size and look.
+
+    It solves one cycle and draws its static layer when it is made; make a new one when scene, size
+    or look changes. Raises BadInput where the look's chart is no quantity of the scene.
+    """
+
+    def __init__(self, scene: Scene, size: tuple[int, int], look: Look) -> None:
+        self.scene, self.size, self.look = scene, size, look
+        self._theme: Theme = theme_of(look.theme)
+        self._layout: Layout = layout(size, look)
+        self._figure: Figure = figure(scene)
+        self._type = Type()
+        self.view, self._gauge = self._framed()
+        self._strip: Strip | None = self._chart()
+        self._hud: Hud | None = hud_for(scene, self._layout, self._type, self._theme)
+        self._panels = Panels(self._layout, self._type, self._theme)
+        self._cast = self._casting()
+        self._still = self._drawn_once()
+
+    def paint(
+        self,
+        surface: pygame.Surface,
+        pose: Pose,
+        overlay: Overlay = Overlay(),  # noqa: B008 -- frozen
+        *,
+        ghost: Pose | None = None,
+    ) -> None:
+        """Draw a pose, with the other closure's pose `ghost` faintly behind it where the look asks.
+
+        Changes the surface only; the same arguments give the same bytes. A surface that is not as
+        large as the painter's size is painted from its top left corner.
+        """
+        canvas = self._canvas(surface)
+        self._wipe(canvas)
+        paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
+        if self._strip:
+            self._strip.draw_reading(canvas, pose.phase)
+        if self._hud:
+            self._hud.draw_values(canvas, pose, overlay)
+        self._panels.draw(canvas, overlay)
+        if canvas is not surface:
+            surface.blit(canvas, (0, 0))
+
+    def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
+        """Return where the pin that the phase drives lies, in pixels."""
+        return self.view.to_pixel(*pose.position[self.scene.linkage.drive.joint])
+
+    def crank_pivot_px(self) -> tuple[float, float]:
+        """Return where the driven crank turns, in pixels."""
+        crank = self.scene.linkage.joint(self.scene.linkage.drive.joint)
+        pivot = self._figure.start(crank.pivot if isinstance(crank, Crank) else crank.name)
+        return self.view.to_pixel(pivot.real, pivot.imag)
+
+    def chart_phase_at(self, px: float, py: float) -> float | None:
+        """Return the phase under a pixel of the chart, 0 to one true period; None beside the chart."""
+        return self._strip.phase_at(px, py) if self._strip else None
+
+    def _framed(self) -> tuple[View, Gauge]:
+        """Return the view of what the linkage sweeps, and the thicknesses that go with its scale."""
+        box, unit = wheels_box(self._figure, self._figure.box), self._layout.unit
+        measure = gauge(unit, self._figure.shortest * fit(box, self._layout.scene).scale)
+        room = self._layout.scene.inset(measure.pedestal + 1.5 * measure.bar)
+        width, height = self.size
+        pan = (self.look.pan[0] * height, self.look.pan[1] * height)
+        view = moved(fit(box, room), (width / 2, height / 2), zoom=self.look.zoom, pan=pan)
+        return view, measure
+
+    def _chart(self) -> Strip | None:
+        if self.look.chart is None:
+            return None
+        pen = pen_for(self._layout, self._type, self._theme)
+        return strip(self._figure, self.look.chart, self._layout, pen)
+
+    def _casting(self) -> Cast:
+        known = (self._figure, self.view, self._gauge, self._theme)
+        kinds = (VELOCITY, ACCELERATION)
+        return Cast(
+            wheels=wheel_parts(*known),
+            struts=(*coils(*known), *cushions(*known)),
+            bodies=body_parts(*known),
+            traces=traces(*known) if self.look.trace else (),
+            arrows=tuple(
+                arrows(self._figure, kind, self.size[1], self._gauge, self._theme)
+                for kind in kinds
+                if kind in self.look.vectors
+            ),
+        )
+
+    def _drawn_once(self) -> pygame.Surface:
+        """Return the layer that stands still: background, ground, curves, chart, names."""
+        flags = 0 if self.look.background else pygame.SRCALPHA
+        still = pygame.Surface(self.size, flags, 32)
+        still.fill((*self._theme.background, 255 if self.look.background else 0))
+        known = (self._figure, self.view, self._gauge, self._theme)
+        paint(still, [*wheel_layers(*known), *ground_layers(*known)])
+        paint(still, [trace.whole() for trace in self._cast.traces])
+        if self._strip:
+            self._strip.draw(still)
+        if self._hud:
+            self._hud.draw(still, self.scene.pose(0.0))
+        return still
+
+    def _canvas(self, surface: pygame.Surface) -> pygame.Surface:
+        """Return the surface itself where it can be written to directly, else one like the static layer."""
+        if surface.get_size() == self.size and paints(surface):
+            return surface
+        return self._spare
+
+    @cached_property
+    def _spare(self) -> pygame.Surface:
+        return self._still.copy()
+
+    def _wipe(self, canvas: pygame.Surface) -> None:
+        if canvas.get_flags() & pygame.SRCALPHA:
+            canvas.fill((0, 0, 0, 0))
+        canvas.blit(self._still, (0, 0))
+
+    def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer]:
+        return [*self._below(pose), *(self._ghost(ghost) if ghost else ()), *self._above(pose)]
+
+    def _below(self, pose: Pose) -> Iterator[Layer]:
+        places = self._places(pose)
+        yield from placed(self._cast.wheels, places)
+        for trace in self._cast.traces:
+            yield from trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
+
+    def _above(self, pose: Pose) -> Iterator[Layer]:
+        places, measure, theme = self._places(pose), self._gauge, self._theme
+        for strut in self._cast.struts:
+            yield from strut.layers(places)
+        yield from placed(self._cast.bodies, places)
+        yield from pin_layers(self._figure.pins, places, measure, theme)
+        yield from mass_layers([self.view.place(at) for at in pose.com_position.values()], measure, theme)
+        marks = [(places[trace.joint], trace.colour) for trace in self._cast.traces]
+        yield from mark_layers([at for at, _ in marks], [colour for _, colour in marks], measure, theme)
+        for kind in self._cast.arrows:
+            yield from kind.layers(pose, self.view, self.scene.trace)
+        if self._strip:
+            yield from self._strip.cursor(pose.phase)
+
+    def _ghost(self, pose: Pose) -> Iterator[Layer]:
+        """Yield the other closure's bodies and pins, mostly background."""
+        places = self._places(pose)
+        layers = placed(self._cast.bodies, places)
+        layers += pin_layers(self._figure.pins, places, self._gauge, self._theme)
+        for layer in layers:
+            yield Layer(mixed(layer.colour, self._theme.background, _GHOST), layer.loops, layer.alpha)
+
+    def _places(self, pose: Pose) -> Places:
+        """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside."""
+        return {name: _somewhere(self.view.place(point)) for name, point in pose.position.items()}
+
+
+def _somewhere(place: complex) -> complex:
+    return place if np.isfinite(place.real) and np.isfinite(place.imag) else complex(-1e6, -1e6)

@@ -1,0 +1,129 @@
+"""What lies over the picture: the help, the edit list, a toast, the marks of pause and recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pygame
+
+from linkanim.picture.layout import Layout
+from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.picture.raster import Layer, Loop, paint
+from linkanim.picture.shapes import box, disc
+from linkanim.picture.text import Type
+from linkanim.picture.theme import Theme
+
+
+@dataclass
+class Panels:
+    """Draws overlays; the last panel of each kind is kept, so that an open one costs one blit."""
+
+    layout: Layout
+    type: Type
+    theme: Theme
+    _kept: dict[str, tuple[Any, pygame.Surface]] = field(default_factory=dict)
+
+    def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw all that an overlay holds."""
+        size, gap = self.layout.size, 18 * self.layout.unit
+        self._marks(surface, overlay)
+        if overlay.panel:
+            drawn = self._keep("panel", overlay.panel, self._panel)
+            surface.blit(drawn, (round(size[0] - drawn.get_width() - gap), round(gap)))
+        if overlay.help:
+            drawn = self._keep("help", overlay.help, self._help)
+            at = ((size[0] - drawn.get_width()) // 2, (size[1] - drawn.get_height()) // 2)
+            surface.blit(drawn, at)
+        if overlay.toast:
+            drawn = self._keep("toast", overlay.toast, self._toast)
+            at = ((size[0] - drawn.get_width()) // 2, round(size[1] - drawn.get_height() - 2 * gap))
+            surface.blit(drawn, at)
+
+    def _keep(self, kind: str, value: Any, make: Any) -> pygame.Surface:
+        if kind not in self._kept or self._kept[kind][0] != value:
+            self._kept[kind] = (value, make(value))
+        return self._kept[kind][1]
+
+    def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw the marks of recording and pause at the top right, words and signs."""
+        size, unit = self.layout.text_size, self.layout.unit
+        right, top = self.layout.size[0] - 20 * unit, 18 * unit
+        marks = [(overlay.recording, self.theme.warning, [0.36 * size * disc(1.0)])]
+        marks.append(("paused" if overlay.paused else None, self.theme.ink, _bars(size)))
+        for words, colour, sign in marks:
+            if words:
+                width = self.type.draw(surface, words, (right, top), size=size, colour=colour, anchor="right")
+                middle = complex(right - width - 0.8 * size, top + 0.5 * size)
+                paint(surface, [Layer(colour, [middle + loop for loop in sign])])
+                top += 1.5 * size
+
+    def _sheet(self, width: float, height: float) -> pygame.Surface:
+        """Return an empty panel: a framed sheet with round corners on nothing."""
+        sheet = pygame.Surface((round(width), round(height)), pygame.SRCALPHA, 32)
+        middle, line = complex(sheet.get_width() / 2, sheet.get_height() / 2), max(1.5 * self.layout.unit, 1.0)
+        corner = 10 * self.layout.unit
+        outer = middle + box(sheet.get_width(), sheet.get_height(), corner)
+        inner = middle + box(sheet.get_width() - 2 * line, sheet.get_height() - 2 * line, corner - line)
+        paint(sheet, [Layer(self.theme.rule, [outer]), Layer(self.theme.panel, [inner])])
+        return sheet
+
+    def _toast(self, text: str) -> pygame.Surface:
+        size = self.layout.text_size
+        lines = self.type.wrapped(text, size, 0.8 * self.layout.size[0])
+        wide = max((self.type.width(line, size) for line in lines), default=0)
+        sheet = self._sheet(wide + 2 * size, (1.25 * len(lines) + 0.75) * size)
+        for n, line in enumerate(lines):
+            at = (sheet.get_width() / 2, (0.5 + 1.25 * n) * size)
+            self.type.draw(sheet, line, at, size=size, colour=self.theme.ink, anchor="centre")
+        return sheet
+
+    def _help(self, rows: tuple[tuple[str, str], ...]) -> pygame.Surface:
+        size = _fitting(self.layout.text_size, 1.38 * (len(rows) + 3), self.layout.size[1])
+        keys = max(self.type.width(key, size) for key, _ in rows)
+        words = max(self.type.width(does, size) for _, does in rows)
+        sheet = self._sheet(keys + words + 4 * size, 1.38 * size * (len(rows) + 1.1))
+        for n, (key, does) in enumerate(rows):
+            y = (0.9 + 1.38 * n) * size
+            self.type.draw(sheet, key, (1.4 * size, y), size=size, colour=self.theme.ink)
+            self.type.draw(sheet, does, (2.6 * size + keys, y), size=size, colour=self.theme.dim)
+        return sheet
+
+    def _panel(self, panel: Panel) -> pygame.Surface:
+        size = _fitting(self.layout.text_size, 1.42 * (len(panel.rows) + 7), self.layout.size[1])
+        labels = max((self.type.width(row.label, size) for row in panel.rows), default=0)
+        values = max((self.type.width(row.value, size) for row in panel.rows), default=0)
+        wide = max(labels + values + 5.5 * size, 19.0 * size)
+        foot = [(line, self.theme.warning) for line in self._lines(panel.error, size, wide)]
+        foot += [(line, self.theme.dim) for line in self._lines(panel.hint, size, wide)]
+        sheet = self._sheet(wide, 1.42 * size * (len(panel.rows) + len(foot) + 2.6))
+        self.type.draw(sheet, panel.title, (1.2 * size, 0.7 * size), size=size, colour=self.theme.ink)
+        for n, row in enumerate(panel.rows, start=1):
+            self._row(sheet, row, (0.9 + 1.42 * n) * size, size)
+        for n, (line, colour) in enumerate(foot, start=len(panel.rows) + 1):
+            at = (1.2 * size, (1.2 + 1.42 * n) * size)
+            self.type.draw(sheet, line, at, size=size, colour=colour)
+        return sheet
+
+    def _lines(self, text: str | None, size: int, width: float) -> list[str]:
+        return self.type.wrapped(text, size, width - 2.4 * size) if text else []
+
+    def _row(self, sheet: pygame.Surface, row: EditRow, y: float, size: int) -> None:
+        if row.chosen:
+            middle = complex(sheet.get_width() / 2, y + 0.5 * size)
+            bar = middle + box(sheet.get_width() - 1.2 * size, 1.36 * size, 0.25 * size)
+            paint(sheet, [Layer(self.theme.chosen, [bar])])
+        at = (sheet.get_width() - 1.2 * size, y)
+        self.type.draw(sheet, row.label, (1.2 * size, y), size=size, colour=self.theme.dim)
+        self.type.draw(sheet, row.value, at, size=size, colour=self.theme.ink, anchor="right")
+
+
+def _bars(size: float) -> list[Loop]:
+    bar = box(0.22 * size, 0.72 * size)
+    return [np.asarray(bar + side * 0.22 * size) for side in (-1, 1)]
+
+
+def _fitting(size: int, lines: float, height: int) -> int:
+    """Return the text size, smaller where so many lines would not fit the window's height."""
+    return max(min(size, int(0.96 * height / lines)), 6)

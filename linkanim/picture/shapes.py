@@ -1,0 +1,135 @@
+"""Outlines in pixels, as closed loops of complex numbers x + yi that all turn the same way.
+
+They stand about the origin or where they were asked for; to place one, multiply it by a direction
+of length 1 and add a position.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import pi
+
+import numpy as np
+
+from linkanim.picture.raster import Loop
+
+
+def disc(radius: float) -> Loop:
+    """Return a circle about the origin, within 0.02 px of a true one."""
+    return _arc(0.0, 2 * pi, radius)[:-1]
+
+
+def rounded(points: Sequence[complex], radius: float) -> Loop:
+    """Return the outline at this distance around the points' convex hull.
+
+    One point gives a circle, two a bar with round ends, more a plate with round corners.
+    """
+    corners = hull(points)
+    if len(corners) == 1:
+        return corners[0] + disc(radius)
+    normals = [
+        -1j * unit(after - corner) for corner, after in zip(corners, corners[1:] + corners[:1], strict=True)
+    ]
+    arcs = []
+    for corner, before, after in zip(corners, normals[-1:] + normals[:-1], normals, strict=True):
+        begin = float(np.angle(before))
+        arcs.append(corner + _arc(begin, float(np.angle(after / before)) % (2 * pi), radius))
+    return np.concatenate(arcs)
+
+
+def box(width: float, height: float, radius: float = 0.0) -> Loop:
+    """Return a rectangle about the origin, its corners rounded."""
+    x, y = width / 2 - radius, height / 2 - radius
+    return rounded([complex(-x, -y), complex(x, -y), complex(x, y), complex(-x, y)], radius)
+
+
+def stroke(path: Loop, width: float, *, closed: bool = False) -> Sequence[Loop]:
+    """Return the outline of a line of this width along the path, its ends round.
+
+    Points that repeat are passed over; a path of a single place gives a dot.
+    """
+    path = path[np.concatenate(([True], np.diff(path) != 0))]
+    if closed and path[0] == path[-1]:
+        path = path[:-1]
+    if len(path) < 2:
+        return [path[0] + disc(width / 2)]
+    if closed:
+        shift = _offsets(np.concatenate((path[-1:], path, path[:1])))[1:-1] * width / 2
+        return [path - shift, (path + shift)[::-1]]
+    shift = _offsets(path) * width / 2
+    half = disc(width / 2)
+    start, end = unit(path[1] - path[0]), unit(path[-1] - path[-2])
+    cap = half[np.abs(np.angle(half)) < pi / 2]
+    cap = cap[np.argsort(np.angle(cap))]
+    return [np.concatenate((path - shift, path[-1] + end * cap, (path + shift)[::-1], path[0] - start * cap))]
+
+
+def segments(begin: Loop, end: Loop, width: float) -> list[Loop]:
+    """Return separate straight lines of this width with square ends, one for each pair."""
+    along = end - begin
+    side = 0.5j * width * along / np.maximum(np.abs(along), 1e-9)
+    return list(np.stack((begin - side, end - side, end + side, begin + side), axis=1))
+
+
+def arrow(reach: complex, width: float) -> Loop:
+    """Return an arrow from the origin; a short one is a smaller arrow, none is a point."""
+    length = abs(reach)
+    if length == 0:
+        return np.zeros(3, np.complex128)
+    head = min(4.2 * width, 0.6 * length)
+    half = min(width / 2, head / 5)
+    outline = [
+        complex(0, -half),
+        complex(length - 0.9 * head, -half),
+        complex(length - head, -0.42 * head),
+        complex(length, 0),
+        complex(length - head, 0.42 * head),
+        complex(length - 0.9 * head, half),
+        complex(0, half),
+    ]
+    return np.array(outline) * (reach / length)
+
+
+def unit(vector: complex) -> complex:
+    """Return the direction of a vector; to the right where it has no length."""
+    length = abs(vector)
+    return vector / length if length > 0 else 1 + 0j
+
+
+def hull(points: Sequence[complex]) -> list[complex]:
+    """Return the corners of the convex hull (monotone chain, Andrew 1979)."""
+    ordered = sorted(set(points), key=lambda point: (point.real, point.imag))
+    if len(ordered) < 3:
+        return ordered
+    lower, upper = _chain(ordered), _chain(ordered[::-1])
+    return lower[:-1] + upper[:-1]
+
+
+def _chain(points: Sequence[complex]) -> list[complex]:
+    chain: list[complex] = []
+    for point in points:
+        while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 1e-9 * abs(point - chain[-2]):
+            chain.pop()
+        chain.append(point)
+    return chain
+
+
+def _turn(a: complex, b: complex, c: complex) -> float:
+    return ((b - a).conjugate() * (c - b)).imag
+
+
+def _arc(begin: float, sweep: float, radius: float) -> Loop:
+    """Return an arc about the origin; the chords stay within 0.02 px of it."""
+    step = 2 * np.arccos(max(1 - 0.02 / max(radius, 0.02), 0.5))
+    count = max(int(np.ceil(sweep / step)), 2)
+    arc: Loop = radius * np.exp(1j * (begin + sweep * np.linspace(0, 1, count + 1)))
+    return arc
+
+
+def _offsets(path: Loop) -> Loop:
+    """Return at each point the way to the left edge of a line 2 wide, mitred up to twice its width."""
+    along = np.diff(path)
+    normal = 1j * along / np.abs(along)
+    joined = np.concatenate((normal[:1], (normal[:-1] + normal[1:]) / 2, normal[-1:]))
+    offsets: Loop = joined / np.maximum(np.abs(joined) ** 2, 0.25)
+    return offsets

@@ -1,0 +1,133 @@
+"""Springs, whose pitch follows their length, and dampers, whose piston slides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.linkage import Damper, Spring
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts import Places
+from linkanim.picture.raster import Layer, Loop
+from linkanim.picture.shapes import box, stroke, unit
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import View
+
+_COILS = 9
+_TILT = 0.35
+"""How far a coil's front stands forward of its side, as a share of its radius."""
+
+
+class Reach(NamedTuple):
+    """The shortest and the longest distance between two joints over a cycle, in pixels."""
+
+    shortest: float
+    longest: float
+
+
+def reach(figure: Figure, view: View, item: Spring | Damper) -> Reach:
+    """Return how short and how long a spring or damper becomes."""
+    one, other = (figure.path(name, view) for name in item.between)
+    length = np.abs(one - other)
+    return Reach(float(np.nanmin(length)), float(np.nanmax(length)))
+
+
+@dataclass(frozen=True)
+class Coil:
+    """A spring to draw: its radius and the straight length at either end, in pixels."""
+
+    between: tuple[str, str]
+    radius: float
+    lead: float
+    gauge: Gauge
+    theme: Theme
+
+    def layers(self, places: Places) -> list[Layer]:
+        """Return the far halves of the coils, then the near ones over them."""
+        start, end = (places[name] for name in self.between)
+        span, turn = abs(end - start), unit(end - start)
+        lead = min(self.lead, 0.2 * span)
+        pitch = (span - 2 * lead) / _COILS
+        feet = start + turn * (lead + pitch * np.arange(_COILS))
+        wire, low = 1.5 * self.gauge.line, -1j * self.radius
+        ends = np.array([0, lead, lead + low]), np.array([span - lead + low, span - lead, span])
+        leads = [start + turn * loop for path in ends for loop in stroke(path, wire)]
+        far, near = self._half(pitch, 0.5), self._half(pitch, 0.0)
+        back = leads + _repeated(feet, turn * far, wire)
+        edge, core = (_repeated(feet, turn * near, width * wire) for width in (2.6, 1.5))
+        shade = mixed(self.theme.outline, self.theme.metal, 0.35)
+        return [Layer(shade, back), Layer(self.theme.outline, edge), Layer(self.theme.metal, core)]
+
+    def _half(self, pitch: float, begin: float) -> Loop:
+        """Return half a coil (0: the near one, 0.5: the far one), the spring along the real axis."""
+        along = begin + np.linspace(0, 0.5, 13)
+        angle = 2 * pi * along - pi / 2
+        path: Loop = pitch * along + self.radius * (_TILT * np.cos(angle) + 1j * np.sin(angle))
+        return path
+
+
+def _repeated(feet: Loop, path: Loop, width: float) -> list[Loop]:
+    return [foot + outline for outline in stroke(path, width) for foot in feet]
+
+
+@dataclass(frozen=True)
+class Cushion:
+    """A damper to draw: how far it reaches, its cylinder's radius and length in pixels."""
+
+    between: tuple[str, str]
+    reach: Reach
+    radius: float
+    length: float
+    gauge: Gauge
+    theme: Theme
+
+    def layers(self, places: Places) -> list[Layer]:
+        """Return rod, cylinder and piston; the piston stands deeper the shorter the damper is."""
+        start, end = (places[name] for name in self.between)
+        span, turn = abs(end - start), unit(end - start)
+        begin = max(0.5 * (self.reach.shortest - self.length), 0.0) * 0.6
+        piston = begin + self._piston(span)
+        rod = np.array([piston, span]), np.array([0, begin])
+        wall = box(self.length, 2 * self.radius, 0.25 * self.radius) + begin + self.length / 2
+        inside = box(
+            self.length - 2 * self.gauge.outline, 2 * (self.radius - self.gauge.outline), 0.2 * self.radius
+        )
+        head = box(0.16 * self.length, 2 * self.radius - 3 * self.gauge.outline, 0.1 * self.radius) + piston
+        hollow = mixed(self.theme.metal, self.theme.background, 0.72)
+        rods = [loop for path in rod for loop in stroke(path.astype(np.complex128), 2.4 * self.gauge.line)]
+        groups = (
+            (self.theme.outline, [wall]),
+            (hollow, [inside + begin + self.length / 2]),
+            (self.theme.outline, rods),
+            (self.theme.metal, [head]),
+        )
+        return [Layer(colour, [start + turn * loop for loop in loops]) for colour, loops in groups]
+
+    def _piston(self, span: float) -> float:
+        """Return where in the cylinder the piston stands, in pixels from its closed end."""
+        swept = self.reach.longest - self.reach.shortest
+        share = (span - self.reach.shortest) / swept if swept > 0 else 0.5
+        return self.length * (0.16 + 0.68 * min(max(share, 0.0), 1.0))
+
+
+def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil, ...]:
+    """Return the scene's springs."""
+    return tuple(
+        Coil(item.between, 1.15 * gauge.bar, 1.5 * gauge.bar, gauge, theme)
+        for item in figure.linkage.springs
+    )
+
+
+def cushions(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Cushion, ...]:
+    """Return the scene's dampers; a cylinder is as long as the stroke needs and the shortest length allows."""
+    found = []
+    for item in figure.linkage.dampers:
+        span = reach(figure, view, item)
+        needed = (span.longest - span.shortest) / 0.68
+        length = min(max(needed, 5 * gauge.bar), max(0.8 * span.shortest, 2 * gauge.bar))
+        found.append(Cushion(item.between, span, 0.95 * gauge.bar, length, gauge, theme))
+    return tuple(found)

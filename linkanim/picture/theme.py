@@ -1,0 +1,107 @@
+"""Colours: a light and a dark theme, from the colour-blind-safe palette of Okabe and Ito (2008)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkanim.picture.raster import Colour
+
+ORANGE = (230, 159, 0)
+SKY = (86, 180, 233)
+GREEN = (0, 158, 115)
+YELLOW = (240, 228, 66)
+BLUE = (0, 114, 178)
+VERMILLION = (213, 94, 0)
+PURPLE = (204, 121, 167)
+
+
+@dataclass(frozen=True)
+class Theme:
+    """Every colour of a picture, by what it is for."""
+
+    background: Colour
+    ink: Colour
+    """Titles and numbers."""
+    dim: Colour
+    """Names beside the numbers, ticks."""
+    rule: Colour
+    """Frames, grid lines and other lines that stay back."""
+    outline: Colour
+    ground: Colour
+    gear: Colour
+    metal: Colour
+    """Springs, piston rods, slider blocks."""
+    pin: Colour
+    velocity: Colour
+    acceleration: Colour
+    warning: Colour
+    panel: Colour
+    chosen: Colour
+    bodies: tuple[Colour, ...]
+    """The driven crank's first, then in the order of the scene."""
+    traces: tuple[Colour, ...]
+    """For the joints traced, in their order, repeating."""
+
+
+LIGHT = Theme(
+    background=(252, 252, 250),
+    ink=(24, 28, 34),
+    dim=(84, 90, 99),
+    rule=(206, 209, 214),
+    outline=(38, 43, 51),
+    ground=(120, 126, 135),
+    gear=(214, 217, 222),
+    metal=(150, 157, 167),
+    pin=(252, 252, 250),
+    velocity=(0, 98, 156),
+    acceleration=(190, 72, 0),
+    warning=(186, 34, 22),
+    panel=(255, 255, 255),
+    chosen=(222, 236, 247),
+    bodies=(VERMILLION, BLUE, GREEN, ORANGE, SKY, PURPLE),
+    traces=((174, 70, 128), (0, 128, 96), ORANGE),
+)
+
+DARK = Theme(
+    background=(17, 20, 26),
+    ink=(240, 242, 245),
+    dim=(164, 171, 181),
+    rule=(54, 60, 70),
+    outline=(222, 226, 232),
+    ground=(128, 135, 146),
+    gear=(48, 54, 64),
+    metal=(124, 132, 144),
+    pin=(17, 20, 26),
+    velocity=SKY,
+    acceleration=(255, 150, 64),
+    warning=(255, 122, 104),
+    panel=(28, 32, 40),
+    chosen=(32, 58, 82),
+    bodies=(VERMILLION, BLUE, GREEN, ORANGE, SKY, PURPLE),
+    traces=((232, 150, 196), (60, 200, 160), YELLOW),
+)
+
+_THEMES = {"light": LIGHT, "dark": DARK}
+
+
+def theme_of(name: str) -> Theme:
+    """Return the theme "light" or "dark"; KeyError for another name."""
+    return _THEMES[name]
+
+
+def mixed(colour: Colour, other: Colour, share: float) -> Colour:
+    """Return `colour` with this share (0 to 1) of `other` in it."""
+    red, green, blue = (round(a + (b - a) * share) for a, b in zip(colour, other, strict=True))
+    return red, green, blue
+
+
+def contrast(one: Colour, other: Colour) -> float:
+    """Return the contrast of two colours, 1 to 21, as WCAG 2 defines it."""
+    darker, lighter = sorted((_luminance(one), _luminance(other)))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def _luminance(colour: Colour) -> float:
+    parts = [value / 255 for value in colour]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]

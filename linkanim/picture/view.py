@@ -1,0 +1,87 @@
+"""Between the scene's lengths and pixels: the only place where one becomes the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+class Rect(NamedTuple):
+    """A rectangle of the window in pixels, from its top left corner."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+    @property
+    def right(self) -> float:
+        """Its right edge."""
+        return self.x + self.width
+
+    @property
+    def bottom(self) -> float:
+        """Its bottom edge."""
+        return self.y + self.height
+
+    def inset(self, by: float) -> Rect:
+        """Return it without a border of that width; never smaller than one pixel."""
+        return Rect(self.x + by, self.y + by, max(self.width - 2 * by, 1), max(self.height - 2 * by, 1))
+
+    def holds(self, x: float, y: float) -> bool:
+        """Return whether a position lies in it."""
+        return self.x <= x <= self.right and self.y <= y <= self.bottom
+
+
+class Box(NamedTuple):
+    """A rectangle of the scene, in its unit of length, y up."""
+
+    left: float
+    low: float
+    right: float
+    high: float
+
+
+@dataclass(frozen=True)
+class View:
+    """A scale (pixels for one unit of length) and where the scene's origin lies in the window.
+
+    The scene's y points up and the window's down, so an angle turns the other way in pixels.
+    """
+
+    scale: float
+    x: float
+    y: float
+
+    def to_pixel(self, x: float, y: float) -> tuple[float, float]:
+        """Return where a point of the scene lies in the window, to fractions of a pixel."""
+        return self.x + self.scale * x, self.y - self.scale * y
+
+    def to_world(self, px: float, py: float) -> tuple[float, float]:
+        """Return the point of the scene under a position in the window."""
+        return (px - self.x) / self.scale, (self.y - py) / self.scale
+
+    def place(self, point: tuple[float, float]) -> complex:
+        """Return where a point of the scene lies, as x + yi in pixels."""
+        return complex(self.x + self.scale * point[0], self.y - self.scale * point[1])
+
+
+def fit(box: Box, into: Rect) -> View:
+    """Return the view in which the box fills the rectangle as far as it can, centred.
+
+    A box without extent is centred at one pixel a unit.
+    """
+    width, height = box.right - box.left, box.high - box.low
+    across = into.width / width if width > 0 else float("inf")
+    up = into.height / height if height > 0 else float("inf")
+    scale = min(across, up)
+    scale = scale if 0 < scale < float("inf") else 1.0
+    middle = (box.left + width / 2, box.low + height / 2)
+    x = into.x + into.width / 2 - scale * middle[0]
+    return View(scale, x, into.y + into.height / 2 + scale * middle[1])
+
+
+def moved(view: View, about: tuple[float, float], *, zoom: float, pan: tuple[float, float]) -> View:
+    """Return the view enlarged `zoom` times about a pixel, then shifted right and down in pixels."""
+    x = about[0] + (view.x - about[0]) * zoom + pan[0]
+    return View(view.scale * zoom, x, about[1] + (view.y - about[1]) * zoom + pan[1])
