@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from linkanim.errors import AssemblyError
+from linkanim.errors import AssemblyError, LinkanimError
 from linkanim.mechanics.linkage import RRP, RRR
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
@@ -26,6 +26,14 @@ def other_closure(scene: Scene) -> Scene:
     """
     document = _switched(scene)
     return scene_from(document, name=scene.name, where=scene.name)
+
+
+def ghost_of(scene: Scene) -> Scene | None:
+    """Return the other closure, to be drawn behind this one; None where there is none."""
+    try:
+        return other_closure(scene)
+    except LinkanimError:
+        return None
 
 
 def _switched(scene: Scene) -> dict[str, Any]:

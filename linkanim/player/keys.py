@@ -88,7 +88,7 @@ KEYS: tuple[Row, ...] = (
     Row("F11", "full screen", _every("f11", "fullscreen")),
     Row("H, F1, ?", "help", _every("h f1 ? shift+/", "help")),
     Row("Esc, Q", "close an open overlay (Esc); quit", (_on("escape", "back"), _on("q", "quit"))),
-    Row("drag the crank pin or the chart's cursor", "scrub"),
+    Row("drag pin, drag cursor", "move the crank; the chart's cursor, too"),
 )
 """Every key of the window, in the order in which the help shows them."""
 

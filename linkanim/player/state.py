@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from linkanim.errors import LinkanimError
 from linkanim.picture.look import Look
+from linkanim.picture.quantities import quantities
 from linkanim.player import editing as edit
 from linkanim.player.actions import Action
 from linkanim.player.assembly import other_closure
@@ -201,8 +202,6 @@ def _exchanged(state: State, scene: Scene) -> State:
 
 
 def _charts(scene: Scene) -> tuple[str | None, ...]:
-    from linkanim.picture.quantities import quantities
-
     return (None, *quantities(scene))
 
 
@@ -226,6 +225,11 @@ def _vectors(state: State, kind: str) -> State:
 
 
 def _ghost(state: State, _: None) -> State:
+    if not state.look.ghost:
+        try:
+            other_closure(state.scene)
+        except LinkanimError as error:
+            return _told(state, str(error))
     return replace(state, look=replace(state.look, ghost=not state.look.ghost))
 
 

@@ -35,10 +35,7 @@ class Tape:
 
     def states(self) -> Iterator[State]:
         """Iterate the states of frames 0 … `frames`, as the window went through them."""
-        by_frame: dict[int, list[Action]] = {}
-        for frame, action in self.actions:
-            by_frame.setdefault(frame, []).append(action)
-        state = self.start
+        by_frame, state = _by_frame(self), self.start
         yield state
         for frame in range(1, self.frames + 1):
             state = advance(state, by_frame.get(frame, ()))
@@ -72,3 +69,40 @@ def starting(state: State) -> State:
 def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:
     """Return those of the actions that belong on a tape: what shows, not what is done outside."""
     return tuple(action for action in actions if action.name not in NOT_TAPED)
+
+
+class Taping:
+    """A tape that is being made: the state it starts from, and the actions since."""
+
+    def __init__(self, state: State, size: tuple[int, int]) -> None:
+        self._start, self._from, self._size = starting(state), state.frame, size
+        self._actions: list[tuple[int, Action]] = []
+
+    def note(self, frame: int, actions: tuple[Action, ...]) -> None:
+        """Keep the actions that came at a frame of the window."""
+        self._actions.extend((frame - self._from, action) for action in taped(actions))
+
+    def tape(self, frame: int) -> Tape:
+        """Return the tape up to a frame of the window."""
+        return Tape(self._start, frame - self._from, tuple(self._actions), self._size)
+
+
+class Reel:
+    """A tape that plays over and over."""
+
+    def __init__(self, tape: Tape) -> None:
+        self._tape = tape
+        self._by_frame = _by_frame(tape)
+
+    def next(self, state: State) -> tuple[State, tuple[Action, ...]]:
+        """Return the state to go on from, and what the tape does then; after its end it is the start."""
+        if state.frame >= self._tape.frames:
+            state = self._tape.start
+        return state, tuple(self._by_frame.get(state.frame + 1, ()))
+
+
+def _by_frame(tape: Tape) -> dict[int, list[Action]]:
+    by_frame: dict[int, list[Action]] = {}
+    for frame, action in tape.actions:
+        by_frame.setdefault(frame, []).append(action)
+    return by_frame

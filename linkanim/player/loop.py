@@ -1,0 +1,76 @@
+"""The window: events to actions, `advance`, paint, flip; and what is asked of the outside.
+
+`frames` owns the time, and says how many frames have gone by; `Window.tick` does them. A frame that
+comes late is skipped, never slowed down: the frame's number follows the clock.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from linkanim.picture.look import Look
+from linkanim.player import display, tape_file
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Tape
+from linkanim.player.window import Window
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+_STALLED = FRAMES_PER_SECOND
+
+
+def run(
+    scene: Scene | str | os.PathLike[str] | None = None,
+    *,
+    look: Look | None = None,
+    attract: bool = False,
+    size: tuple[int, int] | None = None,
+) -> int:
+    """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
+
+    Without a scene it opens on the catalogue's first. With `attract` it walks through the catalogue
+    when left alone for a minute. NoDisplay where there is no screen; BadInput as loading raises it.
+    """
+    tape = _tape(scene)
+    state = tape.start if tape else _state(scene, look)
+    with display.opened(size):
+        window = Window(replace(state, attract=attract), tape)
+        try:
+            for count in frames(time.monotonic, time.sleep):
+                if not window.tick(count):
+                    return 0
+        finally:
+            window.close()
+    return 0
+
+
+def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterator[int]:
+    """Yield how many frames are due since the last time, at 60 a second; wait where none is.
+
+    After a stall of more than a second (a window being moved, a laptop that slept) the time in
+    between is left out.
+    """
+    start, shown = now() - 1 / FRAMES_PER_SECOND, 1
+    yield 1
+    while True:
+        wait(max(0.0, start + (shown + 1) / FRAMES_PER_SECOND - now()))
+        due = max(int((now() - start) * FRAMES_PER_SECOND), shown + 1)
+        if due - shown > _STALLED:
+            start += (due - shown - 1) / FRAMES_PER_SECOND
+            due = shown + 1
+        yield due - shown
+        shown = due
+
+
+def _tape(scene: object) -> Tape | None:
+    path = str(scene) if isinstance(scene, str | os.PathLike) else ""
+    return tape_file.read(Path(path)) if path.lower().endswith(".json") else None
+
+
+def _state(scene: Scene | str | os.PathLike[str] | None, look: Look | None) -> State:
+    return begin(scene if scene is None or isinstance(scene, Scene) else load(scene), look=look)
