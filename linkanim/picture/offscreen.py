@@ -11,6 +11,6 @@ def offscreen(size: tuple[int, int], *, alpha: bool = False) -> pygame.Surface:
     return pygame.Surface(size, pygame.SRCALPHA if alpha else 0, 32, (0xFF0000, 0xFF00, 0xFF, opacity))
 
 
-def pixel_bytes(surface: pygame.Surface) -> memoryview:
-    """Return a surface's pixels, row by row, without a copy; let go of them before drawing on."""
-    return memoryview(surface.get_buffer())
+def pixel_bytes(surface: pygame.Surface) -> bytes:
+    """Return a copy of a surface's pixels, row by row; a view of them would lock the surface."""
+    return surface.get_buffer().raw

@@ -84,6 +84,16 @@ def count_frames(part: Path, form: Format) -> int:
     return int(counts[-1]) if counts and told.returncode == 0 else 0
 
 
+def decoded(path: Path, size: tuple[int, int]) -> Iterator[Bytes]:
+    """Yield a GIF's or MP4's pictures (height, width, 3) of red, green, blue, as ffmpeg shows them."""
+    width, height = size
+    raw = ["-fps_mode", "passthrough", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    command = [_ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{path}", *raw]
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
+        while process.stdout and len(data := process.stdout.read(3 * width * height)) == 3 * width * height:
+            yield np.frombuffer(data, np.uint8).reshape(height, width, 3)
+
+
 def _ffmpeg() -> str:
     try:
         return str(get_ffmpeg_exe())

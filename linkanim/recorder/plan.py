@@ -30,7 +30,8 @@ _FINEST = 10_000
 class Clip(NamedTuple):
     """What is asked for: `speed` is dφ/dt (rad/s, signed), `period` the true period (rad of phase).
 
-    `periods` true periods, or `seconds` where it is not None; `fps` frames a second.
+    `periods` true periods, or `seconds` where it is not None; `fps` frames a second; `start` is the
+    first frame's phase (rad).
     """
 
     speed: float
@@ -39,13 +40,15 @@ class Clip(NamedTuple):
     periods: int = 1
     seconds: float | None = None
     reverse: bool = False
+    start: float = 0.0
 
 
 @dataclass(frozen=True)
 class Plan:
     """What is recorded: `frames` at `rate` frames a second share out `sweep` of phase (rad, signed).
 
-    The frame after the last would be at phase `sweep`: a whole number of true periods, where `closes`.
+    The frame after the last would be `sweep` further than the first: a whole number of true periods,
+    where `closes`.
     """
 
     frames: int
@@ -56,7 +59,7 @@ class Plan:
 
     def phase(self, frame: int) -> float:
         """Return the phase (rad) of a frame; closed form, so the frames are equally spaced."""
-        return self.sweep * (frame / self.frames)
+        return self.clip.start + self.sweep * (frame / self.frames)
 
     @property
     def seconds(self) -> float:

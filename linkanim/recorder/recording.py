@@ -38,7 +38,7 @@ class Frames(Protocol):
         """The colours that a GIF's palette has to have exactly."""
 
     def draw(self, frame: int) -> Frame:
-        """Return a frame's bytes, which may be overwritten by the next call."""
+        """Return a frame's bytes."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ def write(
 
 
 def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Progress | None) -> None:
-    palette = _palette(frames, plan.frames) if form == "gif" else None
+    palette = palette_of(frames, plan.frames) if form == "gif" else None
     stream = Stream(frames.size, plan.rate, frames.alpha)
     with encoding(stream, form, part, palette) as send:
         for frame in range(plan.frames):
@@ -116,7 +116,7 @@ def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Prog
                 progress(frame + 1, plan.frames)
 
 
-def _palette(frames: Frames, count: int) -> Bytes:
+def palette_of(frames: Frames, count: int) -> Bytes:
     """Return the palette of a few frames spread over the clip."""
     chosen = sorted({k * count // _SAMPLES for k in range(_SAMPLES)})
     samples = (np.frombuffer(frames.draw(k), np.uint8) for k in chosen)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen, pixel_bytes
 from linkanim.picture.overlay import Overlay
-from linkanim.picture.painter import Painter
 from linkanim.picture.theme import theme_of
+from linkanim.player.easel import Setting
 from linkanim.recorder.plan import Clip, Plan, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write
 
@@ -21,22 +21,19 @@ if TYPE_CHECKING:
 
 
 class SceneFrames:
-    """Pictures of a scene at the phases of a plan; each overwrites the one before."""
+    """Pictures of a scene at the phases of a plan."""
 
     def __init__(self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look) -> None:
         self.size = size
         self.alpha = not look.background
         self.colours = theme_colours(look)
-        self._scene = scene
         self._plan = plan
-        self._painter = Painter(scene, size, look)
+        self._setting = Setting(scene, size, look)
         self._surface = offscreen(size, alpha=self.alpha)
-        self._overlay = Overlay(speed=plan.speed_text)
 
     def draw(self, frame: int) -> Frame:
-        """Return the bytes of a frame, valid until the next."""
-        pose = self._scene.pose(self._plan.phase(frame), speed=self._plan.speed)
-        self._painter.paint(self._surface, pose, self._overlay)
+        """Return the bytes of a frame."""
+        self._setting.paint(self._surface, self._plan.phase(frame), self._plan.speed, Overlay())
         return pixel_bytes(self._surface)
 
 
@@ -50,20 +47,22 @@ def record(
     periods: int = 1,
     seconds: float | None = None,
     reverse: bool = False,
+    start: float = 0.0,
     look: Look = Look(),  # noqa: B008 -- frozen
     progress: Progress | None = None,
 ) -> Recording:
     """Record whole periods of a scene's motion as a GIF, MP4 or numbered PNG, by the path's ending.
 
     `size` in pixels; `speed` is dφ/dt in rad/s, the scene's own where None; `seconds` sets the length
-    instead of `periods` (true periods), and the clip need not close then. `progress` is called with
-    (frames done, frames in all). The file appears when it is whole, or not at all. `BadInput` for
-    what cannot be recorded, before any work; `RecordingFailed` where disk or encoder give up.
+    instead of `periods` (true periods), and the clip need not close then; `start` is the first frame's
+    phase. `progress` is called with (frames done, frames in all). The file appears when it is whole, or not
+    at all. `BadInput` for what cannot be recorded, before any work; `RecordingFailed` where disk or
+    encoder give up.
     """
     _, form = checked_path(path)
     refuse_size(size)
     rate = scene.linkage.drive.speed if speed is None else speed
-    plan = make_plan(Clip(rate, scene.period, fps, periods, seconds, reverse), form)
+    plan = make_plan(Clip(rate, scene.period, fps, periods, seconds, reverse, start), form)
     return write(SceneFrames(scene, plan, size, look), plan, path, progress)
 
 

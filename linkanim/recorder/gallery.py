@@ -1,0 +1,85 @@
+"""The gallery: every scene as a small GIF, and all of them on one sheet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import imageio.v3 as iio
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.picture.look import Look
+from linkanim.recorder.palette import Bytes
+from linkanim.recorder.plan import Clip, make_plan
+from linkanim.recorder.recording import Progress, Recording
+from linkanim.recorder.safe import replacing
+from linkanim.recorder.scene_frames import SceneFrames, record
+from linkanim.recorder.tape_frames import record_tape
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+SIZE = (480, 270)
+FPS = 20.0
+SHEET = "contact-sheet.png"
+TAPE = ".tape.json"
+
+_COLUMNS = 4
+_GAP = 6
+_EARLY = 0.09
+"""Which part of its period a scene is in on the sheet: not at a limit, where much lies in line."""
+
+
+@dataclass(frozen=True)
+class Gallery:
+    """What was made: a GIF for each scene, and the sheet."""
+
+    recordings: tuple[Recording, ...]
+    sheet: Path
+
+
+def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progress] | None = None) -> Gallery:
+    """Record scenes by name into a folder as NAME.gif, from a NAME.tape.json there if it is, and the sheet.
+
+    The folder is made where there is none. `watch` gives the progress to report to, by scene.
+    `BadInput` where the folder's name is a file's; else as `record`.
+    """
+    if into.exists() and not into.is_dir():
+        raise BadInput(f"{into} is a file; name a folder to put the recordings in")
+    into.mkdir(parents=True, exist_ok=True)
+    chosen = tuple(names)
+    recordings = tuple(_recorded(into, name, watch(name) if watch else None) for name in chosen)
+    return Gallery(recordings, contact_sheet(into / SHEET, [load(name) for name in chosen]))
+
+
+def contact_sheet(path: Path, scenes: Iterable[Scene]) -> Path:
+    """Write one picture of each scene, four in a row, into a PNG; return its path."""
+    tiles = [_tile(scene) for scene in scenes]
+    width, height = SIZE
+    rows = math.ceil(len(tiles) / _COLUMNS)
+    sheet = np.full((rows * (height + _GAP) + _GAP, _COLUMNS * (width + _GAP) + _GAP, 3), 206, np.uint8)
+    for number, tile in enumerate(tiles):
+        row, column = divmod(number, _COLUMNS)
+        top, left = _GAP + row * (height + _GAP), _GAP + column * (width + _GAP)
+        sheet[top : top + height, left : left + width] = tile
+    with replacing(path) as part:
+        part.write_bytes(iio.imwrite("<bytes>", sheet, extension=".png"))
+    return path
+
+
+def _recorded(into: Path, name: str, progress: Progress | None) -> Recording:
+    target, tape = into / f"{name}.gif", into / f"{name}{TAPE}"
+    if tape.is_file():
+        return record_tape(tape, target, size=SIZE, fps=FPS, progress=progress)
+    return record(load(name), target, size=SIZE, fps=FPS, progress=progress)
+
+
+def _tile(scene: Scene) -> Bytes:
+    """Return (height, width, 3) of one picture of a scene."""
+    plan = make_plan(
+        Clip(scene.linkage.drive.speed, scene.period, start=_EARLY * scene.period, seconds=1.0), "png"
+    )
+    pixels = np.frombuffer(SceneFrames(scene, plan, SIZE, Look()).draw(0), np.uint8)
+    return pixels.reshape(SIZE[1], SIZE[0], 4)[..., 2::-1]

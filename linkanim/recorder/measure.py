@@ -1,0 +1,151 @@
+"""What a recording costs and what it loses: time beside encoding alone, size, decibels, memory."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.picture.look import Look
+from linkanim.recorder.encode import Stream, decoded, encoding
+from linkanim.recorder.palette import Bytes
+from linkanim.recorder.plan import Clip, Format, Plan, make_plan
+from linkanim.recorder.recording import palette_of, write
+from linkanim.recorder.scene_frames import SceneFrames
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+LOOK = Look(vectors=frozenset("v"))
+SIZE = (1280, 720)
+FRAMES = 300
+FPS = 25.0
+
+
+class Memory(NamedTuple):
+    """The largest memory of the recording process and of its encoder, MB; NaN where it is not told."""
+
+    drawing: float
+    encoding: float
+
+
+@dataclass(frozen=True)
+class Cost:
+    """One recording measured: seconds in all, and for encoding the same frames alone."""
+
+    form: Format
+    frames: int
+    seconds: float
+    encode_seconds: float
+    megabytes: float
+    decibels: float
+    memory: Memory
+
+    @property
+    def ratio(self) -> float:
+        """Time in all by time for encoding alone."""
+        return self.seconds / self.encode_seconds
+
+
+def cost(name: str, form: Format, *, frames: int = FRAMES) -> Cost:
+    """Record a scene as GIF or MP4 at 1280x720, with its trace and velocities, and measure it.
+
+    The frames are drawn into a temporary file first (3.7 MB each), so that encoding alone can be
+    timed and what the file shows be compared with what was drawn. Decibels are 10 log10 of 255² by
+    the mean squared error over all frames. Memory is that of a process of its own.
+    """
+    scene = load(name)
+    plan = _plan(scene, form, frames)
+    memory = peak_memory(name, form, frames=frames)
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder, f"out.{form}")
+        stored = _stored(Path(folder, "frames"), scene, plan)
+        encode_seconds = _timed(lambda: _encode(stored, scene, plan, target))
+        seconds = _timed(lambda: write(SceneFrames(scene, plan, SIZE, LOOK), plan, target))
+        megabytes = target.stat().st_size / 1e6
+        decibels = _decibels(decoded(target, SIZE), stored)
+    return Cost(form, plan.frames, seconds, encode_seconds, megabytes, decibels, memory)
+
+
+def peak_memory(name: str, form: Format, *, frames: int = FRAMES) -> Memory:
+    """Record a scene in a process of its own; return the largest memory, as Linux tells it."""
+    order = f"from {__name__} import tell_memory; tell_memory({name!r}, {form!r}, {frames!r})"
+    told = subprocess.run([sys.executable, "-c", order], capture_output=True, check=True, text=True)
+    return Memory(*json.loads(told.stdout.splitlines()[-1]))
+
+
+def tell_memory(name: str, form: Format, frames: int) -> None:
+    """Record a scene and print the largest memory of this process and of the encoder, MB, as JSON."""
+    scene = load(name)
+    plan = _plan(scene, form, frames)
+    seen: list[float] = []
+
+    def watch(done: int, total: int) -> None:
+        if done == total:
+            seen.extend([_peak("self"), max((_peak(child) for child in _children()), default=math.nan)])
+
+    with tempfile.TemporaryDirectory() as folder:
+        write(SceneFrames(scene, plan, SIZE, LOOK), plan, Path(folder, f"out.{form}"), watch)
+    print(json.dumps(seen))
+
+
+def _plan(scene: Scene, form: Format, frames: int) -> Plan:
+    """Return the plan of one true period in so many frames."""
+    return make_plan(Clip(scene.period * FPS / frames, scene.period, FPS), form)
+
+
+def _stored(file: Path, scene: Scene, plan: Plan) -> NDArray[np.uint8]:
+    """Draw all frames into a file; return them (n, bytes) as they lie there."""
+    source = SceneFrames(scene, plan, SIZE, LOOK)
+    with file.open("wb") as raw:
+        for frame in range(plan.frames):
+            raw.write(source.draw(frame))
+    return np.memmap(file, np.uint8, "r").reshape(plan.frames, -1)
+
+
+def _encode(stored: NDArray[np.uint8], scene: Scene, plan: Plan, target: Path) -> None:
+    form: Format = "gif" if target.suffix == ".gif" else "mp4"
+    palette = palette_of(SceneFrames(scene, plan, SIZE, LOOK), plan.frames) if form == "gif" else None
+    with encoding(Stream(SIZE, plan.rate), form, target, palette) as send:
+        for frame in stored:
+            send(frame.data)
+
+
+def _timed(work: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def _decibels(shown: Iterator[Bytes], stored: NDArray[np.uint8]) -> float:
+    """Return the peak signal-to-noise ratio of (height, width, 3) pictures to stored frames."""
+    errors = [
+        float(np.mean(np.square(picture.reshape(-1, 3).astype(np.int32) - frame.reshape(-1, 4)[:, 2::-1])))
+        for picture, frame in zip(shown, stored, strict=True)
+    ]
+    mean = float(np.mean(errors))
+    return 10.0 * math.log10(255.0**2 / mean) if mean else math.inf
+
+
+def _peak(pid: str) -> float:
+    """Return the largest memory of a process so far, MB; NaN where the system does not tell."""
+    try:
+        found = re.search(r"VmHWM:\s*(\d+) kB", Path(f"/proc/{pid}/status").read_text())
+    except OSError:
+        return math.nan
+    return int(found[1]) / 1e3 if found else math.nan
+
+
+def _children() -> list[str]:
+    lists = Path("/proc/self/task").glob("*/children")
+    return [child for listed in lists for child in listed.read_text().split()]

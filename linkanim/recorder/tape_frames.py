@@ -1,0 +1,83 @@
+"""A tape's states as frames, and `record_tape`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from linkanim.picture.offscreen import offscreen, pixel_bytes
+from linkanim.picture.overlay import Overlay
+from linkanim.player import tape_file
+from linkanim.player.easel import Setting
+from linkanim.recorder.plan import Clip, make_plan, refuse_size
+from linkanim.recorder.recording import Progress, Recording, checked_path, write
+from linkanim.recorder.scene_frames import record, theme_colours
+
+if TYPE_CHECKING:
+    from linkanim.player.state import State
+    from linkanim.player.tape import Tape
+    from linkanim.recorder.encode import Frame
+
+
+class TapeFrames:
+    """Pictures of what a tape does. Drawn in their order each costs one; going back starts anew."""
+
+    def __init__(self, tape: Tape, fps: float, size: tuple[int, int]) -> None:
+        self.size = size
+        self.alpha = not tape.start.look.background
+        self.colours = theme_colours(tape.start.look)
+        self._tape = tape
+        self._fps = fps
+        self._surface = offscreen(size, alpha=self.alpha)
+        self._setting: Setting | None = None
+        self._ahead: Iterator[tuple[State, float]] = iter(())
+        self._next = 0
+
+    def draw(self, frame: int) -> Frame:
+        """Return the bytes of a frame."""
+        state, phase = self._at(frame)
+        self._setting_for(state).paint(self._surface, phase, state.clock.speed, Overlay())
+        return pixel_bytes(self._surface)
+
+    def _at(self, frame: int) -> tuple[State, float]:
+        if frame < self._next or not self._next:
+            self._ahead, self._next = self._tape.pictures(self._fps), 0
+        skipped, self._next = frame - self._next, frame + 1
+        return next(islice(self._ahead, skipped, None))
+
+    def _setting_for(self, state: State) -> Setting:
+        look = (id(state.shown), self.size, state.look)
+        if self._setting is None or self._setting.made_for != look:
+            self._setting = Setting(state.shown, self.size, state.look)
+        return self._setting
+
+
+def record_tape(
+    tape: str | os.PathLike[str],
+    path: str | os.PathLike[str],
+    *,
+    size: tuple[int, int] = (1280, 720),
+    fps: float = 25.0,
+    progress: Progress | None = None,
+) -> Recording:
+    """Record what a tape does, at any size; a tape in which nothing is done, as the scene's loop.
+
+    The loop starts at the phase at which the tape does. Errors as `record`, and `BadInput` for a
+    file that is not a tape of this version.
+    """
+    _, form = checked_path(path)
+    refuse_size(size)
+    played = tape_file.read(Path(tape))
+    state = played.start
+    if played.is_loop:
+        loop = partial(record, speed=state.clock.speed, start=state.phase, look=state.look)
+        return loop(state.scene, path, size=size, fps=fps, progress=progress)
+    clip = Clip(state.clock.speed, state.scene.period, fps, seconds=max(played.seconds, 1.0 / fps))
+    plan = make_plan(clip, form)
+    plan = replace(plan, frames=max(1, round(played.seconds * float(plan.rate))))
+    return write(TapeFrames(played, float(plan.rate), size), plan, path, progress)
