@@ -71,12 +71,21 @@ class Turn:
 
 @dataclass(frozen=True, slots=True)
 class Swing:
-    """The input swings between two limits; `ends` names the dyad that limits it at each."""
+    """The input swings between two limits; `ends` names the dyad that limits it at each.
+
+    `repeats` is the number of turns of the input after which the linkage would be the same (more
+    than one with gears).
+    """
 
     low: Sum
     high: Sum
     ends: tuple[str, str]
-    periods: int = 1
+    repeats: int = 1
+
+    @property
+    def periods(self) -> int:
+        """One there-and-back; two where a different dyad changes its closure at each end."""
+        return 1 if self.ends[0] == self.ends[1] else 2
 
     @property
     def middle(self) -> Sum:

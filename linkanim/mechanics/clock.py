@@ -128,16 +128,21 @@ def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> 
 
 def swing_by_angle(u: Value, v: Value, pace: Slope, middle: Sum) -> Clock:
     """Return the clock of a swing driven by its angle, given half the ways left to its limits."""
-    root_u, root_v = sqrt(u), sqrt(v)
+    ends = Ends(Slope(u), Slope(v), Slope(sqrt(u)), Slope(sqrt(v)), by_phase=False)
+    return Clock(v - u, middle, pace.value, pace.rate, pace, by_angle(ends, pace))
+
+
+def by_angle(ends: Ends, pace: Slope) -> Ends:
+    """Return the same two ways with their derivatives where the angle itself runs at `pace`."""
     half_rate = pace.value * 0.5
-    ends = Ends(
-        Slope(u, -half_rate),
-        Slope(v, half_rate),
+    root_u, root_v = ends.root_u.value, ends.root_v.value
+    return Ends(
+        Slope(ends.u.value, -half_rate),
+        Slope(ends.v.value, half_rate),
         Slope(root_u, -(half_rate * 0.5) / root_u),
         Slope(root_v, (half_rate * 0.5) / root_v),
         by_phase=False,
     )
-    return Clock(v - u, middle, pace.value, pace.rate, pace, ends)
 
 
 def inputs(graph: Graph, names: tuple[str, ...]) -> tuple[Value, ...]:

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import clock as clocks
 from .assembly import Swing, Turn, gearings
 from .exact import Sum, exact_angle
 from .expression import Graph, Value
+from .limits import restricted
 from .linkage import Linkage, Pin
 from .motion import Array, Motion, Pose, Setting
 from .path import Assembly, assemble
@@ -296,4 +296,4 @@ def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:
 @lru_cache(maxsize=64)
 def mechanism(linkage: Linkage) -> Mechanism:
     """Return the linkage made ready; AssemblyError where it cannot be put together."""
-    return Mechanism(linkage, assemble(linkage))
+    return Mechanism(linkage, restricted(assemble(linkage)))

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from linkanim.errors import AssemblyError
 
 from . import clock as clocks
 from .assembly import Arc, Loop, Path, Swing, Turn, find_loops, gearings, open_arcs
+from .chain import LimitFit
 from .closures import signed_root
 from .exact import exact_angle
+from .expression import Value
 from .linkage import RPR, RRP, RRR, Crank, Joint, Linkage, Pin, Polar, Rigid
 from .planar import Slope
 from .roots import Kind
-from .traversal import Kinematics, walk
+from .traversal import Kinematics, Plan, walk
 
 JUST_AFTER = 1e-6
 """Phase at which a closure is judged where it is ambiguous at the start itself."""
@@ -34,12 +36,13 @@ class Assembly:
     path: Path
     signs: Mapping[str, int]
     unscale: float = 1.0
+    fits: Mapping[str, LimitFit] = field(default_factory=dict)
 
     def walk(self, clock: clocks.Clock) -> Kinematics:
         """Return the motion of everything at the clock's instant."""
-        return walk(self.linkage, self.loops, self.signs, self.path, clock)
+        return walk(Plan(self.linkage, self.loops, self.signs, self.path, self.fits), clock)
 
-    def clock(self, phase: float, pace: Slope) -> clocks.Clock:
+    def clock(self, phase: Value, pace: Slope) -> clocks.Clock:
         """Return the input's state at a phase, in plain floats or noted expressions."""
         if isinstance(self.path, Turn):
             return clocks.turn(phase, pace, exact_angle(self.path.start))
@@ -51,15 +54,34 @@ def assemble(linkage: Linkage) -> Assembly:
     scale = _scale(linkage)
     scaled = _scaled(linkage, scale)
     loops = find_loops(scaled)
-    arcs = open_arcs(scaled, loops)
-    for path in _paths(scaled, loops, arcs):
-        for signs in _sign_choices(scaled, loops, path):
-            assembly = Assembly(scaled, loops, path, signs, 1.0 / scale)
-            if _is_as_named(assembly):
-                return assembly
-    raise AssemblyError(
+    for path in _paths(scaled, loops, open_arcs(scaled, loops)):
+        found = _as_named(Assembly(scaled, loops, path, {}, 1.0 / scale))
+        if found is not None:
+            return found
+    raise _not_there()
+
+
+def resigned(assembly: Assembly) -> Assembly:
+    """Return the assembly with its closures named anew on its path."""
+    found = _as_named(assembly)
+    if found is None:
+        raise _not_there()
+    return found
+
+
+def _not_there() -> AssemblyError:
+    return AssemblyError(
         "the assembly asked for does not exist on this linkage's input range; ask for the other one"
     )
+
+
+def _as_named(assembly: Assembly) -> Assembly | None:
+    """Return the assembly with signs under which its dyads lie as they are named; None where none do."""
+    for signs in _sign_choices(assembly.linkage, assembly.loops, assembly.path):
+        signed = replace(assembly, signs=signs)
+        if _is_as_named(signed):
+            return signed
+    return None
 
 
 def _scale(linkage: Linkage) -> float:

@@ -29,7 +29,7 @@ def reach(angle: Array, swing: Swing) -> Reach:
     Outside the swing the ways are NaN. The float nearest a limit may lie just outside: it counts
     as the limit itself.
     """
-    turns = np.rint((angle - float(swing.middle)) / (2 * math.pi))
+    turns = swing.repeats * np.rint((angle - float(swing.middle)) / (2 * math.pi * swing.repeats))
     whole, lost = two_product(-turns, FULL_TURN.high)
     high, error = two_sum(angle, whole)
     low = error + lost - turns * FULL_TURN.low

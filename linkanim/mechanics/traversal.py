@@ -6,13 +6,14 @@ points fixed to it, and how fast it turns.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from linkanim.errors import AssemblyError
 
 from .assembly import Gearing, Loop, Path, Swing, gearings
-from .clock import Clock
+from .chain import LimitFit, Margin, limited_root
+from .clock import Clock, by_angle
 from .closures import (
     PinLoop,
     SignedRoot,
@@ -31,7 +32,16 @@ from .expression import Value, sqrt
 from .linkage import RPR, RRP, RRR, Body, Crank, Linkage, Pin, Rigid
 from .planar import Moving, MovingPoint, Slope, Turning, Vec, carried
 
-Closure = Callable[[str, Value, Value], SignedRoot | None]
+
+@dataclass(frozen=True)
+class Plan:
+    """What a walk follows: the linkage, its loops, the closures' signs, the input's path."""
+
+    linkage: Linkage
+    loops: Mapping[str, Loop]
+    signs: Mapping[str, int]
+    path: Path | None
+    fits: Mapping[str, LimitFit] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,33 +67,35 @@ class Kinematics:
 
 @dataclass
 class _Walk:
-    linkage: Linkage
-    loops: Mapping[str, Loop]
-    signs: Mapping[str, int]
-    path: Path | None
+    plan: Plan
     clock: Clock
     gears: Mapping[str, Gearing]
-    near_limit: Closure
+    by_angle: Mapping[str, Moving]
+    """The drivers with their derivatives in the input's angle, where a chain limits the input."""
     points: dict[str, MovingPoint] = field(default_factory=dict)
     groups: list[Group] = field(default_factory=list)
     travels: dict[str, Moving] = field(default_factory=dict)
     margins: dict[str, Value] = field(default_factory=dict)
+    drivers: dict[str, Moving] = field(default_factory=dict)
+    """What closes each dyad on moving points: L², or how far its end lies from its line."""
 
 
-def _nowhere(name: str, u: Value, w: Value) -> SignedRoot | None:
-    return None
-
-
-def walk(
-    linkage: Linkage,
-    loops: Mapping[str, Loop],
-    signs: Mapping[str, int],
-    path: Path | None,
-    clock: Clock,
-    near_limit: Closure = _nowhere,
-) -> Kinematics:
+def walk(plan: Plan, clock: Clock) -> Kinematics:
     """Return the motion of everything in the linkage at the clock's instant."""
-    w = _Walk(linkage, loops, signs, path, clock, gearings(linkage), near_limit)
+    by_angle = _walked(plan, _angle_clock(clock), {}).drivers if plan.fits and clock.ends else {}
+    w = _walked(plan, clock, by_angle)
+    return Kinematics(w.points, _centres(w), _bodies(w), _body_travels(w), w.margins)
+
+
+def _angle_clock(clock: Clock) -> Clock:
+    """Return the same instant with derivatives in the input's angle instead of in time."""
+    assert clock.ends is not None
+    return replace(clock, rate=1.0, second=0.0, pace=Slope(1.0), ends=by_angle(clock.ends, Slope(1.0)))
+
+
+def _walked(plan: Plan, clock: Clock, by_angle: Mapping[str, Moving]) -> _Walk:
+    linkage = plan.linkage
+    w = _Walk(plan, clock, gearings(linkage), by_angle)
     pins = {joint.name: complex(*joint.position) for joint in linkage.joints if isinstance(joint, Pin)}
     w.groups.append(Group(Turning(), pins))
     for joint in linkage.joints:
@@ -100,7 +112,7 @@ def walk(
                 _slot(w, joint)
             case Rigid():
                 w.points[joint.name] = _attached(w, joint.on, joint.at, joint.name)
-    return Kinematics(w.points, _centres(w), _bodies(w), _body_travels(w), w.margins)
+    return w
 
 
 def _pace(w: _Walk, gearing: Gearing) -> Slope:
@@ -125,12 +137,12 @@ def _add_bar(w: _Walk, ends: tuple[str, str], length: float, turning: Turning, a
 def _loop_root(w: _Walk, loop: Loop, sign: int) -> tuple[SignedRoot, tuple[Value, Value], Slope]:
     pace = _pace(w, loop.gearing)
     half = loop.half(w.clock)
-    swing = (w.path.low, w.path.high) if isinstance(w.path, Swing) else None
+    swing = (w.plan.path.low, w.plan.path.high) if isinstance(w.plan.path, Swing) else None
     return signed_root(loop.root, half, pace, w.clock, swing).times(sign), half, pace
 
 
 def _two_bars(w: _Walk, joint: RRR) -> None:
-    loop, sign = w.loops.get(joint.name), w.signs[joint.name]
+    loop, sign = w.plan.loops.get(joint.name), w.plan.signs[joint.name]
     ends, lengths = joint.ends, joint.lengths
     if loop is not None and loop.swapped:
         ends, lengths, sign = (ends[1], ends[0]), (lengths[1], lengths[0]), -sign
@@ -153,8 +165,7 @@ def _moving_root(
 ) -> SignedRoot:
     square = moving_square(p, q)
     u, v = moving_factors(square.value, lengths)
-    w.margins[name] = u * v
-    return w.near_limit(name, u, v) or plain_root(u, v, square.rate, square.second, single=False)
+    return _margin_root(w, name, (u, v), square)
 
 
 def _slider(w: _Walk, joint: RRP) -> None:
@@ -181,19 +192,31 @@ def _slider(w: _Walk, joint: RRP) -> None:
 
 def _slider_root(w: _Walk, joint: RRP, aside: Value, along: Vec) -> SignedRoot:
     """Return √(b² - e²) with e how far the bar's end lies left of the line."""
-    loop, sign = w.loops.get(joint.name), w.signs[joint.name]
+    loop, sign = w.plan.loops.get(joint.name), w.plan.signs[joint.name]
     if loop is not None:
         return _loop_root(w, loop, sign)[0]
     point, b = w.points[joint.end], joint.length
-    u, v = b - aside, b + aside
-    w.margins[joint.name] = u * v
-    rate, second = along.cross(point.velocity), along.cross(point.acceleration)
-    return (w.near_limit(joint.name, u, v) or plain_root(u, v, rate, second, single=False)).times(sign)
+    driver = Moving(aside, along.cross(point.velocity), along.cross(point.acceleration))
+    return _margin_root(w, joint.name, (b - aside, b + aside), driver).times(sign)
+
+
+def _margin_root(
+    w: _Walk, name: str, factors: tuple[Value, Value], driver: Moving, *, single: bool = False
+) -> SignedRoot:
+    """Return the root of a dyad on moving points, and note its margin."""
+    u, v = factors
+    w.margins[name] = u * v
+    w.drivers[name] = driver
+    if name in w.plan.fits and name in w.by_angle:
+        half_difference = 0.5 if single else (u - v) * 0.5
+        margin = Margin(u * v, half_difference, driver, w.by_angle[name])
+        return limited_root(margin, w.plan.fits[name], w.clock)
+    return plain_root(u, v, driver.rate, driver.second, single=single)
 
 
 def _slot(w: _Walk, joint: RPR) -> None:
     pivot, pin = w.points[joint.pivot], w.points[joint.through]
-    loop, sign, offset = w.loops.get(joint.name), w.signs[joint.name], joint.offset
+    loop, sign, offset = w.plan.loops.get(joint.name), w.plan.signs[joint.name], joint.offset
     if loop is not None and loop.ground is not None:
         root, half, pace = _loop_root(w, loop, sign)
         ground = PinLoop(loop.ground.length, loop.ground.direction, loop.crank.length, half, pace)
@@ -222,8 +245,7 @@ def _moving_slot_root(w: _Walk, joint: RPR) -> SignedRoot:
     square = moving_square(pivot, pin)
     distance = sqrt(square.value)
     v = (distance - offset) * (distance + offset)
-    w.margins[joint.name] = v
-    return w.near_limit(joint.name, 1.0, v) or plain_root(1.0, v, square.rate, square.second, single=True)
+    return _margin_root(w, joint.name, (1.0, v), square, single=True)
 
 
 def _group_of(w: _Walk, names: tuple[str, ...], owner: str) -> Group:
@@ -257,7 +279,7 @@ def _attached(w: _Walk, on: tuple[str, str], at: tuple[float, float], name: str 
 def _bodies(w: _Walk) -> dict[str, Turning]:
     return {
         body.name: _group_of(w, body.joints, f"body {body.name}").turning
-        for body in w.linkage.bodies
+        for body in w.plan.linkage.bodies
         if body.slider is None
     }
 
@@ -265,7 +287,7 @@ def _bodies(w: _Walk) -> dict[str, Turning]:
 def _centres(w: _Walk) -> dict[str, MovingPoint]:
     return {
         body.name: _attached(w, _axis(body), body.com)
-        for body in w.linkage.bodies
+        for body in w.plan.linkage.bodies
         if body.com is not None and body.slider is None
     }
 
@@ -275,4 +297,4 @@ def _axis(body: Body) -> tuple[str, str]:
 
 
 def _body_travels(w: _Walk) -> dict[str, Moving]:
-    return {body.name: w.travels[body.slider] for body in w.linkage.bodies if body.slider is not None}
+    return {body.name: w.travels[body.slider] for body in w.plan.linkage.bodies if body.slider is not None}

@@ -1,0 +1,223 @@
+"""Limits that a dyad further down the chain puts on the input, found on the cycle.
+
+Both ends of such a dyad move, so there is no closed form: its margin U·W is sampled over the input's
+range, the zero next to the start is bracketed and bisected, and the input then swings between the
+limits like any other. Next to a limit U·W itself has only half a float's digits left; there its
+quotient by the way to the limit, which is smooth, is taken from a polynomial fitted once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.polynomial import Chebyshev, Polynomial
+from numpy.typing import NDArray
+
+from linkanim.errors import AssemblyError
+
+from . import clock as clocks
+from .assembly import Path, Swing, Turn, why_apart
+from .chain import LimitFit, NearEnd
+from .exact import Sum, exact_angle
+from .expression import Graph, Value
+from .path import Assembly, resigned
+from .planar import Slope
+from .program import Batch, batch
+
+SAMPLES_A_TURN = 2880
+TOUCHING = 1e-12
+"""A margin no further below zero than this share of its greatest value is a touch, not a limit."""
+DEGREE = 12
+FIT_POINTS = 96
+GOOD_FIT = 1e-14
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Margins:
+    """The margins of the dyads that close from moving points, over the input's range."""
+
+    names: tuple[str, ...]
+    program: Batch
+    scale: Array
+
+    def lowest(self, x: Array) -> tuple[Array, NDArray[np.intp]]:
+        """Return the lowest relative margin at each place, and whose it is; NaN counts as none."""
+        with np.errstate(all="ignore"):
+            values = self.program(x) / self.scale[:, None]
+        values = np.where(np.isnan(values), -np.inf, values) + TOUCHING
+        return values.min(axis=0), values.argmin(axis=0)
+
+
+def restricted(assembly: Assembly) -> Assembly:
+    """Return the assembly with its input's path cut back to what every dyad allows."""
+    margins = _margins(assembly)
+    if margins is None:
+        return assembly
+    places = _places(assembly.path)
+    values, whose = margins.lowest(places)
+    if (values >= 0).all():
+        return assembly
+    if (values < 0).all():
+        name = margins.names[int(whose[values.argmax()])]
+        raise AssemblyError(f"joint {name}: {why_apart(assembly.linkage, name)}")
+    ends = _open_interval(assembly, places, values, margins)
+    path = _swing(assembly.path, ends)
+    limited = resigned(replace(assembly, path=path))
+    return replace(limited, fits=_fits(limited, margins.names))
+
+
+def _margins(assembly: Assembly) -> _Margins | None:
+    graph = Graph()
+    found = assembly.walk(assembly.clock(graph.input("x"), Slope(0.0))).margins
+    names = tuple(name for name, value in found.items())
+    if not names:
+        return None
+    program = batch({"x": True}, [found[name] for name in names])
+    with np.errstate(all="ignore"):
+        values = program(_places(assembly.path))
+    scale = np.nanmax(np.abs(values), axis=1, initial=0.0)
+    return _Margins(names, program, np.where(scale > 0, scale, 1.0))
+
+
+def _places(path: Path) -> Array:
+    """Return the phases at which margins are sampled: a period, or one way of a swing."""
+    if isinstance(path, Turn):
+        return np.linspace(0.0, 2 * math.pi * path.periods, SAMPLES_A_TURN * path.periods + 1)
+    return np.linspace(0.0, math.pi, SAMPLES_A_TURN)
+
+
+@dataclass(frozen=True)
+class _End:
+    """An end of the open interval: the phase, and the dyad that limits there (None: the path's own end)."""
+
+    phase: float
+    dyad: str | None
+
+
+def _open_interval(assembly: Assembly, places: Array, values: Array, margins: _Margins) -> tuple[_End, _End]:
+    """Return the ends of the interval around the start, or of the widest one where the start is shut."""
+    if isinstance(assembly.path, Turn):
+        # The samples come round: the interval may reach back over the start.
+        count = len(places) - 1
+        period = places[-1]
+        places = np.concatenate([places[:count] - period, places[:count], places[:count] + period])
+        values = np.tile(values[:count], 3)
+        home = count
+    else:
+        home = int(np.abs(_angles(assembly.path, places) - assembly.linkage.drive.start).argmin())
+    first, last = _run_around(values >= 0, home)
+    return (
+        _refined(margins, places, first, first - 1),
+        _refined(margins, places, last, last + 1),
+    )
+
+
+def _angles(path: Swing, phases: Array) -> Array:
+    return float(path.middle) - path.amplitude * np.cos(phases)
+
+
+def _run_around(is_open: NDArray[np.bool_], home: int) -> tuple[int, int]:
+    """Return the first and last place of the open run at `home`, or of the longest run."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], is_open.astype(np.int8), [0]])))
+    runs = list(zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True))
+    for first, last in runs:
+        if first <= home <= last:
+            return first, last
+    return max(runs, key=lambda run: run[1] - run[0])
+
+
+def _refined(margins: _Margins, places: Array, inside: int, outside: int) -> _End:
+    """Return the limit between an open place and the shut one beside it, by bisection."""
+    if not 0 <= outside < len(places):
+        return _End(float(places[inside]), None)
+    low, high = float(places[inside]), float(places[outside])
+    _, whose = margins.lowest(np.array([high]))
+    name = margins.names[int(whose[0])]
+    row = margins.names.index(name)
+    while True:
+        middle = (low + high) / 2
+        if middle in (low, high):
+            return _End(low, name)
+        with np.errstate(all="ignore"):
+            still_open = margins.program(np.array([middle]))[row, 0] >= 0
+        low, high = (middle, high) if still_open else (low, middle)
+
+
+def _swing(path: Path, ends: tuple[_End, _End]) -> Swing:
+    """Return the swing between two phases of a path."""
+    low, high = ends
+    if isinstance(path, Turn):
+        start = exact_angle(path.start)
+        assert low.dyad is not None
+        assert high.dyad is not None
+        names = (low.dyad, high.dyad)
+        return Swing(start + Sum(low.phase), start + Sum(high.phase), names, path.periods)
+    angles = [
+        own if end.dyad is None else path.middle + Sum(-path.amplitude * math.cos(end.phase))
+        for end, own in zip(ends, (path.low, path.high), strict=True)
+    ]
+    names = (low.dyad or path.ends[0], high.dyad or path.ends[1])
+    return Swing(angles[0], angles[1], names, path.repeats)
+
+
+def _fits(assembly: Assembly, names: tuple[str, ...]) -> Mapping[str, LimitFit]:
+    """Return, for each dyad that limits the swing, its margin's smooth part next to its limits."""
+    path = assembly.path
+    assert isinstance(path, Swing)
+    return {
+        name: LimitFit(
+            _near_end(assembly, name, upper=True) if path.ends[1] == name else None,
+            _near_end(assembly, name, upper=False) if path.ends[0] == name else None,
+        )
+        for name in names
+        if name in path.ends
+    }
+
+
+def _near_end(assembly: Assembly, name: str, *, upper: bool) -> NearEnd:
+    """Fit the margin over the way to the limit, on the widest stretch where a polynomial holds it."""
+    path = assembly.path
+    assert isinstance(path, Swing)
+    both = path.ends == (name, name)
+    margin = _margin_by_way(assembly, name, upper=upper)
+    width = path.amplitude / 8
+    while True:
+        ways = width * (1 - np.cos(np.linspace(0.02, math.pi, FIT_POINTS))) / 2
+        values = margin(ways)
+        weights = ways * (path.amplitude - ways) if both else ways
+        fitted = _weighted_fit(ways / width, values, weights)
+        error = np.abs(fitted(ways / width) * weights - values).max()
+        if error <= GOOD_FIT * np.abs(values).max() * 8 or width < path.amplitude * 1e-4:
+            return NearEnd(width, tuple(float(c) for c in fitted.coef))
+        width /= 2
+
+
+def _weighted_fit(x: Array, values: Array, weights: Array) -> Polynomial:
+    """Return the polynomial p on [0, 1] for which weights × p comes nearest the values."""
+    columns = np.polynomial.chebyshev.chebvander(2 * x - 1, DEGREE) * weights[:, None]
+    coefficients = np.linalg.lstsq(columns, values, rcond=None)[0]
+    found = Chebyshev(coefficients, domain=[0.0, 1.0]).convert(kind=Polynomial, domain=[-1, 1])
+    assert isinstance(found, Polynomial)
+    return found
+
+
+def _margin_by_way(assembly: Assembly, name: str, *, upper: bool) -> Callable[[Array], Array]:
+    """Return the margin as a function of half the way to a limit."""
+    path = assembly.path
+    assert isinstance(path, Swing)
+    graph = Graph()
+    u, v = graph.input("u"), graph.input("v")
+    value: Value = assembly.walk(clocks.swing_by_angle(u, v, Slope(0.0), path.middle)).margins[name]
+    program = batch({"u": True, "v": True}, [value])
+
+    def margin(way: Array) -> Array:
+        other = path.amplitude - way
+        with np.errstate(all="ignore"):
+            return np.asarray(program(*((way, other) if upper else (other, way)))[0], dtype=np.float64)
+
+    return margin
