@@ -103,6 +103,10 @@ class Easel:
         """Return the point of the scene under a pixel."""
         return self._painter.view.to_world(x, y)
 
+    def pixel(self, x: float, y: float) -> tuple[float, float]:
+        """Return where a point of the scene is in the window."""
+        return self._painter.view.to_pixel(x, y)
+
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
         return self._painter.chart_phase_at(x, y)

@@ -5,10 +5,12 @@ Every change gives a new scene or a refusal; the last good scene always runs on.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from linkanim.errors import LinkanimError
+from linkanim.mechanics.classify import Info
 from linkanim.scenes.edit import Dimension, dimensions, with_dimension
 from linkanim.scenes.scene import Scene
 
@@ -104,15 +106,30 @@ def changed(editing: Editing, scene: Scene) -> Editing:
 
 
 def _tried(editing: Editing, scene: Scene, text: str) -> tuple[Editing, Scene]:
-    """Put a value where the list stands; a refused one stays typed, to be mended."""
+    """Put a value where the list stands; a refused one stays typed, to be mended.
+
+    One that ends the crank's full turn is refused once, with the way to take it all the same.
+    """
     item = chosen(editing, scene)
     if item is None:
         return editing, scene
     try:
         after = with_dimension(scene, item.key, text)
+        loss = None if editing.warned else _loss(scene.info, after.info)
     except LinkanimError as error:
         return replace(editing, typed=text, refusal=_reason(str(error), scene), warned=False), scene
+    if loss:
+        return replace(editing, typed=text, refusal=loss, warned=True), scene
     return changed(editing, scene), after
+
+
+def _loss(before: Info, after: Info) -> str | None:
+    """Say that the input no longer turns fully, where it did; else None."""
+    if after.full_turn or not before.full_turn:
+        return None
+    low, high = (f"{math.degrees(limit):.4g}°".replace("-", "−") for limit in after.input_range)
+    cause = f"{after.grashof}: " if after.grashof else ""
+    return f"{cause}the crank cannot turn fully; it swings {low}…{high} (Enter takes it all the same)"
 
 
 def _reason(message: str, scene: Scene) -> str:

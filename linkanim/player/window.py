@@ -28,14 +28,18 @@ _BESIDE_A_TAPE = frozenset({"screenshot", "fullscreen", "quit", "back"})
 
 
 class Window:
-    """One open window; `state` is what it shows, `tape` what plays in it until a key is pressed."""
+    """One open window: `state` is what it shows, and `easel` how.
+
+    A tape plays in it until a key is pressed.
+    """
 
     def __init__(self, state: State, tape: Tape | None = None) -> None:
         self.state = state
         self._reel = Reel(tape) if tape else None
         self._taping: Taping | None = None
         self._renderings: list[Rendering] = []
-        self._keyboard, self._mouse, self._easel = Keyboard(), Mouse(), Easel(state)
+        self.easel = Easel(state)
+        self._keyboard, self._mouse = Keyboard(), Mouse()
         self._told: list[str] = []
         self._windowed = pygame.display.get_window_size()
         self._open = True
@@ -48,7 +52,7 @@ class Window:
         actions = self._actions(pygame.event.get())
         for frame in range(frames):
             self._advance(actions if frame == 0 else ())
-        self._easel.show(self.state, overlay(self.state))
+        self.easel.show(self.state, overlay(self.state))
         return self._open
 
     def close(self) -> None:
@@ -99,7 +103,7 @@ class Window:
             case "render":
                 self._render(str(effect.value))
             case "screenshot":
-                picture = self._easel.picture(self.state, overlay(self.state))
+                picture = self.easel.picture(self.state, overlay(self.state))
                 self._told.append(str(files.screenshot(picture, self.state.scene.name)))
             case "save":
                 self._told.append(f"{save(self.state.scene, Path())} is written")
@@ -129,9 +133,9 @@ class Window:
         if event.type == pygame.QUIT:
             return (Action("quit"),)
         if event.type in _UNCOVERED:
-            self._easel.uncovered()
+            self.easel.uncovered()
         if event.type in _MOUSE:
-            return self._mouse.actions(event, self._easel)
+            return self._mouse.actions(event, self.easel)
         if event.type != pygame.KEYDOWN:
             return ()
         press = self._keyboard.press(event)

@@ -67,6 +67,38 @@ def test_a_refusal_says_why_and_the_last_good_linkage_runs_on(crank: State, text
     assert state.editing.typed == text
 
 
+def test_bars_that_cannot_meet_are_refused(crank: State) -> None:
+    state = typed(crank, "1000")
+    assert state.scene is crank.scene
+    assert "cannot meet" in str(state.editing.refusal)
+
+
+# Where the crank turned fully and no longer could, it says so first, with the sum and the range.
+@pytest.mark.parametrize("ask", [("type", "70"), ("nudge", 20)], ids=["typed", "nudged"])
+def test_the_end_of_full_turns_is_refused_once(crank: State, ask: tuple[str, str | int]) -> None:
+    warned = after(crank, Action(*ask), "take") if ask[0] == "type" else after(crank, Action(*ask))
+    assert warned.scene is crank.scene
+    assert str(warned.editing.refusal).startswith(
+        "s + l = 170 > p + q = 165: the crank cannot turn fully; it swings −151.7°…151.7°"
+    )
+    assert warned.editing.typed == "70"
+    taken = after(warned, "take")
+    assert value(taken, "crank") == 70.0
+    assert taken.editing.refusal is None
+
+
+def test_another_value_is_warned_of_again(crank: State) -> None:
+    warned = typed(crank, "70")
+    again = after(warned, "erase", Action("type", "2"), "take")
+    assert again.scene is crank.scene
+    assert "cannot turn fully" in str(again.editing.refusal)
+
+
+def test_a_swing_may_change_without_a_warning() -> None:
+    state = after(begin(load("triple-rocker")), "edit", Action("choose", 1))
+    assert after(state, Action("nudge", 1)).editing.refusal is None
+
+
 def test_a_refused_value_can_be_mended(crank: State) -> None:
     mended = typed(after(typed(crank, "-4"), "erase", "erase"), "41")
     assert (value(mended, "crank"), mended.editing.refusal) == (41.0, None)

@@ -1,0 +1,53 @@
+"""A window to be played in tests: keys, mouse, pixels; its time is the test's."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pygame
+
+from linkanim.player import display
+from linkanim.player.state import State
+from linkanim.player.window import Window
+
+SIZE = (320, 180)
+SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL
+
+
+class Player:
+    """A window, the keys and the mouse to use it with, and its pixels to look at."""
+
+    def __init__(self, state: State) -> None:
+        self.window = Window(state)
+        self.tick()
+
+    @property
+    def state(self) -> State:
+        return self.window.state
+
+    @property
+    def pixels(self) -> bytes:
+        return pygame.image.tobytes(display.surface(), "RGB")
+
+    def tick(self, frames: int = 1) -> bool:
+        return self.window.tick(frames)
+
+    def press(self, key: int, mod: int = 0, text: str = "") -> bool:
+        """Press a key and let one frame go by; False where that closed the window."""
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=key, mod=mod, unicode=text))
+        return self.tick()
+
+    def type(self, text: str) -> None:
+        for letter in text:
+            self.press(ord(letter), 0, letter)
+
+    def mouse(self, kind: int, at: tuple[float, float], **more: Any) -> bool:
+        pygame.event.post(pygame.event.Event(kind, pos=(round(at[0]), round(at[1])), **more))
+        return self.tick()
+
+    def drag(self, *places: tuple[float, float]) -> None:
+        """Press the left button at the first place, go to the others one by one, and let go."""
+        self.mouse(pygame.MOUSEBUTTONDOWN, places[0], button=1)
+        for place in places[1:]:
+            self.mouse(pygame.MOUSEMOTION, place, rel=(0, 0), buttons=(1, 0, 0))
+        self.mouse(pygame.MOUSEBUTTONUP, places[-1], button=1)

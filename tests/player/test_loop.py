@@ -1,0 +1,169 @@
+"""The loop: who owns the time, what a missing display says, and what it starts with."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+
+import pygame
+import pytest
+
+from linkanim.errors import BadInput, NoDisplay
+from linkanim.player import display
+from linkanim.player.actions import Action
+from linkanim.player.loop import frames, run
+from linkanim.player.state import advance, begin
+from linkanim.player.tape import Tape, starting
+from linkanim.player.tape_file import write
+from linkanim.player.window import Window
+from linkanim.scenes import load
+
+
+class Time:
+    """A clock that stands still but for waiting and for what a test lets pass."""
+
+    def __init__(self) -> None:
+        self.now, self.waits = 0.0, 0
+
+    def wait(self, seconds: float) -> None:
+        assert seconds >= 0.0
+        self.now += seconds
+        self.waits += 1
+
+
+@pytest.fixture
+def time() -> Time:
+    return Time()
+
+
+def counted(time: Time) -> Iterator[int]:
+    return frames(lambda: time.now, time.wait)
+
+
+def test_frames_come_sixty_times_a_second(time: Time) -> None:
+    assert list(islice(counted(time), 61)) == [1] * 61
+    assert time.now == pytest.approx(1.0)
+
+
+def test_a_late_frame_is_skipped_and_not_slowed(time: Time) -> None:
+    ticks = counted(time)
+    next(ticks)
+    time.now += 0.1
+    assert next(ticks) == 6
+    assert next(ticks) == 1
+
+
+def test_the_frames_number_follows_the_clock(time: Time) -> None:
+    ticks, shown = counted(time), 0
+    for late in [0.0, 0.013, 0.031, 0.0004, 0.2, 0.0] * 50:
+        shown += next(ticks)
+        time.now += late
+    shown += next(ticks)
+    assert shown == pytest.approx(1 + time.now * 60, abs=1.0)
+
+
+def test_a_long_stall_is_left_out(time: Time) -> None:
+    ticks = counted(time)
+    next(ticks)
+    time.now += 3600.0
+    assert [next(ticks), next(ticks)] == [1, 1]
+
+
+def test_it_waits_once_a_frame(time: Time) -> None:
+    list(islice(counted(time), 11))
+    assert time.waits == 10
+
+
+def test_run_returns_0_when_the_window_is_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    ticks: list[int] = []
+
+    def tick(window: Window, count: int) -> bool:
+        ticks.append(count)
+        return len(ticks) < 3
+
+    monkeypatch.setattr(Window, "tick", tick)
+    assert run("press") == 0
+    assert not pygame.display.get_init()
+
+
+def test_without_a_display_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("SDL_VIDEODRIVER")
+    monkeypatch.setattr(pygame.display, "get_driver", lambda: "offscreen")
+    monkeypatch.setattr(display, "_prepare", lambda: os.environ.update(SDL_VIDEODRIVER="dummy"))
+    with pytest.raises(NoDisplay, match="no display to open a window on"):
+        run("press")
+    assert "SDL_VIDEODRIVER" not in os.environ
+
+
+# As a user meets it: no DISPLAY at all, and one that nobody answers on.
+@pytest.mark.parametrize("address", ["", ":987"], ids=["none", "unreachable"])
+def test_without_a_display_there_is_one_line_and_code_1(address: str) -> None:
+    asked = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "XDG_RUNTIME_DIR")
+    environment = {key: value for key, value in os.environ.items() if key not in asked}
+    done = subprocess.run(
+        [sys.executable, "-m", "linkanim", "play", "press"],
+        env={**environment, **({"DISPLAY": address} if address else {})},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert "no display" in done.stderr
+
+
+@pytest.mark.parametrize("scene", ["no-such-scene", "missing.toml", "missing.tape.json"])
+def test_a_scene_that_is_none_is_refused_before_a_window_opens(scene: str) -> None:
+    with pytest.raises(BadInput):
+        run(scene)
+
+
+@pytest.fixture
+def tape() -> Tape:
+    """Ten frames of the slider-crank, faster from the fourth on."""
+    start = starting(advance(begin(load("slider-crank"))))
+    return Tape(start, 10, ((4, Action("speed", 3)), (6, Action("help"))))
+
+
+def test_a_tape_plays_over_and_over(tape: Tape, here: Path) -> None:
+    states = list(tape.states())
+    with display.opened((320, 180)):
+        window = Window(tape.start, tape)
+        for frame in (*range(1, 11), *range(1, 11)):
+            window.tick()
+            assert window.state == states[frame]
+
+
+def test_a_key_leaves_the_tape(tape: Tape, here: Path) -> None:
+    with display.opened((320, 180)):
+        window = Window(tape.start, tape)
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_t, mod=0, unicode="t"))
+        window.tick(8)
+        assert not window.state.look.trace
+        assert window.state.clock.level == 0
+
+
+def test_escape_on_a_tape_closes_no_window(tape: Tape, here: Path) -> None:
+    closing = replace(tape, actions=((2, Action("back")),))
+    with display.opened((320, 180)):
+        window = Window(tape.start, closing)
+        assert window.tick(5)
+
+
+def test_a_tape_is_played_from_its_file(tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(tape, here / "mine.tape.json")
+    seen: list[object] = []
+
+    def tick(window: Window, count: int) -> bool:
+        seen.append(window.state)
+        return False
+
+    monkeypatch.setattr(Window, "tick", tick)
+    assert run("mine.tape.json") == 0
+    assert seen == [tape.start]

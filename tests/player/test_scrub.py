@@ -1,0 +1,44 @@
+"""From the mouse to the phase: turning inputs, swinging ones, and past a limit."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from linkanim.player.scrub import phase_of_angle, phase_towards
+from linkanim.scenes import load, names
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize("phase", [0.3, 2.0, 4.0, 5.9])
+def test_the_crank_goes_where_it_is_dragged(name: str, phase: float) -> None:
+    scene = load(name)
+    pose = scene.pose(phase, 0)
+    near, pin = phase + 0.2, pose.position[scene.linkage.drive.joint]
+    assert phase_of_angle(scene, near, pose.crank_angle) == pytest.approx(phase, abs=1e-6)
+    assert phase_towards(scene, near, pin) == pytest.approx(phase, abs=1e-6)
+
+
+def test_a_crank_that_turns_is_followed_over_whole_turns() -> None:
+    scene = load("crank-rocker")
+    assert phase_of_angle(scene, 20 * math.pi + 0.1, 0.2) == pytest.approx(20 * math.pi + 0.2)
+    assert phase_of_angle(scene, 0.1, -0.1) == pytest.approx(-0.1)
+
+
+def test_a_swing_stops_at_its_limits() -> None:
+    scene = load("double-rocker")
+    low, high = scene.info.input_range
+    assert phase_of_angle(scene, 0.3, low - 0.1) == pytest.approx(0.0)
+    assert phase_of_angle(scene, 2.9, high + 0.1) == pytest.approx(math.pi)
+
+
+def test_a_swing_stays_on_the_way_it_is_on() -> None:
+    scene = load("double-rocker")
+    middle = sum(scene.info.input_range) / 2
+    assert phase_of_angle(scene, 1.0, middle) == pytest.approx(math.pi / 2)
+    assert phase_of_angle(scene, 5.0, middle) == pytest.approx(3 * math.pi / 2)
+
+
+def test_the_pivot_itself_changes_nothing() -> None:
+    assert phase_towards(load("crank-rocker"), 1.25, (0.0, 0.0)) == 1.25

@@ -1,0 +1,361 @@
+"""Real key and mouse events posted to the real window under the dummy driver."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pygame
+import pytest
+from playing import CTRL, SHIFT, SIZE, Player
+
+from linkanim.player import display
+from linkanim.player.clock import STEP
+from linkanim.player.state import TOAST_FRAMES, State
+from linkanim.player.tape_file import read
+from linkanim.scenes import load, names
+from linkanim.scenes.edit import dimensions
+
+Key = tuple[int, int, str]
+
+
+def plain(letter: str) -> Key:
+    return ord(letter), 0, letter
+
+
+def shifted(letter: str) -> Key:
+    return ord(letter), SHIFT, letter.upper()
+
+
+def bare(key: int, mod: int = 0) -> Key:
+    return key, mod, ""
+
+
+SPACE = plain(" ")
+
+# What a key changes in the state, and the key that changes it back; the picture goes with it.
+THERE_AND_BACK: dict[str, tuple[Key, Key, Callable[[State], object]]] = {
+    "T": (plain("t"), plain("t"), lambda s: s.look.trace),
+    "V": (plain("v"), plain("v"), lambda s: s.look.vectors),
+    "A": (plain("a"), plain("a"), lambda s: s.look.vectors),
+    "C": (plain("c"), shifted("c"), lambda s: s.look.chart),
+    "L": (plain("l"), plain("l"), lambda s: s.look.theme),
+    "B": (plain("b"), plain("b"), lambda s: s.scene.linkage),
+    "Shift+B": (shifted("b"), shifted("b"), lambda s: s.look.ghost),
+    "D": (plain("d"), plain("d"), lambda s: s.clock.direction),
+    "E": (plain("e"), plain("e"), lambda s: s.editing.open),
+    "H": (plain("h"), plain("h"), lambda s: s.help),
+    "F1": (bare(pygame.K_F1), bare(pygame.K_F1), lambda s: s.help),
+    "?": ((pygame.K_SLASH, SHIFT, "?"), bare(pygame.K_ESCAPE), lambda s: s.help),
+    "right, left": (bare(pygame.K_RIGHT), bare(pygame.K_LEFT), lambda s: s.phase),
+    "Shift+left, right": (
+        bare(pygame.K_LEFT, SHIFT),
+        bare(pygame.K_RIGHT, SHIFT),
+        lambda s: s.phase,
+    ),
+    "up, down": (bare(pygame.K_UP), bare(pygame.K_DOWN), lambda s: s.clock.speed),
+    "+, -": (plain("+"), plain("-"), lambda s: s.look.zoom),
+    "-, 0": (plain("-"), plain("0"), lambda s: s.look.zoom),
+    "keypad +, Home": (bare(pygame.K_KP_PLUS), bare(pygame.K_HOME), lambda s: s.look.zoom),
+}
+
+
+@pytest.mark.parametrize(("there", "back", "read"), THERE_AND_BACK.values(), ids=THERE_AND_BACK)
+def test_a_key_changes_state_and_picture_and_changes_back(
+    player: Player, there: Key, back: Key, read: Callable[[State], object]
+) -> None:
+    state, pixels = read(player.state), player.pixels
+    player.press(*there)
+    assert read(player.state) != state
+    assert player.pixels != pixels
+    player.press(*back)
+    assert read(player.state) == state
+    assert player.pixels == pixels
+
+
+def test_space_plays_and_pauses(player: Player) -> None:
+    paused = player.pixels
+    player.tick(30)
+    assert player.pixels == paused
+    player.press(*SPACE)
+    player.tick(10)
+    running = player.pixels
+    player.tick(10)
+    assert player.pixels not in (paused, running)
+
+
+def test_an_arrow_steps_a_degree_and_pauses(player: Player) -> None:
+    player.press(*SPACE)
+    player.press(*bare(pygame.K_RIGHT))
+    assert player.state.clock.paused
+    before = player.state.phase
+    player.press(*bare(pygame.K_RIGHT))
+    assert player.state.phase - before == pytest.approx(STEP)
+    player.press(*bare(pygame.K_RIGHT, SHIFT))
+    assert player.state.phase - before == pytest.approx(11 * STEP)
+
+
+def test_tab_and_numbers_walk_the_catalogue(player: Player) -> None:
+    player.press(*plain("r"))
+    first = player.pixels
+    player.press(pygame.K_TAB, 0, "\t")
+    assert player.state.scene == load(names()[1])
+    second = player.pixels
+    player.press(pygame.K_TAB, SHIFT, "\t")
+    assert (player.state.scene, player.pixels) == (load(names()[0]), first)
+    player.press(*plain("2"))
+    assert (player.state.scene, player.pixels) == (load(names()[1]), second)
+
+
+@pytest.mark.parametrize("number", range(1, 10))
+def test_a_number_is_a_scene(player: Player, number: int) -> None:
+    player.press(*plain(str(number)))
+    assert player.state.scene == load(names()[number - 1])
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_scene_runs_in_the_window(player: Player, name: str) -> None:
+    while player.state.scene.name != name:
+        player.press(pygame.K_TAB, 0, "\t")
+    player.press(*SPACE)
+    before = player.pixels
+    player.tick(45)
+    assert player.pixels != before
+
+
+def test_r_goes_back_to_the_start(player: Player) -> None:
+    player.press(*plain("r"))
+    start = player.pixels
+    player.press(*SPACE)
+    player.tick(40)
+    player.press(*SPACE)
+    player.press(*plain("r"))
+    assert (player.state.phase, player.pixels) == (0.0, start)
+
+
+CLOSING = {
+    "Q": plain("q"),
+    "Esc": bare(pygame.K_ESCAPE),
+}
+
+
+@pytest.mark.parametrize("key", CLOSING.values(), ids=CLOSING)
+def test_a_key_closes_the_window(player: Player, key: Key) -> None:
+    assert player.tick()
+    assert not player.press(*key)
+
+
+def test_the_cross_closes_the_window(player: Player) -> None:
+    pygame.event.post(pygame.event.Event(pygame.QUIT))
+    assert not player.tick()
+
+
+def test_escape_closes_help_first(player: Player) -> None:
+    player.press(*plain("h"))
+    assert player.press(*bare(pygame.K_ESCAPE))
+    assert not player.state.help
+
+
+def test_an_unbound_key_changes_nothing(player: Player) -> None:
+    pixels = player.pixels
+    player.press(*plain("x"))
+    player.press(pygame.K_TAB, pygame.KMOD_LALT, "")
+    assert player.pixels == pixels
+
+
+def test_keys_of_one_frame_are_taken_one_after_the_other(player: Player) -> None:
+    for letter in "e7":
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=ord(letter), mod=0, unicode=letter))
+    player.tick()
+    assert (player.state.editing.open, player.state.editing.typed) == (True, "7")
+
+
+def test_a_screenshot_is_the_picture_and_tells_its_name(player: Player, here: Path) -> None:
+    pixels = player.pixels
+    player.press(*plain("s"))
+    player.tick()
+    written = here / "recordings" / "crank-rocker-1.png"
+    assert pygame.image.tobytes(pygame.image.load(written), "RGB") == pixels
+    assert player.state.toast is not None
+    assert str(written.relative_to(here)) in player.state.toast.text
+    player.press(*bare(pygame.K_F12))
+    assert sorted(file.name for file in written.parent.iterdir()) == [
+        "crank-rocker-1.png",
+        "crank-rocker-2.png",
+    ]
+
+
+def test_a_toast_is_gone_after_three_seconds(player: Player) -> None:
+    pixels = player.pixels
+    player.press(*plain("s"))
+    player.tick()
+    assert player.pixels != pixels
+    player.tick(TOAST_FRAMES)
+    assert player.pixels == pixels
+
+
+def test_a_screenshot_that_cannot_be_written_is_told(player: Player, here: Path) -> None:
+    (here / "recordings").write_text("in the way")
+    player.press(*plain("s"))
+    player.tick()
+    assert player.state.toast is not None
+    assert "recordings" in player.state.toast.text
+
+
+def test_ctrl_s_writes_a_new_file_that_opens_to_the_same_linkage(player: Player, here: Path) -> None:
+    player.press(*plain("e"))
+    player.press(*bare(pygame.K_RIGHT))
+    for _ in range(2):
+        player.press(pygame.K_s, CTRL, "\x13")
+    saved = sorted(here.glob("*.toml"))
+    assert len(saved) == 2
+    assert all(load(file).linkage == player.state.scene.linkage for file in saved)
+
+
+def test_a_value_is_typed_with_its_unit(player: Player) -> None:
+    player.press(*plain("e"))
+    player.press(*bare(pygame.K_DOWN))
+    player.type("4.5 cm")
+    player.press(*bare(pygame.K_RETURN))
+    assert {item.label: item.value for item in dimensions(player.state.scene)}["crank"] == 45.0
+    player.tick(20)
+    player.press(pygame.K_z, CTRL, "\x1a")
+    assert player.state.scene == load("crank-rocker")
+    player.press(pygame.K_y, CTRL, "\x19")
+    assert player.state.scene != load("crank-rocker")
+
+
+def test_a_refused_value_is_shown_and_the_linkage_runs_on(player: Player) -> None:
+    player.press(*plain("e"))
+    player.press(*SPACE)
+    player.type("-5")
+    player.press(*bare(pygame.K_RETURN))
+    assert player.state.editing.refusal is not None
+    before = player.pixels
+    player.tick(5)
+    assert player.pixels != before
+    assert player.state.scene == load("crank-rocker")
+
+
+def test_edits_are_followed_and_undone_to_the_same_pixels(player: Player) -> None:
+    pixels = player.pixels
+    player.press(*plain("e"))
+    player.press(*bare(pygame.K_RIGHT))
+    player.press(*plain("e"))
+    on_the_way = {player.pixels for _ in range(10) if player.tick()}
+    assert len(on_the_way) > 5
+    player.tick(20)
+    assert player.pixels not in {pixels, *on_the_way}
+    player.press(pygame.K_z, CTRL, "\x1a")
+    player.tick(20)
+    assert player.pixels == pixels
+
+
+def middle_of(size: tuple[int, int]) -> tuple[float, float]:
+    return size[0] / 2, size[1] / 2
+
+
+def test_the_wheel_zooms_about_the_mouse(player: Player) -> None:
+    pixels = player.pixels
+    player.mouse(pygame.MOUSEMOTION, (200, 60), rel=(0, 0), buttons=(0, 0, 0))
+    before = player.window.easel.world(200, 60)
+    player.mouse(pygame.MOUSEWHEEL, (200, 60), x=0, y=2)
+    assert player.state.look.zoom == 1.25**2
+    assert player.window.easel.world(200, 60) == pytest.approx(before)
+    player.mouse(pygame.MOUSEWHEEL, (200, 60), x=0, y=-2)
+    assert player.pixels == pixels
+
+
+def test_a_drag_pans(player: Player) -> None:
+    pixels = player.pixels
+    before = player.window.easel.world(*middle_of(SIZE))
+    player.drag((10, 170), (40, 120), (30, 140))
+    assert player.window.easel.world(SIZE[0] / 2 + 20, SIZE[1] / 2 - 30) == pytest.approx(before)
+    player.drag((30, 140), (10, 170))
+    assert player.pixels == pixels
+
+
+def test_the_crank_is_dragged_by_its_pin(player: Player) -> None:
+    scene = player.state.scene
+    easel = player.window.easel
+    for target in (0.5, 2.0, -1.0):
+        goal = scene.pose(target, 0).position["A"]
+        player.drag(easel.crank_pin(), easel.pixel(*goal))
+        angle = player.state.phase - target
+        assert abs(math.remainder(angle, math.tau)) < 0.1
+    assert player.state.clock.paused
+
+
+def test_the_charts_cursor_is_dragged(player: Player) -> None:
+    player.press(*plain("c"))
+    place = next(
+        (x, y) for y in range(179, 0, -5) for x in (160,) if player.window.easel.charted(x, y) is not None
+    )
+    player.drag(place, (place[0] + 40, place[1]))
+    assert player.state.phase == player.window.easel.charted(place[0] + 40, place[1])
+
+
+def test_a_recording_is_taped_and_rendered_beside(
+    player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[list[str]] = []
+    monkeypatch.setattr("linkanim.player.rendering._start", fake_start(started))
+    player.press(*plain("g"))
+    player.tick(10)
+    player.press(*plain("t"))
+    player.tick(5)
+    player.press(*plain("g"))
+    tape = read(here / "recordings" / "crank-rocker-1.tape.json")
+    assert [action.name for _, action in tape.actions] == ["trace"]
+    assert (tape.actions[0][0], tape.frames) == (11, 17)
+    assert started[0][1:5] == ["-m", "linkanim", "record", "recordings/crank-rocker-1.tape.json"]
+    player.tick(15)
+    assert player.state.toast is not None
+    assert "crank-rocker-1.gif is written" in player.state.toast.text
+
+
+def fake_start(started: list[list[str]]) -> Callable[[list[str], int], object]:
+    class Done:
+        def poll(self) -> int:
+            return 0
+
+    def start(command: list[str], said: int) -> object:
+        started.append(command)
+        return Done()
+
+    return start
+
+
+def test_closing_the_window_finishes_a_recording(
+    player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[list[str]] = []
+    monkeypatch.setattr("linkanim.player.rendering._start", fake_start(started))
+    player.press(*plain("m"))
+    player.tick(10)
+    assert not player.press(*plain("q"))
+    assert started[0][-2].endswith("crank-rocker-1.mp4")
+    assert json.loads((here / "recordings" / "crank-rocker-1.tape.json").read_text())["frames"] == 11
+
+
+def test_the_picture_follows_the_windows_size(player: Player) -> None:
+    pygame.display.set_mode((200, 150), pygame.RESIZABLE)
+    player.tick()
+    small = player.pixels
+    assert len(small) == 200 * 150 * 3
+    assert len(set(small)) > 10
+    pygame.display.set_mode(SIZE, pygame.RESIZABLE)
+    player.tick()
+    assert display.surface().get_size() == SIZE
+
+
+def test_a_picture_that_stands_still_is_painted_once(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    flips: list[int] = []
+    monkeypatch.setattr(pygame.display, "flip", lambda: flips.append(1))
+    player.tick(10)
+    assert flips == []
+    pygame.event.post(pygame.event.Event(pygame.WINDOWEXPOSED))
+    player.tick()
+    assert flips == [1]
