@@ -1,0 +1,1 @@
+"""The picture: everything between a pose and the pixels of a surface."""

@@ -50,7 +50,8 @@ def decades(low: float, high: float, *, most: int = 8) -> Axis:
     last = max(last, first + 1)
     every = max(ceil((last - first) / most), 1)
     powers = range(first, last + 1, every)
-    return Axis(10.0**first, 10.0**last, tuple((10.0**power, power_of_ten(power)) for power in powers), log=True)
+    ticks = tuple((10.0**power, power_of_ten(power)) for power in powers)
+    return Axis(10.0**first, 10.0**last, ticks, log=True)
 
 
 def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "") -> Axis:

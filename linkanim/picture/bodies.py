@@ -7,7 +7,7 @@ import numpy as np
 from linkanim.mechanics.linkage import RPR, Body
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts import Part, Places, lined
+from linkanim.picture.parts import Part, Stamp, lined
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import box, disc, rounded, unit
 from linkanim.picture.theme import Theme, mixed
@@ -22,7 +22,7 @@ def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[
     colours = colours_of(figure, theme)
     plates = [body for body in figure.bodies if len(body.joints) > 2]
     bars = [body for body in figure.bodies if len(body.joints) == 2]
-    blocks = [*_sliders(figure, gauge, theme), *(_collar(slot, figure, gauge, theme) for slot in figure.slots)]
+    blocks = _sliders(figure, gauge, theme) + [_collar(slot, gauge, theme) for slot in figure.slots]
     solid = [_body(body, figure, view, gauge, (theme.outline, colours[body.name])) for body in plates + bars]
     slotted = [_slot(slot, figure, view, gauge, theme) for slot in figure.slots]
     return (*_behind(figure, view, gauge, theme), *solid, *slotted, *blocks) if slotted else (*blocks, *solid)
@@ -70,7 +70,7 @@ def _block(joint: str, gauge: Gauge, theme: Theme, turn: complex) -> Part:
     return Part(joint, joint, joint, layers)
 
 
-def _collar(slot: RPR, figure: Figure, gauge: Gauge, theme: Theme) -> Part:
+def _collar(slot: RPR, gauge: Gauge, theme: Theme) -> Part:
     """Return the block that slides in a slotted bar and turns with it."""
     block = _block(slot.through, gauge, theme, 1 + 0j)
     small = tuple(Layer(layer.colour, [0.62 * loop for loop in layer.loops]) for layer in block.layers)
@@ -101,30 +101,21 @@ def _slot(slot: RPR, figure: Figure, view: View, gauge: Gauge, theme: Theme) -> 
     return Part(slot.pivot, slot.pivot, slot.name, (layer,))
 
 
-def pin_layers(names: tuple[str, ...], places: Places, gauge: Gauge, theme: Theme) -> list[Layer]:
-    """Return the pins on top of all bodies: a ring around an eye."""
+def pin_stamp(gauge: Gauge, theme: Theme) -> Stamp:
+    """Return a pin: a ring around an eye."""
     outer, inner = disc(gauge.pin + gauge.outline / 2), disc(gauge.pin - gauge.outline / 2)
-    return [
-        Layer(theme.outline, [places[name] + outer for name in names]),
-        Layer(theme.pin, [places[name] + inner for name in names]),
-    ]
+    return Stamp((Layer(theme.outline, [outer]), Layer(theme.pin, [inner])))
 
 
-def mass_layers(centres: list[complex], gauge: Gauge, theme: Theme) -> list[Layer]:
-    """Return the sign of a centre of mass, a disc with two of its quarters dark, at each place."""
+def mass_stamp(gauge: Gauge, theme: Theme) -> Stamp:
+    """Return the sign of a centre of mass: a disc with two of its quarters light."""
     radius = 0.48 * gauge.bar
-    outer = disc(radius + gauge.outline)
     quarter = np.concatenate(([0j], radius * np.exp(1j * np.linspace(0, np.pi / 2, 9))))
-    return [
-        Layer(theme.outline, [centre + outer for centre in centres]),
-        Layer(theme.pin, [centre + sign * quarter for centre in centres for sign in (1, -1)]),
-    ]
+    outer = Layer(theme.outline, [disc(radius + gauge.outline)])
+    return Stamp((outer, Layer(theme.pin, [quarter, -quarter])))
 
 
-def mark_layers(centres: list[complex], colours: list[Colour], gauge: Gauge, theme: Theme) -> list[Layer]:
-    """Return the marks of the joints that are traced."""
-    outer, inner = disc(0.62 * gauge.bar), disc(0.62 * gauge.bar - gauge.outline)
-    layers = [Layer(theme.outline, [centre + outer for centre in centres])]
-    return layers + [
-        Layer(colour, [centre + inner]) for centre, colour in zip(centres, colours, strict=True)
-    ]
+def mark_stamp(colour: Colour, gauge: Gauge, theme: Theme) -> Stamp:
+    """Return the mark of a joint that is traced, in its curve's colour."""
+    radius = 0.62 * gauge.bar
+    return Stamp((Layer(theme.outline, [disc(radius)]), Layer(colour, [disc(radius - gauge.outline)])))

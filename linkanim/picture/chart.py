@@ -67,8 +67,8 @@ def plot_area(rect: Rect, y: Axis, pen: Pen, *, title: bool = True) -> Rect:
 def draw_axes(surface: pygame.Surface, plot: Plot, pen: Pen) -> None:
     """Draw grid lines and tick labels."""
     area, theme = plot.area, pen.theme
-    columns = [plot.place(value, plot.y.low) for value, _ in plot.x.ticks]
-    rows = [plot.place(plot.x.low, value) for value, _ in plot.y.ticks]
+    columns = [complex(plot.place(value, plot.y.low)) for value, _ in plot.x.ticks]
+    rows = [complex(plot.place(plot.x.low, value)) for value, _ in plot.y.ticks]
     grid = [*_lines(np.array(columns), -1j * area.height, pen), *_lines(np.array(rows), area.width, pen)]
     paint(surface, [Layer(theme.rule, grid)])
     for foot, (_, label) in zip(columns, plot.x.ticks, strict=True):
@@ -121,8 +121,8 @@ class Strip:
         pen.type.draw(surface, self.name, (area.x, top), size=pen.text, colour=pen.theme.ink)
         turns = np.degrees(np.append(self.series.phases, self.period))
         for n, column in enumerate(self.series.values.T):
-            curve = curve_layer(self.plot, turns, np.append(column, column[0] + self._gain(n)), self.colour(n), 1.3 * pen.line)
-            paint(surface, [curve])
+            whole = np.append(column, column[0] + self._gain(n))
+            paint(surface, [curve_layer(self.plot, turns, whole, self.colour(n), 1.3 * pen.line)])
 
     def _gain(self, n: int) -> float:
         """Return by how much a quantity grows in a period: whole turns for an angle, else nothing."""
@@ -150,9 +150,9 @@ class Strip:
     def cursor(self, phase: float) -> list[Layer]:
         """Return the line at a phase and the dots where it meets the curves."""
         turn = degrees(phase % self.period)
-        foot = self.plot.place(turn, self.plot.y.low)
+        foot = complex(self.plot.place(turn, self.plot.y.low))
         head = foot - 1j * self.plot.area.height
-        layers = [Layer(self.pen.theme.ink, segments(np.array([foot]), np.array([head]), 0.8 * self.pen.line))]
+        layers = [Layer(self.pen.theme.ink, segments(foot, head, 0.8 * self.pen.line))]
         for n, value in enumerate(self.values_at(phase)):
             if np.isfinite(value):
                 layers += point_layers(self.plot, [(turn, float(value))], self.colour(n), self.pen)

@@ -9,7 +9,7 @@ from math import tau
 
 import numpy as np
 
-from linkanim.mechanics.linkage import RPR, RRP, RRR, Body, Crank, Joint, Linkage, Pin, Rigid
+from linkanim.mechanics.linkage import RPR, RRP, RRR, Body, Crank, Damper, Joint, Linkage, Pin, Rigid, Spring
 from linkanim.mechanics.motion import Motion
 from linkanim.picture.raster import Loop
 from linkanim.picture.view import Box, View
@@ -43,11 +43,16 @@ class Figure:
     def pins(self) -> tuple[str, ...]:
         """The joints that are pins: those in which bars meet or which something is hung on."""
         used = {name for joint in self.linkage.joints for name in _pins_of(joint)}
-        hung = {name for strut in (*self.linkage.springs, *self.linkage.dampers) for name in strut.between}
+        hung = {name for strut in self.struts for name in strut.between}
         ends = {name for body in self.bodies for name in body.joints}
         fixed = {joint.name for joint in self.linkage.joints if isinstance(joint, Pin)}
         names = used | hung | (ends & fixed)
         return tuple(joint.name for joint in self.linkage.joints if joint.name in names)
+
+    @cached_property
+    def struts(self) -> tuple[Spring | Damper, ...]:
+        """The springs, then the dampers."""
+        return (*self.linkage.springs, *self.linkage.dampers)
 
     @cached_property
     def fixed(self) -> tuple[str, ...]:

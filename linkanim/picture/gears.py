@@ -149,5 +149,5 @@ def _belt(figure: Figure, view: View, pair: Pair, gauge: Gauge) -> Iterator[Loop
     lean = np.arccos((radii[0] - radii[1]) / abs(other - one))
     for side in (1, -1):
         normal = along * np.exp(1j * side * lean)
-        ends = np.array([one + radii[0] * normal]), np.array([other + radii[1] * normal])
+        ends = one + radii[0] * normal, other + radii[1] * normal
         yield from segments(*ends, 1.5 * gauge.line)

@@ -32,7 +32,7 @@ def _pixel(figure: Figure, view: View, name: str) -> complex:
 
 def _away(figure: Figure, name: str) -> complex:
     """Return the way a pedestal points: down; away from its pull where it only holds springs and dampers."""
-    struts = [strut for strut in (*figure.linkage.springs, *figure.linkage.dampers) if name in strut.between]
+    struts = [strut for strut in figure.struts if name in strut.between]
     jointed = any(name in body.joints for body in figure.bodies)
     if jointed or not struts:
         return 1j
@@ -61,7 +61,7 @@ def _hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[
     length, step = abs(end - begin), 0.62 * gauge.bar
     count = max(round(length / step), 1)
     feet = begin + along * length * (np.arange(count) + 0.75) / count
-    yield from segments(np.array([begin]), np.array([end]), 1.4 * gauge.line)
+    yield from segments(begin, end, 1.4 * gauge.line)
     yield from segments(feet, feet + along * (-0.5 + 0.62j * side) * gauge.bar, 0.8 * gauge.line)
 
 

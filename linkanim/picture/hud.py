@@ -126,7 +126,8 @@ class Hud:
             at = (self.column.right, self._first + n * self._step)
             self.type.draw(surface, row.value, at, size=size, colour=theme.ink, anchor="right")
         special = note(self.scene, pose)
-        lines = ([(special, theme.warning)] if special else []) + [(line, theme.ink) for line in overlay.notes]
+        lines = [(special, theme.warning)] if special else []
+        lines += [(line, theme.ink) for line in overlay.notes]
         for n, (line, colour) in enumerate(lines, start=len(values)):
             at = (self.column.x, self._first + (n + 0.4) * self._step)
             self.type.draw(surface, line, at, size=size, colour=colour)

@@ -7,8 +7,8 @@ from typing import Literal
 
 ThemeName = Literal["light", "dark"]
 
-VELOCITY = "v"
-ACCELERATION = "a"
+VELOCITY: Literal["v"] = "v"
+ACCELERATION: Literal["a"] = "a"
 
 
 @dataclass(frozen=True)

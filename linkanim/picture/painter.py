@@ -11,7 +11,7 @@ import pygame
 
 from linkanim.mechanics.linkage import Crank
 from linkanim.mechanics.motion import Pose
-from linkanim.picture.bodies import body_parts, mark_layers, mass_layers, pin_layers
+from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.chart import Strip, pen_for, strip
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
@@ -21,13 +21,13 @@ from linkanim.picture.layout import Gauge, Layout, gauge, layout
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
-from linkanim.picture.parts import Part, Places, placed
+from linkanim.picture.parts import Part, Places, Stamp, placed
 from linkanim.picture.raster import Layer, paint, paints
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed, theme_of
 from linkanim.picture.trace import Trace, traces
-from linkanim.picture.vectors import Arrows, arrows
+from linkanim.picture.vectors import Arrows, arrows_of
 from linkanim.picture.view import View, fit, moved
 from linkanim.scenes.scene import Scene
 
@@ -42,7 +42,10 @@ class Cast:
     wheels: tuple[Part, ...]
     struts: tuple[Coil | Cushion, ...]
     bodies: tuple[Part, ...]
+    pin: Stamp
+    mass: Stamp
     traces: tuple[Trace, ...]
+    marks: tuple[Stamp, ...]
     arrows: tuple[Arrows, ...]
 
 
@@ -122,15 +125,18 @@ class Painter:
 
     def _casting(self) -> Cast:
         known = (self._figure, self.view, self._gauge, self._theme)
-        kinds = (VELOCITY, ACCELERATION)
+        curves = traces(*known) if self.look.trace else ()
         return Cast(
             wheels=wheel_parts(*known),
             struts=(*coils(*known), *cushions(*known)),
             bodies=body_parts(*known),
-            traces=traces(*known) if self.look.trace else (),
+            pin=pin_stamp(self._gauge, self._theme),
+            mass=mass_stamp(self._gauge, self._theme),
+            traces=curves,
+            marks=tuple(mark_stamp(trace.colour, self._gauge, self._theme) for trace in curves),
             arrows=tuple(
-                arrows(self._figure, kind, self.size[1], self._gauge, self._theme)
-                for kind in kinds
+                arrows_of(self._figure, kind, self.size[1], self._gauge, self._theme)
+                for kind in (VELOCITY, ACCELERATION)
                 if kind in self.look.vectors
             ),
         )
@@ -170,19 +176,19 @@ class Painter:
     def _below(self, pose: Pose) -> Iterator[Layer]:
         places = self._places(pose)
         yield from placed(self._cast.wheels, places)
-        for trace in self._cast.traces:
-            yield from trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
 
     def _above(self, pose: Pose) -> Iterator[Layer]:
-        places, measure, theme = self._places(pose), self._gauge, self._theme
-        for strut in self._cast.struts:
+        places, cast = self._places(pose), self._cast
+        for strut in cast.struts:
             yield from strut.layers(places)
-        yield from placed(self._cast.bodies, places)
-        yield from pin_layers(self._figure.pins, places, measure, theme)
-        yield from mass_layers([self.view.place(at) for at in pose.com_position.values()], measure, theme)
-        marks = [(places[trace.joint], trace.colour) for trace in self._cast.traces]
-        yield from mark_layers([at for at, _ in marks], [colour for _, colour in marks], measure, theme)
-        for kind in self._cast.arrows:
+        yield from placed(cast.bodies, places)
+        for trace in cast.traces:
+            yield from trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
+        yield from cast.pin.at([places[name] for name in self._figure.pins])
+        yield from cast.mass.at([self.view.place(at) for at in pose.com_position.values()])
+        for trace, mark in zip(cast.traces, cast.marks, strict=True):
+            yield from mark.at([places[trace.joint]])
+        for kind in cast.arrows:
             yield from kind.layers(pose, self.view, self.scene.trace)
         if self._strip:
             yield from self._strip.cursor(pose.phase)
@@ -191,7 +197,7 @@ class Painter:
         """Yield the other closure's bodies and pins, mostly background."""
         places = self._places(pose)
         layers = placed(self._cast.bodies, places)
-        layers += pin_layers(self._figure.pins, places, self._gauge, self._theme)
+        layers += self._cast.pin.at([places[name] for name in self._figure.pins])
         for layer in layers:
             yield Layer(mixed(layer.colour, self._theme.background, _GHOST), layer.loops, layer.alpha)
 

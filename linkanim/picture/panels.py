@@ -62,8 +62,8 @@ class Panels:
     def _sheet(self, width: float, height: float) -> pygame.Surface:
         """Return an empty panel: a framed sheet with round corners on nothing."""
         sheet = pygame.Surface((round(width), round(height)), pygame.SRCALPHA, 32)
-        middle, line = complex(sheet.get_width() / 2, sheet.get_height() / 2), max(1.5 * self.layout.unit, 1.0)
-        corner = 10 * self.layout.unit
+        middle = complex(sheet.get_width() / 2, sheet.get_height() / 2)
+        line, corner = max(1.5 * self.layout.unit, 1.0), 10 * self.layout.unit
         outer = middle + box(sheet.get_width(), sheet.get_height(), corner)
         inner = middle + box(sheet.get_width() - 2 * line, sheet.get_height() - 2 * line, corner - line)
         paint(sheet, [Layer(self.theme.rule, [outer]), Layer(self.theme.panel, [inner])])

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import rounded, unit
 
 Places = Mapping[str, complex]
@@ -34,6 +34,20 @@ class Part:
         ]
 
 
+@dataclass(frozen=True)
+class Stamp:
+    """Layers about the origin that are put down at many places without turning."""
+
+    layers: tuple[Layer, ...]
+
+    def at(self, centres: Sequence[complex]) -> list[Layer]:
+        """Return the layers at all places at once."""
+        return [
+            Layer(layer.colour, [centre + loop for centre in centres for loop in layer.loops], layer.alpha)
+            for layer in self.layers
+        ]
+
+
 def placed(parts: Iterable[Part], places: Places) -> list[Layer]:
     """Return the layers of all parts, in their order."""
     return [layer for part in parts for layer in part.placed(places)]
@@ -43,9 +57,3 @@ def lined(points: list[complex], radius: float, width: float, colours: tuple[Col
     """Return a rounded outline around points in (edge colour, fill colour), the edge inside the radius."""
     edge, fill = colours
     return [Layer(edge, [rounded(points, radius)]), Layer(fill, [rounded(points, max(radius - width, 0.1))])]
-
-
-def shifted(loop: Loop, origin: complex, turn: complex = 1 + 0j) -> Loop:
-    """Return an outline turned and then placed."""
-    moved: Loop = origin + turn * loop
-    return moved

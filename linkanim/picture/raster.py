@@ -25,6 +25,7 @@ _Ints = NDArray[np.int64]
 
 _NOTHING = 1 / 1024
 _SOLID = 1 - _NOTHING
+_ROW_BITS = 16
 
 
 class Layer(NamedTuple):
@@ -39,19 +40,27 @@ class Layer(NamedTuple):
 
 
 class _Pieces(NamedTuple):
-    """Pieces of edges, each within one pixel: its key, its height, and the area right of it."""
+    """Pieces of edges, each within one pixel: its line and column, its height, the area right of it.
 
-    key: _Ints
-    cover: _Floats
+    A line is a row of one layer, in one number: the layer above `_ROW_BITS`, the row below.
+    """
+
+    line: _Ints
+    column: _Ints
+    height: _Floats
     area: _Floats
 
 
-class _Coverage(NamedTuple):
+class _Runs(NamedTuple):
     """Runs of equally covered pixels in the order of their layers."""
 
-    key: _Ints
+    line: _Ints
+    column: _Ints
     length: _Ints
     cover: _Floats
+
+    def where(self, chosen: NDArray[np.bool_]) -> _Runs:
+        return _Runs(*(part[chosen] for part in self))  # type: ignore[arg-type]
 
 
 def paint(surface: pygame.Surface, layers: Sequence[Layer]) -> None:
@@ -62,10 +71,10 @@ def paint(surface: pygame.Surface, layers: Sequence[Layer]) -> None:
     layers = [layer for layer in layers if layer.loops]
     if not layers:
         return
-    size = surface.get_size()
-    pieces = _by_column(*_by_row(*_edges(layers), size), size)
-    outline, spans = _resolve(pieces, size)
-    _mix(surface, layers, outline, spans)
+    width, height = surface.get_size()
+    pieces = _by_column(*_by_row(*_edges(layers), height), width)
+    if pieces.line.size:
+        _mix(surface, layers, *_resolve(pieces, width))
 
 
 def paints(surface: pygame.Surface) -> bool:
@@ -77,46 +86,41 @@ def _edges(layers: Sequence[Layer]) -> tuple[Loop, Loop, _Ints]:
     """Return where the edges begin and end, and the number of their layer."""
     loops = [loop for layer in layers for loop in layer.loops]
     begin = np.concatenate(loops)
-    end = np.concatenate([part for loop in loops for part in (loop[1:], loop[:1])])
-    number = np.repeat(
-        np.arange(len(layers)), [sum(len(loop) for loop in layer.loops) for layer in layers]
-    )
-    return begin, end, number
+    ends = np.cumsum([len(loop) for loop in loops])
+    end = np.roll(begin, -1)
+    end[ends - 1] = begin[ends - [len(loop) for loop in loops]]
+    edges = [sum(len(loop) for loop in layer.loops) for layer in layers]
+    return begin, end, np.repeat(np.arange(len(layers)), edges)
 
 
-def _by_row(
-    begin: Loop, end: Loop, number: _Ints, size: tuple[int, int]
-) -> tuple[_Ints, _Floats, _Floats, _Floats]:
-    """Cut edges at pixel rows; return (layer, row) as one number, signed height, and both ends' x."""
+def _by_row(begin: Loop, end: Loop, number: _Ints, high: int) -> tuple[_Ints, _Floats, _Floats, _Floats]:
+    """Cut edges at pixel rows; return each piece's line, its signed height, and x at both ends."""
     falls = end.imag > begin.imag
     top, bottom = np.where(falls, begin, end), np.where(falls, end, begin)
-    first = np.floor(np.clip(top.imag, 0, size[1])).astype(np.int64)
-    last = np.ceil(np.clip(bottom.imag, 0, size[1])).astype(np.int64)
+    first = np.floor(np.clip(top.imag, 0, high)).astype(np.int64)
+    last = np.ceil(np.clip(bottom.imag, 0, high)).astype(np.int64)
     height = bottom.imag - top.imag
-    count = np.where(height > 0, np.maximum(last - first, 0), 0)
-    edge, row = _expand(count, first)
-    head, slope = top[edge], ((bottom.real - top.real) / np.where(height > 0, height, 1))[edge]
-    above = np.maximum(head.imag, row)
+    edge, row = _expand(np.where(height > 0, np.maximum(last - first, 0), 0), first)
+    slope = (bottom.real - top.real) / np.where(height > 0, height, 1)
+    above = np.maximum(top.imag[edge], row)
     below = np.minimum(bottom.imag[edge], row + 1)
-    signed = np.where(falls[edge], below - above, above - below)
-    shift = head.real - head.imag * slope
-    return number[edge] * size[1] + row, signed, shift + above * slope, shift + below * slope
+    slopes, shift = slope[edge], (top.real - top.imag * slope)[edge]
+    signed = (below - above) * np.where(falls, 1.0, -1.0)[edge]
+    return number[edge] << _ROW_BITS | row, signed, shift + above * slopes, shift + below * slopes
 
 
-def _by_column(rows: _Ints, height: _Floats, x0: _Floats, x1: _Floats, size: tuple[int, int]) -> _Pieces:
+def _by_column(line: _Ints, height: _Floats, x0: _Floats, x1: _Floats, width: int) -> _Pieces:
     """Cut what lies in one row at pixel columns; column `width` collects what lies further right."""
-    left = np.clip(np.minimum(x0, x1), 0, size[0])
-    right = np.clip(np.maximum(x0, x1), 0, size[0])
+    left = np.clip(np.minimum(x0, x1), 0, width)
+    right = np.clip(np.maximum(x0, x1), 0, width)
     first = np.floor(left).astype(np.int64)
-    count = np.maximum(np.ceil(right).astype(np.int64) - first, 1)
-    piece, column = _expand(count, first)
-    left, width = left[piece], (right - left)[piece]
-    near = np.maximum(left, column)
-    far = np.minimum(left + width, column + 1)
-    share = np.where(width > 0, (far - near) / np.where(width > 0, width, 1), 1)
-    cover = height[piece] * share
-    area = cover * (1 + column - 0.5 * (near + far))
-    return _Pieces(rows[piece] * (size[0] + 1) + column, cover, area)
+    reach = right - left
+    steep = height / np.where(reach > 0, reach, 1)
+    piece, column = _expand(np.maximum(np.ceil(right).astype(np.int64) - first, 1), first)
+    near = np.maximum(left[piece], column)
+    far = np.minimum(right[piece], column + 1)
+    part = np.where((reach > 0)[piece], (far - near) * steep[piece], height[piece])
+    return _Pieces(line[piece], column, part, part * (1 + column - 0.5 * (near + far)))
 
 
 def _expand(count: _Ints, first: _Ints) -> tuple[_Ints, _Ints]:
@@ -125,21 +129,29 @@ def _expand(count: _Ints, first: _Ints) -> tuple[_Ints, _Ints]:
     return which, np.arange(which.size) + np.repeat(first - np.cumsum(count) + count, count)
 
 
-def _resolve(pieces: _Pieces, size: tuple[int, int]) -> tuple[_Coverage, _Coverage]:
-    """Sum the pieces along the rows; return the pixels on outlines and the spans between them."""
-    order = np.argsort(pieces.key)
-    key = pieces.key[order]
-    first = np.flatnonzero(np.diff(key, prepend=-1))
-    key = key[first]
-    cover = np.cumsum(np.add.reduceat(pieces.cover[order], first)) if key.size else pieces.cover
-    area = np.add.reduceat(pieces.area[order], first) if key.size else pieces.area
-    on_edge = np.abs(np.concatenate((cover[:0], [0.0], cover[:-1]))[: key.size] + area)
-    inside = np.minimum(np.abs(cover), 1)
-    gap = np.diff(key, append=key[-1:]) - 1
-    seen = (key % (size[0] + 1) < size[0]) & (on_edge > _NOTHING)
-    between = (inside > _NOTHING) & (gap > 0)
-    edges = _Coverage(key[seen], np.ones(int(seen.sum()), np.int64), np.minimum(on_edge[seen], 1))
-    return edges, _Coverage(key[between] + 1, gap[between], inside[between])
+def _resolve(pieces: _Pieces, width: int) -> tuple[_Runs, _Runs]:
+    """Sum the pieces along the lines; return the pixels on outlines and the spans between them."""
+    order = _sorted(pieces.line, pieces.column)
+    line, column = pieces.line[order], pieces.column[order]
+    first = np.flatnonzero((np.diff(line, prepend=-1) != 0) | (np.diff(column, prepend=-1) != 0))
+    line, column = line[first], column[first]
+    cover = np.cumsum(np.add.reduceat(pieces.height[order], first))
+    area = np.add.reduceat(pieces.area[order], first)
+    area[1:] += cover[:-1]
+    on_edge, inside = np.minimum(np.abs(area), 1), np.minimum(np.abs(cover), 1)
+    gap = np.where(np.diff(line, append=-1) == 0, np.diff(column, append=0) - 1, 0)
+    edges = _Runs(line, column, np.ones_like(line), on_edge)
+    spans = _Runs(line, column + 1, gap, inside)
+    return edges.where((column < width) & (on_edge > _NOTHING)), spans.where((gap > 0) & (inside > _NOTHING))
+
+
+def _sorted(line: _Ints, column: _Ints) -> _Ints:
+    """Return the order by line, then column; numpy sorts 16 bits at a time by counting, not comparing."""
+    order = np.argsort(column.astype(np.uint16), kind="stable")
+    for digit in range(0, int(line.max()).bit_length(), 16):
+        digits = (line >> digit).astype(np.uint16)
+        order = order[np.argsort(digits[order], kind="stable")]
+    return order
 
 
 class _Batch(NamedTuple):
@@ -150,60 +162,59 @@ class _Batch(NamedTuple):
     bounds: list[int]
 
 
-def _batch(runs: _Coverage, size: tuple[int, int], count: int) -> _Batch:
-    line, column = np.divmod(runs.key, size[0] + 1)
-    layer, row = np.divmod(line, size[1])
-    run, place = _expand(runs.length, row * size[0] + column)
+def _batch(runs: _Runs, width: int, count: int) -> _Batch:
+    """Return every pixel of the runs."""
+    row = runs.line & ((1 << _ROW_BITS) - 1)
+    run, place = _expand(runs.length, row * width + runs.column)
     ends = np.concatenate(([0], np.cumsum(runs.length)))
-    bounds = ends[np.searchsorted(layer, np.arange(count + 1))].tolist()
-    return _Batch(place, runs.cover.astype(np.float32)[run], bounds)
+    starts = np.searchsorted(runs.line, np.arange(count + 1) << _ROW_BITS)
+    return _Batch(place, runs.cover.astype(np.float32)[run], ends[starts].tolist())
 
 
-def _mix(surface: pygame.Surface, layers: Sequence[Layer], outline: _Coverage, spans: _Coverage) -> None:
-    size, count = surface.get_size(), len(layers)
+def _mix(surface: pygame.Surface, layers: Sequence[Layer], outline: _Runs, spans: _Runs) -> None:
+    """Put the layers' colours on the surface, one layer after the other."""
+    width, count = surface.get_width(), len(layers)
     solid = spans.cover > _SOLID
-    full = _batch(_Coverage(*(part[solid] for part in spans)), size, count)
-    rest = _batch(_Coverage(*(part[~solid] for part in spans)), size, count) if not solid.all() else None
-    edge = _batch(outline, size, count)
-    pixels = np.frombuffer(surface.get_buffer(), np.uint8).reshape(-1, 4)
-    words = pixels.view(np.uint32)[:, 0]
+    full = _batch(spans.where(solid), width, count)
+    mixed = [_batch(outline, width, count)]
+    if not solid.all():
+        mixed.append(_batch(spans.where(~solid), width, count))
+    pixels = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
+    inks = _inks(surface, layers)
+    words = inks.astype(np.uint8).view(np.uint32)[:, 0]
     clear = bool(surface.get_flags() & pygame.SRCALPHA)
     for n, layer in enumerate(layers):
-        ink = _ink(surface, layer.colour)
-        inner = slice(full.bounds[n], full.bounds[n + 1])
         if layer.alpha >= 1:
-            words[full.place[inner]] = ink.astype(np.uint8).view(np.uint32)[0]
-        elif inner.stop > inner.start:
-            _blend(pixels, ink, full.place[inner], full.cover[inner] * layer.alpha, clear)
-        for batch in (edge, rest) if rest else (edge,):
+            pixels[full.place[full.bounds[n] : full.bounds[n + 1]]] = words[n]
+        for batch in mixed if layer.alpha >= 1 else (full, *mixed):
             part = slice(batch.bounds[n], batch.bounds[n + 1])
             if part.stop > part.start:
-                _blend(pixels, ink, batch.place[part], batch.cover[part] * layer.alpha, clear)
+                _blend(pixels, inks[n], batch.place[part], batch.cover[part] * layer.alpha, clear)
 
 
-def _ink(surface: pygame.Surface, colour: Colour) -> NDArray[np.float32]:
-    """Return the colour's bytes in the surface's order, opaque."""
-    red, green, blue, _ = surface.get_shifts()
-    ink = np.full(4, 255, np.float32)
-    ink[[red // 8, green // 8, blue // 8]] = colour
-    return ink
+def _inks(surface: pygame.Surface, layers: Sequence[Layer]) -> NDArray[np.float32]:
+    """Return the layers' colours as the surface keeps them, four bytes each, opaque."""
+    inks = np.full((len(layers), 4), 255, np.float32)
+    inks[:, [shift // 8 for shift in surface.get_shifts()[:3]]] = [layer.colour for layer in layers]
+    return inks
 
 
 def _blend(
-    pixels: NDArray[np.uint8],
+    pixels: NDArray[np.uint32],
     ink: NDArray[np.float32],
     place: _Ints,
     cover: NDArray[np.float32],
     clear: bool,
 ) -> None:
-    below = pixels[place].astype(np.float32)
+    """Mix ink into pixels by its coverage; `clear` where the surface itself lets light through."""
+    below = pixels[place].view(np.uint8).reshape(-1, 4).astype(np.float32)
     weight = cover[:, None]
     if clear:
-        under = below[:, 3:] / 255
-        weight = weight / (weight + under * (1 - weight))
-        below += (ink - below) * weight
-        below[:, 3:] = 255 * (cover[:, None] + under * (1 - cover[:, None]))
+        under = below[:, 3:] / np.float32(255)
+        whole = weight + under * (1 - weight)
+        below += (ink - below) * (weight / whole)
+        below[:, 3:] = 255 * whole
     else:
         below += (ink - below) * weight
     below += 0.5
-    pixels[place] = below
+    pixels[place] = below.astype(np.uint8).view(np.uint32)[:, 0]

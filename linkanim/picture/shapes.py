@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from math import pi
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from linkanim.picture.raster import Loop
 
@@ -43,51 +44,46 @@ def box(width: float, height: float, radius: float = 0.0) -> Loop:
     return rounded([complex(-x, -y), complex(x, -y), complex(x, y), complex(-x, y)], radius)
 
 
-def stroke(path: Loop, width: float, *, closed: bool = False) -> Sequence[Loop]:
+def stroke(path: ArrayLike, width: float, *, closed: bool = False) -> Sequence[Loop]:
     """Return the outline of a line of this width along the path, its ends round.
 
     Points that repeat are passed over; a path of a single place gives a dot.
     """
-    path = path[np.concatenate(([True], np.diff(path) != 0))]
+    path = np.asarray(path, np.complex128)
+    path = path[np.concatenate(([True], path[1:] != path[:-1]))]
     if closed and path[0] == path[-1]:
         path = path[:-1]
     if len(path) < 2:
         return [path[0] + disc(width / 2)]
     if closed:
-        shift = _offsets(np.concatenate((path[-1:], path, path[:1])))[1:-1] * width / 2
+        shift = offsets(np.concatenate((path[-1:], path, path[:1])))[1:-1] * width / 2
         return [path - shift, (path + shift)[::-1]]
-    shift = _offsets(path) * width / 2
-    half = disc(width / 2)
+    shift = offsets(path) * width / 2
+    cap = _arc(-pi / 2, pi, width / 2)[1:-1]
     start, end = unit(path[1] - path[0]), unit(path[-1] - path[-2])
-    cap = half[np.abs(np.angle(half)) < pi / 2]
-    cap = cap[np.argsort(np.angle(cap))]
     return [np.concatenate((path - shift, path[-1] + end * cap, (path + shift)[::-1], path[0] - start * cap))]
 
 
-def segments(begin: Loop, end: Loop, width: float) -> list[Loop]:
+def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:
     """Return separate straight lines of this width with square ends, one for each pair."""
+    begin, end = (np.atleast_1d(np.asarray(ends, np.complex128)) for ends in (begin, end))
     along = end - begin
     side = 0.5j * width * along / np.maximum(np.abs(along), 1e-9)
     return list(np.stack((begin - side, end - side, end + side, begin + side), axis=1))
 
 
-def arrow(reach: complex, width: float) -> Loop:
-    """Return an arrow from the origin; a short one is a smaller arrow, none is a point."""
-    length = abs(reach)
-    if length == 0:
-        return np.zeros(3, np.complex128)
-    head = min(4.2 * width, 0.6 * length)
-    half = min(width / 2, head / 5)
-    outline = [
-        complex(0, -half),
-        complex(length - 0.9 * head, -half),
-        complex(length - head, -0.42 * head),
-        complex(length, 0),
-        complex(length - head, 0.42 * head),
-        complex(length - 0.9 * head, half),
-        complex(0, half),
-    ]
-    return np.array(outline) * (reach / length)
+def arrows(feet: ArrayLike, reaches: ArrayLike, width: float, rim: float = 0.0) -> list[Loop]:
+    """Return an arrow from each foot, widened all round by a rim; short ones are smaller arrows."""
+    feet, reaches = (np.asarray(ends, np.complex128) for ends in (feet, reaches))
+    length = np.abs(reaches)
+    head = np.minimum(4.2 * width, 0.6 * length)
+    half = np.minimum(width / 2, head / 5) + rim
+    neck, barb, wide = length - 0.9 * head - rim, length - head - rim, 0.42 * head + 1.5 * rim
+    tip = length + 2 * rim
+    x = np.stack((0 * neck - rim, neck, barb, tip, barb, neck, 0 * neck - rim))
+    y = np.stack((-half, -half, -wide, 0 * half, wide, half, half))
+    turn = reaches / np.where(length > 0, length, 1)
+    return list((feet + turn * (x + 1j * y)).T)
 
 
 def unit(vector: complex) -> complex:
@@ -122,14 +118,14 @@ def _arc(begin: float, sweep: float, radius: float) -> Loop:
     """Return an arc about the origin; the chords stay within 0.02 px of it."""
     step = 2 * np.arccos(max(1 - 0.02 / max(radius, 0.02), 0.5))
     count = max(int(np.ceil(sweep / step)), 2)
-    arc: Loop = radius * np.exp(1j * (begin + sweep * np.linspace(0, 1, count + 1)))
+    arc: Loop = radius * np.exp(1j * (begin + sweep / count * np.arange(count + 1)))
     return arc
 
 
-def _offsets(path: Loop) -> Loop:
+def offsets(path: Loop) -> Loop:
     """Return at each point the way to the left edge of a line 2 wide, mitred up to twice its width."""
-    along = np.diff(path)
+    along = path[1:] - path[:-1]
     normal = 1j * along / np.abs(along)
     joined = np.concatenate((normal[:1], (normal[:-1] + normal[1:]) / 2, normal[-1:]))
-    offsets: Loop = joined / np.maximum(np.abs(joined) ** 2, 0.25)
-    return offsets
+    sides: Loop = joined / np.maximum(joined.real**2 + joined.imag**2, 0.25)
+    return sides

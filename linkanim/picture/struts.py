@@ -7,6 +7,7 @@ from math import pi
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from linkanim.mechanics.linkage import Damper, Spring
 from linkanim.picture.figure import Figure
@@ -52,7 +53,8 @@ class Coil:
         span, turn = abs(end - start), unit(end - start)
         lead = min(self.lead, 0.2 * span)
         pitch = (span - 2 * lead) / _COILS
-        feet = start + turn * (lead + pitch * np.arange(_COILS))
+        along = (lead + pitch * np.arange(_COILS)).astype(np.complex128)
+        feet = start + turn * along
         wire, low = 1.5 * self.gauge.line, -1j * self.radius
         ends = np.array([0, lead, lead + low]), np.array([span - lead + low, span - lead, span])
         leads = [start + turn * loop for path in ends for loop in stroke(path, wire)]
@@ -70,7 +72,7 @@ class Coil:
         return path
 
 
-def _repeated(feet: Loop, path: Loop, width: float) -> list[Loop]:
+def _repeated(feet: Loop, path: ArrayLike, width: float) -> list[Loop]:
     return [foot + outline for outline in stroke(path, width) for foot in feet]
 
 
@@ -98,7 +100,7 @@ class Cushion:
         )
         head = box(0.16 * self.length, 2 * self.radius - 3 * self.gauge.outline, 0.1 * self.radius) + piston
         hollow = mixed(self.theme.metal, self.theme.background, 0.72)
-        rods = [loop for path in rod for loop in stroke(path.astype(np.complex128), 2.4 * self.gauge.line)]
+        rods = [loop for path in rod for loop in stroke(path, 2.4 * self.gauge.line)]
         groups = (
             (self.theme.outline, [wall]),
             (hollow, [inside + begin + self.length / 2]),
@@ -123,7 +125,7 @@ def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil,
 
 
 def cushions(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Cushion, ...]:
-    """Return the scene's dampers; a cylinder is as long as the stroke needs and the shortest length allows."""
+    """Return the scene's dampers; the stroke gives a cylinder its length, as far as there is room."""
     found = []
     for item in figure.linkage.dampers:
         span = reach(figure, view, item)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil, floor, pi
 
 import numpy as np
@@ -10,14 +12,17 @@ import numpy as np
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import stroke
+from linkanim.picture.shapes import offsets, stroke
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
 _RECENT = 0.3 * 2 * pi
 """How much phase the recent part covers."""
 _SHADES = 10
+_SWELL = 1.7
+"""How much wider than the whole curve the recent part ends."""
 _FAINT = 0.62
+"""How much of the background is in the whole curve's colour."""
 
 
 @dataclass(frozen=True)
@@ -39,20 +44,23 @@ class Trace:
         """Return what the joint, now at `place`, has passed through last, brighter towards it."""
         count = len(self.path)
         here = phase / self.period * count
-        tail = _RECENT / self.period * count
+        tail = max(round(_RECENT / self.period * count), _SHADES)
         sign = 1 if forward else -1
         last = floor(here) if forward else ceil(here)
-        back = [ceil(tail * shade / _SHADES) for shade in range(_SHADES, -1, -1)]
-        layers = []
-        for shade, (begin, end) in enumerate(zip(back, back[1:], strict=False), start=1):
-            steps = np.arange(begin, max(end - 2, -1), -1)
-            piece = self.path[(last - sign * steps) % count]
-            if shade == _SHADES:
-                piece = np.concatenate((piece, [place]))
-            share = shade / _SHADES
-            colour = mixed(self.back, self.colour, share)
-            layers.append(Layer(colour, stroke(piece, self.width * (1 + 0.7 * share))))
-        return layers
+        path = np.append(self.path[(last - sign * np.arange(tail, -1, -1)) % count], place)
+        path = path[np.append(True, path[1:] != path[:-1])]
+        if len(path) < 2:
+            return []
+        side = offsets(path) * self.width / 2 * np.linspace(1, _SWELL, len(path))
+        return list(self._shaded(path - side, path + side))
+
+    def _shaded(self, right: Loop, left: Loop) -> Iterator[Layer]:
+        """Yield the recent part cut into shades; each runs on a little below the next."""
+        cuts = np.linspace(0, len(right), _SHADES + 1).round().astype(int)
+        for shade, (begin, end) in enumerate(pairwise(cuts), start=1):
+            piece = slice(begin, end + 2)
+            outline = np.concatenate((right[piece], left[piece][::-1]))
+            yield Layer(mixed(self.back, self.colour, shade / _SHADES), [outline])
 
 
 def traces(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Trace, ...]:

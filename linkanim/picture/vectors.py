@@ -12,7 +12,7 @@ from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import arrow, stroke
+from linkanim.picture.shapes import arrows
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
@@ -54,13 +54,14 @@ class Arrows:
             for place, (x, y) in _values(pose, self.kind, joints)
         ]
         seen = [(foot, reach) for foot, reach in found if 1 < abs(reach) < 100 * self.longest]
-        outlines = [foot + arrow(reach, 1.6 * self.gauge.line) for foot, reach in seen]
-        halos = [loop for outline in outlines for loop in _halo(outline, self.gauge)]
-        return [Layer(self.halo, halos), Layer(self.colour, outlines)]
-
-
-def _halo(outline: Any, gauge: Gauge) -> list[Any]:
-    return [outline, *stroke(outline, 1.5 * gauge.line, closed=True)[:1]]
+        if not seen:
+            return []
+        feet, reaches = np.array(seen).T
+        width, rim = 1.6 * self.gauge.line, 0.75 * self.gauge.line
+        return [
+            Layer(self.halo, arrows(feet, reaches, width, rim)),
+            Layer(self.colour, arrows(feet, reaches, width)),
+        ]
 
 
 def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[Any, Any]]:
@@ -70,7 +71,7 @@ def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[Any, 
     return at_joints + [(pose.com_position[body], value) for body, value in of_mass.items()]
 
 
-def arrows(figure: Figure, kind: Kind, height: int, gauge: Gauge, theme: Theme) -> Arrows:
+def arrows_of(figure: Figure, kind: Kind, height: int, gauge: Gauge, theme: Theme) -> Arrows:
     """Return the arrows of one kind, scaled to the largest finite value of the cycle."""
     colour = theme.velocity if kind == "v" else theme.acceleration
     most = _most(figure.cycle, kind, figure.scene.trace)
