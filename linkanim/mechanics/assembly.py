@@ -73,6 +73,7 @@ class Turn:
 class Swing:
     """The input swings between two limits; `ends` names the dyad that limits it at each.
 
+    An end without a name is no limit: the input turns back there, and every closure holds.
     `repeats` is the number of turns of the input after which the linkage would be the same (more
     than one with gears).
     """

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .assembly import Loop, Turn
+from .assembly import Loop, Swing, Turn
 from .exact import HALF_TURN, Sum
 from .linkage import RPR, RRP, RRR
 from .mechanism import Mechanism
@@ -90,7 +90,7 @@ def classify(mechanism: Mechanism, length_unit: str) -> Info:
         grashof=_grashof(four_bar) if four_bar else None,
         input_range=(0.0, 2 * math.pi) if isinstance(path, Turn) else (float(path.low), float(path.high)),
         full_turn=turns,
-        toggles=() if isinstance(path, Turn) else (float(path.low), float(path.high)),
+        toggles=() if isinstance(path, Turn) else _toggles(path),
         change_points=tuple(_change_points(mechanism)),
         circuits=_circuits(four_bar) if four_bar and len(loops) == 1 else None,
         true_period=mechanism.periods,
@@ -102,6 +102,11 @@ def classify(mechanism: Mechanism, length_unit: str) -> Info:
         lines=(),
     )
     return replace(info, lines=tuple(_lines(info, length_unit)))
+
+
+def _toggles(path: Swing) -> tuple[float, ...]:
+    """Return the input's limits; an end at which it merely turns back is none."""
+    return tuple(float(limit) for limit, dyad in zip((path.low, path.high), path.ends, strict=True) if dyad)
 
 
 def _four_bar(mechanism: Mechanism) -> FourBar | None:

@@ -9,7 +9,7 @@ quotient by the way to the limit, which is smooth, is taken from a polynomial fi
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,6 +30,8 @@ from .program import Batch, batch
 SAMPLES_A_TURN = 2880
 TOUCHING = 1e-12
 """A margin no further below zero than this share of its greatest value is a touch, not a limit."""
+STOPPED_SHORT = 1 / 64
+"""Share of its range by which a swing stops short of a limit that it cannot pass."""
 DEGREE = 12
 FIT_POINTS = 96
 GOOD_FIT = 1e-14
@@ -52,29 +54,55 @@ class _Margins:
         values = np.where(np.isnan(values), -np.inf, values) + TOUCHING
         return values.min(axis=0), values.argmin(axis=0)
 
+    def all_open(self, x: Array) -> bool:
+        """Tell whether every dyad can be closed at all the places."""
+        return bool((self.lowest(x)[0] >= 0).all())
+
 
 def restricted(assembly: Assembly) -> Assembly:
     """Return the assembly with its input's path cut back to what every dyad allows."""
     margins = _margins(assembly)
-    if margins is None:
+    if margins is None or margins.all_open(_around(assembly.path)):
         return assembly
     places = _places(assembly.path)
     values, whose = margins.lowest(places)
-    if (values >= 0).all():
-        return assembly
     if (values < 0).all():
         name = margins.names[int(whose[values.argmax()])]
         raise AssemblyError(f"joint {name}: {why_apart(assembly.linkage, name)}")
-    ends = _open_interval(assembly, places, values, margins)
-    path = _swing(assembly.path, ends)
-    limited = resigned(replace(assembly, path=path))
-    return replace(limited, fits=_fits(limited, margins.names))
+    found = _swing(assembly.path, _open_interval(assembly, places, values, margins))
+    for path in _smooth_paths(found):
+        limited = resigned(replace(assembly, path=path))
+        limited = replace(limited, fits=_fits(limited, margins.names))
+        if _runs_through(limited):
+            return limited
+    raise AssemblyError("the input has no range on which every dyad can be closed")
+
+
+def _smooth_paths(swing: Swing) -> Iterator[Swing]:
+    """Yield the swing, then the same stopped short of one limit or both.
+
+    Where one dyad stands on another, its range changes when the first passes its limit: the input
+    then has to turn back before that, on the closure that was named.
+    """
+    short = (swing.high - swing.low).times(STOPPED_SHORT)
+    for low, high in ((False, False), (True, False), (False, True), (True, True)):
+        yield Swing(
+            swing.low + short if low else swing.low,
+            swing.high - short if high else swing.high,
+            ("" if low else swing.ends[0], "" if high else swing.ends[1]),
+            swing.repeats,
+        )
+
+
+def _runs_through(assembly: Assembly) -> bool:
+    margins = _margins(assembly)
+    return margins is None or margins.all_open(_around(assembly.path))
 
 
 def _margins(assembly: Assembly) -> _Margins | None:
     graph = Graph()
     found = assembly.walk(assembly.clock(graph.input("x"), Slope(0.0))).margins
-    names = tuple(name for name, value in found.items())
+    names = tuple(found)
     if not names:
         return None
     program = batch({"x": True}, [found[name] for name in names])
@@ -89,6 +117,13 @@ def _places(path: Path) -> Array:
     if isinstance(path, Turn):
         return np.linspace(0.0, 2 * math.pi * path.periods, SAMPLES_A_TURN * path.periods + 1)
     return np.linspace(0.0, math.pi, SAMPLES_A_TURN)
+
+
+def _around(path: Path) -> Array:
+    """Return phases over the whole true period, every closure that the path takes among them."""
+    count = SAMPLES_A_TURN * path.periods
+    around: Array = np.arange(count) * (2 * math.pi / SAMPLES_A_TURN)
+    return around
 
 
 @dataclass(frozen=True)
