@@ -13,9 +13,8 @@ from typing import TypeVar
 
 from linkanim.errors import AssemblyError
 
-from .clock import Clock
+from .clock import Clock, Half
 from .exact import FULL_TURN, HALF_TURN, Sum, exact_angle, quarter_turns, unit
-from .expression import Value
 from .linkage import RPR, RRP, RRR, Crank, Joint, Linkage, Pin
 from .planar import Vec
 from .roots import Kind, LoopRoot, four_bar_root, slider_root, slot_root
@@ -55,8 +54,8 @@ class Loop:
     root: LoopRoot
     swapped: bool = False
 
-    def half(self, clock: Clock) -> tuple[Value, Value]:
-        """Return (sin, cos) of ψ/2 at the clock's instant."""
+    def half(self, clock: Clock) -> Half:
+        """Return ψ/2 at the clock's instant."""
         reference = self.root.reference - self.gearing.offset
         return clock.half(reference, self.gearing.ratio, sharp=self.root.nearly_vanishes)
 

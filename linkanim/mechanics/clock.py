@@ -16,15 +16,36 @@ from .expression import Graph, Value, cos, sqrt, tan
 from .planar import Slope
 
 
-def half_angle(angle: Value, *, sharp: bool = False) -> tuple[Value, Value]:
-    """Return (sin, cos) of half the angle, signed over two turns, from one tan of a quarter of it.
+@dataclass(frozen=True, slots=True)
+class Half:
+    """Half an angle: its sine and cosine, signed over two turns, the sine's square, and their product."""
 
-    The tangent is the one circular function that numpy computes a vector at a time. The cosine is
-    then right to the last digit of 1; where it is `sharp`, to its own last digit next to its zeros.
+    sine: Value
+    cosine: Value
+    square: Value
+    product: Value
+
+
+def half_angle(angle: Value, *, sharp: bool = False) -> Half:
+    """Return half the angle from one tangent, the circular function that numpy computes many at a time.
+
+    Square and product come from tan(x/2), the signed sine and cosine from tan(x/4). That cosine is
+    right to the last digit of 1; where it is `sharp`, to its own last digit next to its zeros.
     """
+    tangent = tan(angle * 0.5)
+    product = tangent / (tangent * tangent + 1.0)
     t = tan(angle * 0.25)
     share = 1.0 / (t * t + 1.0)
-    return (t + t) * share, cos(angle * 0.5) if sharp else (1.0 - t) * (1.0 + t) * share
+    cosine = cos(angle * 0.5) if sharp else (1.0 - t) * (1.0 + t) * share
+    return Half((t + t) * share, cosine, tangent * product, product)
+
+
+def _turned(half: Half, rest: Value) -> Half:
+    """Return the half angle further by a rest below 1e-6."""
+    bend = rest * 0.5
+    sine = half.sine + (half.cosine - half.sine * bend) * rest
+    cosine = half.cosine - (half.sine + half.cosine * bend) * rest
+    return Half(sine, cosine, sine * sine, sine * cosine)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,19 +83,14 @@ class Clock:
     pace: Slope
     ends: Ends | None = None
 
-    def half(
-        self, reference: Sum, ratio: Fraction = Fraction(1), *, sharp: bool = False
-    ) -> tuple[Value, Value]:
-        """Return (sin, cos) of half of ratio × θ - reference, to the last digit at any number of turns."""
+    def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, sharp: bool = False) -> Half:
+        """Return half of ratio × θ - reference, to the last digit at any number of turns."""
         shift = _scaled_sum(self.origin, ratio) - reference
         scaled, low = _scaled(self.angle, ratio)
         if shift.high == 0 and shift.low == 0 and _is_zero(low):
             return half_angle(scaled, sharp=sharp)
         total, error = two_sum(scaled, shift.high)
-        sine, cosine = half_angle(total, sharp=sharp)
-        rest = (error + low + shift.low) * 0.5
-        bend = rest * 0.5
-        return sine + (cosine - sine * bend) * rest, cosine - (sine + cosine * bend) * rest
+        return _turned(half_angle(total, sharp=sharp), (error + low + shift.low) * 0.5)
 
 
 def _is_zero(value: Value) -> bool:
@@ -109,9 +125,9 @@ def turn(x: Value, pace: Slope, origin: Sum) -> Clock:
 
 def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> Clock:
     """Return the clock of a swing driven by its phase."""
-    sine, cosine = half_angle(phase, sharp=True)
+    half = half_angle(phase, sharp=True)
     scale = math.sqrt(amplitude)
-    root_u, root_v = cosine * scale, sine * scale
+    root_u, root_v = half.cosine * scale, half.sine * scale
     half_rate = pace.value * 0.5
     u, v, both = root_u * root_u, root_v * root_v, root_u * root_v
     ends = Ends(

@@ -15,7 +15,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .clock import Clock
+from .clock import Clock, Half
 from .exact import FULL_TURN, HALF_TURN, Sum
 from .expression import Value, cos, maximum, minimum, select, sin, sqrt
 from .planar import Moving, MovingPoint, Slope, Turning, Vec, carried
@@ -44,7 +44,7 @@ class Triangle:
     """P, Q and the third corner: D, shares of it, and what its rates need.
 
     `near` = p/(2L²) and `far` = 1 - near are the shares of D under each bar; `lift` runs from D to
-    the corner, i D q/(2L²); `turn` is e; `slant` is near'.
+    the corner, i D q/(2L²); `turn` is e and, in its second, e' + ρ near'.
     """
 
     across: Vec
@@ -52,7 +52,6 @@ class Triangle:
     far: Value
     lift: Vec
     turn: Turning
-    slant: Value
     ratio: Slope
 
 
@@ -80,11 +79,11 @@ def meet(p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle:
     rho = t.ratio
     turning_a = Turning(
         t.turn.rate - rho.value * t.far,
-        t.turn.second - rho.rate * t.far + rho.value * t.slant,
+        t.turn.second - rho.rate * t.far,
     )
     turning_b = Turning(
         t.turn.rate + rho.value * t.near,
-        t.turn.second + rho.rate * t.near + rho.value * t.slant,
+        t.turn.second + rho.rate * t.near,
     )
     point = p + carried(arm_a, turning_a) if a_is_shorter else q + carried(arm_b, turning_b)
     return Meeting(arm_a, arm_b, turning_a, turning_b, point)
@@ -94,54 +93,50 @@ def meet(p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle:
 class PinLoop:
     """A crank pin against a fixed pin: ground vector (length, unit), crank, and the pin's ψ.
 
-    `half` is (sin, cos) of ψ/2, `pace` is ψ' with its derivative.
+    `half` is ψ/2, `pace` is ψ' with its derivative.
     """
 
     ground: float
     direction: Vec
     crank: float
-    half: tuple[Value, Value]
+    half: Half
     pace: Slope
 
     def across(self) -> Vec:
         """Return D from the crank pin to the fixed pin, exact where the two nearly meet."""
-        s, c = self.half
-        side = (s * s) * (2.0 * self.crank)
-        along = side + (self.ground - self.crank)
-        return Vec(along, -((s * c) * (2.0 * self.crank))).times(self.direction)
+        twice = 2.0 * self.crank
+        along = self.half.square * twice + (self.ground - self.crank)
+        return Vec(along, -(self.half.product * twice)).times(self.direction)
 
 
 def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) -> Triangle:
     """Return the triangle of a crank pin and a fixed pin, without cancellation."""
     (a, b), g, r = lengths, loop.ground, loop.crank
-    s, c = loop.half
-    spread = (s * s) * (4.0 * g * r)
-    w, wd = loop.pace.value, loop.pace.rate
     if g == r and a == b:
         return _kite(loop, root)
+    w, wd = loop.pace.value, loop.pace.rate
+    spread = loop.half.square * (4.0 * g * r)
     share = 0.5 / (spread + (g - r) * (g - r))
-    growth = (s * c) * (8.0 * g * r) * w * share
+    # (L²)'/(4 L⁴): what the shares of D and e both change with.
+    change = loop.half.product * (w * (4.0 * g * r)) * share * share
+    excess, outer = 2.0 * (b - a) * (b + a), 2.0 * (g - r) * (g + r)
     turn = (spread + 2.0 * r * (r - g)) * share
-    turn_slope = share * growth
-    excess, outer = (b - a) * (b + a), (g - r) * (g + r)
     across = loop.across()
     return Triangle(
         across=across,
         near=(spread + _near_constant(g - r, a, b)) * share,
         far=(spread + _near_constant(g - r, b, a)) * share,
         lift=across.left().scaled(root.q * share),
-        turn=Turning(turn * w, turn_slope * (w * outer) + turn * wd),
-        slant=turn_slope * excess,
+        turn=Turning(turn * w, change * (root.ratio.value * excess + w * outer) + turn * wd),
         ratio=root.ratio,
     )
 
 
 def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:
     """Return the triangle of a kite or rhombus, whose pins meet at ψ = 0: the lift is √U/2 along e^{iψ/2}."""
-    s, c = loop.half
-    lift = Vec(c, s).times(loop.direction).scaled(root.root_u * 0.5)
+    lift = Vec(loop.half.cosine, loop.half.sine).times(loop.direction).scaled(root.root_u * 0.5)
     half_turn = Turning(loop.pace.value * 0.5, loop.pace.rate * 0.5)
-    return Triangle(loop.across(), 0.5, 0.5, lift, half_turn, 0.0, root.ratio)
+    return Triangle(loop.across(), 0.5, 0.5, lift, half_turn, root.ratio)
 
 
 def _near_constant(gap: float, near: float, far: float) -> float:
@@ -166,8 +161,7 @@ def moving_triangle(
         near=(square - excess) * share,
         far=(square + excess) * share,
         lift=across.left().scaled(signed.q * share),
-        turn=Turning(turn, second),
-        slant=share * growth * excess,
+        turn=Turning(turn, second + signed.ratio.value * (share * growth * excess)),
         ratio=signed.ratio,
     )
 
@@ -209,47 +203,54 @@ def slot_direction(across: Vec, s: Value, offset: float) -> Vec:
     return Vec(turned.x / square, turned.y / square)
 
 
-def plain_root(u: Value, w: Value, first: Value, second: Value, single: bool) -> SignedRoot:
-    """Return the root of factors that do not vanish: U' = -g, W' = g with g = `first`, g' = `second`."""
-    q = sqrt(w if single else u * w)
-    half_difference = 0.5 if single else (u - w) * 0.5
-    ratio = first / q
-    return SignedRoot(q, Slope(ratio, (second - ratio * ratio * half_difference) / q))
+def plain_root(u: Value, w: Value, driver: Moving, half_difference: Value) -> SignedRoot:
+    """Return the root of factors that do not vanish, with U' = -g and W' = g, g the driver's rate.
+
+    `half_difference` is (U - W)/2, or 1/2 where there is no U: q' = ρ times that.
+    """
+    q = sqrt(w * u)
+    ratio = driver.rate / q
+    return SignedRoot(q, Slope(ratio, (driver.second - ratio * ratio * half_difference) / q))
 
 
 def signed_root(
-    root: LoopRoot, half: tuple[Value, Value], pace: Slope, clock: Clock, swing: tuple[Sum, Sum] | None
+    root: LoopRoot, half: Half, pace: Slope, clock: Clock, swing: tuple[Sum, Sum] | None
 ) -> SignedRoot:
     """Return q of a loop closed from a crank pin, signed through change points and limits."""
-    s, c = half
-    u, w = factor_values(root, half)
     if root.u.kind is Kind.PLAIN and root.w.kind is Kind.PLAIN:
-        first = (s * c) * root.spread * pace.value
-        half_spread = (root.spread * 0.5 - (s * s) * root.spread) * (pace.value * pace.value)
-        return plain_root(u, w, first, half_spread + (s * c) * root.spread * pace.rate, root.single)
+        u, w, half_difference = factor_values(root, half)
+        return plain_root(u, w, _spread_rates(root, half, pace), half_difference)
     return _product_root(root, half, pace, clock, swing)
 
 
-def factor_values(root: LoopRoot, half: tuple[Value, Value]) -> tuple[Value, Value]:
-    """Return U and W."""
-    s, c = half
-    spread = (s * s) * root.spread
+def _spread_rates(root: LoopRoot, half: Half, pace: Slope) -> Moving:
+    """Return K sin²(ψ/2) with its two derivatives."""
+    w, square = pace.value, half.square * root.spread
+    bend = (0.5 * root.spread - square) * (w * w)
+    return Moving(square, half.product * (w * root.spread), bend + half.product * (pace.rate * root.spread))
+
+
+def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value, Value]:
+    """Return U, W and half of U - W (1/2 where there is no U)."""
+    spread = half.square * root.spread
+    w = spread + root.w.least
     if root.single:
-        return 1.0, spread + root.w.least
+        return 1.0, w, 0.5
     # Subtracting keeps all but two bits while the least value is not small beside the greatest.
     roomy = 4 * root.u.least >= root.u.most
-    return (root.u.most - spread if roomy else (c * c) * root.spread + root.u.least), spread + root.w.least
+    u = root.u.most - spread if roomy else (half.cosine * half.cosine) * root.spread + root.u.least
+    return u, w, 0.5 * (root.u.most - root.w.least) - spread
 
 
 def _product_root(
-    root: LoopRoot, half: tuple[Value, Value], pace: Slope, clock: Clock, swing: tuple[Sum, Sum] | None
+    root: LoopRoot, half: Half, pace: Slope, clock: Clock, swing: tuple[Sum, Sum] | None
 ) -> SignedRoot:
     """Return q as the product of its two signed roots, and ρ with what vanishes in both divided out."""
-    s, c = half
-    u, w = factor_values(root, half)
+    s, c = half.sine, half.cosine
+    u, w, _ = factor_values(root, half)
     scale = math.sqrt(root.spread)
     half_rate = pace.value * 0.5
-    first = (s * c) * root.spread * pace.value
+    first = half.product * (pace.value * root.spread)
     sine, cosine = Slope(s, c * half_rate), Slope(c, -(s * half_rate))
     part_u = _part(root.u, u, -first, cosine, scale, clock, _limits(root, root.u, swing))
     part_w = _part(root.w, w, first, sine, scale, clock, _limits(root, root.w, swing))

@@ -19,9 +19,11 @@ class Graph:
     def __init__(self) -> None:
         self._nodes: dict[tuple[object, ...], Expr] = {}
 
-    def input(self, name: str) -> Expr:
-        """Return the named input of the program."""
-        return self.node("input", name)
+    def input(self, name: str, *, uniform: bool = False) -> Expr:
+        """Return the named input of the program; `uniform` where it is one number for a whole array."""
+        found = self.node("input", name)
+        found.uniform = uniform
+        return found
 
     def node(self, op: str, *args: Expr | float | str) -> Expr:
         """Return the node for this operation, the one noted before where there is one."""
@@ -36,15 +38,20 @@ class Graph:
 
 
 class Expr:
-    """One noted operation; its arguments are nodes of the same graph or constants."""
+    """One noted operation; its arguments are nodes of the same graph or constants.
 
-    __slots__ = ("args", "graph", "index", "op")
+    A `uniform` one has the same value along an array, so it is worked out once; products draw
+    uniform factors together.
+    """
+
+    __slots__ = ("args", "graph", "index", "op", "uniform")
 
     def __init__(self, graph: Graph, op: str, args: tuple[Expr | float | str, ...], index: int) -> None:
         self.graph = graph
         self.op = op
         self.args = args
         self.index = index
+        self.uniform: bool = all(not isinstance(arg, Expr) or arg.uniform for arg in args)
 
     def __add__(self, other: Value) -> Value:
         return _add(self, other)
@@ -71,7 +78,11 @@ class Expr:
         return _divide(other, self)
 
     def __neg__(self) -> Value:
-        return self.args[0] if self.op == "neg" and isinstance(self.args[0], Expr) else self._new("neg", self)
+        positive = _negated(self)
+        if positive is not None:
+            return positive
+        factor, rest = _factored(self)
+        return self._new("neg", self) if factor is None or self.uniform else (-factor) * rest
 
     def _new(self, op: str, *args: Value) -> Expr:
         return self.graph.node(op, *args)
@@ -92,6 +103,20 @@ def _negated(value: Value) -> Expr | None:
     return None
 
 
+def _factored(value: Expr) -> tuple[Value | None, Expr]:
+    """Return the constant or uniform factor of a product and the rest; None where there is no such factor."""
+    if value.op == "mul":
+        for factor, rest in (value.args, value.args[::-1]):
+            if isinstance(rest, Expr) and not rest.uniform and _is_uniform(factor):
+                assert not isinstance(factor, str)
+                return factor, rest
+    return None, value
+
+
+def _is_uniform(value: Expr | float | str) -> bool:
+    return value.uniform if isinstance(value, Expr) else True
+
+
 def _add(a: Expr, b: Value) -> Value:
     if isinstance(b, (int, float)) and b == 0:
         return a
@@ -110,6 +135,9 @@ def _subtract(a: Value, b: Value) -> Value:
     positive = _negated(b)
     if positive is not None:
         return a + positive
+    negative = _negated(a)
+    if negative is not None:
+        return -(negative + b)
     graph = b.graph if isinstance(b, Expr) else a.graph if isinstance(a, Expr) else Graph()
     return graph.node("sub", a, b)
 
@@ -117,6 +145,10 @@ def _subtract(a: Value, b: Value) -> Value:
 def _multiply(a: Expr, b: Value) -> Value:
     if isinstance(b, (int, float)):
         return _scale(a, float(b))
+    for x, y in ((a, b), (b, a)):
+        if x.uniform and not y.uniform:
+            factor, rest = _factored(y)
+            return a._new("mul", x, y) if factor is None else (x * factor) * rest
     for x, y in ((a, b), (b, a)):
         positive = _negated(x)
         if positive is not None:
@@ -135,8 +167,11 @@ def _scale(a: Expr, factor: float) -> Value:
         return -a
     if positive is not None:
         return _scale(positive, -factor)
-    if a.op == "mul" and isinstance(a.args[0], float) and isinstance(a.args[1], Expr):
-        return _scale(a.args[1], factor * a.args[0])
+    inner, rest = (a.args[0], a.args[1]) if a.op == "mul" else (None, a)
+    if isinstance(inner, float) and isinstance(rest, Expr):
+        return _scale(rest, factor * inner)
+    if isinstance(inner, Expr) and inner.uniform and isinstance(rest, Expr) and not rest.uniform:
+        return (inner * factor) * rest
     return a._new("mul", factor, a)
 
 

@@ -122,8 +122,7 @@ def _places(path: Path) -> Array:
 def _around(path: Path) -> Array:
     """Return phases over the whole true period, every closure that the path takes among them."""
     count = SAMPLES_A_TURN * path.periods
-    around: Array = np.arange(count) * (2 * math.pi / SAMPLES_A_TURN)
-    return around
+    return np.linspace(0.0, 2 * math.pi * path.periods, count, endpoint=False)
 
 
 @dataclass(frozen=True)

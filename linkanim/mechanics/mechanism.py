@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
@@ -58,25 +58,32 @@ class Mechanism:
         return Setting(self.linkage, gearings(self.linkage))
 
     @cached_property
-    def _programs(self) -> dict[object, Any]:
+    def _poses(self) -> dict[tuple[int, bool], Callable[..., Any]]:
+        return {}
+
+    @cached_property
+    def _programs(self) -> dict[Variant, tuple[Batch, Rows]]:
         return {}
 
     def pose(self, phase: float, speed: float, acceleration: float, derivatives: int) -> Pose:
         """Return one instant, solved in plain floats."""
-        variant = Variant(True, derivatives, acceleration != 0.0)
-        program = self._programs.get(variant)
+        accelerates = acceleration != 0.0
+        program = self._poses.get((derivatives, accelerates))
         if program is None:
-            program = self._programs[variant] = self._scalar(variant)
+            program = self._scalar(Variant(True, derivatives, accelerates))
+            self._poses[derivatives, accelerates] = program
         try:
             found = program(phase, speed, acceleration)
         except (ZeroDivisionError, ValueError):
-            found = self._pose_from_arrays(variant, phase, speed, acceleration)
+            found = self._pose_from_arrays(derivatives, phase, speed, acceleration)
         return Pose(self.setting, (phase, speed, acceleration), found)
 
     def _trace(self, variant: Variant) -> tuple[tuple[str, ...], tuple[Value, Value, Value], Rows]:
         """Note the formulas: the inputs' names, the crank's angle and rates, and all quantities."""
         graph = Graph()
-        pace = Slope(graph.input("w"), graph.input("a") if variant.accelerates else 0.0)
+        uniform = not variant.varying_rate
+        second = graph.input("a", uniform=uniform) if variant.accelerates else 0.0
+        pace = Slope(graph.input("w", uniform=uniform), second)
         names, clock = self._clock(graph, pace, by_phase=variant.by_phase)
         kinematics = self.assembly.walk(clock)
         angle = clock.angle + float(clock.origin)
@@ -102,10 +109,10 @@ class Mechanism:
         return scalar((*names, "w", "a"), outputs, f"({', '.join(parts)})")
 
     def _pose_from_arrays(
-        self, variant: Variant, phase: float, speed: float, second: float
+        self, derivatives: int, phase: float, speed: float, second: float
     ) -> tuple[Any, ...]:
         """Return what the scalar program gives, NaN and infinities included, where floats raise."""
-        motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=variant.derivatives)
+        motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
         vectors = [
             {name: (float(value[0]), float(value[1])) for name, value in getattr(motion, kind).items()}
             for kind in VECTORS
@@ -147,7 +154,7 @@ class Mechanism:
 
     def program(self, variant: Variant) -> tuple[Batch, Rows]:
         """Return the program over arrays for one way of asking, and which rows it fills."""
-        found: tuple[Batch, Rows] | None = self._programs.get(("batch", variant))
+        found = self._programs.get(variant)
         if found is None:
             names, crank, rows = self._trace(variant)
             rates = ("w", "a") if variant.accelerates else ("w",)
@@ -161,7 +168,7 @@ class Mechanism:
             ]
             if isinstance(self.assembly.path, Swing):
                 outputs.extend(crank)
-            found = self._programs["batch", variant] = (batch(varying, outputs), rows)
+            found = self._programs[variant] = (batch(varying, outputs), rows)
         return found
 
     def _is_fixed(self, kind: str, name: str) -> bool:

@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 
 from .expression import Expr, Value
 
-BLOCK = 4096
+Array = NDArray[np.floating[Any]]
+
+BLOCK = 8192
 
 INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
 FLOAT_CALLS = {
@@ -94,57 +96,50 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
 class Batch:
     """A compiled pass over arrays: call it with one value or array (N,) for each input."""
 
-    inputs: tuple[str, ...]
+    arrays: tuple[str, ...]
     outputs: tuple[Value, ...]
     block: Callable[..., Any]
     prelude: Callable[..., tuple[float, ...]]
+    constants: tuple[Array, ...]
     buffers: int
 
-    def __call__(
-        self, *values: NDArray[np.floating[Any]] | float, dtype: type[np.floating[Any]] = np.float64
-    ) -> NDArray[np.floating[Any]]:
+    def __call__(self, *values: Array | float, dtype: type[np.floating[Any]] = np.float64) -> Array:
         """Return the outputs as rows (outputs, N)."""
         arrays = [value for value in values if isinstance(value, np.ndarray)]
         count = arrays[0].shape[0]
-        scalars = self.prelude(*(value for value in values if not isinstance(value, np.ndarray)))
+        uniform = self.prelude(*(value for value in values if not isinstance(value, np.ndarray)))
+        constants = self.constants
+        if dtype is not np.float64:
+            constants = tuple(constant.astype(dtype) for constant in constants)
+        numbers = (*(np.asarray(value, dtype) for value in uniform), *constants)
         results = np.empty((len(self.outputs), count), dtype)
         work = np.empty((self.buffers, min(BLOCK, count)), dtype)
         for first in range(0, count, BLOCK):
             part = slice(first, min(first + BLOCK, count))
             inside = work[:, : part.stop - first]
-            self.block([array[part] for array in arrays], scalars, list(results[:, part]), list(inside))
+            self.block([array[part] for array in arrays], numbers, list(results[:, part]), list(inside))
         return results
 
 
 def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
-    """Compile the outputs; `inputs` says of each name whether it is an array."""
+    """Compile the outputs; `inputs` says of each name whether it is an array, or uniform."""
     nodes = needed(outputs)
-    varying = _varying(nodes, inputs)
-    fixed = [node for node in nodes if node.index not in varying and node.op != "input"]
-    plan = _Plan([node for node in nodes if node.index in varying], outputs)
+    fixed = [node for node in nodes if node.uniform and node.op != "input"]
+    plan = _Plan([node for node in nodes if not node.uniform], outputs)
+    arrays = tuple(name for name, array in inputs.items() if array)
+    uniform = [name for name, array in inputs.items() if not array]
     return Batch(
-        tuple(inputs),
+        arrays,
         tuple(outputs),
-        _block([name for name, array in inputs.items() if array], fixed, plan, inputs),
-        _prelude([name for name, array in inputs.items() if not array], fixed),
+        _block(arrays, [*uniform, *map(_name, fixed)], plan),
+        _prelude(uniform, fixed),
+        tuple(np.array(value) for value in plan.constants),
         plan.buffers,
     )
 
 
-def _varying(nodes: Sequence[Expr], inputs: Mapping[str, bool]) -> set[int]:
-    """Return the nodes that differ along the array; the others are computed once."""
-    varying: set[int] = set()
-    for node in nodes:
-        if node.op == "input":
-            if inputs[str(node.args[0])]:
-                varying.add(node.index)
-        elif any(isinstance(argument, Expr) and argument.index in varying for argument in node.args):
-            varying.add(node.index)
-    return varying
-
-
 def _prelude(names: Sequence[str], fixed: Sequence[Expr]) -> Callable[..., tuple[float, ...]]:
-    """Return the function that computes from the scalar inputs what does not vary."""
+    """Return the function that computes from the uniform inputs what is the same along the array."""
     lines = [f"    {_name(node)} = {_formula(node)}" for node in fixed]
     result = "".join(f"{name}, " for name in (*names, *(_name(node) for node in fixed)))
     source = "\n".join([f"def prelude({', '.join(names)}):", *lines, f"    return ({result})"])
@@ -158,6 +153,7 @@ class _Plan:
         self.nodes = [node for node in nodes if node.op != "input"]
         self.places: dict[int, str] = {}
         self.copies: list[tuple[int, Value]] = []
+        self.constants: dict[float, str] = {}
         self.buffers = 0
         self.rows = len(outputs)
         inputs = {node.index for node in nodes if node.op == "input"}
@@ -191,9 +187,10 @@ class _Plan:
 
     def name(self, value: Value | str) -> str:
         """Return the variable that holds the value inside the block function."""
-        if isinstance(value, Expr) and value.index in self.places:
-            return self.places[value.index]
-        return _name(value)
+        if isinstance(value, Expr):
+            return self.places.get(value.index) or _name(value)
+        # An array of no dimension: numpy would make one of a plain number at every call.
+        return self.constants.setdefault(float(value), f"k{len(self.constants)}")
 
     def lines(self) -> Iterator[str]:
         """Yield the numpy calls in order."""
@@ -208,19 +205,17 @@ class _Plan:
             yield f"o{row}[...] = {self.name(value)}"
 
 
-def _block(
-    arrays: Sequence[str], fixed: Sequence[Expr], plan: _Plan, inputs: Mapping[str, bool]
-) -> Callable[..., Any]:
-    """Return the function that runs one block: (arrays, scalars, result rows, buffers)."""
-    scalars = [*(name for name, array in inputs.items() if not array), *(_name(node) for node in fixed)]
+def _block(arrays: Sequence[str], uniform: Sequence[str], plan: _Plan) -> Callable[..., Any]:
+    """Return the function that runs one block: (arrays, numbers, result rows, buffers)."""
+    calls = list(plan.lines())
     unpack = [
         _unpacking(arrays, "arrays"),
-        _unpacking(scalars, "scalars"),
+        _unpacking([*uniform, *plan.constants.values()], "numbers"),
         _unpacking([f"o{row}" for row in range(plan.rows)], "rows"),
         _unpacking([f"b{index}" for index in range(plan.buffers)], "buffers"),
     ]
-    body = [line for line in (*unpack, *plan.lines()) if line]
-    source = "\n    ".join(["def block(arrays, scalars, rows, buffers):", *(body or ["pass"])])
+    body = [line for line in (*unpack, *calls) if line]
+    source = "\n    ".join(["def block(arrays, numbers, rows, buffers):", *(body or ["pass"])])
     return _define(source, "block", {**UFUNCS, "where": np.where})
 
 

@@ -13,7 +13,7 @@ from linkanim.errors import AssemblyError
 
 from .assembly import Gearing, Loop, Path, Swing, gearings
 from .chain import LimitFit, Margin, limited_root
-from .clock import Clock, by_angle
+from .clock import Clock, Half, by_angle
 from .closures import (
     PinLoop,
     SignedRoot,
@@ -122,8 +122,8 @@ def _pace(w: _Walk, gearing: Gearing) -> Slope:
 
 def _crank(w: _Walk, joint: Crank) -> None:
     gearing = w.gears[joint.name]
-    s, c = w.clock.half(-gearing.offset, gearing.ratio)
-    arm = Vec(joint.length - (s * s) * (2.0 * joint.length), (s * c) * (2.0 * joint.length))
+    half, twice = w.clock.half(-gearing.offset, gearing.ratio), 2.0 * joint.length
+    arm = Vec(joint.length - half.square * twice, half.product * twice)
     pace = _pace(w, gearing)
     turning = Turning(pace.value, pace.rate)
     w.points[joint.name] = w.points[joint.pivot] + carried(arm, turning)
@@ -134,7 +134,7 @@ def _add_bar(w: _Walk, ends: tuple[str, str], length: float, turning: Turning, a
     w.groups.append(Group(turning, {ends[0]: 0j, ends[1]: complex(length)}, {ends: arm}))
 
 
-def _loop_root(w: _Walk, loop: Loop, sign: int) -> tuple[SignedRoot, tuple[Value, Value], Slope]:
+def _loop_root(w: _Walk, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
     pace = _pace(w, loop.gearing)
     half = loop.half(w.clock)
     swing = (w.plan.path.low, w.plan.path.high) if isinstance(w.plan.path, Swing) else None
@@ -211,7 +211,7 @@ def _margin_root(
         half_difference = 0.5 if single else (u - v) * 0.5
         margin = Margin(u * v, half_difference, driver, w.by_angle[name])
         return limited_root(margin, w.plan.fits[name], w.clock)
-    return plain_root(u, v, driver.rate, driver.second, single=single)
+    return plain_root(u, v, driver, 0.5 if single else (u - v) * 0.5)
 
 
 def _slot(w: _Walk, joint: RPR) -> None:
@@ -235,8 +235,7 @@ def _slot(w: _Walk, joint: RPR) -> None:
 def _loop_direction(ground: PinLoop, root: SignedRoot, offset: float, sign: int) -> Vec:
     """Return the slotted bar's direction; a slot through its own pivot turns at half the crank's angle."""
     if ground.ground == ground.crank and offset == 0:
-        s, c = ground.half
-        return Vec(-s, c).times(ground.direction).scaled(float(sign))
+        return Vec(-ground.half.sine, ground.half.cosine).times(ground.direction).scaled(float(sign))
     return slot_direction(-ground.across(), root.q, offset)
 
 
