@@ -15,6 +15,8 @@ from linkanim.picture.view import View
 
 BLOCK = (4.6, 3.2)
 """A slider block's length and height in half widths of a bar."""
+_TINT = 0.3
+"""How much of the background is in a plate's colour, so that a large one does not shout."""
 
 
 def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
@@ -23,7 +25,9 @@ def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[
     plates = [body for body in figure.bodies if len(body.joints) > 2]
     bars = [body for body in figure.bodies if len(body.joints) == 2]
     blocks = _sliders(figure, gauge, theme) + [_collar(slot, gauge, theme) for slot in figure.slots]
-    solid = [_body(body, figure, view, gauge, (theme.outline, colours[body.name])) for body in plates + bars]
+    tinted = {body.name: mixed(colours[body.name], theme.background, _TINT) for body in plates}
+    fills = {**colours, **tinted}
+    solid = [_body(body, figure, view, gauge, (theme.outline, fills[body.name])) for body in plates + bars]
     slotted = [_slot(slot, figure, view, gauge, theme) for slot in figure.slots]
     return (*_behind(figure, view, gauge, theme), *solid, *slotted, *blocks) if slotted else (*blocks, *solid)
 

@@ -160,9 +160,9 @@ class Strip:
 
     def reading(self, phase: float) -> str:
         """Return the values under the cursor in words."""
-        span = self.plot.y.high - self.plot.y.low
+        span, gap = self.plot.y.high - self.plot.y.low, "" if self.series.unit == "°" else " "
         return "   ".join(
-            f"{label + ' ' if label else ''}{number(float(value), span / 500)} {self.series.unit}".strip()
+            f"{label} {number(float(value), span / 500)}{gap}{self.series.unit}".strip()
             for label, value in zip(self.series.labels, self.values_at(phase), strict=True)
         )
 
@@ -170,7 +170,8 @@ class Strip:
         """Draw the values under the cursor at the right of the name."""
         area, pen = self.plot.area, self.pen
         at = (area.right, area.y - 1.35 * pen.text)
-        pen.type.draw(surface, self.reading(phase), at, size=pen.text, colour=pen.theme.ink, anchor="right")
+        words, ink = self.reading(phase), pen.theme.ink
+        pen.type.draw(surface, words, at, size=pen.text, colour=ink, anchor="right")
 
     def phase_at(self, px: float, py: float) -> float | None:
         """Return the phase under a pixel, None outside the chart; a little beside the ends counts."""

@@ -13,6 +13,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.axis import number
 from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import Overlay
+from linkanim.picture.raster import Colour
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
@@ -21,6 +22,18 @@ from linkanim.scenes.scene import Scene
 _NEAR_LIMIT = 0.06 * pi
 """How near to a limit, in phase, the HUD says so: there the input has 1 % of its swing left."""
 _NEAR_CHANGE = pi / 45
+_STEP = 1.42
+"""From row to row, in heights of their text."""
+_TRIED = 24
+
+
+class Line(NamedTuple):
+    """A line that stands still: its text, top, size and colour."""
+
+    text: str
+    y: float
+    size: int
+    colour: Colour
 
 
 class Row(NamedTuple):
@@ -53,11 +66,11 @@ def _rows(scene: Scene, pose: Pose, speed: str | None) -> Iterator[Row]:
     for name, spring in pose.spring.items():
         yield Row(f"spring {name}", f"{number(spring.length, 0.1)} {unit}")
         if spring.force is not None:
-            yield Row("force", f"{number(spring.force, 0.1)} N")
+            yield Row("spring force", f"{number(spring.force, 0.1)} N")
     for name, damper in pose.damper.items():
         yield Row(f"damper {name}", f"{number(damper.rate or 0.0, 0.1)} {unit}/s")
         if damper.force is not None:
-            yield Row("force", f"{number(damper.force, 0.1)} N")
+            yield Row("damper force", f"{number(damper.force, 0.1)} N")
 
 
 def rpm(speed: float) -> str:
@@ -84,53 +97,42 @@ def _apart(one: float, other: float) -> float:
 
 @dataclass(frozen=True)
 class Hud:
-    """Where the HUD's lines stand; names are drawn once, values at every frame."""
+    """Where the HUD's lines stand: what keeps still is drawn once, on a sheet, values at every frame."""
 
     scene: Scene
-    title: tuple[str, ...]
-    class_name: tuple[str, ...]
     column: Rect
-    layout: Layout
+    lines: tuple[Line, ...]
+    """The title's and the class's."""
+    first: float
+    """The top of the first row."""
+    size: int
     type: Type
     theme: Theme
 
-    @property
-    def _step(self) -> float:
-        return 1.42 * self.layout.text_size
-
-    @property
-    def _first(self) -> float:
-        """Where the rows begin, below title and class."""
-        title = 1.15 * self.layout.title_size * len(self.title)
-        return self.column.y + title + 1.15 * self.layout.text_size * (len(self.class_name) + 1)
-
-    def draw(self, surface: pygame.Surface, pose: Pose) -> None:
-        """Draw what stands still: title, class and the names of the rows."""
-        x, y, size = self.column.x, self.column.y, self.layout.title_size
-        for line in self.title:
-            self.type.draw(surface, line, (x, y), size=size, colour=self.theme.ink)
-            y += 1.15 * size
-        size = self.layout.text_size
-        for line in self.class_name:
-            self.type.draw(surface, line, (x, y), size=size, colour=self.theme.dim)
-            y += 1.15 * size
+    def sheet(self, pose: Pose) -> pygame.Surface:
+        """Return what stands still, on nothing: title, class and the names of the rows."""
+        sheet = pygame.Surface((round(self.column.right), round(self.column.bottom)), pygame.SRCALPHA, 32)
+        for line in self.lines:
+            at = (self.column.x, line.y)
+            self.type.draw(sheet, line.text, at, size=line.size, colour=line.colour)
         for n, row in enumerate(rows(self.scene, pose)):
-            at = (x, self._first + n * self._step)
-            self.type.draw(surface, row.label, at, size=size, colour=self.theme.dim)
+            self.type.draw(sheet, row.label, self._place(n), size=self.size, colour=self.theme.dim)
+        return sheet.subsurface(sheet.get_bounding_rect())
 
     def draw_values(self, surface: pygame.Surface, pose: Pose, overlay: Overlay) -> None:
         """Draw the values of a pose, and what is special there."""
-        size, theme = self.layout.text_size, self.theme
         values = rows(self.scene, pose, overlay.speed)
         for n, row in enumerate(values):
-            at = (self.column.right, self._first + n * self._step)
-            self.type.draw(surface, row.value, at, size=size, colour=theme.ink, anchor="right")
+            at = (self.column.right, self._place(n)[1])
+            self.type.draw(surface, row.value, at, size=self.size, colour=self.theme.ink, anchor="right")
         special = note(self.scene, pose)
-        lines = [(special, theme.warning)] if special else []
-        lines += [(line, theme.ink) for line in overlay.notes]
+        lines = [(special, self.theme.warning)] if special else []
+        lines += [(line, self.theme.ink) for line in overlay.notes]
         for n, (line, colour) in enumerate(lines, start=len(values)):
-            at = (self.column.x, self._first + (n + 0.4) * self._step)
-            self.type.draw(surface, line, at, size=size, colour=colour)
+            self.type.draw(surface, line, self._place(n + 0.4), size=self.size, colour=colour)
+
+    def _place(self, row: float) -> tuple[float, float]:
+        return self.column.x, self.first + _STEP * self.size * row
 
 
 def hud_for(scene: Scene, layout: Layout, type_: Type, theme: Theme) -> Hud | None:
@@ -138,6 +140,22 @@ def hud_for(scene: Scene, layout: Layout, type_: Type, theme: Theme) -> Hud | No
     column = layout.hud
     if column is None:
         return None
-    title = type_.wrapped(scene.title, layout.title_size, column.width)
-    class_name = type_.wrapped(scene.info.class_name, layout.text_size, column.width)
-    return Hud(scene, tuple(title), tuple(class_name), column, layout, type_, theme)
+    size = _fitting(scene, layout, type_)
+    big = round(size * layout.title_size / layout.text_size)
+    groups = ((scene.title, big, theme.ink), (scene.info.class_name, size, theme.dim))
+    lines, y = [], column.y
+    for text, high, colour in groups:
+        for line in type_.wrapped(text, high, column.width):
+            lines.append(Line(line, y, high, colour))
+            y += 1.15 * high
+    return Hud(scene, column, tuple(lines), y + 0.9 * size, size, type_, theme)
+
+
+def _fitting(scene: Scene, layout: Layout, type_: Type) -> int:
+    """Return the text size at which every row fits the column over the whole cycle, at least 9 px."""
+    width = layout.hud.width if layout.hud else 1.0
+    phases = (scene.period * step / _TRIED for step in range(_TRIED))
+    shown = {row for phase in phases for row in rows(scene, scene.pose(phase))}
+    size = layout.text_size
+    widest = max(type_.width(f"{row.label}   {row.value}", size) for row in shown)
+    return max(min(size, int(size * width / widest)), 9)

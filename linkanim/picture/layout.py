@@ -28,7 +28,7 @@ class Layout:
     @property
     def text_size(self) -> int:
         """The height of text that must read from the back row."""
-        return max(round(21 * self.unit), 13)
+        return max(round(21 * self.unit), 14)
 
     @property
     def small_size(self) -> int:

@@ -68,6 +68,7 @@ class Painter:
         self._panels = Panels(self._layout, self._type, self._theme)
         self._cast = self._casting()
         self._still = self._drawn_once()
+        self._names = self._hud.sheet(scene.pose(0.0)) if self._hud else None
 
     def paint(
         self,
@@ -84,10 +85,12 @@ class Painter:
         """
         canvas = self._canvas(surface)
         self._wipe(canvas)
-        paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
+        paint(self._stage(canvas), self._moving(pose, ghost if self.look.ghost else None))
         if self._strip:
+            paint(canvas, self._strip.cursor(pose.phase))
             self._strip.draw_reading(canvas, pose.phase)
-        if self._hud:
+        if self._hud and self._names:
+            canvas.blit(self._names, self._names.get_offset())
             self._hud.draw_values(canvas, pose, overlay)
         self._panels.draw(canvas, overlay)
         if canvas is not surface:
@@ -147,12 +150,11 @@ class Painter:
         still = pygame.Surface(self.size, flags, 32)
         still.fill((*self._theme.background, 255 if self.look.background else 0))
         known = (self._figure, self.view, self._gauge, self._theme)
-        paint(still, [*wheel_layers(*known), *ground_layers(*known)])
-        paint(still, [trace.whole() for trace in self._cast.traces])
+        stage = self._stage(still)
+        paint(stage, [*wheel_layers(*known), *ground_layers(*known)])
+        paint(stage, [trace.whole() for trace in self._cast.traces])
         if self._strip:
             self._strip.draw(still)
-        if self._hud:
-            self._hud.draw(still, self.scene.pose(0.0))
         return still
 
     def _canvas(self, surface: pygame.Surface) -> pygame.Surface:
@@ -164,6 +166,11 @@ class Painter:
     @cached_property
     def _spare(self) -> pygame.Surface:
         return self._still.copy()
+
+    def _stage(self, canvas: pygame.Surface) -> pygame.Surface:
+        """Return what of a canvas belongs to the scene: all rows above the chart."""
+        chart = self._layout.chart
+        return canvas.subsurface((0, 0, self.size[0], int(chart.y))) if chart else canvas
 
     def _wipe(self, canvas: pygame.Surface) -> None:
         if canvas.get_flags() & pygame.SRCALPHA:
@@ -190,8 +197,6 @@ class Painter:
             yield from mark.at([places[trace.joint]])
         for kind in cast.arrows:
             yield from kind.layers(pose, self.view, self.scene.trace)
-        if self._strip:
-            yield from self._strip.cursor(pose.phase)
 
     def _ghost(self, pose: Pose) -> Iterator[Layer]:
         """Yield the other closure's bodies and pins, mostly background."""

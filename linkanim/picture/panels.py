@@ -31,7 +31,7 @@ class Panels:
         self._marks(surface, overlay)
         if overlay.panel:
             drawn = self._keep("panel", overlay.panel, self._panel)
-            surface.blit(drawn, (round(size[0] - drawn.get_width() - gap), round(gap)))
+            surface.blit(drawn, (round(0.6 * gap), round(0.6 * gap)))
         if overlay.help:
             drawn = self._keep("help", overlay.help, self._help)
             at = ((size[0] - drawn.get_width()) // 2, (size[1] - drawn.get_height()) // 2)
@@ -95,8 +95,9 @@ class Panels:
         labels = max((self.type.width(row.label, size) for row in panel.rows), default=0)
         values = max((self.type.width(row.value, size) for row in panel.rows), default=0)
         wide = max(labels + values + 5.5 * size, 19.0 * size)
-        foot = [(line, self.theme.warning) for line in self._lines(panel.error, size, wide)]
-        foot += [(line, self.theme.dim) for line in self._lines(panel.hint, size, wide)]
+        room = wide - 2.4 * size
+        foot = [(line, self.theme.warning) for line in self.type.wrapped(panel.error or "", size, room)]
+        foot += [(line, self.theme.dim) for line in self.type.wrapped(panel.hint, size, room, gap="   ")]
         sheet = self._sheet(wide, 1.42 * size * (len(panel.rows) + len(foot) + 2.6))
         self.type.draw(sheet, panel.title, (1.2 * size, 0.7 * size), size=size, colour=self.theme.ink)
         for n, row in enumerate(panel.rows, start=1):
@@ -105,9 +106,6 @@ class Panels:
             at = (1.2 * size, (1.2 + 1.42 * n) * size)
             self.type.draw(sheet, line, at, size=size, colour=colour)
         return sheet
-
-    def _lines(self, text: str | None, size: int, width: float) -> list[str]:
-        return self.type.wrapped(text, size, width - 2.4 * size) if text else []
 
     def _row(self, sheet: pygame.Surface, row: EditRow, y: float, size: int) -> None:
         if row.chosen:

@@ -18,7 +18,8 @@ from linkanim.picture.shapes import box, stroke, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
-_COILS = 9
+_COILS = (4, 11)
+"""Of how few and how many coils a spring has, as its shortest length allows."""
 _TILT = 0.35
 """How far a coil's front stands forward of its side, as a share of its radius."""
 
@@ -39,11 +40,12 @@ def reach(figure: Figure, view: View, item: Spring | Damper) -> Reach:
 
 @dataclass(frozen=True)
 class Coil:
-    """A spring to draw: its radius and the straight length at either end, in pixels."""
+    """A spring to draw: its radius and the straight length at either end in pixels, its coils."""
 
     between: tuple[str, str]
     radius: float
     lead: float
+    coils: int
     gauge: Gauge
     theme: Theme
 
@@ -52,8 +54,8 @@ class Coil:
         start, end = (places[name] for name in self.between)
         span, turn = abs(end - start), unit(end - start)
         lead = min(self.lead, 0.2 * span)
-        pitch = (span - 2 * lead) / _COILS
-        along = (lead + pitch * np.arange(_COILS)).astype(np.complex128)
+        pitch = (span - 2 * lead) / self.coils
+        along = (lead + pitch * np.arange(self.coils)).astype(np.complex128)
         feet = start + turn * along
         wire, low = 1.5 * self.gauge.line, -1j * self.radius
         ends = np.array([0, lead, lead + low]), np.array([span - lead + low, span - lead, span])
@@ -118,10 +120,12 @@ class Cushion:
 
 def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil, ...]:
     """Return the scene's springs."""
-    return tuple(
-        Coil(item.between, 1.15 * gauge.bar, 1.5 * gauge.bar, gauge, theme)
-        for item in figure.linkage.springs
-    )
+    lead, found = 1.5 * gauge.bar, []
+    for item in figure.linkage.springs:
+        room = reach(figure, view, item).shortest - 2 * lead
+        count = min(max(int(room / (6 * gauge.line)), _COILS[0]), _COILS[1])
+        found.append(Coil(item.between, 1.15 * gauge.bar, lead, count, gauge, theme))
+    return tuple(found)
 
 
 def cushions(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Cushion, ...]:

@@ -6,13 +6,22 @@ from typing import Literal
 
 import pygame
 
-from linkanim.picture.raster import Colour
+from linkanim.picture.raster import Colour, Layer, paint
+from linkanim.picture.shapes import arrows
 
 Anchor = Literal["left", "centre", "right"]
 
+_ANY: Colour = (0, 0, 0)
+_POINTS = 1.37
+"""From a line's height in pixels to the size the font goes by."""
+_MISSHAPEN = 18
+"""At this one size the font's hinting cuts the bar of the t."""
+_ARROWS = {"→": 1, "↓": 1j, "←": -1, "↑": -1j}
+"""Signs the font lacks, and the way they point in the window."""
+
 
 class Type:
-    """The font's sizes and glyphs that one painter has used; its memory is bounded by its alphabet."""
+    """The font's sizes and the glyphs that one painter has used; bounded by the font's alphabet."""
 
     def __init__(self) -> None:
         pygame.font.init()
@@ -22,18 +31,21 @@ class Type:
     def font(self, size: int) -> pygame.Font:
         """Return the font at a height in pixels."""
         if size not in self._fonts:
-            self._fonts[size] = pygame.Font(None, round(size * 1.37))
+            points = round(size * _POINTS)
+            self._fonts[size] = pygame.Font(None, points + (points == _MISSHAPEN))
         return self._fonts[size]
 
     def width(self, text: str, size: int) -> int:
-        """Return how wide a text is, glyph by glyph, in pixels."""
-        return sum(self.glyph(char, size, (0, 0, 0)).get_width() for char in text)
+        """Return how wide a line is in pixels."""
+        return sum(self.glyph(char, size, _ANY).get_width() for char in text)
 
     def glyph(self, char: str, size: int, colour: Colour) -> pygame.Surface:
         """Return one character, anti-aliased on nothing."""
         key = (char, size, colour)
         if key not in self._glyphs:
-            self._glyphs[key] = self.font(size).render(char, True, colour)
+            turn = _ARROWS.get(char)
+            drawn = self.font(size).render("0" if turn else char, True, colour)
+            self._glyphs[key] = _arrow(drawn, turn, colour) if turn else drawn
         return self._glyphs[key]
 
     def draw(
@@ -48,23 +60,37 @@ class Type:
     ) -> int:
         """Draw one line whose top is at `at`, and return its width in pixels.
 
-        Whole pixels only: text that glides reads worse than text that steps.
+        Glyph by glyph, which spaces small text more evenly than the font does, and at whole pixels:
+        text that glides reads worse than text that steps.
         """
         glyphs = [self.glyph(char, size, colour) for char in text]
         width = sum(glyph.get_width() for glyph in glyphs)
-        x, y = round(at[0]) - {"left": 0, "centre": width // 2, "right": width}[anchor], round(at[1])
+        x, y = _left(at[0], width, anchor), round(at[1])
         for glyph in glyphs:
             surface.blit(glyph, (x, y))
             x += glyph.get_width()
         return width
 
-    def wrapped(self, text: str, size: int, width: float) -> list[str]:
-        """Return the text in lines no wider than `width` where its words allow."""
+    def wrapped(self, text: str, size: int, width: float, *, gap: str = " ") -> list[str]:
+        """Return the text in lines no wider than `width` where its words, parted by `gap`, allow."""
         lines: list[str] = []
-        for word in text.split():
-            longer = f"{lines[-1]} {word}" if lines else word
+        for word in filter(None, text.split(gap)):
+            longer = f"{lines[-1]}{gap}{word}" if lines else word
             if lines and self.width(longer, size) <= width:
                 lines[-1] = longer
             else:
                 lines.append(word)
         return lines
+
+
+def _arrow(like: pygame.Surface, turn: complex, colour: Colour) -> pygame.Surface:
+    """Return an arrow as high as a digit, on nothing."""
+    high = like.get_height()
+    sign = pygame.Surface((round(0.95 * high), high), pygame.SRCALPHA, 32)
+    middle, reach = complex(0.48 * high, 0.42 * high), 0.72 * high * turn
+    paint(sign, [Layer(colour, arrows([middle - reach / 2], [reach], 0.13 * high))])
+    return sign
+
+
+def _left(x: float, width: int, anchor: Anchor) -> int:
+    return round(x) - {"left": 0, "centre": width // 2, "right": width}[anchor]

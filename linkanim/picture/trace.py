@@ -21,7 +21,7 @@ _RECENT = 0.3 * 2 * pi
 _SHADES = 10
 _SWELL = 1.7
 """How much wider than the whole curve the recent part ends."""
-_FAINT = 0.62
+_FAINT = 0.5
 """How much of the background is in the whole curve's colour."""
 
 

@@ -1,0 +1,98 @@
+"""A picture of labelled points on logarithmic axes, such as speed against error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+from typing import NamedTuple
+
+import pygame
+
+from linkanim.picture.axis import decades
+from linkanim.picture.chart import Pen, Plot, draw_axes, pen_for, plot_area, point_layers
+from linkanim.picture.layout import layout
+from linkanim.picture.look import Look
+from linkanim.picture.raster import Colour, paint
+from linkanim.picture.text import Type
+from linkanim.picture.theme import theme_of
+from linkanim.picture.view import Rect
+
+
+class Point(NamedTuple):
+    """A labelled point, both values positive; `ours` sets it off from the others."""
+
+    label: str
+    x: float
+    y: float
+    ours: bool = False
+
+
+class Names(NamedTuple):
+    """What the picture, its horizontal and its vertical axis are called."""
+
+    title: str
+    x: str
+    y: str
+
+
+def scatter(
+    points: Sequence[Point], names: Names, *, size: tuple[int, int] = (1280, 720), theme: str = "light"
+) -> pygame.Surface:
+    """Return the picture: log-log, its axes over whole decades, labels beside the points.
+
+    ValueError where there are no points, or one that is not positive and finite.
+    """
+    if not points or not all(0 < value < inf for point in points for value in (point.x, point.y)):
+        raise ValueError("a log-log picture needs points that are positive and finite")
+    surface = pygame.Surface(size, 0, 32)
+    colours = theme_of(theme)
+    surface.fill(colours.background)
+    pen = pen_for(layout(size, Look()), Type(), colours)
+    plot = _plot(points, size, pen)
+    draw_axes(surface, plot, pen)
+    _draw_names(surface, plot, names, pen)
+    taken: list[pygame.Rect] = []
+    for point in sorted(points, key=lambda point: not point.ours):
+        colour = colours.acceleration if point.ours else colours.velocity
+        paint(surface, point_layers(plot, [(point.x, point.y)], colour, pen))
+        taken += _label(surface, plot, point, pen, taken)
+    return surface
+
+
+def _plot(points: Sequence[Point], size: tuple[int, int], pen: Pen) -> Plot:
+    """Return the axes over all points and the area they leave."""
+    x, y = (decades(min(values), max(values)) for values in zip(*((p.x, p.y) for p in points), strict=True))
+    whole = Rect(0, 0, *size).inset(20 * pen.line / 1.8)
+    area = Rect(whole.x, whole.y + 1.6 * pen.text, whole.width, whole.height - 3.2 * pen.text)
+    return Plot(plot_area(area, y, pen), x, y)
+
+
+def _draw_names(surface: pygame.Surface, plot: Plot, names: Names, pen: Pen) -> None:
+    """Draw the title, the vertical axis' name under it, and the horizontal one's below the ticks."""
+    area, draw = plot.area, pen.type.draw
+    draw(surface, names.title, (area.x, area.y - 3.0 * pen.text), size=pen.text, colour=pen.theme.ink)
+    draw(surface, names.y, (area.x, area.y - 1.4 * pen.text), size=pen.small, colour=pen.theme.dim)
+    at = (area.right, area.bottom + 1.8 * pen.small)
+    draw(surface, names.x, at, size=pen.small, colour=pen.theme.dim, anchor="right")
+
+
+def _label(
+    surface: pygame.Surface, plot: Plot, point: Point, pen: Pen, taken: Sequence[pygame.Rect]
+) -> list[pygame.Rect]:
+    """Draw a point's name where it meets no other point or name; return what it takes up."""
+    place = complex(plot.place(point.x, point.y))
+    wide, high, off = pen.type.width(point.label, pen.small), pen.small, 4.5 * pen.line
+    spots = [
+        (place.real + off, place.imag - high / 2),
+        (place.real - off - wide, place.imag - high / 2),
+        *((place.real - wide / 2, place.imag + side) for side in (-off - high, off)),
+        *((place.real + off, place.imag + row * high) for row in (0.6, -1.6, 1.7, -2.7)),
+    ]
+    inside = pygame.Rect(0, 0, *surface.get_size())
+    boxes = [pygame.Rect(round(x), round(y), wide, high) for x, y in spots]
+    free = [box for box in boxes if inside.contains(box) and box.collidelist(list(taken)) < 0]
+    box = (free or boxes)[0]
+    colour: Colour = pen.theme.ink if point.ours else pen.theme.dim
+    pen.type.draw(surface, point.label, box.topleft, size=pen.small, colour=colour)
+    dot = pygame.Rect(round(place.real - off), round(place.imag - off), round(2 * off), round(2 * off))
+    return [box, dot]
