@@ -6,35 +6,75 @@ import sys
 from argparse import Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from typing import NoReturn
 
 from tqdm import tqdm
 
+from linkanim.cli.commands import parse
 from linkanim.cli.presets import DEFAULT, PRESETS
+from linkanim.errors import BadInput
 from linkanim.picture.look import Look
-from linkanim.recorder import record
+from linkanim.recorder.recording import Progress, Recording
+from linkanim.recorder.scene_frames import record
+from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
+
+_OF_A_SCENE = (
+    "speed",
+    "periods",
+    "seconds",
+    "reverse",
+    "trace",
+    "hud",
+    "vectors",
+    "chart",
+    "theme",
+    "transparent",
+)
+"""Options that a tape has its own answer to."""
 
 
 def run(options: Namespace) -> None:
     """Record what was asked; print the file's path on stdout, and what it holds on stderr."""
-    scene = load(options.scene)
     preset = PRESETS.get(options.preset, DEFAULT)
+    is_tape = options.scene.lower().endswith(".json")
+    target = options.output or Path(f"{_stem(options.scene)}{preset.suffix}")
+    frame = {"size": options.size or preset.size, "fps": options.fps or preset.fps}
     with bar(shown=options.progress) as progress:
-        recording = record(
-            scene,
-            options.output or Path(f"{scene.name}{preset.suffix}"),
-            size=options.size or preset.size,
-            fps=options.fps or preset.fps,
-            speed=options.speed,
-            periods=options.periods or 1,
-            seconds=options.seconds,
-            reverse=options.reverse,
-            look=look_of(options),
-            progress=progress,
-        )
+        work = _of_tape(options) if is_tape else _of_scene(options)
+        recording = work(target, **frame, progress=progress)
     print(recording.summary, file=sys.stderr)
     print(recording.path)
+
+
+def _stem(source: str) -> str:
+    """Return the name of a scene, a scene file or a tape without its folder and ending."""
+    return Path(source).name.removesuffix(".json").removesuffix(".tape").removesuffix(".toml")
+
+
+def _of_scene(options: Namespace) -> Callable[..., Recording]:
+    return partial(
+        record,
+        load(options.scene),
+        speed=options.speed,
+        periods=options.periods or 1,
+        seconds=options.seconds,
+        reverse=options.reverse,
+        look=look_of(options),
+    )
+
+
+def _of_tape(options: Namespace) -> Callable[..., Recording]:
+    """Return what records a tape; `BadInput` for an option that the tape has its own answer to."""
+    usual = parse(["record", options.scene])
+    for name in _OF_A_SCENE:
+        if getattr(options, name) != getattr(usual, name):
+            raise BadInput(
+                f"--{name} is for a scene; a tape keeps its own (--size, --fps and --for are free)"
+            )
+    return partial(record_tape, options.scene)
 
 
 def look_of(options: Namespace) -> Look:
@@ -50,16 +90,17 @@ def look_of(options: Namespace) -> Look:
 
 
 @contextmanager
-def bar(*, shown: bool = False) -> Iterator[Callable[[int, int], None]]:
+def bar(*, shown: bool = False) -> Iterator[Progress]:
     """Give a function that is told (frames done, frames in all), and draws a bar of it on stderr.
 
     Nothing is drawn where stderr is no terminal, unless it is to be `shown` all the same.
     """
     # tqdm takes None for "not on a terminal"
     with tqdm(unit=" frames", leave=False, disable=False if shown else None, file=sys.stderr) as drawn:
+        yield lambda done, total: advance(drawn, done, total)
 
-        def progress(done: int, total: int) -> None:
-            drawn.total = total
-            drawn.update(done - drawn.n)
 
-        yield progress
+def advance(drawn: tqdm[NoReturn], done: int, total: int) -> None:
+    """Draw a bar at `done` of `total`."""
+    drawn.total = total
+    drawn.update(done - drawn.n)

@@ -142,7 +142,7 @@ def _swap(part: Path, target: Path) -> None:
     new = sorted(part.iterdir(), key=lambda path: int(path.stem))
     aside.mkdir()
     moves = [(path, aside / path.name) for path in numbered(target)]
-    moves += [(path, target.with_name(f"{target.stem}-{path.name}")) for path in new]
+    moves += [(path, target.with_name(f"{target.stem}-{path.stem}{target.suffix}")) for path in new]
     done: list[tuple[Path, Path]] = []
     try:
         for source, goal in moves:

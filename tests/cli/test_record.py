@@ -1,0 +1,178 @@
+"""`linkanim record`: where the file goes, what is said of it, and how it ends when it is stopped."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import linkanim
+from linkanim.cli import main
+from linkanim.player import tape_file
+from linkanim.player.actions import Action
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
+
+SMALL = ["--size", "96x54", "--fps", "10"]
+
+
+@pytest.fixture(autouse=True)
+def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def files(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_the_path_is_on_stdout_and_what_it_holds_on_stderr(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["record", "crank-rocker", "-o", "rocker.gif", *SMALL]) == 0
+    printed = capsys.readouterr()
+    assert printed.out == "rocker.gif\n"
+    assert printed.err.count("\n") == 1
+    assert printed.err.startswith("rocker.gif: 30 frames")
+    assert "20 rpm" in printed.err
+    with Image.open("rocker.gif") as gif:
+        assert gif.size == (96, 54)
+        assert getattr(gif, "n_frames", 1) == 30
+
+
+# options, the files that come out
+@pytest.mark.parametrize(
+    ("words", "made"),
+    [
+        ([], ["crank-rocker.gif"]),
+        (["--for", "web"], ["crank-rocker.gif"]),
+        (["--for", "beamer"], [f"crank-rocker-{number:04}.png" for number in range(1, 31)]),
+        (["-o", "a.mp4"], ["a.mp4"]),
+        (["-o", "a.PNG", "--seconds", "0.2"], ["a-0001.PNG", "a-0002.PNG"]),
+    ],
+    ids=lambda value: " ".join(value) if value and value[0].startswith("-") else None,
+)
+def test_the_file_is_named_after_the_scene_where_no_name_is_given(
+    words: list[str], made: list[str], tmp_path: Path
+) -> None:
+    assert main(["record", "crank-rocker", *SMALL, *words]) == 0
+    assert files(tmp_path) == made
+
+
+def test_a_preset_gives_way_to_what_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["record", "crank-rocker", "--for", "web", "--seconds", "0.2"]) == 0
+    with Image.open("crank-rocker.gif") as gif:
+        assert gif.size == (640, 360)
+    assert main(["record", "crank-rocker", "--for", "web", "--seconds", "0.2", "--size", "64x36"]) == 0
+    with Image.open("crank-rocker.gif") as gif:
+        assert gif.size == (64, 36)
+
+
+REFUSED = [
+    # where it goes
+    (["-o", "."], "is a folder"),
+    (["-o", "missing/a.gif"], "there is no folder"),
+    (["-o", "a.avi"], ".gif"),
+    (["-o", "a"], ".gif"),
+    # what it shows
+    (["--chart", "rocker.angel"], "rocker.angle"),
+    (["-o", "a.mp4", "--transparent"], "transparen"),
+    # how long and how large
+    (["--size", "1x1"], "1x1"),
+    (["--size", "99999x99999"], "99999x99999"),
+    (["--periods", "99999"], "frames"),
+    (["--speed", "0 rpm"], "speed"),
+    (["--speed", "1e9 rpm"], "rpm"),
+]
+
+
+@pytest.mark.parametrize(("words", "said"), REFUSED, ids=[" ".join(words) for words, _ in REFUSED])
+def test_what_cannot_be_recorded_is_one_line_and_no_file(
+    words: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["record", "crank-rocker", *words]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.count("\n") == 1
+    assert said in printed.err
+    assert files(tmp_path) == []
+
+
+@pytest.fixture
+def tape() -> Path:
+    """Write a tape of half a second in which the trace is switched off."""
+    taken = Tape(begin(linkanim.load("crank-rocker")), 30, ((10, Action("trace")),))
+    path = Path("shown.tape.json")
+    tape_file.write(taken, path)
+    return path
+
+
+def test_a_tape_is_recorded_under_its_own_name(
+    tape: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["record", str(tape), *SMALL]) == 0
+    assert capsys.readouterr().out == "shown.gif\n"
+    with Image.open("shown.gif") as gif:
+        assert (gif.size, getattr(gif, "n_frames", 1)) == ((96, 54), 5)
+
+
+# options that a tape has its own answer to, and files that are no tape
+@pytest.mark.parametrize(
+    "words", [["--speed", "3 rpm"], ["--no-trace"], ["--theme", "dark"], ["--periods", "2"]]
+)
+def test_a_tape_keeps_its_own(words: list[str], tape: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["record", str(tape), *words]) == 2
+    assert f"{words[0].replace('--no-', '--')} is for a scene" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", ["", "{}", '{"linkanim_tape": 99}', "[1, 2"])
+def test_what_is_no_tape_is_one_line(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("a.tape.json").write_text(text)
+    assert main(["record", "a.tape.json"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("linkanim: a.tape.json: ")
+    assert said.count("\n") == 1
+
+
+# a pipe or a file sees no bar, unless it asks for one
+@pytest.mark.parametrize(("words", "seen"), [([], False), (["--progress"], True)])
+def test_progress_is_told_where_it_is_asked_for(
+    words: list[str], seen: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["record", "crank-rocker", *SMALL, *words]) == 0
+    assert ("frames [" in capsys.readouterr().err) is seen
+
+
+def test_a_gallery_that_cannot_be_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("taken").write_text("a file")
+    assert main(["gallery", "--into", "taken"]) == 2
+    assert main(["gallery", "--into", "missing/gallery"]) == 2
+    assert capsys.readouterr().err.count("\n") == 2
+    assert files(tmp_path) == ["taken"]
+
+
+# Ctrl-C and SIGTERM in the middle of the work: what was there stays, and nothing else is there
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_stopped_in_the_middle_it_leaves_the_old_file_alone(
+    number: signal.Signals, code: int, tmp_path: Path
+) -> None:
+    Path("press.gif").write_text("the old one")
+    command = [sys.executable, "-m", "linkanim", "record", "press", "--periods", "50", "--progress"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, bufsize=0) as process:
+        assert process.stderr is not None
+        said = process.stderr.read(64)
+        while b"/3750" not in said:
+            more = process.stderr.read(64)
+            assert more, said
+            said += more
+        os.kill(process.pid, number)
+        said += process.stderr.read()
+        assert process.stdout is not None
+        assert process.stdout.read() == b""
+    assert process.returncode == code
+    assert said.rstrip().splitlines()[-1].startswith(b"linkanim: ")
+    assert b"Traceback" not in said
+    assert files(tmp_path) == ["press.gif"]
+    assert Path("press.gif").read_text() == "the old one"
