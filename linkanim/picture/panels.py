@@ -81,14 +81,18 @@ class Panels:
 
     def _help(self, rows: tuple[tuple[str, str], ...]) -> pygame.Surface:
         size = _fitting(self.layout.text_size, 1.38 * (len(rows) + 3), self.layout.size[1])
-        keys = max(self.type.width(key, size) for key, _ in rows)
-        words = max(self.type.width(does, size) for _, does in rows)
+        widths = self._columns(rows, size)
+        size = _fitting(size, (sum(widths) + 4 * size) / size, self.layout.size[0])
+        keys, words = self._columns(rows, size)
         sheet = self._sheet(keys + words + 4 * size, 1.38 * size * (len(rows) + 1.1))
         for n, (key, does) in enumerate(rows):
             y = (0.9 + 1.38 * n) * size
             self.type.draw(sheet, key, (1.4 * size, y), size=size, colour=self.theme.ink)
             self.type.draw(sheet, does, (2.6 * size + keys, y), size=size, colour=self.theme.dim)
         return sheet
+
+    def _columns(self, rows: tuple[tuple[str, str], ...], size: int) -> list[int]:
+        return [max(self.type.width(text, size) for text in column) for column in zip(*rows, strict=True)]
 
     def _panel(self, panel: Panel) -> pygame.Surface:
         size = _fitting(self.layout.text_size, 1.42 * (len(panel.rows) + 7), self.layout.size[1])
@@ -122,6 +126,6 @@ def _bars(size: float) -> list[Loop]:
     return [np.asarray(bar + side * 0.22 * size) for side in (-1, 1)]
 
 
-def _fitting(size: int, lines: float, height: int) -> int:
-    """Return the text size, smaller where so many lines would not fit the window's height."""
-    return max(min(size, int(0.96 * height / lines)), 6)
+def _fitting(size: int, lengths: float, room: int) -> int:
+    """Return the text size, smaller where so many times its own length would not fit the window."""
+    return max(min(size, int(0.96 * room / lengths)), 6)

@@ -51,11 +51,11 @@ def scatter(
     plot = _plot(points, size, pen)
     draw_axes(surface, plot, pen)
     _draw_names(surface, plot, names, pen)
-    taken: list[pygame.Rect] = []
+    for ours, colour in ((False, colours.velocity), (True, colours.acceleration)):
+        paint(surface, point_layers(plot, [(p.x, p.y) for p in points if p.ours is ours], colour, pen))
+    taken = [_dot(plot, point, pen) for point in points]
     for point in sorted(points, key=lambda point: not point.ours):
-        colour = colours.acceleration if point.ours else colours.velocity
-        paint(surface, point_layers(plot, [(point.x, point.y)], colour, pen))
-        taken += _label(surface, plot, point, pen, taken)
+        taken.append(_label(surface, plot, point, pen, taken))
     return surface
 
 
@@ -76,12 +76,18 @@ def _draw_names(surface: pygame.Surface, plot: Plot, names: Names, pen: Pen) -> 
     draw(surface, names.x, at, size=pen.small, colour=pen.theme.dim, anchor="right")
 
 
+def _dot(plot: Plot, point: Point, pen: Pen) -> pygame.Rect:
+    place, radius = complex(plot.place(point.x, point.y)), 3.6 * pen.line
+    side = round(2 * radius)
+    return pygame.Rect(round(place.real - radius), round(place.imag - radius), side, side)
+
+
 def _label(
-    surface: pygame.Surface, plot: Plot, point: Point, pen: Pen, taken: Sequence[pygame.Rect]
-) -> list[pygame.Rect]:
-    """Draw a point's name where it meets no other point or name; return what it takes up."""
+    surface: pygame.Surface, plot: Plot, point: Point, pen: Pen, taken: list[pygame.Rect]
+) -> pygame.Rect:
+    """Draw a point's name where it meets no point and no other name; return what it takes up."""
     place = complex(plot.place(point.x, point.y))
-    wide, high, off = pen.type.width(point.label, pen.small), pen.small, 4.5 * pen.line
+    wide, high, off = pen.type.width(point.label, pen.small), pen.small, 5.0 * pen.line
     spots = [
         (place.real + off, place.imag - high / 2),
         (place.real - off - wide, place.imag - high / 2),
@@ -90,9 +96,8 @@ def _label(
     ]
     inside = pygame.Rect(0, 0, *surface.get_size())
     boxes = [pygame.Rect(round(x), round(y), wide, high) for x, y in spots]
-    free = [box for box in boxes if inside.contains(box) and box.collidelist(list(taken)) < 0]
+    free = [box for box in boxes if inside.contains(box) and box.collidelist(taken) < 0]
     box = (free or boxes)[0]
     colour: Colour = pen.theme.ink if point.ours else pen.theme.dim
     pen.type.draw(surface, point.label, box.topleft, size=pen.small, colour=colour)
-    dot = pygame.Rect(round(place.real - off), round(place.imag - off), round(2 * off), round(2 * off))
-    return [box, dot]
+    return box

@@ -53,7 +53,7 @@ class Arrows:
             (view.place(place), complex(scale * x, -scale * y))
             for place, (x, y) in _values(pose, self.kind, joints)
         ]
-        seen = [(foot, reach) for foot, reach in found if 1 < abs(reach) < 100 * self.longest]
+        seen = [(foot, reach) for foot, reach in found if 0.01 < abs(reach) / self.longest < 100]
         if not seen:
             return []
         feet, reaches = np.array(seen).T

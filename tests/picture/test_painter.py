@@ -1,0 +1,227 @@
+"""A painter draws a pose the same way every time, and what stands still once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pygame
+import pytest
+from pictures import BARE, SMALL, alphas, averaged, painted, pixels, psnr
+
+from linkanim.errors import BadInput
+from linkanim.picture import painter as painting
+from linkanim.picture.look import Look
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.picture.painter import Painter
+from linkanim.picture.theme import theme_of
+from linkanim.scenes import load, names
+
+FULL = Look(vectors=frozenset("va"), chart="B.velocity")
+
+
+def _bytes(surface: pygame.Surface) -> bytes:
+    return bytes(surface.get_buffer().raw)
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_scene_is_painted_in_both_themes(name: str) -> None:
+    for theme in ("light", "dark"):
+        look = Look(theme=theme, vectors=frozenset("va"))
+        surface = painted(load(name), 1.0, look)
+        assert surface.get_at((SMALL[0] - 1, 0))[:3] == theme_of(theme).background
+        assert len(np.unique(pixels(surface).reshape(-1, 3), axis=0)) > 50
+
+
+@pytest.mark.parametrize("look", [FULL, replace(FULL, theme="dark"), BARE, replace(BARE, background=False)])
+def test_the_same_pose_gives_the_same_bytes_whatever_came_between(look: Look) -> None:
+    scene = load("press")
+    painter, surface = Painter(scene, (640, 360), look), offscreen((640, 360), alpha=not look.background)
+    painter.paint(surface, scene.pose(1.0))
+    first = _bytes(surface)
+    for phase in (2.0, 3.5, 100.0):
+        painter.paint(surface, scene.pose(phase), Overlay(paused=True, toast="between"))
+        assert _bytes(surface) != first
+    painter.paint(surface, scene.pose(1.0))
+    assert _bytes(surface) == first
+    assert _bytes(painted(scene, 1.0, look, (640, 360))) == first
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"theme": "dark"},
+        {"trace": False},
+        {"vectors": frozenset("v")},
+        {"vectors": frozenset("a")},
+        {"chart": "3.angle"},
+        {"hud": False},
+        {"zoom": 1.25},
+        {"pan": (0.1, 0.0)},
+    ],
+)
+def test_each_choice_of_the_look_changes_the_picture(change: dict[str, Any]) -> None:
+    scene = load("press")
+    look = replace(Look(), **change)
+    assert _bytes(painted(scene, 1.0, look)) != _bytes(painted(scene, 1.0, Look()))
+
+
+def test_what_stands_still_is_drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: dict[str, int] = {}
+
+    def counted(name: str) -> None:
+        real = getattr(painting, name)
+
+        def count(*args: Any) -> Any:
+            calls[name] = calls.get(name, 0) + 1
+            return real(*args)
+
+        monkeypatch.setattr(painting, name, count)
+
+    once = ("figure", "ground_layers", "wheel_layers", "traces", "strip", "hud_for", "body_parts")
+    for name in once:
+        counted(name)
+    scene, surface = load("press"), offscreen((640, 360))
+    painter = Painter(scene, (640, 360), FULL)
+    for step in range(5):
+        painter.paint(surface, scene.pose(0.1 * step))
+    assert calls == dict.fromkeys(once, 1)
+
+
+def test_nothing_grows_with_the_number_of_frames() -> None:
+    scene, surface = load("press"), offscreen((640, 360))
+    painter = Painter(scene, (640, 360), FULL)
+    kept = []
+    for turn in range(3):
+        for step in range(60):
+            overlay = Overlay(toast=f"file {turn} {step % 3}", recording=f"REC {step}")
+            painter.paint(surface, scene.pose(0.1 * step + 7 * turn), overlay)
+        kept.append((len(painter._type._glyphs), len(painter._panels._kept)))
+    assert kept[1] == kept[2]
+
+
+@pytest.mark.parametrize("name", ["press", "crank-rocker", "slider-crank"])
+def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str) -> None:
+    """The reference is the same picture at eight times the size; text does not scale and stays out."""
+    scene, look = load(name), Look(hud=False, vectors=frozenset("va"))
+    small = pixels(painted(scene, 1.0, look))
+    large = pixels(painted(scene, 1.0, look, (8 * SMALL[0], 8 * SMALL[1])))
+    assert psnr(small, averaged(large, 8)) >= 44
+
+
+def test_the_view_holds_everything_the_linkage_sweeps() -> None:
+    for name in names():
+        scene = load(name)
+        painter = Painter(scene, (640, 360), Look())
+        points = np.concatenate(list(scene.cycle(90).position.values()))
+        placed = np.array([painter.view.to_pixel(*point) for point in points])
+        assert np.all(placed.min(axis=0) > (160, 0)), name
+        assert np.all(placed.max(axis=0) < (640, 360)), name
+
+
+def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
+    scene, look = load("crank-rocker"), Look(hud=False, background=False)
+    clear, solid = painted(scene, 1.0, look), painted(scene, 1.0, replace(look, background=True))
+    opacity = alphas(clear)
+    assert opacity[0, 0] == 0
+    assert 0.05 < (opacity == 255).mean() < 0.5
+    inside = opacity == 255
+    assert pixels(clear)[inside] == pytest.approx(pixels(solid)[inside], abs=2)
+
+
+def test_a_surface_of_another_kind_or_size_gets_the_same_picture() -> None:
+    scene = load("crank-rocker")
+    painter, pose = Painter(scene, SMALL, BARE), scene.pose(1.0)
+    wanted = pixels(painted(scene, 1.0))
+    surface = pygame.Surface((400, 200), 0, 24)
+    painter.paint(surface, pose)
+    assert np.array_equal(pixels(surface)[: SMALL[1], : SMALL[0]], wanted)
+
+
+def test_zoom_enlarges_about_the_middle_and_pan_shifts_by_the_height() -> None:
+    scene = load("crank-rocker")
+    fitted, near = Painter(scene, SMALL, BARE).view, Painter(scene, SMALL, replace(BARE, zoom=2.0)).view
+    assert near.scale == pytest.approx(2 * fitted.scale)
+    assert near.to_world(160, 90) == pytest.approx(fitted.to_world(160, 90))
+    shifted = Painter(scene, SMALL, replace(BARE, pan=(0.5, -0.25))).view
+    assert (shifted.x - fitted.x, shifted.y - fitted.y) == pytest.approx((90, -45))
+
+
+def test_the_crank_pin_lies_where_the_pose_has_it() -> None:
+    scene = load("press")
+    painter, pose = Painter(scene, SMALL, Look()), scene.pose(0.7)
+    assert painter.view.to_world(*painter.crank_pin_px(pose)) == pytest.approx(pose.position["A"])
+    assert painter.view.to_world(*painter.crank_pivot_px()) == pytest.approx((0, 0), abs=1e-9)
+
+
+def test_the_chart_tells_the_phase_under_a_pixel() -> None:
+    scene = load("kite")
+    painter = Painter(scene, (640, 360), Look(chart="rocker.angle"))
+    assert painter.chart_phase_at(320, 100) is None
+    low, high = (painter.chart_phase_at(px, 320) for px in (45, 625))
+    assert low is not None
+    assert high is not None
+    assert 0 <= low < 0.2
+    assert scene.period - 0.3 < high <= scene.period
+    assert Painter(scene, (640, 360), Look()).chart_phase_at(320, 320) is None
+
+
+def test_an_unknown_chart_is_answered_with_the_list() -> None:
+    with pytest.raises(BadInput, match=r"rocker\.colour.*crank\.angle, .*B\.velocity"):
+        Painter(load("crank-rocker"), SMALL, Look(chart="rocker.colour"))
+
+
+def test_the_ghost_is_drawn_where_the_look_asks_and_behind_this_closure() -> None:
+    scene = load("crank-rocker")
+    other = scene.pose(2.5)
+    plain = pixels(painted(scene, 1.0))
+    assert np.array_equal(pixels(painted(scene, 1.0, ghost=other)), plain)
+    haunted = pixels(painted(scene, 1.0, replace(BARE, ghost=True), ghost=other))
+    changed = np.any(haunted != plain, axis=-1)
+    assert changed.mean() > 0.02
+    assert np.abs(haunted - plain)[changed].mean() < 80
+    colour = theme_of("light").bodies[0]
+    solid = np.all(plain == colour, axis=-1)
+    assert np.array_equal(haunted[solid], plain[solid])
+
+
+@pytest.mark.parametrize(
+    "overlay",
+    [
+        Overlay(paused=True),
+        Overlay(recording="REC GIF 0:03"),
+        Overlay(toast="saved crank-rocker.gif"),
+        Overlay(help=(("Space", "play / pause"), ("← →", "step"))),
+        Overlay(panel=Panel((EditRow("crank", "40 mm", chosen=True),), error="too long", hint="Esc closes")),
+        Overlay(notes=("a note",)),
+        Overlay(speed="33 rpm"),
+    ],
+)
+def test_each_part_of_an_overlay_shows_and_goes(overlay: Overlay) -> None:
+    scene = load("crank-rocker")
+    painter, surface, pose = Painter(scene, (640, 360), Look()), offscreen((640, 360)), scene.pose(1.0)
+    painter.paint(surface, pose)
+    plain = _bytes(surface)
+    painter.paint(surface, pose, overlay)
+    assert _bytes(surface) != plain
+    painter.paint(surface, pose)
+    assert _bytes(surface) == plain
+
+
+@pytest.mark.parametrize("size", [(640, 360), (3840, 2160), (500, 700)])
+def test_a_long_help_fits_any_window(size: tuple[int, int]) -> None:
+    scene = load("crank-rocker")
+    surface = offscreen(size)
+    rows = tuple((f"key {n}", "what it does, in a few words") for n in range(24))
+    Painter(scene, size, Look(chart="B.velocity")).paint(surface, scene.pose(1.0), Overlay(help=rows))
+    background = (*theme_of("light").background, 255)
+    assert all(surface.get_at((x, size[1] // 2)) == background for x in (0, size[0] - 1))
+    assert all(surface.get_at((size[0] // 2, y)) == background for y in (0, size[1] - 1))
+
+
+@pytest.mark.parametrize("size", [(64, 36), (16, 16), (200, 900), (2000, 90)])
+def test_odd_windows_are_painted_without_complaint(size: tuple[int, int]) -> None:
+    surface = painted(load("press"), 1.0, FULL, size)
+    assert len(np.unique(pixels(surface).reshape(-1, 3), axis=0)) > 3
