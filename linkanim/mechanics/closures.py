@@ -252,7 +252,9 @@ def _product_root(
     half_rate = pace.value * 0.5
     first = half.product * (pace.value * root.spread)
     sine, cosine = Slope(s, c * half_rate), Slope(c, -(s * half_rate))
-    part_u = _part(root.u, u, -first, cosine, scale, clock, _limits(root, root.u, swing))
+    part_u = _part(
+        root.u, u, 0.0 if root.single else -first, cosine, scale, clock, _limits(root, root.u, swing)
+    )
     part_w = _part(root.w, w, first, sine, scale, clock, _limits(root, root.w, swing))
     upper, lower = part_u.upper or part_w.upper, part_u.lower or part_w.lower
     share = pace

@@ -8,7 +8,7 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import clock as clocks
 from .assembly import Swing, Turn, gearings
@@ -27,6 +27,7 @@ VECTORS = ("position", "velocity", "acceleration", "com_position", "com_velocity
 NUMBERS = ("angular_velocity", "angular_acceleration", "travel", "travel_velocity", "travel_acceleration")
 DERIVATIVE_OF = dict(zip((*VECTORS, *NUMBERS), (0, 1, 2, 0, 1, 2, 1, 2, 0, 1, 2), strict=True))
 
+Floats = NDArray[np.floating[Any]]
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
 
 
@@ -146,11 +147,30 @@ class Mechanism:
         with np.errstate(all="ignore"):
             return self._motion(variant, asked, *self._run(variant, asked))
 
-    def _run(self, variant: Variant, given: _Given) -> tuple[Rows, Array]:
+    def _run(self, variant: Variant, given: _Given) -> tuple[Rows, Floats]:
         program, rows = self.program(variant)
-        inputs = (given.x,) if given.reach is None else (given.reach.u, given.reach.v)
         rates = (given.w, given.a) if variant.accelerates else (given.w,)
-        return rows, np.asarray(program(*inputs, *rates), dtype=np.float64)
+        if given.reach is None:
+            return rows, program(given.x, *rates)
+        results = program(given.reach.u, given.reach.v, *rates)
+        results[:, given.reach.outside] = np.nan
+        if variant.derivatives and given.reach.at_limit.any():
+            self._mark_limits(rows, results, program(*given.reach.snapped, *rates), given.reach.at_limit)
+        return rows, results
+
+    def _mark_limits(self, rows: Rows, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
+        """Give rates the values they have at the limit itself: infinite where they are unbounded."""
+        for row, kind in enumerate(self._kinds(rows)):
+            if DERIVATIVE_OF[kind]:
+                values = snapped[row, at_limit]
+                results[row, at_limit] = np.where(np.isnan(values), np.inf, values)
+
+    def _kinds(self, rows: Rows) -> Iterator[str]:
+        """Yield the quantity that each row of the results holds."""
+        for kind, values in rows.items():
+            for name, components in values.items():
+                if not self._is_fixed(kind, name):
+                    yield from [kind] * len(components)
 
     def program(self, variant: Variant) -> tuple[Batch, Rows]:
         """Return the program over arrays for one way of asking, and which rows it fills."""
@@ -178,8 +198,7 @@ class Mechanism:
         path = self.assembly.path
         return None if isinstance(path, Turn) else reach(angle, path)
 
-    def _motion(self, variant: Variant, given: _Given, rows: Rows, results: Array) -> Motion:
-        _mark(results, given.reach)
+    def _motion(self, variant: Variant, given: _Given, rows: Rows, results: Floats) -> Motion:
         pins = {joint.name: joint.position for joint in self.linkage.joints if isinstance(joint, Pin)}
         taken = _Taker(results, given.shape, pins)
         found: dict[str, Any] = {kind: taken.quantity(kind, values) for kind, values in rows.items()}
@@ -221,20 +240,11 @@ class _Given:
     reach: Reach | None
 
 
-def _mark(results: Array, reach: Reach | None) -> None:
-    """Make undefined rates infinite where the input stands at its limit."""
-    if reach is None or not reach.at_limit.any():
-        return
-    columns = results[:, reach.at_limit]
-    inside = ~np.isnan(columns[:1])
-    results[:, reach.at_limit] = np.where(np.isnan(columns) & inside, np.inf, columns)
-
-
 class _Taker:
     """Hands out the rows of the results, in the order in which they were asked for."""
 
     def __init__(
-        self, results: Array, shape: tuple[int, ...], pins: Mapping[str, tuple[float, float]]
+        self, results: Floats, shape: tuple[int, ...], pins: Mapping[str, tuple[float, float]]
     ) -> None:
         results.flags.writeable = False
         self._results, self._shape, self._pins, self._row = results, shape, pins, 0
@@ -249,8 +259,9 @@ class _Taker:
         rows = self._results[self._row : self._row + count]
         self._row += count
         # A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
-        values: Array = rows[0] if count == 1 else rows.T
-        return values.reshape((*self._shape, *values.shape[1:])) if len(self._shape) != 1 else values
+        values: Any = rows[0] if count == 1 else rows.T
+        shaped: Array = values.reshape((*self._shape, *values.shape[1:]))
+        return shaped
 
     def rest(self) -> list[Array]:
         return [row.reshape(self._shape) for row in self._results[self._row :]]

@@ -16,18 +16,28 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Reach:
-    """Half the ways from angles to the two limits; which angles are a limit, as near as a float can say."""
+    """Half the ways from angles to the two limits; which angles lie outside, and which are a limit."""
 
     u: Array
     v: Array
+    outside: NDArray[np.bool_]
     at_limit: NDArray[np.bool_]
+
+    @property
+    def snapped(self) -> tuple[Array, Array]:
+        """The ways, with the nearer one zero for angles that are a limit."""
+        u, v = (np.where(self.at_limit & (way <= other), 0.0, way) for way, other in self._pairs)
+        return u, v
+
+    @property
+    def _pairs(self) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        return (self.u, self.v), (self.v, self.u)
 
 
 def reach(angle: Array, swing: Swing) -> Reach:
     """Return how far angles are from the limits, reduced by whole turns without rounding.
 
-    Outside the swing the ways are NaN. The float nearest a limit may lie just outside: it counts
-    as the limit itself.
+    The float nearest a limit is the limit as well as a float can say it: it is never outside.
     """
     turns = swing.repeats * np.rint((angle - float(swing.middle)) / (2 * math.pi * swing.repeats))
     whole, lost = two_product(-turns, FULL_TURN.high)
@@ -36,9 +46,8 @@ def reach(angle: Array, swing: Swing) -> Reach:
     v, u = _way(high, low, swing.low, 1.0), _way(high, low, swing.high, -1.0)
     nearest = np.spacing(np.maximum(np.abs(angle), 0.25)) / 2
     at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
-    outside = (np.minimum(u, v) < 0) & ~at_limit
-    clipped = [np.where(outside, np.nan, np.maximum(way, 0.0) / 2) for way in (u, v)]
-    return Reach(clipped[0], clipped[1], at_limit)
+    outside = ~((np.minimum(u, v) >= 0) | at_limit)
+    return Reach(np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2, outside, at_limit)
 
 
 def _way(high: Array, low: Array, limit: Sum, sign: float) -> Array:
