@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import NamedTuple
 
 import pygame
 
@@ -41,9 +42,10 @@ def opened(size: tuple[int, int] | None = None) -> Iterator[None]:
 
 
 def _prepare() -> None:
-    """Keep SDL off the sound, off our signals, and off a Wayland that would complain on stderr."""
+    """Name the window's class; keep SDL off sound and signals, and off a Wayland that would complain."""
     os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
     os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
+    os.environ["SDL_VIDEO_X11_WMCLASS"] = "linkanim"  # pygame has put the script's name there
     if sys.platform.startswith("linux") and not os.environ.get("XDG_RUNTIME_DIR"):
         os.environ.setdefault("SDL_VIDEODRIVER", "x11,kmsdrm")
 
@@ -67,14 +69,34 @@ def is_full() -> bool:
     return bool(surface().get_flags() & pygame.FULLSCREEN)
 
 
-def fill(windowed: tuple[int, int]) -> tuple[int, int]:
-    """Fill the screen, or go back to a window of that size; return the size to go back to.
+class Frame(NamedTuple):
+    """Where a window is and how large, to go back to from full screen."""
+
+    position: tuple[int, int]
+    size: tuple[int, int]
+
+
+def frame() -> Frame:
+    """Return where the window is now."""
+    return Frame(pygame.display.get_window_position(), pygame.display.get_window_size())
+
+
+def fill(back: Frame) -> Frame:
+    """Fill the screen, or go from there back to a window; return the window to go back to.
 
     A new mode, and not `toggle_fullscreen`, which warns on stderr where there is no window manager.
     """
     if is_full():
-        pygame.display.set_mode(windowed, pygame.RESIZABLE)
-        return windowed
-    windowed = pygame.display.get_window_size()
+        pygame.display.set_mode(back.size, pygame.RESIZABLE)
+        _move(back.position)
+        return back
+    back = frame()
+    _move((0, 0))
     pygame.display.set_mode((0, 0), pygame.FULLSCREEN)
-    return windowed
+    return back
+
+
+def _move(position: tuple[int, int]) -> None:
+    """Move the window on a single screen, for without a window manager a full one stays where it was."""
+    if len(pygame.display.get_desktop_sizes()) == 1:
+        pygame.display.set_window_position(position)

@@ -6,6 +6,7 @@ Every change gives a new scene or a refusal; the last good scene always runs on.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
@@ -14,6 +15,7 @@ from linkanim.mechanics.classify import Info
 from linkanim.scenes.edit import Dimension, dimensions, with_dimension
 from linkanim.scenes.scene import Scene
 
+_KEY = re.compile(r"^[\w.\[\]-]+( =|:) ")
 _KEPT = 100
 _LONGEST = 40
 _NUDGE = {
@@ -85,7 +87,9 @@ def nudge(editing: Editing, scene: Scene, steps: int) -> tuple[Editing, Scene]:
 
 
 def undo(editing: Editing, scene: Scene) -> tuple[Editing, Scene]:
-    """Return the scene before the last change, or the same where there is none."""
+    """Return the scene before the last change; a value begun or refused is let go of first."""
+    if editing.typed:
+        return _clear(editing), scene
     if not editing.past:
         return editing, scene
     *earlier, last = editing.past
@@ -133,9 +137,8 @@ def _loss(before: Info, after: Info) -> str | None:
 
 
 def _reason(message: str, scene: Scene) -> str:
-    """Leave out the scene's name and key: the reason stands beside the value."""
-    where, colon, reason = message.removeprefix(f"{scene.name}: ").partition(": ")
-    return reason if colon and " " not in where else message.removeprefix(f"{scene.name}: ")
+    """Leave out the scene's name and the key: the reason stands beside the value."""
+    return _KEY.sub("", message.removeprefix(f"{scene.name}: "))
 
 
 def _clear(editing: Editing, **changes: object) -> Editing:

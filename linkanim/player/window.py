@@ -41,7 +41,7 @@ class Window:
         self.easel = Easel(state)
         self._keyboard, self._mouse = Keyboard(), Mouse()
         self._told: list[str] = []
-        self._windowed = pygame.display.get_window_size()
+        self._windowed = display.frame()
         self._open = True
 
     def tick(self, frames: int = 1) -> bool:

@@ -52,8 +52,8 @@ def test_a_typed_value_is_taken(crank: State, text: str, expected: float) -> Non
 
 REFUSED = {
     "not a number": ("x1", "not a length"),
-    "negative": ("-3", "above zero"),
-    "zero": ("0", "above zero"),
+    "negative": ("-3", "-3: must be above zero"),
+    "zero": ("0", "0: must be above zero"),
     "another kind of unit": ("30 deg", '"deg" is not one of its units'),
     "too large for a number": ("1e400", "not a finite number"),
 }
@@ -64,6 +64,7 @@ def test_a_refusal_says_why_and_the_last_good_linkage_runs_on(crank: State, text
     state = typed(crank, text)
     assert state.scene is crank.scene
     assert reason in str(state.editing.refusal)
+    assert "crank" not in str(state.editing.refusal)
     assert state.editing.typed == text
 
 
@@ -123,6 +124,13 @@ def test_undo_and_redo_walk_the_changes(crank: State) -> None:
     assert after(changed, "undo", "undo").scene == crank.scene
     assert after(changed, "undo", "undo", "undo").scene == crank.scene
     assert after(changed, "undo", "undo", "redo", "redo", "redo").scene == changed.scene
+
+
+def test_undo_lets_go_of_a_refused_value_first(crank: State) -> None:
+    refused = typed(after(crank, Action("nudge", 1)), "-3")
+    once = after(refused, "undo")
+    assert (value(once, "crank"), once.editing.typed, once.editing.refusal) == (51.0, "", None)
+    assert value(after(once, "undo"), "crank") == 50.0
 
 
 def test_a_change_after_undo_ends_the_redo(crank: State) -> None:

@@ -1,0 +1,274 @@
+"""A real window on a real X server, driven by xdotool: what a user sees, and what the shell gets back."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from PIL import Image, ImageGrab
+
+import linkanim
+
+pytestmark = [
+    pytest.mark.window,
+    pytest.mark.skipif(shutil.which("xdotool") is None, reason="needs xdotool; .ci/run installs it"),
+]
+
+PATIENCE = 20.0
+
+
+def xdotool(*words: str) -> str:
+    return subprocess.run(["xdotool", *words], capture_output=True, text=True, check=True).stdout
+
+
+class Screen:
+    """`linkanim play` in a process of its own, with the keyboard's focus."""
+
+    def __init__(self, folder: Path, *words: str) -> None:
+        environment = {key: value for key, value in os.environ.items() if key != "SDL_VIDEODRIVER"}
+        environment["PYTHONPATH"] = str(Path(linkanim.__file__).parents[1])
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "linkanim", "play", *words],
+            cwd=folder,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        self.until(self.is_there, "the window opens")
+
+    def is_there(self) -> bool:
+        found = subprocess.run(
+            ["xdotool", "getwindowfocus", "getwindowpid"], capture_output=True, text=True, check=False
+        )
+        return found.stdout.strip() == str(self.process.pid) and len(set(self.picture().tobytes())) > 20
+
+    def until(self, holds: Callable[[], bool], what: str) -> None:
+        """Look again and again until it holds; fail, saying what did not come, when patience ends."""
+        end = time.monotonic() + PATIENCE
+        while not holds():
+            assert self.process.poll() is None, f"{what}: the process ended: {self.process.communicate()}"
+            assert time.monotonic() < end, what
+            time.sleep(0.03)
+
+    def box(self) -> tuple[int, int, int, int]:
+        words = dict(
+            line.split("=") for line in xdotool("getwindowfocus", "getwindowgeometry", "--shell").split()
+        )
+        x, y, width, height = (int(words[key]) for key in ("X", "Y", "WIDTH", "HEIGHT"))
+        return x, y, x + width, y + height
+
+    def size(self) -> tuple[int, int]:
+        left, top, right, bottom = self.box()
+        return right - left, bottom - top
+
+    def picture(self) -> Image.Image:
+        return ImageGrab.grab(self.box(), xdisplay="")
+
+    def still(self) -> Image.Image:
+        """Return the picture once it has stood still for a while."""
+        pictures = [self.picture()]
+
+        def stands() -> bool:
+            pictures.append(self.picture())
+            return len({picture.tobytes() for picture in pictures[-8:]}) == 1 and len(pictures) > 8
+
+        self.until(stands, "the picture stands still")
+        return pictures[-1]
+
+    def press(self, key: str) -> None:
+        xdotool("key", key)
+
+    def changed_by(self, key: str, before: Image.Image) -> Image.Image:
+        """Press a key that must change the picture, and return what it becomes."""
+        self.press(key)
+        self.until(lambda: self.picture().tobytes() != before.tobytes(), f"{key} changes the picture")
+        return self.still()
+
+    def ends(self) -> tuple[int, str]:
+        """Return the exit code and what was said on stderr."""
+        _, said = self.process.communicate(timeout=PATIENCE)
+        return self.process.returncode, said
+
+
+@pytest.fixture
+def screen(tmp_path: Path) -> Iterator[Screen]:
+    """The press, paused at its start."""
+    screen = Screen(tmp_path, "press")
+    try:
+        screen.press("space")
+        screen.press("r")
+        screen.still()
+        yield screen
+    finally:
+        if screen.process.poll() is None:
+            screen.process.kill()
+            screen.process.communicate()
+
+
+# Keys that change a paused picture, and those that bring the same pixels back.
+TOGGLES = {
+    "Right": "Left",
+    "shift+Right": "shift+Left",
+    "Up": "Down",
+    "d": "d",
+    "Tab": "shift+Tab",
+    "b": "b",
+    "shift+b": "shift+b",
+    "t": "t",
+    "v": "v",
+    "a": "a",
+    "c": "shift+c",
+    "e": "e",
+    "plus": "minus",
+    "minus": "Home",
+    "KP_Add": "0",
+    "l": "l",
+    "h": "h",
+    "F1": "Escape",
+    "question": "question",
+}
+
+
+def test_a_toggle_pressed_twice_gives_the_same_pixels_back(screen: Screen) -> None:
+    first = screen.still()
+    for there, back in TOGGLES.items():
+        screen.changed_by(there, first)
+        screen.press(back)
+        screen.until(lambda: screen.picture().tobytes() == first.tobytes(), f"{back} undoes {there}")
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_numbers_and_tab_show_the_mechanisms(screen: Screen) -> None:
+    shown = screen.still()
+    seen = set()
+    for number in "123456789":
+        shown = screen.changed_by(number, shown)
+        seen.add(shown.tobytes())
+    assert len(seen) == 9
+    screen.changed_by("Tab", shown)
+    screen.press("Escape")
+    assert screen.ends() == (0, "")
+
+
+def test_space_plays_and_a_held_arrow_steps_on(screen: Screen) -> None:
+    first = screen.still()
+    screen.press("space")
+    moving = {screen.picture().tobytes() for _ in range(10)}
+    assert len(moving) > 5
+    screen.press("space")
+    screen.press("r")
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "r goes back to the start")
+    xdotool("keydown", "Right")
+    seen: set[bytes] = set()
+
+    def steps_on() -> bool:
+        seen.add(screen.picture().tobytes())
+        return len(seen) > 5
+
+    screen.until(steps_on, "a held arrow repeats")
+    xdotool("keyup", "Right")
+    screen.still()
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_the_window_is_resized_and_fills_the_screen(screen: Screen) -> None:
+    first, size = screen.still(), screen.size()
+    xdotool("getwindowfocus", "windowsize", "800", "600")
+    screen.until(lambda: screen.size() == (800, 600), "the window is resized")
+    small = screen.still()
+    assert len(set(small.crop((400, 0, 800, 600)).tobytes())) > 20
+    xdotool("getwindowfocus", "windowsize", str(size[0]), str(size[1]))
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "the picture is as it was")
+    whole = ImageGrab.grab(xdisplay="").size
+    screen.press("F11")
+    screen.until(lambda: screen.is_there() and screen.size() == whole, "the screen is filled")
+    assert screen.box()[:2] == (0, 0)
+    screen.press("F11")
+    screen.until(
+        lambda: screen.is_there() and screen.picture().tobytes() == first.tobytes(), "it is a window again"
+    )
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_files_are_written_beside_and_told_in_a_toast(screen: Screen, tmp_path: Path) -> None:
+    first = screen.still()
+    for key, name in (
+        ("s", "recordings/press-1.png"),
+        ("F12", "recordings/press-2.png"),
+        ("ctrl+s", "press.toml"),
+    ):
+        screen.press(key)
+        screen.until((tmp_path / name).exists, f"{key} writes {name}")
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "the toast goes")
+    with Image.open(tmp_path / "recordings/press-1.png") as shot:
+        assert shot.convert("RGB").tobytes() == first.convert("RGB").tobytes()
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_dimensions_are_edited(screen: Screen) -> None:
+    closed = screen.still()
+    first = screen.changed_by("e", closed)
+    chosen = screen.changed_by("Down", first)
+    nudged = screen.changed_by("Right", chosen)
+    screen.press("ctrl+z")
+    screen.until(lambda: screen.picture().tobytes() == chosen.tobytes(), "Ctrl+Z undoes")
+    screen.press("ctrl+y")
+    screen.until(lambda: screen.picture().tobytes() == nudged.tobytes(), "Ctrl+Y does it again")
+    shown = nudged
+    for key in ("5", "BackSpace", "6", "period", "2", "space", "c", "m"):
+        screen.press(key)
+        shown = screen.still()
+    taken = screen.changed_by("Return", shown)
+    refused = taken
+    for key in ("minus", "1", "Return"):
+        refused = screen.changed_by(key, refused)
+    screen.press("Escape")
+    screen.until(lambda: screen.picture().tobytes() == taken.tobytes(), "Esc lets go of the value")
+    screen.press("Escape")
+    screen.still()
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_the_mouse_zooms_pans_and_turns_the_crank(screen: Screen) -> None:
+    first = screen.still()
+    xdotool("getwindowfocus", "mousemove", "--window", "%1", "1000", "400")
+    for there, back in (("4", "5"), ("5", "4")):
+        xdotool("click", there)
+        screen.until(lambda: screen.picture().tobytes() != first.tobytes(), "the wheel zooms")
+        xdotool("click", back)
+        screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "the wheel zooms back")
+    xdotool("mousedown", "1", "mousemove_relative", "60", "30")
+    screen.until(lambda: screen.picture().tobytes() != first.tobytes(), "a drag pans")
+    xdotool("mouseup", "1")
+    screen.press("0")
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "0 fits again")
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+@pytest.mark.parametrize(("key", "suffix"), [("g", "gif"), ("m", "mp4")])
+def test_a_recording_is_finished_after_the_window_is_closed(
+    screen: Screen, tmp_path: Path, key: str, suffix: str
+) -> None:
+    screen.changed_by(key, screen.still())
+    screen.press("t")
+    screen.press(key)
+    screen.until((tmp_path / "recordings/press-1.tape.json").exists, "the tape is kept")
+    screen.press("q")
+    assert screen.ends() == (0, "")
+    end = time.monotonic() + 2 * PATIENCE
+    while not (tmp_path / f"recordings/press-1.{suffix}").exists():
+        assert time.monotonic() < end, "the recording is finished"
+        time.sleep(0.1)
