@@ -70,7 +70,9 @@ class Scene:
         if (angle is None) == (phase is None):
             raise BadInput("give either angle= or phase=, in radians")
         if derivatives not in (0, 1, 2):
-            raise BadInput(f"derivatives={derivatives}: give 0 (positions), 1 (velocities) or 2 (accelerations)")
+            raise BadInput(
+                f"derivatives={derivatives}: give 0 (positions), 1 (velocities) or 2 (accelerations)"
+            )
         return self.mechanism.solve(
             angle=angle,
             phase=phase,
