@@ -54,12 +54,11 @@ def rows(scene: Scene, pose: Pose, speed: str | None = None) -> tuple[Row, ...]:
 
 def _rows(scene: Scene, pose: Pose, speed: str | None) -> Iterator[Row]:
     info = scene.info
-    angle = pose.crank_angle % tau if info.full_turn else pose.crank_angle
-    yield Row("crank angle", f"{number(degrees(angle) % 360 if info.full_turn else degrees(angle), 0.1)}°")
+    yield Row("crank angle", _turned(pose.crank_angle) if info.full_turn else _deg(pose.crank_angle))
     yield Row("input speed", speed or rpm(pose.input_speed))
     if not info.full_turn:
-        low, high = (number(degrees(limit), 0.1) for limit in info.input_range)
-        yield Row("input range", f"{low}°…{high}°")
+        low, high = info.input_range
+        yield Row("input range", f"{_deg(low)}…{_deg(high)}")
     if info.true_period != 1:
         yield Row("true period", f"{info.true_period} turns")
     unit = scene.length_unit
@@ -84,11 +83,20 @@ def note(scene: Scene, pose: Pose) -> str | None:
     if not info.full_turn:
         for limit, at in zip(info.input_range, (0.0, pi), strict=True):
             if _apart(pose.phase, at) < _NEAR_LIMIT:
-                return f"near the limit {number(degrees(limit), 0.1)}°"
+                return f"near the limit {_deg(limit)}"
     for point in info.change_points:
         if _apart(pose.crank_angle, point) < _NEAR_CHANGE:
-            return f"near the change point {number(degrees(point) % 360, 0.1)}°"
+            return f"near the change point {_turned(point)}"
     return None
+
+
+def _deg(angle: float) -> str:
+    return f"{number(degrees(angle), 0.1)}°"
+
+
+def _turned(angle: float) -> str:
+    """Return an angle within one turn, rounded first, so that none reads 360°."""
+    return f"{number(round(degrees(angle) % 360, 1) % 360, 0.1)}°"
 
 
 def _apart(one: float, other: float) -> float:

@@ -217,8 +217,8 @@ def test_a_long_help_fits_any_window(size: tuple[int, int]) -> None:
     rows = tuple((f"key {n}", "what it does, in a few words") for n in range(24))
     Painter(scene, size, Look(chart="B.velocity")).paint(surface, scene.pose(1.0), Overlay(help=rows))
     background = (*theme_of("light").background, 255)
-    assert all(surface.get_at((x, size[1] // 2)) == background for x in (0, size[0] - 1))
-    assert all(surface.get_at((size[0] // 2, y)) == background for y in (0, size[1] - 1))
+    assert all(tuple(surface.get_at((x, size[1] // 2))) == background for x in (0, size[0] - 1))
+    assert all(tuple(surface.get_at((size[0] // 2, y))) == background for y in (0, size[1] - 1))
 
 
 @pytest.mark.parametrize("size", [(64, 36), (16, 16), (200, 900), (2000, 90)])

@@ -1,0 +1,105 @@
+"""Axes: ranges that hold the values, and few ticks at round numbers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from linkanim.picture.axis import around, decades, linear, number
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "most", "unit", "labels"),
+    [
+        (0, 300, 3, "", ["0", "100", "200", "300"]),
+        (-1, 1, 4, "", ["−1.0", "−0.5", "0.0", "0.5", "1.0"]),
+        (0.013, 0.021, 4, "", ["0.014", "0.016", "0.018", "0.020"]),
+        (-3e7, 2e7, 3, "", ["−2e+07", "0", "2e+07"]),
+        # degrees are cut at parts of a turn
+        (0, 360, 8, "°", ["0°", "45°", "90°", "135°", "180°", "225°", "270°", "315°", "360°"]),
+        (0, 720, 8, "°", ["0°", "90°", "180°", "270°", "360°", "450°", "540°", "630°", "720°"]),
+        (0, 7200, 8, "°", ["0°", "1080°", "2160°", "3240°", "4320°", "5400°", "6480°"]),
+        (20, 130, 3, "°", ["45°", "90°"]),
+        (1, 4, 3, "°", ["1°", "2°", "3°", "4°"]),
+    ],
+)
+def test_ticks_are_few_and_round(low: float, high: float, most: int, unit: str, labels: list[str]) -> None:
+    assert [label for _, label in linear(low, high, most=most, unit=unit).ticks] == labels
+
+
+@given(st.floats(-1e6, 1e6), st.floats(1e-3, 1e6), st.integers(2, 8))
+def test_there_are_never_too_many_ticks_and_all_lie_on_the_axis(low: float, span: float, most: int) -> None:
+    axis = linear(low, low + span, most=most)
+    assert 0 < len(axis.ticks) <= most + 1 or len(axis.ticks) == 0 < most
+    assert all(-1e-6 <= axis.share(value) <= 1 + 1e-6 for value, _ in axis.ticks)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "labels"),
+    [
+        (3.0, 5e3, ["1", "10", "100", "1000", "1e4"]),
+        (2e-16, 3e-9, ["1e−16", "1e−15", "1e−14", "1e−13", "1e−12", "1e−11", "1e−10", "1e−9", "1e−8"]),
+        (1e-16, 1.0, ["1e−16", "1e−14", "1e−12", "1e−10", "1e−8", "1e−6", "1e−4", "1e−2", "1"]),
+        (10, 10, ["10", "100"]),
+    ],
+)
+def test_a_log_axis_covers_whole_decades(low: float, high: float, labels: list[str]) -> None:
+    axis = decades(low, high)
+    assert [label for _, label in axis.ticks] == labels
+    assert axis.low <= low <= high <= axis.high
+
+
+def test_a_log_axis_has_no_place_for_zero() -> None:
+    shares = decades(1, 100).share([0.0, 1.0, 10.0, 100.0])
+    assert math.isnan(shares[0])
+    assert shares[1:] == pytest.approx([0, 0.5, 1])
+
+
+@pytest.mark.parametrize(
+    ("values", "low", "high"),
+    [
+        ([1.0, 2.0], 0.94, 2.06),
+        # a quantity that does not move, at zero and elsewhere
+        ([0.0, 0.0], -1.12, 1.12),
+        ([5.0, 5.0], 2.2, 7.8),
+        ([5.0, 5.0 + 1e-12], 2.2, 7.8),
+        # nothing finite at all
+        ([math.inf, math.nan], -0.06, 1.06),
+        # infinite values have no say
+        ([1.0, 2.0, math.inf], 0.94, 2.06),
+    ],
+)
+def test_the_range_holds_the_finite_values_with_a_little_room(
+    values: list[float], low: float, high: float
+) -> None:
+    axis = around(np.array(values))
+    assert (axis.low, axis.high) == pytest.approx((low, high))
+
+
+def test_a_wild_peak_is_cut_so_that_the_rest_can_be_seen() -> None:
+    values = np.sin(np.linspace(0, 6, 100))
+    values[50] = 1e9
+    assert around(values).high < 10
+    values[50] = 5.0
+    assert around(values).high > 5
+
+
+@pytest.mark.parametrize(
+    ("value", "step", "text"),
+    [
+        (-0.04, 0.1, "0.0"),  # never "-0.0"
+        (-12.34, 0.1, "−12.3"),
+        (1234.5, 100, "1234"),
+        (2.5e6, 1e6, "2.5e+06"),
+        (3e-5, 1e-5, "3e−05"),
+        (math.inf, 1, "∞"),
+        (-math.inf, 1, "−∞"),
+        (math.nan, 1, "–"),
+    ],
+)
+def test_numbers_have_the_decimals_their_steps_need(value: float, step: float, text: str) -> None:
+    assert number(value, step) == text

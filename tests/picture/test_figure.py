@@ -1,0 +1,80 @@
+"""What of a linkage is drawn, also where a scene names no bodies."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from linkanim.mechanics.linkage import RPR, Crank, Drive, Linkage, Pin
+from linkanim.picture.bodies import body_parts, colours_of
+from linkanim.picture.figure import figure
+from linkanim.picture.layout import gauge
+from linkanim.picture.theme import LIGHT
+from linkanim.picture.view import View
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+GAUGE = gauge(1.0, 100.0)
+VIEW = View(1.0, 0.0, 0.0)
+
+
+def _bare(name: str) -> Scene:
+    """Return a scene without its bodies."""
+    scene = load(name)
+    return replace(scene, linkage=replace(scene.linkage, bodies=()))
+
+
+def test_a_length_that_is_in_no_body_is_a_bar_of_its_own() -> None:
+    bodies = figure(_bare("crank-rocker")).bodies
+    assert {body.joints for body in bodies} == {("O2", "A"), ("A", "B"), ("O4", "B"), ("A", "B", "P")}
+    assert all(body.name == "" for body in bodies)
+
+
+def test_a_named_body_takes_the_place_of_its_lengths() -> None:
+    assert [body.name for body in figure(load("crank-rocker")).bodies] == ["crank", "coupler", "rocker"]
+
+
+def test_pins_are_where_bars_meet_and_a_coupler_point_is_none() -> None:
+    shown = figure(load("crank-rocker"))
+    assert set(shown.pins) == {"O2", "A", "B", "O4"}
+    assert set(shown.fixed) == {"O2", "O4"}
+
+
+def test_what_a_spring_or_damper_hangs_on_is_a_pin() -> None:
+    shown = figure(load("press"))
+    assert {"G", "S", "H", "C"} <= set(shown.pins)
+
+
+def test_the_driven_crank_has_the_first_colour_wherever_it_is_named() -> None:
+    for name, body in (("crank-rocker", "crank"), ("rocker-driven", "rocker"), ("press", "2")):
+        assert colours_of(figure(load(name)), LIGHT)[body] == LIGHT.bodies[0]
+
+
+def inverted(offset: float) -> Scene:
+    pins = Pin("O2", (0.0, 0.0)), Pin("O4", (-80.0, 0.0))
+    joints = (*pins, Crank("A", "O2", 30.0), RPR("P", "O4", "A", 140.0, offset))
+    return Scene("inverted", "Inverted slider-crank", "", "mm", Linkage(joints, Drive("A", 1.0, 0.0)), ("P",))
+
+
+@pytest.mark.parametrize("offset", [0.0, 12.0])
+def test_a_slotted_bar_carries_its_slot_and_a_block_on_the_pin_in_it(offset: float) -> None:
+    scene = inverted(offset)
+    parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
+    block = parts[-1]
+    assert (block.at, block.tail, block.head) == ("A", "O4", "P")
+    slot = parts[-2].layers[0].loops[0]
+    # from 50 to 110 apart the pin stays inside the slot, whose middle is `offset` to the left
+    ends = [(50**2 - offset**2) ** 0.5, (110**2 - offset**2) ** 0.5]
+    assert slot.real.min() == pytest.approx(ends[0] - 0.5 * GAUGE.bar, abs=0.1)
+    assert slot.real.max() == pytest.approx(ends[1] + 0.5 * GAUGE.bar, abs=0.1)
+    assert slot.imag.mean() == pytest.approx(-offset, abs=0.5)
+
+
+def test_the_swept_box_holds_the_coupler_curve() -> None:
+    shown = figure(load("crank-rocker"))
+    curve = shown.cycle.position["P"]
+    assert shown.box.left <= curve[:, 0].min()
+    assert shown.box.right >= curve[:, 0].max()
+    assert shown.box.low <= curve[:, 1].min()
+    assert shown.box.high >= curve[:, 1].max()

@@ -1,0 +1,103 @@
+"""The HUD's words."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from linkanim.picture.hud import Row, note, rows, rpm
+from linkanim.scenes import load, names
+
+
+def test_the_press_tells_angle_speed_spring_and_damper() -> None:
+    scene = load("press")
+    pose = scene.pose(math.radians(87))
+    told = dict(rows(scene, pose))
+    assert list(told) == [
+        "crank angle",
+        "input speed",
+        "spring return",
+        "spring force",
+        "damper cushion",
+        "damper force",
+    ]
+    assert told["crank angle"] == "87.0°"
+    assert told["input speed"] == "20 rpm"
+    spring, damper = pose.spring["return"], pose.damper["cushion"]
+    assert told["spring return"] == f"{spring.length:.1f} mm"
+    assert told["spring force"].replace("−", "-") == f"{spring.force:.1f} N"
+    assert told["damper cushion"].replace("−", "-") == f"{damper.rate:.1f} mm/s"
+    assert told["damper force"].replace("−", "-") == f"{damper.force:.1f} N"
+
+
+def test_a_swinging_input_tells_its_two_limits() -> None:
+    scene = load("double-rocker")
+    assert Row("input range", "13.8°…108.4°") in rows(scene, scene.pose(1.0))
+
+
+def test_a_linkage_that_needs_two_turns_says_so() -> None:
+    scene = load("kite")
+    assert Row("true period", "2 turns") in rows(scene, scene.pose(1.0))
+
+
+@pytest.mark.parametrize("name", names())
+def test_the_names_of_the_rows_stay_while_the_values_move(name: str) -> None:
+    scene = load(name)
+    told = [[row.label for row in rows(scene, scene.pose(phase))] for phase in (0.0, 1.0, math.pi, 5.0)]
+    assert all(labels == told[0] for labels in told)
+
+
+@pytest.mark.parametrize(
+    ("angle_deg", "told"),
+    [
+        (0.0, "0.0°"),
+        (60.0, "60.0°"),
+        # just below a full turn is not shown as 360.0
+        (359.99, "0.0°"),
+        (-0.01, "0.0°"),
+        # many turns later, and backwards
+        (360 * 1000 + 10, "10.0°"),
+        (-70, "290.0°"),
+    ],
+)
+def test_the_crank_angle_is_within_one_turn(angle_deg: float, told: str) -> None:
+    scene = load("crank-rocker")
+    phase = math.radians(angle_deg) - scene.linkage.drive.start
+    assert dict(rows(scene, scene.pose(phase)))["crank angle"] == told
+
+
+@pytest.mark.parametrize(
+    ("speed", "words"),
+    [(2 * math.pi / 3, "20 rpm"), (-math.pi / 2, "−15 rpm"), (1.0, "9.549 rpm"), (0.0, "0 rpm")],
+)
+def test_speed_is_told_in_turns_a_minute(speed: float, words: str) -> None:
+    assert rpm(speed) == words
+
+
+def test_a_speed_in_words_replaces_the_pose_s() -> None:
+    scene = load("press")
+    assert Row("input speed", "33 rpm") in rows(scene, scene.pose(0.0), "33 rpm")
+
+
+@pytest.mark.parametrize(
+    ("name", "phase", "told"),
+    [
+        # at the limits of a swing, from either side, and a turn of phase later
+        ("double-rocker", 0.0, "near the limit 13.8°"),
+        ("double-rocker", -0.1, "near the limit 13.8°"),
+        ("double-rocker", math.pi + 0.1, "near the limit 108.4°"),
+        ("double-rocker", 3 * math.pi, "near the limit 108.4°"),
+        ("double-rocker", math.pi / 2, None),
+        # change points of a turning input
+        ("kite", -load("kite").linkage.drive.start, "near the change point 0.0°"),
+        ("kite", 1.5 - load("kite").linkage.drive.start, None),
+        # nothing special about a crank-rocker
+        ("crank-rocker", 0.0, None),
+    ],
+)
+def test_limits_and_change_points_are_told_where_they_are_near(
+    name: str, phase: float, told: str | None
+) -> None:
+    scene = load(name)
+    assert note(scene, scene.pose(phase)) == told

@@ -1,0 +1,238 @@
+"""Springs, dampers, gears, traces and vectors follow the motion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from pictures import pixels
+
+from linkanim.mechanics.linkage import Crank, Drive, Gear, Linkage, Pin
+from linkanim.picture.figure import Figure, figure
+from linkanim.picture.gears import Pair, pairs, wheel_layers, wheel_parts, wheels_box
+from linkanim.picture.layout import gauge
+from linkanim.picture.look import Look
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.painter import Painter
+from linkanim.picture.raster import Layer, Loop
+from linkanim.picture.struts import Coil, Cushion, coils, cushions
+from linkanim.picture.theme import LIGHT
+from linkanim.picture.trace import traces
+from linkanim.picture.vectors import LONGEST, arrows_of
+from linkanim.picture.view import View
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+VIEW = View(1.0, 0.0, 0.0)
+GAUGE = gauge(1.0, 100.0)
+
+
+@pytest.fixture(scope="module")
+def press() -> Figure:
+    return figure(load("press"))
+
+
+def _extent(layers: list[Layer], along: complex) -> tuple[float, float]:
+    """Return how far layers reach along a direction."""
+    points = np.concatenate([loop for layer in layers for loop in layer.loops])
+    ways = (points * np.conj(along)).real
+    return float(ways.min()), float(ways.max())
+
+
+@pytest.mark.parametrize("length", [80.0, 100.0, 160.0])
+def test_a_spring_reaches_from_joint_to_joint_at_any_length(press: Figure, length: float) -> None:
+    coil = coils(press, VIEW, GAUGE, LIGHT)[0]
+    turn = complex(math.cos(0.7), math.sin(0.7))
+    layers = coil.layers({"C": 5 + 5j, "G": 5 + 5j + length * turn})
+    low, high = _extent(layers, turn)
+    wire = 3 * GAUGE.line
+    assert low == pytest.approx((np.conj(turn) * (5 + 5j)).real, abs=wire)
+    assert high - low == pytest.approx(length, abs=2 * wire)
+
+
+def test_a_spring_s_pitch_follows_its_length_and_its_coils_stay(press: Figure) -> None:
+    coil = coils(press, VIEW, GAUGE, LIGHT)[0]
+    pitches, counts = [], []
+    for length in (100.0, 150.0):
+        core = coil.layers({"C": 0j, "G": complex(length, 0)})[-1]
+        middles = np.array([loop.mean().real for loop in core.loops])
+        pitches.append(float(np.diff(middles).mean()))
+        counts.append(len(core.loops))
+    assert counts[0] == counts[1]
+    assert pitches[1] - pitches[0] == pytest.approx(50 / counts[0], rel=1e-6)
+
+
+def test_a_damper_s_piston_slides_inside_its_cylinder(press: Figure) -> None:
+    cushion = cushions(press, VIEW, GAUGE, LIGHT)[0]
+    one, other = cushion.between
+    pistons = []
+    for length in np.linspace(cushion.reach.shortest, cushion.reach.longest, 9):
+        wall, _, _, piston = cushion.layers({one: 0j, other: complex(length, 0)})
+        cylinder, head = _extent([wall], 1 + 0j), _extent([piston], 1 + 0j)
+        assert cylinder[0] < head[0] < head[1] < cylinder[1]
+        assert cylinder[1] < length
+        pistons.append(head[0])
+    assert np.all(np.diff(pistons) > 0)
+
+
+def geared(
+    ratio: Fraction = Fraction(1, 2), apart: tuple[float, float] = (100.0, 30.0), offset: float = 0.3
+) -> Scene:
+    """Return two cranks and nothing else, geared to each other."""
+    joints = (
+        Pin("O", (0.0, 0.0)),
+        Pin("Q", apart),
+        Crank("A", "O", 20.0),
+        Crank("D", "Q", 20.0, Gear("A", ratio, offset)),
+    )
+    return Scene("geared", "Geared", "", "mm", Linkage(joints, Drive("A", 1.0, 0.2)))
+
+
+def _profile(loop: Loop, centre: complex, direction: float) -> float:
+    """Return how far a wheel's rim reaches from its centre in a direction."""
+    angles = np.angle((loop - centre) * np.exp(-1j * direction))
+    order = np.argsort(angles)
+    return float(np.interp(0.0, angles[order], np.abs(loop - centre)[order]))
+
+
+@pytest.mark.parametrize("ratio", [Fraction(-1), Fraction(-1, 3), Fraction(-5, 2)])
+def test_gears_roll_on_each_other_and_their_teeth_mesh_at_every_angle(ratio: Fraction) -> None:
+    scene = geared(ratio)
+    shown = figure(scene)
+    pair = pairs(shown)[0]
+    assert pair.driver.radius + pair.driven.radius == pytest.approx(math.hypot(100, 30))
+    assert pair.driver.radius / pair.driven.radius == pytest.approx(abs(ratio))
+    assert Fraction(pair.driver.teeth, pair.driven.teeth) == abs(ratio)
+    view = View(5.0, 0.0, 0.0)
+    parts = wheel_parts(shown, view, GAUGE, LIGHT)
+    for phase in np.linspace(0, 7, 40):
+        pose = scene.pose(float(phase))
+        places = {name: view.place(point) for name, point in pose.position.items()}
+        rims = [part.placed(places)[0].loops[0] for part in parts]
+        contact = float(np.angle(places["Q"] - places["O"]))
+        reach = _profile(rims[0], places["O"], contact)
+        reach += _profile(rims[1], places["Q"], contact + math.pi)
+        # a tooth meets a gap: together they reach as far as the pivots are apart
+        assert reach == pytest.approx(abs(places["Q"] - places["O"]), abs=0.35 * 2 * 5 * _module(pair))
+
+
+def _module(pair: Pair) -> float:
+    return 2 * pair.driver.radius / pair.driver.teeth
+
+
+@pytest.mark.parametrize("ratio", [Fraction(1), Fraction(1, 2), Fraction(3)])
+def test_cranks_that_turn_the_same_way_are_joined_by_a_belt(ratio: Fraction) -> None:
+    shown = figure(geared(ratio))
+    pair = pairs(shown)[0]
+    assert pair.driver.teeth == pair.driven.teeth == 0
+    assert pair.driver.radius / pair.driven.radius == pytest.approx(float(ratio))
+    assert pair.driver.radius + pair.driven.radius < math.hypot(100, 30)
+    discs_and_belt = wheel_layers(shown, View(5.0, 0.0, 0.0), GAUGE, LIGHT)
+    assert [len(layer.loops) for layer in discs_and_belt] == [1, 1, 2]
+
+
+def test_gears_on_one_pivot_have_nothing_to_show() -> None:
+    assert pairs(figure(geared(Fraction(-1), apart=(0.0, 0.0)))) == ()
+
+
+def test_wheels_are_part_of_what_must_be_seen(press: Figure) -> None:
+    wide = wheels_box(press, press.box)
+    assert wide.left <= -165 * 1.05
+    assert wide.high >= 165 * 1.05
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.001, 1.0, 6.2831, 50.0])
+@pytest.mark.parametrize("forward", [True, False])
+def test_the_recent_part_ends_at_the_joint_and_lies_on_the_curve(phase: float, forward: bool) -> None:
+    scene = load("crank-rocker")
+    trace = traces(figure(scene), VIEW, GAUGE, LIGHT)[0]
+    place = VIEW.place(scene.pose(phase).position["P"])
+    layers = trace.recent(phase, place, forward=forward)
+    assert layers[-1].colour == trace.colour
+    sign = 1 if forward else -1
+    past = phase - sign * np.linspace(0, 0.3 * math.tau, 400)
+    before = [VIEW.place(scene.pose(float(then)).position["P"]) for then in past]
+    points = np.concatenate([layer.loops[0] for layer in layers])
+    assert np.min(np.abs(layers[-1].loops[0] - place)) < trace.width
+    nearest = np.abs(points[:, None] - np.array(before)[None, :]).min(axis=1)
+    assert nearest.max() < 1.5 * trace.width
+
+
+def test_the_recent_part_brightens_towards_the_joint() -> None:
+    scene = load("crank-rocker")
+    trace = traces(figure(scene), VIEW, GAUGE, LIGHT)[0]
+    layers = trace.recent(1.0, VIEW.place(scene.pose(1.0).position["P"]), forward=True)
+    away = [np.abs(np.subtract(layer.colour, trace.back)).sum() for layer in layers]
+    assert away == sorted(away)
+    assert len(set(away)) == len(away)
+
+
+@pytest.mark.parametrize("kind", ["v", "a"])
+def test_vectors_keep_one_scale_over_the_cycle(press: Figure, kind: str) -> None:
+    """The longest of the cycle is as long as was meant, and each is as long as its value says."""
+    arrows = arrows_of(press, kind, 720, GAUGE, LIGHT)  # type: ignore[arg-type]
+    scene = press.scene
+    longest = 0.0
+    for phase in np.linspace(0, scene.period, 720, endpoint=False):
+        pose = scene.pose(float(phase))
+        assert arrows.scale(pose.input_speed) == pytest.approx(arrows.longest / arrows.most)
+        values = pose.velocity if kind == "v" else pose.acceleration
+        masses = pose.com_velocity if kind == "v" else pose.com_acceleration
+        sizes = [math.hypot(*values[joint]) for joint in scene.trace]
+        longest = max(longest, *sizes, *(math.hypot(*value) for value in masses.values()))
+    assert longest * arrows.scale(scene.linkage.drive.speed) == pytest.approx(LONGEST * 720)
+
+
+@pytest.mark.parametrize(("kind", "flips"), [("v", True), ("a", False)])
+def test_another_speed_keeps_the_arrows_length_and_only_velocity_turns_with_it(
+    press: Figure, kind: str, flips: bool
+) -> None:
+    arrows = arrows_of(press, kind, 720, GAUGE, LIGHT)  # type: ignore[arg-type]
+    scene = press.scene
+    drive = scene.linkage.drive.speed
+    loops = [
+        arrows.layers(scene.pose(1.0, speed=speed), VIEW, ("B",))[1].loops[0] for speed in (drive, -4 * drive)
+    ]
+    foot = VIEW.place(scene.pose(1.0).position["B"])
+    reaches = [loop[3] - foot for loop in loops]
+    assert reaches[1] == pytest.approx(-reaches[0] if flips else reaches[0])
+
+
+def test_no_motion_has_no_arrows(press: Figure) -> None:
+    arrows = arrows_of(press, "v", 720, GAUGE, LIGHT)
+    assert arrows.layers(press.scene.pose(1.0, speed=0.0), VIEW, ("B",)) == []
+
+
+def test_a_moving_bar_s_pixels_follow_it_without_a_shiver() -> None:
+    """Steps of a hundredth of a pixel move the picture's centre by as much, not by whole pixels."""
+    scene = load("crank-rocker")
+    size = (320, 180)
+    painter = Painter(scene, size, Look(hud=False, trace=False))
+    surface, centres, truth = offscreen(size), [], []
+    colour = np.array(LIGHT.bodies[0], float)
+    for step in range(24):
+        pose = scene.pose(0.5 + 0.0006 * step)
+        painter.paint(surface, pose)
+        near = np.clip(1 - np.abs(pixels(surface) - colour).sum(axis=-1) / 60, 0, 1)
+        rows, columns = np.indices(near.shape)
+        centres.append(complex((columns * near).sum(), (rows * near).sum()) / near.sum())
+        truth.append((complex(*painter.crank_pin_px(pose)) + complex(*painter.crank_pivot_px())) / 2)
+    drift = np.array(centres) - np.array(truth)
+    assert np.sqrt(np.mean(np.abs(drift - drift.mean()) ** 2)) <= 0.1
+
+
+def test_a_spring_of_no_length_is_still_drawn(press: Figure) -> None:
+    items: list[Coil | Cushion] = [*coils(press, VIEW, GAUGE, LIGHT), *cushions(press, VIEW, GAUGE, LIGHT)]
+    for item in items:
+        layers = item.layers(dict.fromkeys(item.between, 3 + 3j))
+        assert all(np.isfinite(loop).all() for layer in layers for loop in layer.loops)
+
+
+def test_a_longer_window_scales_the_gauge() -> None:
+    small, large = gauge(0.5, 50.0), gauge(1.0, 100.0)
+    assert large == replace(
+        small, bar=2 * small.bar, outline=2 * small.outline, pin=2 * small.pin, line=2 * small.line
+    )
