@@ -70,7 +70,7 @@ KEYS: tuple[Row, ...] = (
     Row("T", "coupler trace", _every("t", "trace")),
     Row("V, A", "velocity, acceleration vectors", (_on("v", "vectors", "v"), _on("a", "vectors", "a"))),
     Row("C (Shift: back)", "chart: next quantity, off", (_on("c", "chart", 1), _on("shift+c", "chart", -1))),
-    Row("E", "edit dimensions", _every("e", "edit")),
+    Row("E", "edit dimensions (H there: how)", _every("e", "edit")),
     Row("G", "record GIF: start, stop", _every("g", "record", "gif")),
     Row("M", "record MP4: start, stop", _every("m", "record", "mp4")),
     Row("S, F12", "screenshot", _every("s f12", "screenshot")),
