@@ -15,7 +15,7 @@ from linkanim.picture.parts import Part
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.shapes import disc, segments
 from linkanim.picture.theme import Theme, mixed
-from linkanim.picture.view import Box, View
+from linkanim.picture.view import Box, View, joined
 
 _BELT = 0.3
 """The larger pulley's radius, as a share of the distance between the pivots."""
@@ -80,12 +80,8 @@ def wheels_box(figure: Figure, box: Box) -> Box:
     for pair in pairs(figure):
         for wheel in (pair.driver, pair.driven):
             centre, radius = figure.start(wheel.crank.pivot), 1.06 * wheel.radius
-            box = Box(
-                min(box.left, centre.real - radius),
-                min(box.low, centre.imag - radius),
-                max(box.right, centre.real + radius),
-                max(box.high, centre.imag + radius),
-            )
+            low, high = centre - complex(radius, radius), centre + complex(radius, radius)
+            box = joined(box, Box(low.real, low.imag, high.real, high.imag))
     return box
 
 

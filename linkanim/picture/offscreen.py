@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from io import BytesIO
+
 import pygame
 
 
@@ -14,3 +16,10 @@ def offscreen(size: tuple[int, int], *, alpha: bool = False) -> pygame.Surface:
 def pixel_bytes(surface: pygame.Surface) -> bytes:
     """Return a copy of a surface's pixels, row by row; a view of them would lock the surface."""
     return surface.get_buffer().raw
+
+
+def png_bytes(surface: pygame.Surface) -> bytes:
+    """Return a surface as a PNG file's bytes."""
+    file = BytesIO()
+    pygame.image.save(surface, file, ".png")
+    return file.getvalue()

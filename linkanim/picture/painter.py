@@ -18,6 +18,7 @@ from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
 from linkanim.picture.ground import ground_layers
 from linkanim.picture.hud import Hud, hud_for
 from linkanim.picture.layout import Gauge, Layout, gauge, layout
+from linkanim.picture.legend import Legend
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
@@ -28,7 +29,7 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed, theme_of
 from linkanim.picture.trace import Trace, traces
 from linkanim.picture.vectors import Arrows, arrows_of
-from linkanim.picture.view import View, fit, moved
+from linkanim.picture.view import View, fit, joined, moved
 from linkanim.scenes.scene import Scene
 
 _GHOST = 0.78
@@ -53,20 +54,24 @@ class Painter:
     """Paints poses of one scene at one pixel size and look.
 
     It solves one cycle and draws its static layer when it is made; make a new one when scene, size
-    or look changes. Raises BadInput where the look's chart is no quantity of the scene.
+    or look changes. `beside` is a scene that must fit into the view too, such as the other closure.
+    Raises BadInput where the look's chart is no quantity of the scene.
     """
 
-    def __init__(self, scene: Scene, size: tuple[int, int], look: Look) -> None:
+    def __init__(
+        self, scene: Scene, size: tuple[int, int], look: Look, *, beside: Scene | None = None
+    ) -> None:
         self.scene, self.size, self.look = scene, size, look
         self._theme: Theme = theme_of(look.theme)
         self._layout: Layout = layout(size, look)
         self._figure: Figure = figure(scene)
         self._type = Type()
-        self.view, self._gauge = self._framed()
+        self.view, self._gauge = self._framed(figure(beside) if beside else self._figure)
         self._strip: Strip | None = self._chart()
         self._hud: Hud | None = hud_for(scene, self._layout, self._type, self._theme)
         self._panels = Panels(self._layout, self._type, self._theme)
         self._cast = self._casting()
+        self._legend = self._keyed()
         self._still = self._drawn_once()
         self._names = self._hud.sheet(scene.pose(0.0)) if self._hud else None
 
@@ -92,6 +97,8 @@ class Painter:
         if self._hud and self._names:
             canvas.blit(self._names, self._names.get_offset())
             self._hud.draw_values(canvas, pose, overlay)
+        if self._legend:
+            self._legend.draw_values(canvas, pose.input_speed)
         self._panels.draw(canvas, overlay)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
@@ -110,9 +117,9 @@ class Painter:
         """Return the phase under a pixel of the chart, 0 to one true period; None beside the chart."""
         return self._strip.phase_at(px, py) if self._strip else None
 
-    def _framed(self) -> tuple[View, Gauge]:
-        """Return the view of what the linkage sweeps, and the thicknesses that go with its scale."""
-        box, unit = wheels_box(self._figure, self._figure.box), self._layout.unit
+    def _framed(self, beside: Figure) -> tuple[View, Gauge]:
+        """Return the view of what the linkages sweep, and the thicknesses that go with its scale."""
+        box, unit = wheels_box(self._figure, joined(self._figure.box, beside.box)), self._layout.unit
         measure = gauge(unit, self._figure.shortest * fit(box, self._layout.scene).scale)
         room = self._layout.scene.inset(measure.pedestal + 1.5 * measure.bar)
         width, height = self.size
@@ -144,6 +151,13 @@ class Painter:
             ),
         )
 
+    def _keyed(self) -> Legend | None:
+        """Return the key to the arrows, None without arrows or a column to stand in."""
+        column = self._layout.hud
+        if column is None or not self._cast.arrows:
+            return None
+        return Legend(self._cast.arrows, column, self._layout, self._type, self._theme)
+
     def _drawn_once(self) -> pygame.Surface:
         """Return the layer that stands still: background, ground, curves, chart, names."""
         flags = 0 if self.look.background else pygame.SRCALPHA
@@ -155,6 +169,8 @@ class Painter:
         paint(stage, [trace.whole() for trace in self._cast.traces])
         if self._strip:
             self._strip.draw(still)
+        if self._legend:
+            self._legend.draw(still)
         return still
 
     def _canvas(self, surface: pygame.Surface) -> pygame.Surface:

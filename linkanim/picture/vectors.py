@@ -17,7 +17,7 @@ from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
 Kind = Literal["v", "a"]
-LONGEST = 0.17
+LONGEST = 0.22
 """The longest arrow of a cycle, as a share of the window's height."""
 _ORDER = {"v": 1, "a": 2}
 
@@ -30,6 +30,8 @@ class Arrows:
     """
 
     kind: Kind
+    words: str
+    unit: str
     most: float
     longest: float
     drive: float
@@ -76,7 +78,9 @@ def arrows_of(figure: Figure, kind: Kind, height: int, gauge: Gauge, theme: Them
     colour = theme.velocity if kind == "v" else theme.acceleration
     most = _most(figure.cycle, kind, figure.scene.trace)
     drive = figure.linkage.drive.speed
-    return Arrows(kind, most, LONGEST * height, drive, colour, theme.background, gauge)
+    words, per = ("velocity", "/s") if kind == "v" else ("acceleration", "/s²")
+    unit = figure.scene.length_unit + per
+    return Arrows(kind, words, unit, most, LONGEST * height, drive, colour, theme.background, gauge)
 
 
 def _most(cycle: Motion, kind: Kind, joints: tuple[str, ...]) -> float:

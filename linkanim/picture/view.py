@@ -42,6 +42,12 @@ class Box(NamedTuple):
     high: float
 
 
+def joined(one: Box, other: Box) -> Box:
+    """Return the smallest rectangle that holds both."""
+    left, low = min(one.left, other.left), min(one.low, other.low)
+    return Box(left, low, max(one.right, other.right), max(one.high, other.high))
+
+
 @dataclass(frozen=True)
 class View:
     """A scale (pixels for one unit of length) and where the scene's origin lies in the window.

@@ -23,8 +23,8 @@ class Setting:
 
     def __init__(self, scene: Scene, size: tuple[int, int], look: Look) -> None:
         self.made_for = (id(scene), size, look)
-        self.painter = Painter(scene, size, look)
         self._scene, self._look = scene, look
+        self.painter = Painter(scene, size, look, beside=self._ghost)
 
     def paint(self, surface: pygame.Surface, phase: float, speed: float, over: Overlay) -> Pose:
         """Paint a phase, the other closure behind it where the look asks; return its pose."""

@@ -187,6 +187,14 @@ def test_the_ghost_is_drawn_where_the_look_asks_and_behind_this_closure() -> Non
     assert np.array_equal(haunted[solid], plain[solid])
 
 
+def test_what_stands_beside_the_scene_fits_into_the_view_too() -> None:
+    scene, wide = load("crank-rocker"), load("press")
+    alone, both = Painter(scene, SMALL, BARE).view, Painter(scene, SMALL, BARE, beside=wide).view
+    assert both.scale < alone.scale
+    for point in wide.cycle(30).position["C"]:
+        assert 0 < both.to_pixel(*point)[1] < SMALL[1]
+
+
 @pytest.mark.parametrize(
     "overlay",
     [

@@ -1,0 +1,63 @@
+"""The key to the arrows: which colour is what, and how much the arrow shown there stands for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import floor, log10
+
+import pygame
+
+from linkanim.picture.layout import Layout
+from linkanim.picture.raster import Layer, paint
+from linkanim.picture.shapes import arrows
+from linkanim.picture.text import Type
+from linkanim.picture.theme import Theme
+from linkanim.picture.vectors import Arrows
+from linkanim.picture.view import Rect
+
+
+@dataclass(frozen=True)
+class Legend:
+    """A line for each kind of arrow at the foot of the HUD's column."""
+
+    kinds: tuple[Arrows, ...]
+    column: Rect
+    layout: Layout
+    type: Type
+    theme: Theme
+
+    def draw(self, surface: pygame.Surface) -> None:
+        """Draw what stands still: the arrows and what they are called."""
+        size = self.layout.small_size
+        for n, kind in enumerate(self.kinds):
+            foot = complex(self.column.x, self._top(n) + 0.5 * size)
+            paint(surface, [Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))])
+            at = (self.column.x + self._reach + 0.6 * size, self._top(n))
+            self.type.draw(surface, kind.words, at, size=size, colour=self.theme.dim)
+
+    def draw_values(self, surface: pygame.Surface, speed: float) -> None:
+        """Draw how much each arrow stands for at this input speed (rad/s)."""
+        for n, kind in enumerate(self.kinds):
+            at = (self.column.right, self._top(n))
+            size, words = self.layout.small_size, self.meaning(kind, speed)
+            self.type.draw(surface, words, at, size=size, colour=self.theme.dim, anchor="right")
+
+    def meaning(self, kind: Arrows, speed: float) -> str:
+        """Return in words how much the arrow of the key stands for; a dash where nothing moves."""
+        scale = kind.scale(speed)
+        return f"{three_digits(self._reach / scale)} {kind.unit}" if scale > 0 else "–"
+
+    @property
+    def _reach(self) -> float:
+        """The length of the key's arrows in pixels."""
+        return 2.6 * self.layout.small_size
+
+    def _top(self, line: int) -> float:
+        return self.column.bottom - 1.5 * self.layout.small_size * (len(self.kinds) - line)
+
+
+def three_digits(value: float) -> str:
+    """Return a positive number to three digits, without an exponent where it has up to six."""
+    if not 1e-3 <= value < 1e6:
+        return f"{value:.2e}"
+    return f"{value:.{max(2 - floor(log10(value)), 0)}f}"
