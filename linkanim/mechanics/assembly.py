@@ -16,8 +16,9 @@ from linkanim.errors import AssemblyError
 from .clock import Clock, Half
 from .exact import FULL_TURN, HALF_TURN, Sum, exact_angle, quarter_turns, unit
 from .linkage import RPR, RRP, RRR, Crank, Joint, Linkage, Pin
-from .planar import Vec
+from .planar import Slope, Vec
 from .roots import Kind, LoopRoot, four_bar_root, slider_root, slot_root
+from .signed import SignedRoot, sharpened, signed_root, swinging
 
 STRAIGHT = Sum(0.0)
 
@@ -37,27 +38,6 @@ class Ground:
     length: float
     direction: Vec
     angle: Sum
-
-
-@dataclass(frozen=True, slots=True)
-class Loop:
-    """A dyad closed from the crank pin `pin` (of the crank `crank`) and fixed elements.
-
-    `ground` runs from the crank's pivot to the fixed pin; None for a line of travel.
-    `swapped` says that the dyad names the fixed pin first.
-    """
-
-    pin: str
-    crank: Crank
-    gearing: Gearing
-    ground: Ground | None
-    root: LoopRoot
-    swapped: bool = False
-
-    def half(self, clock: Clock) -> Half:
-        """Return ψ/2 at the clock's instant."""
-        reference = self.root.reference - self.gearing.offset
-        return clock.half(reference, self.gearing.ratio, sharp=self.root.nearly_vanishes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +79,30 @@ class Swing:
 
 
 Path = Turn | Swing
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A dyad closed from the crank pin `pin` (of the crank `crank`) and fixed elements.
+
+    `ground` runs from the crank's pivot to the fixed pin; None for a line of travel.
+    `swapped` says that the dyad names the fixed pin first.
+    """
+
+    pin: str
+    crank: Crank
+    gearing: Gearing
+    ground: Ground | None
+    root: LoopRoot
+    swapped: bool = False
+
+    def closed(self, clock: Clock, path: Path, pace: Slope) -> tuple[SignedRoot, Half]:
+        """Return the loop's root and ψ/2 at the clock's instant, ψ running at `pace`."""
+        reference = self.root.reference - self.gearing.offset
+        half = clock.half(reference, self.gearing.ratio, sharp=self.root.nearly_vanishes)
+        swing = swinging(clock, path.low, path.high) if isinstance(path, Swing) else None
+        half = sharpened(self.root, half, swing)
+        return signed_root(self.root, half, pace, swing), half
 
 
 @dataclass(frozen=True, slots=True)

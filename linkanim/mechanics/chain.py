@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .clock import Clock, Ends
-from .closures import SMALLEST, SignedRoot
 from .expression import Value, maximum, select, sqrt
 from .planar import Moving, Slope
+from .signed import SMALLEST, SignedRoot
 
 
 @dataclass(frozen=True, slots=True)

@@ -139,13 +139,14 @@ def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> 
     )
     rate = (both + both) * pace.value
     second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
-    return Clock(v - u, middle, rate, second, pace, ends)
+    # A cosine of its own, not v - u: near the middle of the swing it keeps all its digits.
+    return Clock(cos(phase) * -amplitude, middle, rate, second, pace, ends)
 
 
-def swing_by_angle(u: Value, v: Value, pace: Slope, middle: Sum) -> Clock:
-    """Return the clock of a swing driven by its angle, given half the ways left to its limits."""
+def swing_by_angle(angle: Value, u: Value, v: Value, pace: Slope, middle: Sum) -> Clock:
+    """Return the clock of a swing driven by its angle from the middle; u and v are half the ways left."""
     ends = Ends(Slope(u), Slope(v), Slope(sqrt(u)), Slope(sqrt(v)), by_phase=False)
-    return Clock(v - u, middle, pace.value, pace.rate, pace, by_angle(ends, pace))
+    return Clock(angle, middle, pace.value, pace.rate, pace, by_angle(ends, pace))
 
 
 def by_angle(ends: Ends, pace: Slope) -> Ends:

@@ -167,11 +167,11 @@ def _scale(a: Expr, factor: float) -> Value:
         return -a
     if positive is not None:
         return _scale(positive, -factor)
-    inner, rest = (a.args[0], a.args[1]) if a.op == "mul" else (None, a)
-    if isinstance(inner, float) and isinstance(rest, Expr):
-        return _scale(rest, factor * inner)
-    if isinstance(inner, Expr) and inner.uniform and isinstance(rest, Expr) and not rest.uniform:
+    inner, rest = _factored(a)
+    if inner is not None and not a.uniform:
         return (inner * factor) * rest
+    if a.op == "mul" and isinstance(a.args[0], float) and isinstance(a.args[1], Expr):
+        return _scale(a.args[1], factor * a.args[0])
     return a._new("mul", factor, a)
 
 

@@ -246,7 +246,7 @@ def _margin_by_way(assembly: Assembly, name: str, *, upper: bool) -> Callable[[A
     assert isinstance(path, Swing)
     graph = Graph()
     u, v = graph.input("u"), graph.input("v")
-    value: Value = assembly.walk(clocks.swing_by_angle(u, v, Slope(0.0), path.middle)).margins[name]
+    value: Value = assembly.walk(clocks.swing_by_angle(v - u, u, v, Slope(0.0), path.middle)).margins[name]
     program = batch({"u": True, "v": True}, [value])
 
     def margin(way: Array) -> Array:

@@ -97,8 +97,8 @@ class Mechanism:
             return ("x",), clocks.turn(graph.input("x"), pace, origin)
         if by_phase:
             return ("x",), clocks.swing_by_phase(graph.input("x"), pace, path.middle, path.amplitude)
-        u, v = graph.input("u"), graph.input("v")
-        return ("u", "v"), clocks.swing_by_angle(u, v, pace, path.middle)
+        x, u, v = (graph.input(name) for name in "xuv")
+        return ("x", "u", "v"), clocks.swing_by_angle(x, u, v, pace, path.middle)
 
     def _scalar(self, variant: Variant) -> Any:
         names, crank, rows = self._trace(variant)
@@ -152,10 +152,12 @@ class Mechanism:
         rates = (given.w, given.a) if variant.accelerates else (given.w,)
         if given.reach is None:
             return rows, program(given.x, *rates)
-        results = program(given.reach.u, given.reach.v, *rates)
+        results = program(given.reach.angle, given.reach.u, given.reach.v, *rates)
         results[:, given.reach.outside] = np.nan
         if variant.derivatives and given.reach.at_limit.any():
-            self._mark_limits(rows, results, program(*given.reach.snapped, *rates), given.reach.at_limit)
+            self._mark_limits(
+                rows, results, program(given.reach.angle, *given.reach.snapped, *rates), given.reach.at_limit
+            )
         return rows, results
 
     def _mark_limits(self, rows: Rows, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:

@@ -11,7 +11,6 @@ from linkanim.errors import AssemblyError
 from . import clock as clocks
 from .assembly import Arc, Loop, Path, Swing, Turn, find_loops, gearings, open_arcs
 from .chain import LimitFit
-from .closures import signed_root
 from .exact import exact_angle
 from .expression import Value
 from .linkage import RPR, RRP, RRR, Crank, Joint, Linkage, Pin, Polar, Rigid
@@ -187,14 +186,13 @@ def _just_after_start(loop: Loop | None, path: Path) -> int:
     """Return the sign that the loop's own root has just after the start: the named closure holds there."""
     if loop is None:
         return 1
-    swing = (path.low, path.high) if isinstance(path, Swing) else None
     pace = Slope(1.0)
     if isinstance(path, Turn):
         clock = clocks.turn(JUST_AFTER, pace, exact_angle(path.start))
     else:
         clock = clocks.swing_by_phase(JUST_AFTER, pace, path.middle, path.amplitude)
-    half = loop.half(clock)
-    return 1 if float(signed_root(loop.root, half, pace, clock, swing).q) >= 0 else -1  # type: ignore[arg-type]
+    root, _ = loop.closed(clock, path, pace)
+    return 1 if float(root.q) >= 0 else -1  # type: ignore[arg-type]
 
 
 def _is_as_named(assembly: Assembly) -> bool:

@@ -16,8 +16,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Reach:
-    """Half the ways from angles to the two limits; which angles lie outside, and which are a limit."""
+    """Angles from the middle of a swing, half the ways to its limits, which lie outside or are a limit."""
 
+    angle: Array
     u: Array
     v: Array
     outside: NDArray[np.bool_]
@@ -47,7 +48,9 @@ def reach(angle: Array, swing: Swing) -> Reach:
     nearest = np.spacing(np.maximum(np.abs(angle), 0.25)) / 2
     at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
     outside = ~((np.minimum(u, v) >= 0) | at_limit)
-    return Reach(np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2, outside, at_limit)
+    return Reach(
+        _way(high, low, swing.middle, 1.0), np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2, outside, at_limit
+    )
 
 
 def _way(high: Array, low: Array, limit: Sum, sign: float) -> Array:

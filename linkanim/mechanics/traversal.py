@@ -11,19 +11,16 @@ from dataclasses import dataclass, field, replace
 
 from linkanim.errors import AssemblyError
 
-from .assembly import Gearing, Loop, Path, Swing, gearings
+from .assembly import Gearing, Loop, Path, gearings
 from .chain import LimitFit, Margin, limited_root
 from .clock import Clock, Half, by_angle
 from .closures import (
     PinLoop,
-    SignedRoot,
     meet,
     moving_factors,
     moving_square,
     moving_triangle,
     pin_triangle,
-    plain_root,
-    signed_root,
     slot_direction,
     slot_turning,
 )
@@ -31,6 +28,7 @@ from .exact import unit
 from .expression import Value, sqrt
 from .linkage import RPR, RRP, RRR, Body, Crank, Linkage, Pin, Rigid
 from .planar import Moving, MovingPoint, Slope, Turning, Vec, carried
+from .signed import SignedRoot, plain_root
 
 
 @dataclass(frozen=True)
@@ -40,7 +38,7 @@ class Plan:
     linkage: Linkage
     loops: Mapping[str, Loop]
     signs: Mapping[str, int]
-    path: Path | None
+    path: Path
     fits: Mapping[str, LimitFit] = field(default_factory=dict)
 
 
@@ -136,9 +134,8 @@ def _add_bar(w: _Walk, ends: tuple[str, str], length: float, turning: Turning, a
 
 def _loop_root(w: _Walk, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
     pace = _pace(w, loop.gearing)
-    half = loop.half(w.clock)
-    swing = (w.plan.path.low, w.plan.path.high) if isinstance(w.plan.path, Swing) else None
-    return signed_root(loop.root, half, pace, w.clock, swing).times(sign), half, pace
+    root, half = loop.closed(w.clock, w.plan.path, pace)
+    return root.times(sign), half, pace
 
 
 def _two_bars(w: _Walk, joint: RRR) -> None:

@@ -62,6 +62,10 @@ CASES = [
     Case("triple-rocker, inward/outward", FourBar((70, 60, 50, 100))),
     Case("triple-rocker, inward/inward", FourBar((60, 70, 100, 50))),
     Case("swing through a change point", FourBar((100, 90, 60, 50))),
+    # Ground as long as the crank: the pins nearly meet at the limits, or at the middle of the swing.
+    Case("pins a fourteenth apart at the limits", FourBar((14, 14, 14, 15))),
+    Case("pins a thousandth apart at the limits", FourBar((10, 10, 14, 14.01))),
+    Case("pins 1e-12 apart in the middle of the swing", FourBar((5, 5 + 1e-12, 3, 3))),
     # Through change points: none is stalled at, jumped at, or NaN.
     Case("parallelogram", FourBar((4, 2, 4, 2), start=1.0)),
     Case("antiparallelogram", FourBar((4, 2, 4, 2), side=-1, start=1.0)),

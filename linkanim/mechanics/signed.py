@@ -1,0 +1,212 @@
+"""The signed root of a loop closed from a crank pin, through its change points and limits.
+
+q = √U·√W, each factor's root signed: √U = √K cos(ψ/2) at a change point; at a limit
+U = K sin x sin y with x and y half the ways to the factor's two limits, so √U is √u√v times a
+root that stays positive. ρ = (K/2 sin ψ)ψ'/q has what vanishes in both divided out.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from .clock import Clock, Ends, Half
+from .exact import FULL_TURN, HALF_TURN, Sum
+from .expression import Value, cos, maximum, minimum, select, sin, sqrt
+from .planar import Moving, Slope
+from .roots import Factor, Kind, LoopRoot
+
+SMALLEST = 1e-300
+LAMBERT_DEPTH = 23
+OWN_LIMIT = 1e-15
+"""A limit within this angle of the end of a swing is that end."""
+
+
+@dataclass(frozen=True, slots=True)
+class SignedRoot:
+    """q, the regular ratio ρ = (K/2 sin ψ)ψ'/q, and the signed √U where q is a product of two roots."""
+
+    q: Value
+    ratio: Slope
+    root_u: Value = 0.0
+
+    def times(self, sign: int) -> SignedRoot:
+        """Return the root of the closure on the other side where `sign` is -1."""
+        factor = float(sign)
+        return SignedRoot(self.q * factor, self.ratio.scaled(factor), self.root_u * factor)
+
+
+def plain_root(u: Value, w: Value, driver: Moving, half_difference: Value) -> SignedRoot:
+    """Return the root of factors that do not vanish, with U' = -g and W' = g, g the driver's rate.
+
+    `half_difference` is (U - W)/2, or 1/2 where there is no U: q' = ρ times that.
+    """
+    q = sqrt(w * u)
+    ratio = driver.rate / q
+    return SignedRoot(q, Slope(ratio, (driver.second - ratio * ratio * half_difference) / q))
+
+
+def signed_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:
+    """Return q of a loop closed from a crank pin, signed through change points and limits.
+
+    `half` is ψ/2, sharpened where the loop limits the input; `pace` is ψ'.
+    """
+    if root.u.kind is Kind.PLAIN and root.w.kind is Kind.PLAIN:
+        u, w, half_difference = factor_values(root, half)
+        return plain_root(u, w, _spread_rates(root, half, pace), half_difference)
+    return _product_root(root, half, pace, swing)
+
+
+def _spread_rates(root: LoopRoot, half: Half, pace: Slope) -> Moving:
+    """Return K sin²(ψ/2) with its two derivatives."""
+    w, square = pace.value, half.square * root.spread
+    bend = (0.5 * root.spread - square) * (w * w)
+    return Moving(square, half.product * (w * root.spread), bend + half.product * (pace.rate * root.spread))
+
+
+def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value, Value]:
+    """Return U, W and half of U - W (1/2 where there is no U)."""
+    spread = half.square * root.spread
+    w = spread + root.w.least
+    if root.single:
+        return 1.0, w, 0.5
+    # Subtracting keeps all but two bits while the least value is not small beside the greatest.
+    roomy = 4 * root.u.least >= root.u.most
+    u = root.u.most - spread if roomy else (half.cosine * half.cosine) * root.spread + root.u.least
+    return u, w, 0.5 * (root.u.most - root.w.least) - spread
+
+
+@dataclass(frozen=True, slots=True)
+class Swinging:
+    """The ends of a swing as the clock has them, and the angles at which they lie."""
+
+    ends: Ends
+    pace: Slope
+    low: Sum
+    high: Sum
+
+
+def swinging(clock: Clock, low: Sum, high: Sum) -> Swinging | None:
+    """Return the swing of a clock between two angles; None where the input turns fully."""
+    return None if clock.ends is None else Swinging(clock.ends, clock.pace, low, high)
+
+
+@dataclass(frozen=True, slots=True)
+class _Ways:
+    """Half the ways x and y to a factor's own two limits, and which of them are ends of the swing.
+
+    `short` completes x + y to π; `sign` is that of cos(ψ/2) (sin(ψ/2) for W) over the whole swing.
+    """
+
+    x: Slope
+    y: Slope
+    upper: bool
+    lower: bool
+    short: float
+    sign: float
+
+    @property
+    def touching(self) -> Value:
+        """cos(ψ/2) of U, sin(ψ/2) of W: to its own last digit, however near π the limits lie."""
+        return sin(minimum(self.x.value, self.y.value) + 0.5 * self.short) * self.sign
+
+
+def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | None:
+    """Return the ways to the limits that a factor sets; None where it sets none."""
+    if swing is None or factor.kind is not Kind.LIMIT:
+        return None
+    best = root.reference if factor is root.u else root.reference + HALF_TURN
+    middle = float(swing.low + swing.high) / 2
+    turns = round((middle - float(best)) / (2 * math.pi))
+    best = best + FULL_TURN.times(float(turns))
+    upper, lower = float(best + factor.reach - swing.high), float(swing.low - (best - factor.reach))
+    at_upper, at_lower = upper <= OWN_LIMIT, lower <= OWN_LIMIT
+    u, v = swing.ends.u, swing.ends.v
+    return _Ways(
+        u if at_upper else Slope(u.value + 0.5 * upper, u.rate),
+        v if at_lower else Slope(v.value + 0.5 * lower, v.rate),
+        at_upper,
+        at_lower,
+        float(factor.short),
+        -1.0 if turns % 2 else 1.0,
+    )
+
+
+def sharpened(root: LoopRoot, half: Half, swing: Swinging | None) -> Half:
+    """Return ψ/2 with the sine or cosine that a limit keeps from vanishing right to its own last digit."""
+    ways_u, ways_w = _ways(root, root.u, swing), _ways(root, root.w, swing)
+    cosine = ways_u.touching if ways_u else half.cosine
+    if ways_w:
+        sine = ways_w.touching
+        return Half(sine, cosine, sine * sine, sine * cosine)
+    return Half(half.sine, cosine, half.square, half.sine * cosine) if ways_u else half
+
+
+def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:
+    """Return q as the product of its two signed roots, and ρ with what vanishes in both divided out."""
+    half_rate = pace.value * 0.5
+    first = half.product * (pace.value * root.spread)
+    u, w, _ = factor_values(root, half)
+    sine = Slope(half.sine, half.cosine * half_rate)
+    cosine = Slope(half.cosine, -(half.sine * half_rate))
+    scale = math.sqrt(root.spread)
+    plain_u = _plain_part(u, 0.0 if root.single else -first, cosine)
+    part_u = _part(root.u, plain_u, scale, _ways(root, root.u, swing), swing)
+    part_w = _part(root.w, _plain_part(w, first, sine), scale, _ways(root, root.w, swing), swing)
+    upper, lower = part_u.upper or part_w.upper, part_u.lower or part_w.lower
+    share = pace
+    if swing is not None and (upper or lower):
+        share = swing.ends.share_of_rate(swing.pace, upper, lower)
+    numerator = share.scaled(root.spread) * part_u.left * part_w.left
+    ratio = numerator / (part_u.regular * part_w.regular)
+    return SignedRoot(part_u.whole * part_w.whole, ratio, part_u.whole)
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """One signed root: whole, its regular part, what is left of sin or cos(ψ/2), the ends it holds."""
+
+    whole: Value
+    regular: Slope
+    left: Slope
+    upper: bool = False
+    lower: bool = False
+
+
+def _plain_part(value: Value, rate: Value, touching: Slope) -> _Part:
+    whole = sqrt(value)
+    return _Part(whole, Slope(whole, rate * 0.5 / whole), touching)
+
+
+def _part(factor: Factor, plain: _Part, scale: float, ways: _Ways | None, swing: Swinging | None) -> _Part:
+    if factor.kind is Kind.CHANGE_POINT:
+        return _Part(plain.left.value * scale, Slope(scale), Slope(1.0))
+    if ways is None or swing is None:
+        return plain
+    regular = _root_of_sine(ways.x, ways.y.value + ways.short, divided=ways.upper)
+    regular = regular * _root_of_sine(ways.y, ways.x.value + ways.short, divided=ways.lower)
+    regular = regular.scaled(scale)
+    whole = regular.value
+    whole = whole * swing.ends.root_u.value if ways.upper else whole
+    whole = whole * swing.ends.root_v.value if ways.lower else whole
+    return _Part(whole, regular, plain.left, ways.upper, ways.lower)
+
+
+def _root_of_sine(x: Slope, supplement: Value, *, divided: bool) -> Slope:
+    """Return √sin x, or √(sin x / x) where `divided`; near π the supplement keeps the digits."""
+    safe = maximum(x.value, SMALLEST)
+    sine = sin(minimum(safe, supplement))
+    if not divided:
+        root = sqrt(sine)
+        return Slope(root, root * 0.5 * (cos(x.value) / sine) * x.rate)
+    root = sqrt(sine / safe)
+    return Slope(root, root * 0.5 * _logarithmic_slope(x.value, safe, sine) * x.rate)
+
+
+def _logarithmic_slope(x: Value, safe: Value, sine: Value) -> Value:
+    """Return cot x - 1/x, by Lambert's continued fraction where the difference would cancel."""
+    square = x * x
+    fraction: Value = float(LAMBERT_DEPTH)
+    for odd in range(LAMBERT_DEPTH - 2, 1, -2):
+        fraction = float(odd) - square / fraction
+    return select(x, 1.0, -(x / fraction), cos(x) / maximum(sine, SMALLEST) - 1.0 / safe)

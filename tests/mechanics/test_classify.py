@@ -1,0 +1,129 @@
+"""Class, range, change points and circuits of linkages by their lengths."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from build import four_bar, six_bar, slider_crank, slotted
+
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.classify import classify
+from linkanim.mechanics.linkage import RRR, Crank, Drive, Gear, Linkage, Pin
+from linkanim.mechanics.mechanism import mechanism
+
+# Ground, crank, coupler, rocker -> class, whether the crank turns, circuits.
+CLASSES = [
+    # Grashof: named by the shortest link.
+    ((100, 30, 90, 80), "Grashof crank-rocker", True, 2),
+    ((30, 60, 70, 80), "Grashof drag-link (double crank)", True, 2),
+    ((100, 80, 30, 90), "Grashof double-rocker", False, 2),
+    ((100, 80, 90, 30), "Grashof crank-rocker driven at its rocker", False, 2),
+    # Not Grashof: named by the longest link.
+    ((100, 80, 60, 50), "triple-rocker (outward/outward)", False, 1),
+    ((70, 100, 60, 50), "triple-rocker (outward/inward)", False, 1),
+    ((70, 60, 50, 100), "triple-rocker (inward/outward)", False, 1),
+    ((60, 70, 100, 50), "triple-rocker (inward/inward)", False, 1),
+    # Change points: s + l = p + q.
+    ((4, 2, 4, 2), "parallelogram", True, 1),
+    ((4, 2, 5, 3), "change-point crank-rocker", True, 1),
+    ((3, 3, 5, 5), "kite (change point)", True, 1),
+    ((5, 3, 3, 5), "kite (change point)", True, 1),
+]
+
+
+@pytest.mark.parametrize(("lengths", "name", "turns", "circuits"), CLASSES)
+def test_a_four_bar_is_classed_by_its_lengths(
+    lengths: tuple[float, float, float, float], name: str, turns: bool, circuits: int
+) -> None:
+    info = classify(mechanism(four_bar(lengths)), "mm")
+    assert (info.class_name, info.full_turn, info.circuits) == (name, turns, circuits)
+
+
+def test_the_crossed_parallelogram_is_the_antiparallelogram() -> None:
+    assert classify(mechanism(four_bar((4, 2, 4, 2), side=-1)), "mm").class_name == "antiparallelogram"
+
+
+# The first report's limits: acos((r1² + r2² - (r3 ± r4)²) / 2 r1 r2).
+def test_input_limits_are_the_cosine_rule_s() -> None:
+    g, r, a, b = 100.0, 80.0, 30.0, 90.0
+    info = classify(mechanism(four_bar((g, r, a, b))), "mm")
+    ends = [math.acos((g * g + r * r - (a + s * b) ** 2) / (2 * g * r)) for s in (-1, 1)]
+    assert info.input_range == pytest.approx(ends, rel=1e-14)
+    assert info.toggles == info.input_range
+
+
+def test_change_points_are_told_as_crank_angles() -> None:
+    both = classify(mechanism(four_bar((4, 2, 4, 2), ground_angle=0.25)), "mm")
+    assert sorted(both.change_points) == pytest.approx([0.25, 0.25 + math.pi])
+    assert classify(mechanism(four_bar((4, 2, 5, 3))), "mm").change_points == pytest.approx((0.0,))
+    assert classify(mechanism(four_bar((100, 30, 90, 80))), "mm").change_points == ()
+
+
+PERIODS = [
+    ("one turn", four_bar((100, 30, 90, 80)), 1),
+    ("two through a single change point", four_bar((4, 2, 5, 3)), 2),
+    ("one through two change points", four_bar((4, 2, 4, 2)), 1),
+    ("one there and back", four_bar((100, 80, 30, 90)), 1),
+    ("a slot through its own pivot: half the crank's turn", slotted(50, 50, 80), 2),
+    ("a slider through both its change points", slider_crank(40, 40, 0), 1),
+    ("limits of one dyad down the chain", six_bar((100, 30, 90, 80), (120, 60, 90, 80)), 1),
+]
+
+
+@pytest.mark.parametrize(("name", "linkage", "periods"), PERIODS, ids=[row[0] for row in PERIODS])
+def test_the_true_period_is_when_everything_is_back(name: str, linkage: Linkage, periods: int) -> None:
+    solved = mechanism(linkage)
+    assert solved.periods == periods
+    first, last = (solved.pose(0.4 + turns * 2 * math.pi, 1.0, 0.0, 2) for turns in (0, periods))
+    for joint, place in first.position.items():
+        assert last.position[joint] == pytest.approx(place, abs=1e-12)
+        assert last.velocity[joint] == pytest.approx(first.velocity[joint], abs=1e-10)
+    for turns in range(1, periods):
+        between = solved.pose(0.4 + turns * 2 * math.pi, 1.0, 0.0, 0)
+        assert any(
+            math.dist(between.position[joint], place) > 1e-3 for joint, place in first.position.items()
+        )
+
+
+def geared(ratio: Fraction) -> Linkage:
+    """A geared five-bar: cranks of 55 and 61 on pins 330 apart, bars of 283 and 250."""
+    return Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("O7", (330.0, 0.0)),
+            Crank("A", "O2", 55.0),
+            Crank("D", "O7", 61.0, Gear("A", ratio, 0.3)),
+            RRR("B", ("A", "D"), (283.0, 250.0)),
+        ),
+        Drive("A", 1.0),
+    )
+
+
+@pytest.mark.parametrize("ratio", [Fraction(-1), Fraction(1, 3), Fraction(-2, 5), Fraction(7, 4)], ids=str)
+def test_gears_of_ratio_p_over_q_are_back_after_q_turns(ratio: Fraction) -> None:
+    solved = mechanism(geared(ratio))
+    assert solved.periods == ratio.denominator
+    period = 2 * math.pi * ratio.denominator
+    here, there = solved.pose(0.7, 1.0, 0.0, 2), solved.pose(0.7 + period, 1.0, 0.0, 2)
+    for joint in ("A", "D", "B"):
+        assert there.position[joint] == pytest.approx(here.position[joint], abs=1e-11)
+
+
+IMPOSSIBLE = [
+    # One link longer than the others together, each in turn.
+    ("ground", four_bar((300, 30, 90, 80))),
+    ("crank", four_bar((100, 330, 90, 80))),
+    ("coupler", four_bar((100, 30, 290, 80))),
+    ("rocker", four_bar((100, 30, 90, 280))),
+    ("a rod that cannot reach its line", slider_crank(40, 20, 100)),
+    ("a second loop that never closes", six_bar((100, 30, 90, 80), (120, 60, 10, 10))),
+    ("a slot farther off than the pin", slotted(100, 40, 50, 200)),
+]
+
+
+@pytest.mark.parametrize(("name", "linkage"), IMPOSSIBLE, ids=[row[0] for row in IMPOSSIBLE])
+def test_what_cannot_be_assembled_is_refused_in_words(name: str, linkage: Linkage) -> None:
+    with pytest.raises(AssemblyError, match=r"^joint [A-Z]: .*(cannot|more than)"):
+        mechanism(linkage)

@@ -1,0 +1,94 @@
+"""One trace of the formulas gives the same numbers as floats, in blocks, and in place."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from linkanim.mechanics.expression import Expr, Graph, Value, maximum, minimum, select, sqrt, tan
+from linkanim.mechanics.program import BLOCK, batch, needed, scalar
+
+
+def formulas(x: Value, w: Value) -> list[Value]:
+    square = x * x + 1.0
+    return [
+        sqrt(square) * w,
+        -(x * w) + x,
+        (2.0 * x) * (3.0 * w),
+        (-x - w) * 0.5,
+        select(x, 0.5, tan(x), -x),
+        maximum(minimum(x, w), 0.25),
+        1.0 / square - x / 4.0,
+        x,
+        w * 1.0,
+        0.0 * x + 3.0,
+    ]
+
+
+def noted(*, uniform: bool = True) -> list[Value]:
+    graph = Graph()
+    return formulas(graph.input("x"), graph.input("w", uniform=uniform))
+
+
+POINTS = [-1.3, 0.0, 0.3, 0.5, 2.0]
+
+
+@pytest.mark.parametrize("x", POINTS)
+def test_noted_formulas_compute_what_plain_floats_do(x: float) -> None:
+    outputs = noted()
+    program = scalar(("x", "w"), outputs, "(" + "{}, " * len(outputs) + ")")
+    assert program(x, 1.7) == pytest.approx(tuple(formulas(x, 1.7)), rel=1e-15, abs=1e-16)
+
+
+@pytest.mark.parametrize("count", [1, 5, BLOCK, BLOCK + 1, 2 * BLOCK + 7])
+@pytest.mark.parametrize("uniform", [True, False])
+def test_arrays_of_any_length_agree_with_single_values(count: int, uniform: bool) -> None:
+    x = np.linspace(-1.5, 1.5, count)
+    program = batch({"x": True, "w": not uniform}, noted(uniform=uniform))
+    rows = program(x, 1.7 if uniform else np.full(count, 1.7))
+    for index in {0, count // 2, count - 1}:
+        expected = np.array(formulas(float(x[index]), 1.7), dtype=float)
+        assert rows[:, index] == pytest.approx(expected, rel=1e-15, abs=1e-16)
+
+
+def test_an_operation_is_noted_once_however_often_it_is_written() -> None:
+    graph = Graph()
+    x, y = graph.input("x"), graph.input("y")
+    assert x * y + 1.0 is y * x + 1.0
+    assert len(needed([(x + y) * (x + y), sqrt(x + y)])) == 5
+
+
+def test_constants_signs_and_uniform_factors_are_drawn_together() -> None:
+    graph = Graph()
+    x, w = graph.input("x"), graph.input("w", uniform=True)
+    assert x * 0.0 == 0.0
+    assert x * 1.0 is x
+    assert x + 0.0 is x
+    negative = -x
+    assert -negative is x
+    assert (2.0 * x) * 3.0 is 6.0 * x
+    assert x - (-w) is x + w
+    product = -(w * x)
+    assert isinstance(product, Expr)
+    assert product.op == "mul"
+    scaled = (w * x) * 2.0
+    assert isinstance(scaled, Expr)
+    assert any(isinstance(argument, Expr) and argument.uniform for argument in scaled.args)
+
+
+def test_single_precision_stays_single() -> None:
+    program = batch({"x": True, "w": False}, noted())
+    rows = program(np.linspace(0, 1, 9, dtype=np.float32), 1.7, dtype=np.float32)
+    assert rows.dtype == np.float32
+
+
+def test_buffers_are_reused_not_one_for_each_operation() -> None:
+    graph = Graph()
+    value: Value = graph.input("x")
+    for _ in range(50):
+        value = sqrt(value * value + 1.0)
+    program = batch({"x": True}, [value])
+    assert program.buffers <= 2
+    assert program(np.array([0.0]))[0, 0] == pytest.approx(math.sqrt(50.0))
