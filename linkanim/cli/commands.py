@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import cast
 
 from linkanim import __version__, units
+from linkanim.bench.command import add_arguments
 from linkanim.cli import values
 from linkanim.cli.parser import Parser, join_negative, valued
 from linkanim.cli.presets import PRESETS
@@ -224,6 +225,10 @@ def _gallery(parser: Parser) -> None:
     )
 
 
+def _bench(parser: Parser) -> None:
+    add_arguments(parser)
+
+
 COMMANDS = {
     "play": Command(
         "open the window (the default command)",
@@ -258,5 +263,10 @@ COMMANDS = {
         "record every built-in scene as a small GIF",
         _gallery,
         ("linkanim gallery", "linkanim gallery --into slides/linkages"),
+    ),
+    "bench": Command(
+        "measure speed against error, beside the usual ways to solve a linkage",
+        _bench,
+        ("linkanim bench", "linkanim bench --draw", "linkanim bench --record --json"),
     ),
 }

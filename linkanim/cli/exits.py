@@ -60,8 +60,9 @@ def _code_of(error: BaseException) -> int:
 
 def _say(message: str, code: int) -> int:
     line = " ".join(message.split())
-    with suppress(OSError, ValueError):
-        print(f"linkanim: {line}", file=sys.stderr)
+    if sys.stderr is not None:  # print would take None for stdout
+        with suppress(OSError, ValueError):
+            print(f"linkanim: {line}", file=sys.stderr)
     return code
 
 

@@ -90,13 +90,13 @@ def look_of(options: Namespace) -> Look:
 
 
 @contextmanager
-def bar(*, shown: bool = False) -> Iterator[Progress]:
+def bar(*, shown: bool = False, unit: str = " frames") -> Iterator[Progress]:
     """Give a function that is told (frames done, frames in all), and draws a bar of it on stderr.
 
     Nothing is drawn where stderr is no terminal, unless it is to be `shown` all the same.
     """
     # tqdm takes None for "not on a terminal"
-    with tqdm(unit=" frames", leave=False, disable=False if shown else None, file=sys.stderr) as drawn:
+    with tqdm(unit=unit, leave=False, disable=False if shown else None, file=sys.stderr) as drawn:
         yield lambda done, total: advance(drawn, done, total)
 
 

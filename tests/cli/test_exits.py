@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -165,6 +166,13 @@ def test_a_full_disk_behind_stdout_is_one_line(words: list[str]) -> None:
         )
     assert done.returncode == 1
     assert done.stderr == "linkanim: No space left on device\n"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")
+def test_with_stderr_closed_stdout_holds_no_error() -> None:
+    words = shlex.join([*LINKANIM, "info", "nowhere"])
+    done = subprocess.run(["sh", "-c", f"{words} 2>&-"], check=False, stdout=subprocess.PIPE)
+    assert (done.returncode, done.stdout) == (2, b"")
 
 
 def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
