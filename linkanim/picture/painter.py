@@ -90,9 +90,8 @@ class Painter:
         """
         canvas = self._canvas(surface)
         self._wipe(canvas)
-        paint(self._stage(canvas), self._moving(pose, ghost if self.look.ghost else None))
+        paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
         if self._strip:
-            paint(canvas, self._strip.cursor(pose.phase))
             self._strip.draw_reading(canvas, pose.phase)
         if self._hud and self._names:
             canvas.blit(self._names, self._names.get_offset())
@@ -164,9 +163,8 @@ class Painter:
         still = pygame.Surface(self.size, flags, 32)
         still.fill((*self._theme.background, 255 if self.look.background else 0))
         known = (self._figure, self.view, self._gauge, self._theme)
-        stage = self._stage(still)
-        paint(stage, [*wheel_layers(*known), *ground_layers(*known)])
-        paint(stage, [trace.whole() for trace in self._cast.traces])
+        scene = [*wheel_layers(*known), *ground_layers(*known)]
+        paint(still, self._on_stage(scene + [trace.whole() for trace in self._cast.traces]))
         if self._strip:
             self._strip.draw(still)
         if self._legend:
@@ -183,10 +181,10 @@ class Painter:
     def _spare(self) -> pygame.Surface:
         return self._still.copy()
 
-    def _stage(self, canvas: pygame.Surface) -> pygame.Surface:
-        """Return what of a canvas belongs to the scene: all rows above the chart."""
+    def _on_stage(self, layers: list[Layer]) -> list[Layer]:
+        """Return the scene's layers, kept to the rows above the chart."""
         chart = self._layout.chart
-        return canvas.subsurface((0, 0, self.size[0], int(chart.y))) if chart else canvas
+        return [layer._replace(end=int(chart.y)) for layer in layers] if chart else layers
 
     def _wipe(self, canvas: pygame.Surface) -> None:
         if canvas.get_flags() & pygame.SRCALPHA:
@@ -194,7 +192,9 @@ class Painter:
         canvas.blit(self._still, (0, 0))
 
     def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer]:
-        return [*self._below(pose), *(self._ghost(ghost) if ghost else ()), *self._above(pose)]
+        """Return all that moves, back to front, the chart's cursor last."""
+        layers = [*self._below(pose), *(self._ghost(ghost) if ghost else ()), *self._above(pose)]
+        return self._on_stage(layers) + (self._strip.cursor(pose.phase) if self._strip else [])
 
     def _below(self, pose: Pose) -> Iterator[Layer]:
         places = self._places(pose)

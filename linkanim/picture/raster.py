@@ -32,11 +32,13 @@ class Layer(NamedTuple):
     """Closed loops of pixel positions x + yi filled with one colour, over the layers before it.
 
     Loops that turn the same way join where they overlap; a loop that turns the other way cuts a hole.
+    Pixel rows from `end` on are left as they are.
     """
 
     colour: Colour
     loops: Sequence[Loop]
     alpha: float = 1.0
+    end: int = 1 << 15
 
 
 class _Pieces(NamedTuple):
@@ -72,7 +74,9 @@ def paint(surface: pygame.Surface, layers: Sequence[Layer]) -> None:
     if not layers:
         return
     width, height = surface.get_size()
-    pieces = _by_column(*_by_row(*_edges(layers), height), width)
+    begin, end, number = _edges(layers)
+    lowest = np.array([min(layer.end, height) for layer in layers])[number]
+    pieces = _by_column(*_by_row(begin, end, number, lowest), width)
     if pieces.line.size:
         _mix(surface, layers, *_resolve(pieces, width))
 
@@ -84,21 +88,24 @@ def paints(surface: pygame.Surface) -> bool:
 
 def _edges(layers: Sequence[Layer]) -> tuple[Loop, Loop, _Ints]:
     """Return where the edges begin and end, and the number of their layer."""
-    loops = [loop for layer in layers for loop in layer.loops]
-    begin = np.concatenate(loops)
-    ends = np.cumsum([len(loop) for loop in loops])
-    end = np.roll(begin, -1)
-    end[ends - 1] = begin[ends - [len(loop) for loop in loops]]
-    edges = [sum(len(loop) for loop in layer.loops) for layer in layers]
-    return begin, end, np.repeat(np.arange(len(layers)), edges)
+    begin = np.concatenate([loop for layer in layers for loop in layer.loops])
+    counts = np.array([len(loop) for layer in layers for loop in layer.loops])
+    last = np.cumsum(counts) - 1
+    end = np.empty_like(begin)
+    end[:-1] = begin[1:]
+    end[last] = begin[last - counts + 1]
+    layer_of_loop = np.repeat(np.arange(len(layers)), [len(layer.loops) for layer in layers])
+    return begin, end, np.repeat(layer_of_loop, counts)
 
 
-def _by_row(begin: Loop, end: Loop, number: _Ints, high: int) -> tuple[_Ints, _Floats, _Floats, _Floats]:
+def _by_row(
+    begin: Loop, end: Loop, number: _Ints, lowest: _Ints
+) -> tuple[_Ints, _Floats, _Floats, _Floats]:
     """Cut edges at pixel rows; return each piece's line, its signed height, and x at both ends."""
     falls = end.imag > begin.imag
     top, bottom = np.where(falls, begin, end), np.where(falls, end, begin)
-    first = np.floor(np.clip(top.imag, 0, high)).astype(np.int64)
-    last = np.ceil(np.clip(bottom.imag, 0, high)).astype(np.int64)
+    first = np.floor(np.clip(top.imag, 0, lowest)).astype(np.int64)
+    last = np.ceil(np.clip(bottom.imag, 0, lowest)).astype(np.int64)
     height = bottom.imag - top.imag
     edge, row = _expand(np.where(height > 0, np.maximum(last - first, 0), 0), first)
     slope = (bottom.real - top.real) / np.where(height > 0, height, 1)
@@ -189,7 +196,8 @@ def _mix(surface: pygame.Surface, layers: Sequence[Layer], outline: _Runs, spans
         for batch in mixed if layer.alpha >= 1 else (full, *mixed):
             part = slice(batch.bounds[n], batch.bounds[n + 1])
             if part.stop > part.start:
-                _blend(pixels, inks[n], batch.place[part], batch.cover[part] * layer.alpha, clear)
+                cover = batch.cover[part] if layer.alpha >= 1 else batch.cover[part] * layer.alpha
+                _blend(pixels, inks[n], batch.place[part], cover[:, None], clear)
 
 
 def _inks(surface: pygame.Surface, layers: Sequence[Layer]) -> NDArray[np.float32]:
@@ -203,12 +211,11 @@ def _blend(
     pixels: NDArray[np.uint32],
     ink: NDArray[np.float32],
     place: _Ints,
-    cover: NDArray[np.float32],
+    weight: NDArray[np.float32],
     clear: bool,
 ) -> None:
     """Mix ink into pixels by its coverage; `clear` where the surface itself lets light through."""
     below = pixels[place].view(np.uint8).reshape(-1, 4).astype(np.float32)
-    weight = cover[:, None]
     if clear:
         under = below[:, 3:] / np.float32(255)
         whole = weight + under * (1 - weight)

@@ -80,36 +80,30 @@ def _repeated(feet: Loop, path: ArrayLike, width: float) -> list[Loop]:
 
 @dataclass(frozen=True)
 class Cushion:
-    """A damper to draw: how far it reaches, its cylinder's radius and length in pixels."""
+    """A damper to draw: how far it reaches, its cylinder's length in pixels, and what does not change.
+
+    `cylinder` lies along the real axis from its closed end at 0, `head` about 0.
+    """
 
     between: tuple[str, str]
     reach: Reach
-    radius: float
     length: float
-    gauge: Gauge
-    theme: Theme
+    rod: float
+    cylinder: tuple[Layer, Layer]
+    head: Layer
 
     def layers(self, places: Places) -> list[Layer]:
-        """Return rod, cylinder and piston; the piston stands deeper the shorter the damper is."""
+        """Return cylinder, rods and piston; the piston stands deeper the shorter the damper is."""
         start, end = (places[name] for name in self.between)
         span, turn = abs(end - start), unit(end - start)
-        begin = max(0.5 * (self.reach.shortest - self.length), 0.0) * 0.6
-        piston = begin + self._piston(span)
-        rod = np.array([piston, span]), np.array([0, begin])
-        wall = box(self.length, 2 * self.radius, 0.25 * self.radius) + begin + self.length / 2
-        inside = box(
-            self.length - 2 * self.gauge.outline, 2 * (self.radius - self.gauge.outline), 0.2 * self.radius
-        )
-        head = box(0.16 * self.length, 2 * self.radius - 3 * self.gauge.outline, 0.1 * self.radius) + piston
-        hollow = mixed(self.theme.metal, self.theme.background, 0.72)
-        rods = [loop for path in rod for loop in stroke(path, 2.4 * self.gauge.line)]
-        groups = (
-            (self.theme.outline, [wall]),
-            (hollow, [inside + begin + self.length / 2]),
-            (self.theme.outline, rods),
-            (self.theme.metal, [head]),
-        )
-        return [Layer(colour, [start + turn * loop for loop in loops]) for colour, loops in groups]
+        foot = max(0.5 * (self.reach.shortest - self.length), 0.0) * 0.6
+        piston = foot + self._piston(span)
+        rods = [*stroke([piston, max(span, piston)], self.rod), *stroke([0, foot], self.rod)]
+        return [
+            *(_put(layer, start + turn * foot, turn) for layer in self.cylinder),
+            _put(Layer(self.cylinder[0].colour, rods), start, turn),
+            _put(self.head, start + turn * piston, turn),
+        ]
 
     def _piston(self, span: float) -> float:
         """Return where in the cylinder the piston stands, in pixels from its closed end."""
@@ -135,5 +129,15 @@ def cushions(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Cu
         span = reach(figure, view, item)
         needed = (span.longest - span.shortest) / 0.68
         length = min(max(needed, 5 * gauge.bar), max(0.8 * span.shortest, 2 * gauge.bar))
-        found.append(Cushion(item.between, span, 0.95 * gauge.bar, length, gauge, theme))
+        radius, edge = 0.95 * gauge.bar, gauge.outline
+        wall = box(length, 2 * radius, 0.25 * radius) + length / 2
+        inside = box(length - 2 * edge, 2 * (radius - edge), 0.2 * radius) + length / 2
+        hollow = mixed(theme.metal, theme.background, 0.72)
+        cylinder = Layer(theme.outline, [wall]), Layer(hollow, [inside])
+        head = Layer(theme.metal, [box(0.16 * length, 2 * radius - 3 * edge, 0.1 * radius)])
+        found.append(Cushion(item.between, span, length, 2.4 * gauge.line, cylinder, head))
     return tuple(found)
+
+
+def _put(layer: Layer, at: complex, turn: complex) -> Layer:
+    return Layer(layer.colour, [at + turn * loop for loop in layer.loops])

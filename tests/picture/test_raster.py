@@ -154,3 +154,9 @@ def test_a_surface_with_gaps_between_its_rows_is_not_painted_directly() -> None:
     assert paints(whole.subsurface((0, 10, 64, 20)))
     assert not paints(whole.subsurface((10, 10, 20, 20)))
     assert not paints(pygame.Surface((64, 64), 0, 24))
+
+
+def test_a_layer_leaves_the_rows_from_its_end_on_as_they_are() -> None:
+    cover = coverage(filled([Layer(WHITE, [box(20, 20) + 32 + 32j], 1.0, 30)]))
+    assert cover[29, 32] == 1
+    assert cover[30:].sum() == 0
