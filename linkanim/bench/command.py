@@ -1,0 +1,95 @@
+"""The `bench` command: its options, and what each of its three ways prints."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from argparse import Namespace
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from linkanim.errors import BadInput, WorkFailed
+
+CHART = "speed-vs-error.png"
+
+Progress = Callable[[int, int], None]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `bench`; imports nothing that measures."""
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--draw", action="store_true", help="what a frame of the window costs, instead")
+    what.add_argument("--record", action="store_true", help="what recordings cost, instead")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="one object")
+    form.add_argument("--markdown", action="store_true", help="the table of speed and error as in the README")
+    parser.add_argument(
+        "--into",
+        type=Path,
+        default=Path("recordings"),
+        metavar="FOLDER",
+        help=f"where {CHART} goes (default: recordings)",
+    )
+
+
+def run(options: Namespace, progress: Progress | None = None) -> int:
+    """Measure what was asked, print it and return 0.
+
+    BadInput where the extra is not installed or the folder cannot be one, before anything is measured.
+    """
+    if options.markdown and (options.draw or options.record):
+        raise BadInput("--markdown is the table of speed and error; leave it out with --draw and --record")
+    if options.draw:
+        return _drawing(options)
+    if options.record:
+        return _recordings(options)
+    return _speed_and_error(options, progress)
+
+
+def _speed_and_error(options: Namespace, progress: Progress | None) -> int:
+    from linkanim.bench.extra import require_extra
+
+    require_extra()
+    into = _folder(options.into)
+    from linkanim.bench import drawing, report, result
+
+    found = result.run(progress)
+    form = report.as_json if options.json else report.as_markdown if options.markdown else report.as_text
+    print(form(found))
+    print(drawing.draw(found, into / CHART), file=sys.stderr)
+    return 0
+
+
+def _drawing(options: Namespace) -> int:
+    from linkanim.bench import window
+
+    found = window.run()
+    print(_json(window.as_object(found)) if options.json else window.as_text(found))
+    return 0
+
+
+def _recordings(options: Namespace) -> int:
+    from linkanim.bench import recording
+
+    found = recording.run()
+    print(_json(recording.as_object(found)) if options.json else recording.as_text(found))
+    return 0
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, indent=2, allow_nan=False)
+
+
+def _folder(path: Path) -> Path:
+    """Return the folder, made where only it is missing."""
+    if path.exists() and not path.is_dir():
+        raise BadInput(f"--into {path}: is a file; name a folder")
+    if not path.parent.is_dir():
+        raise BadInput(f"--into {path}: there is no folder {path.parent}; make it first, or choose another")
+    try:
+        path.mkdir(exist_ok=True)
+    except OSError as error:
+        raise WorkFailed(f"--into {path}: cannot be made: {error.strerror or error}") from error
+    return path

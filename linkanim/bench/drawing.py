@@ -1,0 +1,57 @@
+"""Speed against error as a picture: the easy cycle above, the hard cases below."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from linkanim.bench.accuracy import Score
+from linkanim.bench.result import Result, Row
+from linkanim.picture.offscreen import offscreen, png_bytes
+from linkanim.picture.scatter import Names, Point, scatter
+from linkanim.recorder.safe import checked_target, replacing
+
+SIZE = (1280, 640)
+LEAST = 1e-17
+"""Where an error of nothing is drawn."""
+OWN = ("batch", "batch, many", "single", "float32")
+ACROSS = "ns a pose, positions"
+UP = "worst error in longest links"
+
+
+class Panel(NamedTuple):
+    """One picture: what it shows, and its points."""
+
+    title: str
+    points: list[Point]
+
+
+def draw(result: Result, path: Path) -> Path:
+    """Write both pictures, one below the other, as a PNG; return where it is.
+
+    BadInput where the path cannot be; RecordingFailed where the disk refuses.
+    """
+    target = checked_target(path, (".png",))
+    width, height = SIZE
+    sheet = offscreen((width, 2 * height))
+    for number, (title, points) in enumerate(panels(result)):
+        sheet.blit(scatter(points, Names(title, ACROSS, UP), size=SIZE), (0, number * height))
+    with replacing(target) as part:
+        part.write_bytes(png_bytes(sheet))
+    return target
+
+
+def panels(result: Result) -> Iterator[Panel]:
+    """Yield the two pictures; beside a name, the share of hard poses on the wrong closure or NaN."""
+    yield Panel("Speed against error on an easy cycle", [_point(row, row.easy) for row in result.rows])
+    rows = [row for row in result.rows if not math.isnan(row.hard.error)]
+    title = "On the hard cases (in brackets: poses on the wrong closure, or NaN)"
+    yield Panel(title, [_point(row, row.hard) for row in rows])
+
+
+def _point(row: Row, score: Score) -> Point:
+    lost = 100 * (score.wrong + score.missing) / score.poses
+    name = f"{row.name} ({lost:.0f} %)" if lost else row.name
+    return Point(name, row.position_ns, max(score.error, LEAST), row.key in OWN)

@@ -1,0 +1,66 @@
+"""What a recording costs: the recorder's own measurements of the press, as a table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from linkanim.bench.machine import Machine, this_machine
+from linkanim.bench.report import columns
+from linkanim.recorder.measure import FRAMES, Cost, cost
+from linkanim.recorder.plan import Format
+
+SCENE = "press"
+TITLES = ("press, 1280x720", "frames", "time", "to encoding", "size", "quality", "memory + encoder's")
+FORMATS: tuple[Format, ...] = ("gif", "mp4")
+
+
+@dataclass(frozen=True)
+class Recordings:
+    """What a run found, a cost for each format."""
+
+    machine: Machine
+    costs: tuple[Cost, ...]
+
+
+def run(measure: Callable[..., Cost] = cost, *, frames: int = FRAMES) -> Recordings:
+    """Record the press as GIF and as MP4 and measure both."""
+    return Recordings(this_machine(), tuple(measure(SCENE, form, frames=frames) for form in FORMATS))
+
+
+def as_text(found: Recordings) -> str:
+    """Return the figures in aligned columns."""
+    return f"{found.machine.line}\n\n{columns([TITLES, *map(_line, found.costs)])}"
+
+
+def _line(cost: Cost) -> tuple[str, ...]:
+    memory = f"{cost.memory.drawing:.0f} + {cost.memory.encoding:.0f} MB"
+    quality = "exact" if math.isinf(cost.decibels) else f"{cost.decibels:.1f} dB"
+    times = (f"{cost.seconds:.1f} s", f"{cost.ratio:.2f} ×", f"{cost.megabytes:.2f} MB")
+    return (cost.form.upper(), str(cost.frames), *times, quality, memory)
+
+
+def as_object(found: Recordings) -> dict[str, Any]:
+    """Return the figures for JSON; null where the system does not tell, or nothing is lost."""
+    return {
+        "machine": found.machine._asdict(),
+        "recordings": [
+            {
+                "format": cost.form,
+                "frames": cost.frames,
+                "s": cost.seconds,
+                "encode_s": cost.encode_seconds,
+                "ratio": cost.ratio,
+                "MB": cost.megabytes,
+                "dB": _finite(cost.decibels),
+                "peak_MB": {name: _finite(peak) for name, peak in cost.memory._asdict().items()},
+            }
+            for cost in found.costs
+        ],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,147 @@
+"""What a frame of the window costs under SDL's dummy driver, and the first frame after start."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from statistics import median
+from typing import Any
+
+from linkanim.bench.machine import Machine, this_machine
+from linkanim.bench.report import columns
+from linkanim.errors import WorkFailed
+from linkanim.picture.look import Look
+from linkanim.player import display
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.easel import Easel
+from linkanim.player.show import overlay
+from linkanim.player.state import advance, begin
+from linkanim.scenes import load
+
+SCENE = "press"
+LOOK = Look(vectors=frozenset("va"), chart="C.acceleration")
+SIZES = ((1280, 720), (1920, 1080))
+BOUNDS_MS = {(1280, 720): 6.0, (1920, 1080): 10.0}
+FIRST_BOUND = 0.4
+FRAMES = 300
+STARTS = 5
+
+TELL_FIRST = """
+import os, time
+import pygame.display as display
+flip = display.flip
+def first():
+    flip()
+    print(time.time(), flush=True)
+    os._exit(0)
+display.flip = first
+from linkanim.cli import main
+main(["play", "press"])
+"""
+
+
+@dataclass(frozen=True)
+class Frames:
+    """Draw and flip at one size: the median in ms, the 95th of a hundred, the share of a core at 60 fps."""
+
+    size: tuple[int, int]
+    milliseconds: float
+    slowest: float
+    core: float
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What a run found; `first` is the time from the start of the process to its first frame, s."""
+
+    machine: Machine
+    frames: tuple[Frames, ...]
+    first: float
+
+
+def run() -> Drawing:
+    """Measure the press with trace, vectors, chart and HUD at both sizes."""
+    with _dummy():
+        frames = tuple(measured(size) for size in SIZES)
+        return Drawing(this_machine(), frames, first_frame())
+
+
+def measured(size: tuple[int, int], *, frames: int = FRAMES) -> Frames:
+    """Play the press in a window of that size and time each frame's draw and flip."""
+    state = begin(load(SCENE), look=LOOK)
+    walls, processor = [], time.process_time
+    with display.opened(size):
+        easel = Easel(state)
+        easel.show(state, overlay(state))
+        used = 0.0
+        for _ in range(frames):
+            state = advance(state)
+            start, before = time.perf_counter(), processor()
+            easel.show(state, overlay(state))
+            walls.append(1e3 * (time.perf_counter() - start))
+            used += processor() - before
+    walls.sort()
+    core = used / frames * FRAMES_PER_SECOND
+    return Frames(size, median(walls), walls[int(0.95 * (frames - 1))], core)
+
+
+def first_frame(*, starts: int = STARTS) -> float:
+    """Return the median time from starting `linkanim play press` to its first flip, in s."""
+    return median(_started() for _ in range(starts))
+
+
+def _started() -> float:
+    start = time.time()
+    done = subprocess.run([sys.executable, "-c", TELL_FIRST], check=False, capture_output=True, text=True)
+    if not done.stdout:
+        raise WorkFailed(f"the window did not start: {done.stderr.strip() or 'it drew nothing'}")
+    return float(done.stdout.split()[-1]) - start
+
+
+@contextmanager
+def _dummy() -> Iterator[None]:
+    """Draw into no window meanwhile."""
+    before = os.environ.get("SDL_VIDEODRIVER")
+    os.environ["SDL_VIDEODRIVER"] = "dummy"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ["SDL_VIDEODRIVER"]
+        else:
+            os.environ["SDL_VIDEODRIVER"] = before
+
+
+def as_text(drawing: Drawing) -> str:
+    """Return the figures in aligned columns, each beside its bound."""
+    rows = [("press with all that is shown", "draw + flip", "bound", "95 % below", "of a core at 60 fps")]
+    for found in drawing.frames:
+        width, height = found.size
+        times = (f"{found.milliseconds:.1f} ms", f"≤ {BOUNDS_MS[found.size]:g} ms", f"{found.slowest:.1f} ms")
+        rows.append((f"{width}x{height}", *times, f"{100 * found.core:.0f} %"))
+    rows.append(("first frame after start", f"{drawing.first:.2f} s", f"≤ {FIRST_BOUND:g} s", "", ""))
+    return f"{drawing.machine.line}\n\n{columns(rows)}"
+
+
+def as_object(drawing: Drawing) -> dict[str, Any]:
+    """Return the figures for JSON."""
+    return {
+        "machine": drawing.machine._asdict(),
+        "frames": [
+            {
+                "size": list(found.size),
+                "ms": found.milliseconds,
+                "ms_95": found.slowest,
+                "most_ms": BOUNDS_MS[found.size],
+                "core_at_60_fps": found.core,
+            }
+            for found in drawing.frames
+        ],
+        "first_frame_s": drawing.first,
+        "most_first_frame_s": FIRST_BOUND,
+    }
