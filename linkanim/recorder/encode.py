@@ -13,12 +13,12 @@ import re
 import signal
 import subprocess
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from threading import Thread
+from threading import Semaphore, Thread
 from typing import IO
 
 import numpy as np
@@ -27,7 +27,7 @@ from PIL import Image
 
 from linkanim.errors import RecordingFailed
 from linkanim.recorder.palette import Bytes
-from linkanim.recorder.plan import Format
+from linkanim.recorder.plan import MOST_FRAMES, Format
 
 Frame = bytes | bytearray | memoryview
 """A frame's bytes, row by row: blue, green, red, and alpha or one that means nothing."""
@@ -36,6 +36,13 @@ _THREADS = 2
 """Fixed, for H.264's bytes depend on it."""
 
 _BT709 = "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"
+_AHEAD: dict[Format, int] = {"gif": 2, "png": 6}
+"""How many frames may be on their way; H.264 looks further ahead, and bounds that itself."""
+_PATIENCE = 0.5
+"""Seconds after which an encoder that tells of no frame gets one more all the same."""
+
+_TELLING = ("-stats_enc_post", "pipe:1", "-stats_enc_post_fmt", "{n}")
+"""A line on stdout for every frame that is encoded."""
 _EXACT = ("-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact")
 _LAST_WORDS = 8
 
@@ -47,11 +54,6 @@ class Stream:
     size: tuple[int, int]
     rate: Fraction
     alpha: bool = False
-
-    @property
-    def frame_bytes(self) -> int:
-        """The length of one frame."""
-        return 4 * self.size[0] * self.size[1]
 
 
 @contextmanager
@@ -66,7 +68,8 @@ def encoding(
     """
     into = _OUTPUTS[form](stream, palette)
     goal = part / "%04d.png" if form == "png" else part
-    with _running([*_input(stream), *into, *_EXACT, f"file:{_escaped(goal, form)}"]) as write:
+    command = [*_input(stream), *into, *_EXACT, *_TELLING, f"file:{_escaped(goal, form)}"]
+    with _running(command, ahead=_AHEAD.get(form, MOST_FRAMES)) as write:
         yield write
 
 
@@ -169,60 +172,67 @@ class _GoneError(Exception):
 
 
 @contextmanager
-def _running(command: list[str]) -> Iterator[Callable[[Frame], None]]:
-    """Run the encoder and give the function that writes to it."""
+def _running(command: list[str], *, ahead: int) -> Iterator[Callable[[Frame], None]]:
+    """Run the encoder and give the function that writes to it, not too far ahead of what is encoded.
+
+    The encoder would queue dozens of frames; so its memory is the same for few and for many.
+    """
     process = _started(command)
+    room = Semaphore(ahead)
+    words: deque[bytes] = deque(maxlen=_LAST_WORDS)
+    frames, told, said = _pipes(process)
+    listeners = (Thread(target=_making_room, args=(told, room)), Thread(target=words.extend, args=(said,)))
+
+    def write(frame: Frame) -> None:
+        room.acquire(timeout=_PATIENCE)
+        try:
+            frames.write(frame)
+        except BrokenPipeError as error:
+            raise _GoneError from error
+
     try:
-        pipe, words = _streams(process)
-
-        def write(frame: Frame) -> None:
-            try:
-                pipe.write(frame)
-            except BrokenPipeError as error:
-                raise _GoneError from error
-
+        for listener in listeners:
+            listener.start()
         with suppress(_GoneError):
             yield write
         with suppress(BrokenPipeError):
-            pipe.close()
-        _refuse_failure(process.wait(), words())
+            frames.close()
+        process.wait()
     finally:
-        _stop(process)
+        _stop(process, listeners)
+    _refuse_failure(process.returncode, words)
 
 
 def _started(command: list[str]) -> subprocess.Popen[bytes]:
     """Start the encoder in a session of its own: Ctrl-C in the terminal is for us, and we stop it."""
     pipe = subprocess.PIPE
     try:
-        return subprocess.Popen(
-            command, stdin=pipe, stdout=subprocess.DEVNULL, stderr=pipe, start_new_session=True
-        )
+        return subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, start_new_session=True)
     except OSError as error:
-        raise RecordingFailed(
-            f"the encoder {command[0]} cannot be started: {error.strerror or error}"
-        ) from error
+        reason = error.strerror or error
+        raise RecordingFailed(f"the encoder {command[0]} cannot be started: {reason}") from error
 
 
-def _streams(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], Callable[[], list[str]]]:
-    """Return the encoder's input, and a function that waits for its last words."""
-    if process.stdin is None or process.stderr is None:
+def _pipes(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes], IO[bytes]]:
+    """Return the encoder's stdin, stdout and stderr."""
+    if process.stdin is None or process.stdout is None or process.stderr is None:
         raise RecordingFailed("the encoder has no pipes")
-    words: deque[bytes] = deque(maxlen=_LAST_WORDS)
-    listener = Thread(target=words.extend, args=(process.stderr,), daemon=True)
-    listener.start()
-
-    def said() -> list[str]:
-        listener.join()
-        return [line.decode(errors="replace").strip() for line in words]
-
-    return process.stdin, said
+    return process.stdin, process.stdout, process.stderr
 
 
-def _refuse_failure(code: int, words: list[str]) -> None:
+def _making_room(told: IO[bytes], room: Semaphore) -> None:
+    for _ in told:
+        room.release()
+    room.release(MOST_FRAMES)  # the encoder is gone: whoever waits is to find out
+
+
+def _refuse_failure(code: int, words: Iterable[bytes]) -> None:
+    """Raise `RecordingFailed` with the encoder's last words where it did not end well."""
     if code == 0:
         return
     how = f"was stopped by {_signal_name(-code)}" if code < 0 else f"gave up with code {code}"
-    said = [re.sub(r"^\[.*?\] ", "", line) for line in words[-1:]]
+    lines = [line.decode(errors="replace").strip() for line in words]
+    said = [re.sub(r"^\[.*?\] ", "", line) for line in lines[-1:]]
     raise RecordingFailed(": ".join([f"the encoder {how}", *said]))
 
 
@@ -233,11 +243,13 @@ def _signal_name(number: int) -> str:
         return f"signal {number}"
 
 
-def _stop(process: subprocess.Popen[bytes]) -> None:
-    """Leave no process behind, however the work ended."""
+def _stop(process: subprocess.Popen[bytes], listeners: Iterable[Thread]) -> None:
+    """Leave no process and no thread behind, however the work ended."""
     process.kill()
     process.wait()
-    for pipe in (process.stdin, process.stderr):
-        if pipe is not None:
-            with suppress(OSError):
-                pipe.close()
+    for listener in listeners:
+        if listener.is_alive():
+            listener.join()
+    for pipe in _pipes(process):
+        with suppress(OSError):
+            pipe.close()
