@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from .expression import Expr, Value
 
 Array = NDArray[np.floating[Any]]
 
-BLOCK = 8192
+BLOCK = 16384
 
 INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
 FLOAT_CALLS = {
@@ -102,6 +102,8 @@ class Batch:
     prelude: Callable[..., tuple[float, ...]]
     constants: tuple[Array, ...]
     buffers: int
+    spare: list[Array] = field(default_factory=list, compare=False, repr=False)
+    """Buffers of calls that are over; a call takes its own, so that threads do not share any."""
 
     def __call__(self, *values: Array | float, dtype: type[np.floating[Any]] = np.float64) -> Array:
         """Return the outputs as rows (outputs, N)."""
@@ -113,12 +115,21 @@ class Batch:
             constants = tuple(constant.astype(dtype) for constant in constants)
         numbers = (*(np.asarray(value, dtype) for value in uniform), *constants)
         results = np.empty((len(self.outputs), count), dtype)
-        work = np.empty((self.buffers, min(BLOCK, count)), dtype)
+        work = self._buffers(dtype)
         for first in range(0, count, BLOCK):
             part = slice(first, min(first + BLOCK, count))
             inside = work[:, : part.stop - first]
             self.block([array[part] for array in arrays], numbers, list(results[:, part]), list(inside))
+        self.spare.append(work)
         return results
+
+    def _buffers(self, dtype: type[np.floating[Any]]) -> Array:
+        """Return buffers for one call, used ones where there are any: fresh memory costs a page at a time."""
+        try:
+            work = self.spare.pop()
+        except IndexError:
+            return np.empty((self.buffers, BLOCK), dtype)
+        return work if work.dtype == dtype else np.empty((self.buffers, BLOCK), dtype)
 
 
 def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
