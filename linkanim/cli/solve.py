@@ -8,7 +8,6 @@ import sys
 from argparse import Namespace
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain
 from pathlib import Path
 from typing import TextIO
 
@@ -18,7 +17,7 @@ from linkanim import units
 from linkanim.cli import table
 from linkanim.cli.commands import EVERY_ANGLE
 from linkanim.cli.strict import finite, json_text
-from linkanim.cli.tree import Tree, leaves, rows, tree
+from linkanim.cli.tree import BLOCK, Leaf, Tree, leaves, rows, tree
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.motion import Motion
 from linkanim.recorder.safe import checked_target, replacing
@@ -49,14 +48,15 @@ def run(options: Namespace) -> None:
     motion = _solved(scene, asked, speed, options.acceleration)
     head = {"scene": scene.name, "angle": None, "phase": None, "speed": speed}
     head |= {"acceleration": options.acceleration, "length_unit": scene.length_unit}
-    found = _rows(scene, motion, asked)
+    found = _found(scene, motion, asked)
+    poses = ({**head, **row} for row in rows(found, len(asked.radians)))
     if options.csv:
         _write_csv(target, asked, found)
     elif options.json:
-        _print_json(({**head, **row} for row in found), asked.sweep)
+        _print_json(poses, asked.sweep)
     else:
         words = table.of_sweep if asked.sweep else table.of_pose
-        print(words(scene, head, found))
+        print(words(scene, poses))
 
 
 def _asked(options: Namespace) -> Asked:
@@ -97,10 +97,10 @@ def _solved(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Mo
     return motion
 
 
-def _rows(scene: Scene, motion: Motion, asked: Asked) -> Iterator[Tree]:
-    """Yield what is known at each input; the input is as it was asked, also where nothing else is."""
+def _found(scene: Scene, motion: Motion, asked: Asked) -> Tree:
+    """Return what is known at each input; the input is as it was asked, also where nothing else is."""
     where = {"angle": motion.crank_angle, "phase": motion.phase, asked.by: np.array(asked.radians)}
-    return rows({**where, **tree(scene, motion)}, len(asked.radians))
+    return {**where, **tree(scene, motion)}
 
 
 def _print_json(objects: Iterator[Tree], sweep: bool) -> None:
@@ -120,7 +120,7 @@ def _target(name: str | None) -> Path | None:
     return None if name in (None, "-") else checked_target(str(name), (".csv",))
 
 
-def _write_csv(target: Path | None, asked: Asked, found: Iterator[Tree]) -> None:
+def _write_csv(target: Path | None, asked: Asked, found: Tree) -> None:
     if target is None:
         _csv_rows(sys.stdout, asked, found)
         return
@@ -128,10 +128,16 @@ def _write_csv(target: Path | None, asked: Asked, found: Iterator[Tree]) -> None
         _csv_rows(file, asked, found)
 
 
-def _csv_rows(file: TextIO, asked: Asked, found: Iterator[Tree]) -> None:
+def _csv_rows(file: TextIO, asked: Asked, found: Tree) -> None:
     """Write the input in degrees and then every quantity; what is not known is an empty cell."""
+    names, columns = zip(*leaves(found), strict=True)
     writer = csv.writer(file, lineterminator="\n")
-    first = next(found)
-    writer.writerow([f"{asked.by}_deg", *(name for name, _ in leaves(first))])
-    for degrees, row in zip(asked.degrees, chain([first], found), strict=True):
-        writer.writerow([degrees, *(finite(value) for _, value in leaves(row))])
+    writer.writerow([f"{asked.by}_deg", *names])
+    for start in range(0, len(asked.degrees), BLOCK):
+        part = slice(start, start + BLOCK)
+        writer.writerows(zip(asked.degrees[part], *(_cells(column[part]) for column in columns), strict=True))
+
+
+def _cells(column: Leaf) -> list[object]:
+    values = column.tolist()
+    return values if np.isfinite(column).all() else [finite(value) for value in values]

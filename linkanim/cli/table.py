@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Container, Iterator, Mapping, Sequence
 
 from linkanim.cli.tree import Tree
 from linkanim.mechanics.linkage import Pin
 from linkanim.scenes.scene import Scene
 
 
-def of_pose(scene: Scene, head: Mapping[str, Any], found: Iterator[Tree]) -> str:
+def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
     """Return one pose: where it is, then a table each for joints, bodies, sliders, springs and dampers."""
     pose = next(found)
     where = (
         f"{scene.name}: {scene.title}\n"
         f"crank angle {_degrees(pose['angle'])} deg, phase {_degrees(pose['phase'])} deg, "
-        f"speed {_number(head['speed'])} rad/s, acceleration {_number(head['acceleration'])} rad/s^2"
+        f"speed {_number(pose['speed'])} rad/s, acceleration {_number(pose['acceleration'])} rad/s^2"
     )
     tables = _tables(scene.length_unit, pose)
     return "\n\n".join([where, *(columns(lines) for lines in tables if len(lines) > 1)])
@@ -69,7 +68,7 @@ def _elements(kind: str, elements: Mapping[str, Tree]) -> Iterator[list[str]]:
         yield [f"{kind} {name}", _number(element["length"]), _number(element["rate"]), known]
 
 
-def of_sweep(scene: Scene, head: Mapping[str, Any], found: Iterable[Tree]) -> str:
+def of_sweep(scene: Scene, found: Iterator[Tree]) -> str:
     """Return a row for each input: moving joints, bodies' angles in degrees, sliders' travel."""
     fixed = {joint.name for joint in scene.linkage.joints if isinstance(joint, Pin)}
     lines = [list(_sweep_cells(row, fixed, scene.length_unit)) for row in found]
