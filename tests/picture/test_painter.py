@@ -16,6 +16,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import EditRow, Overlay, Panel
 from linkanim.picture.painter import Painter
+from linkanim.picture.quantities import quantities
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load, names
 
@@ -111,14 +112,18 @@ def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str
     assert psnr(small, averaged(large, 8)) >= 44
 
 
-def test_the_view_holds_everything_the_linkage_sweeps() -> None:
+@pytest.mark.parametrize(("chart", "bottom"), [(None, 350), ("coupler.angle", 253)])
+def test_the_view_holds_all_that_the_linkage_sweeps_beside_the_hud_and_above_the_chart(
+    chart: str | None, bottom: int
+) -> None:
     for name in names():
         scene = load(name)
-        painter = Painter(scene, (640, 360), Look())
+        look = Look(chart=chart if chart in quantities(scene) else None)
+        painter = Painter(scene, (640, 360), look)
         points = np.concatenate(list(scene.cycle(90).position.values()))
         placed = np.array([painter.view.to_pixel(*point) for point in points])
-        assert np.all(placed.min(axis=0) > (160, 0)), name
-        assert np.all(placed.max(axis=0) < (640, 360)), name
+        assert np.all(placed.min(axis=0) > (160, 10)), name
+        assert np.all(placed.max(axis=0) < (630, bottom if look.chart else 350)), name
 
 
 def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
@@ -216,6 +221,17 @@ def test_each_part_of_an_overlay_shows_and_goes(overlay: Overlay) -> None:
     assert _bytes(surface) != plain
     painter.paint(surface, pose)
     assert _bytes(surface) == plain
+
+
+def test_a_panel_that_is_kept_follows_what_it_says() -> None:
+    scene = load("crank-rocker")
+    painter, surface, pose = Painter(scene, (640, 360), Look()), offscreen((640, 360)), scene.pose(1.0)
+    pictures = []
+    for toast in ("one", "another", "one"):
+        painter.paint(surface, pose, Overlay(toast=toast))
+        pictures.append(_bytes(surface))
+    assert pictures[0] != pictures[1]
+    assert pictures[0] == pictures[2]
 
 
 @pytest.mark.parametrize("size", [(640, 360), (3840, 2160), (500, 700)])
