@@ -23,6 +23,7 @@ from .assembly import Path, Swing, Turn, why_apart
 from .chain import LimitFit, NearEnd
 from .exact import Sum, exact_angle
 from .expression import Graph, Value
+from .linkage import Linkage
 from .path import Assembly, resigned
 from .planar import Slope
 from .program import Batch, batch
@@ -59,8 +60,11 @@ class _Margins:
         return bool((self.lowest(x)[0] >= 0).all())
 
 
-def restricted(assembly: Assembly) -> Assembly:
-    """Return the assembly with its input's path cut back to what every dyad allows."""
+def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
+    """Return the assembly with its input's path cut back to what every dyad allows.
+
+    `linkage` is the one asked for, with its own lengths, to be named in an AssemblyError.
+    """
     margins = _margins(assembly)
     if margins is None or margins.all_open(_around(assembly.path)):
         return assembly
@@ -68,7 +72,7 @@ def restricted(assembly: Assembly) -> Assembly:
     values, whose = margins.lowest(places)
     if (values < 0).all():
         name = margins.names[int(whose[values.argmax()])]
-        raise AssemblyError(f"joint {name}: {why_apart(assembly.linkage, name)}")
+        raise AssemblyError(f"joint {name}: {why_apart(linkage, name)}")
     found = _swing(assembly.path, _open_interval(assembly, places, values, margins))
     for path in _smooth_paths(found):
         limited = resigned(replace(assembly, path=path))

@@ -316,4 +316,4 @@ def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:
 @lru_cache(maxsize=64)
 def mechanism(linkage: Linkage) -> Mechanism:
     """Return the linkage made ready; AssemblyError where it cannot be put together."""
-    return Mechanism(linkage, restricted(assemble(linkage)))
+    return Mechanism(linkage, restricted(assemble(linkage), linkage))

@@ -53,7 +53,7 @@ def assemble(linkage: Linkage) -> Assembly:
     scale = _scale(linkage)
     scaled = _scaled(linkage, scale)
     loops = find_loops(scaled)
-    for path in _paths(scaled, loops, open_arcs(scaled, loops)):
+    for path in _paths(scaled, loops, open_arcs(linkage, loops)):
         found = _as_named(Assembly(scaled, loops, path, {}, 1.0 / scale))
         if found is not None:
             return found
