@@ -186,7 +186,7 @@ def strip(figure: Figure, name: str, layout: Layout, pen: Pen) -> Strip:
     """Return the chart of a quantity for a window; BadInput where the scene has no such quantity."""
     found = series_of(figure.scene, name, figure.cycle)
     rect = layout.chart or Rect(0, 0, *layout.size)
-    most = max(min(round(rect.height / (2.6 * pen.small)), 6), 2)
+    most = max(min(round(rect.height / (2.1 * pen.small)), 6), 2)
     values = around(found.values, most=most, unit="°" if found.unit == "°" else "")
     period = figure.scene.period
     turns = linear(0.0, degrees(period), most=8, unit="°")
