@@ -1,0 +1,138 @@
+"""`bench` as it is called: what is missing or wrong is said in a line before anything is measured."""
+
+from __future__ import annotations
+
+import json
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
+import pytest
+from made_result import result
+
+from linkanim.bench import command, drawing, extra, recording, window
+from linkanim.bench import result as results
+from linkanim.bench.machine import this_machine
+from linkanim.cli import main
+from linkanim.errors import BadInput
+from linkanim.recorder.measure import Cost, Memory
+
+
+def options(*words: str) -> Namespace:
+    parser = ArgumentParser()
+    command.add_arguments(parser)
+    return parser.parse_args(words)
+
+
+@pytest.fixture
+def measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the extra be there, and the result be one made by hand."""
+    monkeypatch.setattr(extra, "NEEDED", ())
+    monkeypatch.setattr(results, "run", lambda progress: result())
+
+
+@pytest.mark.parametrize("missing", ["mpmath", "pylinkage", "numba", "scipy"])
+def test_what_is_missing_is_named_with_the_way_to_get_it(missing: str) -> None:
+    with pytest.raises(BadInput, match=rf'{missing}, .*pip install "linkanim\[bench\]"'):
+        extra.require_extra(lambda name: None if name == missing else object())
+
+
+def test_without_the_extra_bench_ends_in_one_line(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(extra, "NEEDED", ("a_package_that_is_not_there",))
+    assert main(["bench", "--into", str(tmp_path / "new")]) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err.count("\n") == 1
+    assert 'pip install "linkanim[bench]"' in told.err
+    assert list(tmp_path.iterdir()) == []
+
+
+# Where the chart cannot go, and what of it is said.
+@pytest.mark.parametrize(
+    ("into", "said"),
+    [
+        pytest.param("a-file", "is a file", id="a file"),
+        pytest.param("not-there/new", "there is no folder", id="a folder in a missing one"),
+    ],
+)
+def test_a_wrong_folder_is_refused(measured: None, tmp_path: Path, into: str, said: str) -> None:
+    (tmp_path / "a-file").touch()
+    with pytest.raises(BadInput, match=said):
+        command.run(options("--into", str(tmp_path / into)))
+
+
+def test_markdown_is_for_the_table_only() -> None:
+    with pytest.raises(BadInput, match="--markdown"):
+        command.run(options("--markdown", "--draw"))
+
+
+def test_it_prints_the_table_and_writes_the_chart(
+    measured: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert command.run(options("--into", str(tmp_path / "new"))) == 0
+    told = capsys.readouterr()
+    assert told.out.startswith("A processor")
+    assert told.err == f"{tmp_path / 'new' / command.CHART}\n"
+    assert (tmp_path / "new" / command.CHART).stat().st_size > 5_000
+
+
+def test_json_is_all_that_is_on_stdout(
+    measured: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command.run(options("--json", "--into", str(tmp_path)))
+    assert set(json.loads(capsys.readouterr().out)) == {"machine", "rows", "targets"}
+
+
+def test_the_machine_is_told() -> None:
+    machine = this_machine()
+    assert machine.cpu
+    assert machine.cores >= 1
+    assert machine.line.startswith(machine.cpu)
+
+
+def test_a_frame_is_drawn_and_timed() -> None:
+    found = window.measured((320, 180), frames=3)
+    assert found.size == (320, 180)
+    assert 0 < found.milliseconds <= found.slowest + 1e-9
+    assert found.core > 0
+
+
+def test_the_first_frame_comes_from_the_command_itself() -> None:
+    assert window.first_frame(starts=1) > 0
+
+
+def test_the_figures_of_drawing_stand_beside_their_bounds() -> None:
+    frames = tuple(window.Frames(size, 5.25, 7.0, 0.31) for size in window.SIZES)
+    found = window.Drawing(this_machine(), frames, 0.25)
+    lines = {line.split()[0]: line.split() for line in window.as_text(found).splitlines() if line}
+    assert lines["1280x720"][1:5] == ["5.2", "ms", "≤", "6"]
+    assert lines["1920x1080"][1:5] == ["5.2", "ms", "≤", "10"]
+    assert lines["first"][-5:] == ["0.25", "s", "≤", "0.4", "s"]
+    assert json.loads(json.dumps(window.as_object(found)))["frames"][0]["most_ms"] == 6.0
+
+
+def test_the_figures_of_recordings_are_the_recorders() -> None:
+    costs = {
+        "gif": Cost("gif", 300, 3.0, 1.5, 2.14, 60.9, Memory(104.0, 104.0)),
+        "mp4": Cost("mp4", 300, 4.0, 2.0, 0.4, float("inf"), Memory(100.0, float("nan"))),
+    }
+    asked = []
+
+    def measure(name: str, form: str, *, frames: int) -> Cost:
+        asked.append((name, form, frames))
+        return costs[form]
+
+    found = recording.run(measure, frames=300)
+    assert asked == [("press", "gif", 300), ("press", "mp4", 300)]
+    text = recording.as_text(found)
+    assert "2.00 ×" in text
+    assert "60.9 dB" in text
+    assert "104 + 104 MB" in text
+    gif, mp4 = recording.as_object(found)["recordings"]
+    assert (gif["ratio"], mp4["dB"], mp4["peak_MB"]["encoding"]) == (2.0, None, None)
+
+
+def test_the_chart_has_the_name_that_is_promised() -> None:
+    assert command.CHART == "speed-vs-error.png"
+    assert drawing.SIZE[0] == 1280

@@ -1,0 +1,61 @@
+"""Timings are taken in turn, repeated where short, and their median told; on a clock of the test's own."""
+
+from __future__ import annotations
+
+import pytest
+
+from linkanim.bench.entries import Timed
+from linkanim.bench.timing import FEWEST, LEAST_SECONDS, nanoseconds
+
+
+class Bench:
+    """A clock, and work that takes its time on it."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+        self.done: list[str] = []
+
+    def work(self, name: str, seconds: list[float], poses: int) -> Timed:
+        times = iter(seconds)
+        last = seconds[-1]
+
+        def run() -> None:
+            self.done.append(name)
+            self.now += next(times, last)
+
+        return Timed(run, poses)
+
+
+def test_the_median_round_is_told_in_ns_a_pose() -> None:
+    bench = Bench()
+    slow = bench.work("slow", [9.0, 1.0, 1.0, 5.0, 2.0], 1000)
+    found = nanoseconds({"slow": slow}, rounds=3, clock=lambda: bench.now)
+    assert found == {"slow": pytest.approx(2.0 / 1000 * 1e9)}
+
+
+def test_all_take_their_turn_in_every_round() -> None:
+    bench = Bench()
+    work = {name: bench.work(name, [1.0], 1) for name in "ab"}
+    nanoseconds(work, rounds=3, clock=lambda: bench.now)
+    assert "".join(bench.done) == "aabb" + "ab" * 3
+
+
+def test_short_work_is_repeated() -> None:
+    bench = Bench()
+    short = bench.work("short", [LEAST_SECONDS / 8], 10)
+    found = nanoseconds({"short": short}, rounds=1, clock=lambda: bench.now)
+    assert len(bench.done) == 2 + 8
+    assert found["short"] == pytest.approx(LEAST_SECONDS / 8 / 10 * 1e9)
+
+
+def test_a_slow_machine_gets_fewer_rounds_but_three() -> None:
+    bench, told = Bench(), []
+    slow = bench.work("slow", [1.0], 1)
+    nanoseconds(
+        {"slow": slow},
+        rounds=9,
+        budget=0.5,
+        clock=lambda: bench.now,
+        progress=lambda done, total: told.append((done, total)),
+    )
+    assert told == [(done, 9) for done in range(1, FEWEST + 1)]
