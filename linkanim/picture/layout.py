@@ -47,7 +47,7 @@ def layout(size: tuple[int, int], look: Look) -> Layout:
     high = (chart.y - 12 * unit if chart else whole.bottom) - whole.y
     if not look.hud:
         return Layout(size, unit, Rect(whole.x, whole.y, whole.width, high), None, chart)
-    hud = Rect(whole.x, whole.y, max(0.255 * size[0], 165.0), high)
+    hud = Rect(whole.x, whole.y, min(max(0.255 * size[0], 204.0), 0.32 * size[0]), high)
     left = hud.right + 16 * unit
     return Layout(size, unit, Rect(left, whole.y, max(whole.right - left, 1), high), hud, chart)
 

@@ -14,8 +14,8 @@ Anchor = Literal["left", "centre", "right"]
 _ANY: Colour = (0, 0, 0)
 _POINTS = 1.37
 """From a line's height in pixels to the size the font goes by."""
-_MISSHAPEN = 18
-"""At this one size the font's hinting cuts the bar of the t."""
+_MISSHAPEN = (15, 18)
+"""At these sizes the font's hinting cuts the dot of the i or the bar of the t."""
 _ARROWS = {"→": 1, "↓": 1j, "←": -1, "↑": -1j}
 """Signs the font lacks, and the way they point in the window."""
 
@@ -32,7 +32,7 @@ class Type:
         """Return the font at a height in pixels."""
         if size not in self._fonts:
             points = round(size * _POINTS)
-            self._fonts[size] = pygame.Font(None, points + (points == _MISSHAPEN))
+            self._fonts[size] = pygame.Font(None, points + (points in _MISSHAPEN))
         return self._fonts[size]
 
     def width(self, text: str, size: int) -> int:
