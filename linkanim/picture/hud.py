@@ -25,6 +25,7 @@ _NEAR_CHANGE = pi / 45
 _STEP = 1.42
 """From row to row, in heights of their text."""
 _TRIED = 24
+_SMALLEST = 9
 
 
 class Line(NamedTuple):
@@ -160,10 +161,10 @@ def hud_for(scene: Scene, layout: Layout, type_: Type, theme: Theme) -> Hud | No
 
 
 def _fitting(scene: Scene, layout: Layout, type_: Type) -> int:
-    """Return the text size at which every row fits the column over the whole cycle, at least 9 px."""
+    """Return the text size at which every row fits the column over the whole cycle, down to the smallest that reads."""
     width = layout.hud.width if layout.hud else 1.0
     phases = (scene.period * step / _TRIED for step in range(_TRIED))
-    shown = {row for phase in phases for row in rows(scene, scene.pose(phase))}
-    size = layout.text_size
-    widest = max(type_.width(f"{row.label}   {row.value}", size) for row in shown)
-    return max(min(size, int(size * width / widest)), 9)
+    shown = {f"{row.label}  {row.value}" for phase in phases for row in rows(scene, scene.pose(phase))}
+    sizes = range(layout.text_size, _SMALLEST - 1, -1)
+    fitting = (size for size in sizes if all(type_.width(row, size) <= width for row in shown))
+    return next(fitting, _SMALLEST)

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
-from linkanim.picture.hud import Row, note, rows, rpm
+from linkanim.picture.hud import Row, hud_for, note, rows, rpm
+from linkanim.picture.layout import layout
+from linkanim.picture.look import Look
+from linkanim.picture.text import Type
+from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
 
 
@@ -65,6 +70,18 @@ def test_the_crank_angle_is_within_one_turn(angle_deg: float, told: str) -> None
     scene = load("crank-rocker")
     phase = math.radians(angle_deg) - scene.linkage.drive.start
     assert dict(rows(scene, scene.pose(phase)))["crank angle"] == told
+
+
+@pytest.mark.parametrize("size", [(480, 270), (640, 360), (1280, 720), (3840, 2160)])
+@pytest.mark.parametrize("name", ["press", "triple-rocker-out-in"])
+def test_names_and_values_never_touch(name: str, size: tuple[int, int]) -> None:
+    scene, type_ = load(name), Type()
+    hud = hud_for(scene, layout(size, Look()), type_, LIGHT)
+    assert hud is not None
+    for phase in np.linspace(0, scene.period, 24, endpoint=False):
+        for row in rows(scene, scene.pose(float(phase))):
+            words = type_.width(row.label, hud.size) + type_.width(row.value, hud.size)
+            assert words < hud.column.width - 2
 
 
 @pytest.mark.parametrize(
