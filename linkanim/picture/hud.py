@@ -161,7 +161,7 @@ def hud_for(scene: Scene, layout: Layout, type_: Type, theme: Theme) -> Hud | No
 
 
 def _fitting(scene: Scene, layout: Layout, type_: Type) -> int:
-    """Return the text size at which every row fits the column over the whole cycle, down to the smallest that reads."""
+    """Return the largest text size at which every row fits the column over the whole cycle."""
     width = layout.hud.width if layout.hud else 1.0
     phases = (scene.period * step / _TRIED for step in range(_TRIED))
     shown = {f"{row.label}  {row.value}" for phase in phases for row in rows(scene, scene.pose(phase))}
