@@ -16,11 +16,18 @@ CHANGES: dict[str, Callable[[Clock, int], Clock]] = {
     "turn": lambda clock, frame: clock.turn(frame),
     "faster": lambda clock, frame: clock.faster(frame, 3),
     "slower": lambda clock, frame: clock.faster(frame, -2),
+    "another scene": lambda clock, frame: clock.at_rate(frame, 3.0),
+}
+CLOCKS = {
+    "running": Clock(RATE),
+    "paused": Clock(RATE).pause(30, True),
+    "stepped": Clock(RATE).step(30, 7),
+    "stepped and running": Clock(RATE).step(30, 7).pause(60, False),
 }
 
 
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
-@pytest.mark.parametrize("clock", [Clock(RATE), Clock(RATE).pause(30, True)], ids=["running", "paused"])
+@pytest.mark.parametrize("clock", CLOCKS.values(), ids=CLOCKS)
 def test_a_change_keeps_the_phase(clock: Clock, change: Callable[[Clock, int], Clock]) -> None:
     assert change(clock, 100).at(100) == clock.at(100)
 

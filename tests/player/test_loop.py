@@ -94,6 +94,7 @@ def test_run_returns_0_when_the_window_is_closed(monkeypatch: pytest.MonkeyPatch
 def test_without_a_display_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("SDL_VIDEODRIVER")
     monkeypatch.setattr(pygame.display, "get_driver", lambda: "offscreen")
+    monkeypatch.setattr(Window, "tick", lambda window, count: False)
     monkeypatch.setattr(display, "_prepare", lambda: os.environ.update(SDL_VIDEODRIVER="dummy"))
     with pytest.raises(NoDisplay, match="no display to open a window on"):
         run("press")
