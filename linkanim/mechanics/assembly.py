@@ -131,15 +131,9 @@ def gearings(linkage: Linkage) -> dict[str, Gearing]:
                 f'give it a gear, gear = {{ with = "{linkage.drive.joint}", ratio = -1 }}'
             )
         driver = found[crank.gear.driver]
-        offset = _scaled(driver.offset, crank.gear.ratio) + exact_angle(crank.gear.offset)
+        offset = driver.offset * crank.gear.ratio + exact_angle(crank.gear.offset)
         found[crank.name] = Gearing(driver.ratio * crank.gear.ratio, offset)
     return found
-
-
-def _scaled(value: Sum, ratio: Fraction) -> Sum:
-    exact = (Fraction(value.high) + Fraction(value.low)) * ratio
-    high = float(exact)
-    return Sum(high, float(exact - Fraction(high)))
 
 
 def ground_between(linkage: Linkage, start: str, end: str) -> Ground:

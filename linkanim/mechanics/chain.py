@@ -1,4 +1,4 @@
-"""The signed root of a dyad on moving points that limits the input.
+"""The signed root of a dyad on moving points that limits the input, or passes change points.
 
 Its margin F = U·W vanishes with the way to the limit: F = uⁱ vʲ S with S smooth and positive. So
 q = √uⁱ √vʲ √S is signed like any limit's, and next to the limit S comes from a polynomial, since
@@ -8,11 +8,16 @@ F itself has lost its digits there. Between the limits S is F over the ways.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 from .clock import Clock, Ends
+from .exact import Sum
 from .expression import Value, maximum, select, sqrt
 from .planar import Moving, Slope
-from .signed import SMALLEST, SignedRoot
+from .signed import SMALLEST, SignedRoot, plain_root
+
+CLOSE = 1e-10
+"""Square of the way within which an input counts as next to a change point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +44,54 @@ class LimitFit:
 
     upper: NearEnd | None
     lower: NearEnd | None
+
+
+@dataclass(frozen=True, slots=True)
+class Touches:
+    """The input's angles at which a dyad on moving points passes a change point.
+
+    The closure changes its sign there, which is the smooth path. `turns` is the number of turns
+    after which the input's angles repeat, `least` the smallest margin that its digits can tell
+    from none, and `sign` what makes the named closure the one just after the start.
+    """
+
+    angles: tuple[Sum, ...]
+    turns: int
+    least: float
+    sign: float = 1.0
+
+    def side(self, clock: Clock) -> Value:
+        """Return the sign of the closure on the smooth path."""
+        side: Value = self.sign
+        for way in self._ways(clock):
+            side = side * _sign(way)
+        return side
+
+    def _ways(self, clock: Clock) -> list[Value]:
+        """Return the signed sines of the ways from each change point."""
+        share = Fraction(1, self.turns)
+        return [clock.half(angle * share, share).sine for angle in self.angles]
+
+    def root(self, margin: Value, driver: Moving, half_difference: Value, clock: Clock) -> SignedRoot:
+        """Return q, signed, and ρ.
+
+        The margin has lost its digits next to a change point: q is good to 1e-8 of the longest link
+        there, ρ to 1e-5, and within 1e-5 rad ρ' is left out.
+        """
+        found = plain_root(maximum(margin, self.least), 1.0, driver, half_difference)
+        side, close = self.side(clock), 1e6 * self.least
+        # Where g and q vanish together ρ² = g'/(U - W)/2, from q' = ρ (U - W)/2.
+        past: Value = 0.0
+        for way in self._ways(clock):
+            past = past + select(way * way, CLOSE, _sign(way), 0.0)
+        limit = sqrt(maximum(driver.second / half_difference, 0.0)) * past * _sign(driver.second)
+        ratio = select(margin, close, limit, found.ratio.value)
+        rate = select(margin, close, 0.0, found.ratio.rate)
+        return SignedRoot(found.q * side, Slope(ratio * side, rate * side))
+
+
+def _sign(value: Value) -> Value:
+    return select(value, 0.0, -1.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)

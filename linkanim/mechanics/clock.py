@@ -85,7 +85,7 @@ class Clock:
 
     def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, sharp: bool = False) -> Half:
         """Return half of ratio × θ - reference, to the last digit at any number of turns."""
-        shift = _scaled_sum(self.origin, ratio) - reference
+        shift = self.origin * ratio - reference
         scaled, low = _scaled(self.angle, ratio)
         if shift.high == 0 and shift.low == 0 and _is_zero(low):
             return half_angle(scaled, sharp=sharp)
@@ -95,16 +95,6 @@ class Clock:
 
 def _is_zero(value: Value) -> bool:
     return isinstance(value, float) and value == 0.0
-
-
-def _scaled_sum(value: Sum, ratio: Fraction) -> Sum:
-    return value if ratio == 1 else Sum(*_fraction_of(value, ratio))
-
-
-def _fraction_of(value: Sum, ratio: Fraction) -> tuple[float, float]:
-    exact = (Fraction(value.high) + Fraction(value.low)) * ratio
-    high = float(exact)
-    return high, float(exact - Fraction(high))
 
 
 def _scaled(x: Value, ratio: Fraction) -> tuple[Value, Value]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 QUARTER_TURN_HIGH = math.pi / 2
@@ -32,6 +33,11 @@ class Sum:
         """Return the product with a float."""
         high, error = two_product(self.high, factor)
         return _renormalised(high, error + self.low * factor)
+
+    def __mul__(self, ratio: Fraction) -> Sum:
+        exact = (Fraction(self.high) + Fraction(self.low)) * ratio
+        high = float(exact)
+        return Sum(high, float(exact - Fraction(high)))
 
     def __float__(self) -> float:
         return self.high + self.low

@@ -27,6 +27,7 @@ from .linkage import Linkage
 from .path import Assembly, resigned
 from .planar import Slope
 from .program import Batch, batch
+from .touching import through_change_points
 
 SAMPLES_A_TURN = 2880
 TOUCHING = 1e-12
@@ -48,6 +49,11 @@ class _Margins:
     program: Batch
     scale: Array
 
+    @property
+    def scales(self) -> dict[str, float]:
+        """Map each dyad to its margin's greatest value."""
+        return dict(zip(self.names, self.scale.tolist(), strict=True))
+
     def lowest(self, x: Array) -> tuple[Array, NDArray[np.intp]]:
         """Return the lowest relative margin at each place, and whose it is; NaN counts as none."""
         with np.errstate(all="ignore"):
@@ -66,8 +72,10 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     `linkage` is the one asked for, with its own lengths, to be named in an AssemblyError.
     """
     margins = _margins(assembly)
-    if margins is None or margins.all_open(_around(assembly.path)):
+    if margins is None:
         return assembly
+    if margins.all_open(_around(assembly.path)):
+        return through_change_points(assembly, margins.names, margins.scales)
     places = _places(assembly.path)
     values, whose = margins.lowest(places)
     if (values < 0).all():

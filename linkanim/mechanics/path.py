@@ -10,7 +10,7 @@ from linkanim.errors import AssemblyError
 
 from . import clock as clocks
 from .assembly import Arc, Loop, Path, Swing, Turn, find_loops, gearings, open_arcs
-from .chain import LimitFit
+from .chain import LimitFit, Touches
 from .exact import exact_angle
 from .expression import Value
 from .linkage import RPR, RRP, RRR, Crank, Joint, Linkage, Pin, Polar, Rigid
@@ -36,10 +36,12 @@ class Assembly:
     signs: Mapping[str, int]
     unscale: float = 1.0
     fits: Mapping[str, LimitFit] = field(default_factory=dict)
+    touches: Mapping[str, Touches] = field(default_factory=dict)
 
     def walk(self, clock: clocks.Clock) -> Kinematics:
         """Return the motion of everything at the clock's instant."""
-        return walk(Plan(self.linkage, self.loops, self.signs, self.path, self.fits), clock)
+        plan = Plan(self.linkage, self.loops, self.signs, self.path, self.fits, self.touches)
+        return walk(plan, clock)
 
     def clock(self, phase: Value, pace: Slope) -> clocks.Clock:
         """Return the input's state at a phase, in plain floats or noted expressions."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from linkanim.errors import AssemblyError
 
 from .assembly import Gearing, Loop, Path, gearings
-from .chain import LimitFit, Margin, limited_root
+from .chain import LimitFit, Margin, Touches, limited_root
 from .clock import Clock, Half, by_angle
 from .closures import (
     PinLoop,
@@ -40,6 +40,7 @@ class Plan:
     signs: Mapping[str, int]
     path: Path
     fits: Mapping[str, LimitFit] = field(default_factory=dict)
+    touches: Mapping[str, Touches] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +62,8 @@ class Kinematics:
     travels: Mapping[str, Moving]
     margins: Mapping[str, Value]
     """For each dyad closed from moving points: U·W, negative where it cannot be assembled."""
+    drivers: Mapping[str, Moving]
+    """What closes each of these dyads: L², or how far its end lies from its line."""
 
 
 @dataclass
@@ -82,7 +85,7 @@ def walk(plan: Plan, clock: Clock) -> Kinematics:
     """Return the motion of everything in the linkage at the clock's instant."""
     by_angle = _walked(plan, _angle_clock(clock), {}).drivers if plan.fits and clock.ends else {}
     w = _walked(plan, clock, by_angle)
-    return Kinematics(w.points, _centres(w), _bodies(w), _body_travels(w), w.margins)
+    return Kinematics(w.points, _centres(w), _bodies(w), _body_travels(w), w.margins, w.drivers)
 
 
 def _angle_clock(clock: Clock) -> Clock:
@@ -208,7 +211,11 @@ def _margin_root(
         half_difference = 0.5 if single else (u - v) * 0.5
         margin = Margin(u * v, half_difference, driver, w.by_angle[name])
         return limited_root(margin, w.plan.fits[name], w.clock)
-    return plain_root(u, v, driver, 0.5 if single else (u - v) * 0.5)
+    half_difference = 0.5 if single else (u - v) * 0.5
+    touches = w.plan.touches.get(name)
+    if touches is not None:
+        return touches.root(u * v, driver, half_difference, w.clock)
+    return plain_root(u, v, driver, half_difference)
 
 
 def _slot(w: _Walk, joint: RPR) -> None:

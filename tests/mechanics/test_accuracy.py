@@ -365,3 +365,35 @@ def test_outside_the_range_every_quantity_is_nan(name: str, bar: FourBar) -> Non
         for joint, values in mapping.items():
             if joint not in ("O2", "O4"):
                 assert np.isnan(values).all(), joint
+
+
+TOUCHING = [
+    # A drag-link's output drives a second loop whose two bars fall into line twice, or once, a turn.
+    ("a parallelogram down the chain", (40.0, 20.0, 40.0, 20.0), 1),
+    ("one change point down the chain", (40.0, 20.0, 45.0, 25.0), 2),
+]
+
+
+@pytest.mark.parametrize(("name", "second", "periods"), TOUCHING, ids=[row[0] for row in TOUCHING])
+def test_change_points_down_the_chain_are_passed_smoothly(
+    name: str, second: tuple[float, float, float, float], periods: int
+) -> None:
+    solved = mechanism(six_bar((30, 60, 70, 80), second))
+    assert solved.periods == periods
+    (touches,) = solved.assembly.touches.values()
+    around = np.concatenate([float(angle) + np.linspace(-1e-3, 1e-3, 2001) for angle in touches.angles])
+    phases = np.concatenate([np.linspace(0, 2 * np.pi * periods, 20001), around])
+    motion = solved.solve(phase=phases, speed=1.0)
+    for kind in ("position", "velocity"):
+        assert np.isfinite(getattr(motion, kind)["D"]).all()
+    # Position and velocity go on with no step through each change point.
+    for index in range(len(touches.angles)):
+        part = slice(20001 + 2001 * index, 20001 + 2001 * (index + 1))
+        fastest = np.abs(motion.velocity["D"]).max()
+        assert np.abs(np.diff(motion.velocity["D"][part], axis=0)).max() <= 1e-4 * fastest
+        assert np.abs(np.diff(motion.position["D"][part], 2, axis=0)).max() <= 2e-8 * 80
+    # The crank's angle and the pose alike: one at a time gives the same.
+    for angle in touches.angles:
+        pose = solved.pose(float(angle), 1.0, 0.0, 2)
+        beside = solved.pose(float(angle) + 1e-7, 1.0, 0.0, 2)
+        assert pose.velocity["D"] == pytest.approx(beside.velocity["D"], abs=1e-4 * fastest)
