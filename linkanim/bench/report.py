@@ -12,8 +12,8 @@ from linkanim.bench.result import Result, Row, Target
 
 TITLES = ("method", "ns a pose", "with derivatives", "worst error, easy", "hard", "wrong closure", "NaN")
 NOTE = (
-    "Four-bar with coupler point; ns a pose: medians of runs taken in turn; errors in longest links, against "
-    "50 digits, of the poses on the right closure; wrong closure and NaN: of {poses:,} hard poses."
+    "Four-bar with coupler point. ns a pose: processor time, medians of runs in turn. Errors in longest "
+    "links, against 50 digits, of poses on the right closure; wrong closure and NaN: of {poses:,} hard poses."
 )
 
 Lines = Sequence[Sequence[str]]

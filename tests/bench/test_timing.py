@@ -56,6 +56,7 @@ def test_a_slow_machine_gets_fewer_rounds_but_three() -> None:
         rounds=9,
         budget=0.5,
         clock=lambda: bench.now,
+        wall=lambda: bench.now,
         progress=lambda done, total: told.append((done, total)),
     )
     assert told == [(done, 9) for done in range(1, FEWEST + 1)]
