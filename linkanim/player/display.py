@@ -93,16 +93,24 @@ def fill(back: Frame) -> Frame:
     A new mode, and not `toggle_fullscreen`, which warns on stderr where there is no window manager.
     """
     if is_full():
-        pygame.display.set_mode(back.size, pygame.RESIZABLE)
-        _move(back.position)
+        _set_mode(back.size, pygame.RESIZABLE, back.position)
         return back
     back = frame()
-    _move((0, 0))
-    pygame.display.set_mode((0, 0), pygame.FULLSCREEN)
+    _set_mode((0, 0), pygame.FULLSCREEN, (0, 0))
     return back
 
 
-def _move(position: tuple[int, int]) -> None:
-    """Move the window on a single screen, for without a window manager a full one stays where it was."""
-    if len(pygame.display.get_desktop_sizes()) == 1:
-        pygame.display.set_window_position(position)
+def _set_mode(size: tuple[int, int], flags: int, position: tuple[int, int]) -> None:
+    """Set another mode; under X with a single screen, where no window manager may be, in a new window.
+
+    Without one an old window would neither move to the screen's corner nor shrink again.
+    """
+    if pygame.display.get_driver() != "x11" or len(pygame.display.get_desktop_sizes()) > 1:
+        pygame.display.set_mode(size, flags)
+        return
+    caption = pygame.display.get_caption()
+    pygame.display.quit()
+    pygame.display.init()
+    pygame.display.set_caption(*caption)
+    pygame.display.set_mode(size, flags)
+    pygame.display.set_window_position(position)
