@@ -36,6 +36,14 @@ def test_the_readmes_table_is_markdown_with_its_machine() -> None:
     assert body[-1].endswith("numpy 2.4.6, one thread.")
 
 
+def test_the_readme_shows_such_a_table() -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    shown = readme.partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0].splitlines()
+    assert shown[:2] == report.as_markdown(result()).splitlines()[:2]
+    assert {line.count("|") for line in shown if line.startswith("|")} == {len(report.TITLES) + 1}
+    assert shown[2].startswith("| linkanim, 10,000 at once |")
+
+
 def test_the_json_is_strict_and_whole() -> None:
     found = json.loads(report.as_json(result()), parse_constant=pytest.fail)
     assert list(found) == ["machine", "rows", "targets"]
