@@ -91,22 +91,25 @@ class PinLoop:
 
 
 def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) -> Triangle:
-    """Return the triangle of a crank pin and a fixed pin, without cancellation."""
+    """Return the triangle of a crank pin and a fixed pin, without cancellation.
+
+    Lengths squared are taken over K = 4 g r, so that L² is sin²(ψ/2) and a constant; so is the root.
+    """
     (a, b), g, r = lengths, loop.ground, loop.crank
     if g == r and a == b:
         return _kite(loop, root)
     w, wd = loop.pace.value, loop.pace.rate
-    spread = loop.half.square * (4.0 * g * r)
-    share = 0.5 / (spread + (g - r) * (g - r))
+    square, k = loop.half.square, 4.0 * g * r
+    share = 0.5 / (square + (g - r) * (g - r) / k)
     # (L²)'/(4 L⁴): what the shares of D and e both change with.
-    change = loop.half.product * (w * (4.0 * g * r)) * share * share
-    excess, outer = 2.0 * (b - a) * (b + a), 2.0 * (g - r) * (g + r)
-    turn = (spread + 2.0 * r * (r - g)) * share
+    change = loop.half.product * w * share * share
+    excess, outer = 2.0 * (b - a) * (b + a) / k, 2.0 * (g - r) * (g + r) / k
+    turn = (square + (r - g) / (2.0 * g)) * share
     across = loop.across()
     return Triangle(
         across=across,
-        near=(spread + _near_constant(g - r, a, b)) * share,
-        far=(spread + _near_constant(g - r, b, a)) * share,
+        near=(square + _near_constant(g - r, a, b) / k) * share,
+        far=(square + _near_constant(g - r, b, a) / k) * share,
         lift=across.left().scaled(root.q * share),
         turn=Turning(turn * w, change * (root.ratio.value * excess + w * outer) + turn * wd),
         ratio=root.ratio,
@@ -115,7 +118,7 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
 
 def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:
     """Return the triangle of a kite or rhombus, whose pins meet at ψ = 0: the lift is √U/2 along e^{iψ/2}."""
-    lift = Vec(loop.half.cosine, loop.half.sine).times(loop.direction).scaled(root.root_u * 0.5)
+    lift = Vec(loop.half.cosine, loop.half.sine).times(loop.direction).scaled(root.root_u * loop.crank)
     half_turn = Turning(loop.pace.value * 0.5, loop.pace.rate * 0.5)
     return Triangle(loop.across(), 0.5, 0.5, lift, half_turn, root.ratio)
 

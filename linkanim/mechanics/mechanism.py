@@ -29,6 +29,7 @@ DERIVATIVE_OF = dict(zip((*VECTORS, *NUMBERS), (0, 1, 2, 0, 1, 2, 1, 2, 0, 1, 2)
 
 Floats = NDArray[np.floating[Any]]
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
+Fixed = Mapping[str, Mapping[str, Array]]
 
 
 @dataclass(frozen=True)
@@ -135,13 +136,11 @@ class Mechanism:
         by_phase = phase is not None
         given = np.asarray(phase if phase is not None else angle, dtype=np.float64)
         rates = [np.asarray(rate, dtype=np.float64) for rate in (speed, acceleration)]
-        shape = np.broadcast_shapes(given.shape, *(rate.shape for rate in rates))
-        x = np.ascontiguousarray(np.broadcast_to(given, shape)).reshape(-1)
-        w, a = (_rate(rate, shape) for rate in rates)
-        varying = isinstance(w, np.ndarray) or isinstance(a, np.ndarray)
-        variant = Variant(by_phase, derivatives, _nonzero(a), varying)
-        if varying:
-            w, a = np.broadcast_to(w, x.shape).copy(), np.broadcast_to(a, x.shape).copy()
+        varying = any(rate.ndim for rate in rates)
+        shape = np.broadcast_shapes(given.shape, *(rate.shape for rate in rates)) if varying else given.shape
+        x = _flat(given, shape)
+        w, a = (_flat(rate, shape) if varying else float(rate) for rate in rates)
+        variant = Variant(by_phase, derivatives, varying or a != 0.0, varying)
         ways = None if by_phase else self._reach(x)
         asked = _Given(x, w, a, shape, ways)
         with np.errstate(all="ignore"):
@@ -150,14 +149,14 @@ class Mechanism:
     def _run(self, variant: Variant, given: _Given) -> tuple[Rows, Floats]:
         program, rows = self.program(variant)
         rates = (given.w, given.a) if variant.accelerates else (given.w,)
-        if given.reach is None:
+        ways = given.reach
+        if ways is None:
             return rows, program(given.x, *rates)
-        results = program(given.reach.angle, given.reach.u, given.reach.v, *rates)
-        results[:, given.reach.outside] = np.nan
-        if variant.derivatives and given.reach.at_limit.any():
-            self._mark_limits(
-                rows, results, program(given.reach.angle, *given.reach.snapped, *rates), given.reach.at_limit
-            )
+        results = program(ways.angle, ways.u, ways.v, *rates)
+        results[:, ways.outside] = np.nan
+        if variant.derivatives and ways.at_limit.any():
+            snapped = program(ways.angle, *ways.snapped, *rates)
+            self._mark_limits(rows, results, snapped, ways.at_limit)
         return rows, results
 
     def _mark_limits(self, rows: Rows, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
@@ -201,8 +200,8 @@ class Mechanism:
         return None if isinstance(path, Turn) else reach(angle, path)
 
     def _motion(self, variant: Variant, given: _Given, rows: Rows, results: Floats) -> Motion:
-        pins = {joint.name: joint.position for joint in self.linkage.joints if isinstance(joint, Pin)}
-        taken = _Taker(results, given.shape, pins)
+        results.flags.writeable = False
+        taken = _Taker(results, given.shape, self._fixed(given.shape))
         found: dict[str, Any] = {kind: taken.quantity(kind, values) for kind, values in rows.items()}
         swing = isinstance(self.assembly.path, Swing)
         angles = self._crank(given, variant, taken.rest() if swing else None)
@@ -216,12 +215,29 @@ class Mechanism:
             **found,
         )
 
+    @cached_property
+    def _fixed_by_shape(self) -> dict[tuple[int, ...], Fixed]:
+        return {}
+
+    def _fixed(self, shape: tuple[int, ...]) -> Fixed:
+        """Return what does not move, as views of a shape; those of the last shape are kept."""
+        found = self._fixed_by_shape.get(shape)
+        if found is None:
+            pins = {joint.name: joint.position for joint in self.linkage.joints if isinstance(joint, Pin)}
+            places = {name: _repeated(place, shape) for name, place in pins.items()}
+            still = dict.fromkeys(pins, _repeated((0.0, 0.0), shape))
+            found = {"position": places, "velocity": still, "acceleration": still}
+            self._fixed_by_shape.clear()
+            self._fixed_by_shape[shape] = found
+        return found
+
     def _crank(self, given: _Given, variant: Variant, swing: list[Array] | None) -> tuple[Any, Any, Any, Any]:
         """Return phase, crank angle and its two rates."""
         x, path = given.x.reshape(given.shape), self.assembly.path
         w, a = _shaped(given.w, given.shape), _shaped(given.a, given.shape)
         if isinstance(path, Turn):
-            return (x, x + path.start, w, a) if variant.by_phase else (x - path.start, x, w, a)
+            other = x + (path.start if variant.by_phase else -path.start) if path.start else x
+            return (x, other, w, a) if variant.by_phase else (other, x, w, a)
         assert swing is not None
         if variant.by_phase:
             angle, rate, second = swing
@@ -245,24 +261,24 @@ class _Given:
 class _Taker:
     """Hands out the rows of the results, in the order in which they were asked for."""
 
-    def __init__(
-        self, results: Floats, shape: tuple[int, ...], pins: Mapping[str, tuple[float, float]]
-    ) -> None:
-        results.flags.writeable = False
-        self._results, self._shape, self._pins, self._row = results, shape, pins, 0
+    def __init__(self, results: Floats, shape: tuple[int, ...], fixed: Fixed) -> None:
+        self._results, self._shape, self._fixed, self._row = results, shape, fixed, 0
+        self._flat = len(shape) == 1
 
     def quantity(self, kind: str, values: Mapping[str, tuple[Value, ...]]) -> dict[str, Array]:
-        return {name: self._take(kind, name, len(components)) for name, components in values.items()}
+        """Return the values of one quantity by name."""
+        fixed = self._fixed.get(kind, {})
+        return {
+            name: fixed[name] if name in fixed else self._take(len(components))
+            for name, components in values.items()
+        }
 
-    def _take(self, kind: str, name: str, count: int) -> Array:
-        if name in self._pins and kind in VECTORS[:3]:
-            at = self._pins[name] if kind == "position" else (0.0, 0.0)
-            return np.broadcast_to(np.array(at), (*self._shape, 2))
-        rows = self._results[self._row : self._row + count]
-        self._row += count
+    def _take(self, count: int) -> Array:
         # A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
-        values: Any = rows[0] if count == 1 else rows.T
-        shaped: Array = values.reshape((*self._shape, *values.shape[1:]))
+        first = self._row
+        self._row += count
+        values: Any = self._results[first] if count == 1 else self._results[first : first + count].T
+        shaped: Array = values if self._flat else values.reshape((*self._shape, *values.shape[1:]))
         return shaped
 
     def rest(self) -> list[Array]:
@@ -278,12 +294,14 @@ def _dict_display(values: Mapping[str, tuple[Value, ...]]) -> str:
     return "{{" + ", ".join(items) + "}}"
 
 
-def _rate(rate: Array, shape: tuple[int, ...]) -> Any:
-    return float(rate) if rate.ndim == 0 else np.ascontiguousarray(np.broadcast_to(rate, shape)).reshape(-1)
+def _flat(values: Array, shape: tuple[int, ...]) -> Array:
+    """Return the values along one axis, repeated to the shape."""
+    repeated = values if values.shape == shape else np.broadcast_to(values, shape)
+    return np.ascontiguousarray(repeated).reshape(-1)
 
 
-def _nonzero(rate: Any) -> bool:
-    return isinstance(rate, np.ndarray) or rate != 0.0
+def _repeated(place: tuple[float, float], shape: tuple[int, ...]) -> Array:
+    return np.broadcast_to(np.array(place), (*shape, 2))
 
 
 def _shaped(rate: Any, shape: tuple[int, ...]) -> Any:

@@ -108,7 +108,8 @@ def _sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
 def four_bar_root(ground: float, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:
     """Return the root of crank pin against fixed pin: ground r1, crank r2, bars r3, r4.
 
-    cU = (r3+r4-r1-r2)(r3+r4+r1+r2), cW = (r1-r2-r3+r4)(r1-r2+r3-r4), K = 4 r1 r2.
+    cU = (r3+r4-r1-r2)(r3+r4+r1+r2), cW = (r1-r2-r3+r4)(r1-r2+r3-r4), K = 4 r1 r2; here all three
+    over K, so that the root is q/K.
     """
     coupler, rocker = bars
     g, r, a, b = (Fraction(length) for length in (ground, crank, coupler, rocker))
@@ -116,10 +117,11 @@ def four_bar_root(ground: float, crank: float, bars: tuple[float, float], refere
     u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2
     u_least = gap(coupler, rocker, -ground, -crank) * math.fsum((coupler, rocker, ground, crank))
     w_least = gap(ground, -crank, -coupler, rocker) * gap(ground, -crank, coupler, -rocker)
+    size = float(spread)
     return LoopRoot(
-        float(spread),
-        factor(u_least, float(u_most), spread, u_most),
-        factor(w_least, float(w_most), spread, w_most),
+        1.0,
+        factor(u_least / size, float(u_most / spread), Fraction(1), u_most / spread),
+        factor(w_least / size, float(w_most / spread), Fraction(1), w_most / spread),
         reference,
     )
 
