@@ -18,7 +18,7 @@ Key = TypeVar("Key")
 
 ROUNDS = 21
 FEWEST = 3
-LEAST_SECONDS = 0.004
+LEAST_SECONDS = 0.02
 """A timing repeats short work until it is at least as long."""
 
 
