@@ -42,10 +42,19 @@ class Ground:
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """The input turns fully from `start`; every joint is back after `periods` turns."""
+    """The input turns fully from `start`; every joint is back after `turns` turns.
+
+    `rounds` is how often that takes to bring back a chain that passes a change point.
+    """
 
     start: float
-    periods: int
+    turns: int
+    rounds: int = 1
+
+    @property
+    def periods(self) -> int:
+        """The number of turns after which every joint is back."""
+        return self.turns * self.rounds
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,11 +70,12 @@ class Swing:
     high: Sum
     ends: tuple[str, str]
     repeats: int = 1
+    rounds: int = 1
 
     @property
     def periods(self) -> int:
         """One there-and-back; two where a different dyad changes its closure at each end."""
-        return 1 if self.ends[0] == self.ends[1] else 2
+        return self.rounds if self.ends[0] == self.ends[1] else 2 * self.rounds
 
     @property
     def middle(self) -> Sum:

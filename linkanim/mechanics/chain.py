@@ -7,6 +7,7 @@ F itself has lost its digits there. Between the limits S is F over the ways.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -48,15 +49,17 @@ class LimitFit:
 
 @dataclass(frozen=True, slots=True)
 class Touches:
-    """The input's angles at which a dyad on moving points passes a change point.
+    """Where a dyad on moving points passes a change point, and with it to its other closure.
 
-    The closure changes its sign there, which is the smooth path. `turns` is the number of turns
-    after which the input's angles repeat, `least` the smallest margin that its digits can tell
-    from none, and `sign` what makes the named closure the one just after the start.
+    `places` are angles of an input that turns, repeating after `turns` turns; of one that swings
+    they are phases, since its two ways may run on different closures before this one, and
+    `amplitude` is that of the swing. `least` is the smallest margin that its digits can tell from
+    none; `sign` makes the named closure the one just after the start.
     """
 
-    angles: tuple[Sum, ...]
+    places: tuple[Sum, ...]
     turns: int
+    amplitude: float | None
     least: float
     sign: float = 1.0
 
@@ -68,9 +71,14 @@ class Touches:
         return side
 
     def _ways(self, clock: Clock) -> list[Value]:
-        """Return the signed sines of the ways from each change point."""
-        share = Fraction(1, self.turns)
-        return [clock.half(angle * share, share).sine for angle in self.angles]
+        """Return the signed sines of half the ways from each change point."""
+        if self.amplitude is None or clock.ends is None:
+            share = Fraction(1, self.turns)
+            return [clock.half(place * share, share).sine for place in self.places]
+        scale = 1.0 / math.sqrt(self.amplitude)
+        sine, cosine = clock.ends.root_v.value * scale, clock.ends.root_u.value * scale
+        halves = [float(place) / 2 for place in self.places]
+        return [sine * math.cos(half) - cosine * math.sin(half) for half in halves]
 
     def root(self, margin: Value, driver: Moving, half_difference: Value, clock: Clock) -> SignedRoot:
         """Return q, signed, and ρ.

@@ -32,6 +32,8 @@ from .touching import through_change_points
 SAMPLES_A_TURN = 2880
 TOUCHING = 1e-12
 """A margin no further below zero than this share of its greatest value is a touch, not a limit."""
+USED_UP = 1e-10
+"""A margin below this share of its greatest value is one at its limit."""
 STOPPED_SHORT = 1 / 64
 """Share of its range by which a swing stops short of a limit that it cannot pass."""
 DEGREE = 12
@@ -55,11 +57,21 @@ class _Margins:
         return dict(zip(self.names, self.scale.tolist(), strict=True))
 
     def lowest(self, x: Array) -> tuple[Array, NDArray[np.intp]]:
-        """Return the lowest relative margin at each place, and whose it is; NaN counts as none."""
+        """Return the lowest relative margin at each place, and the first dyad that cannot be closed there.
+
+        A dyad that stands on one that cannot be closed has no margin at all: NaN counts as none, and
+        the one before it is to blame.
+        """
         with np.errstate(all="ignore"):
             values = self.program(x) / self.scale[:, None]
         values = np.where(np.isnan(values), -np.inf, values) + TOUCHING
-        return values.min(axis=0), values.argmin(axis=0)
+        return values.min(axis=0), (values < 0).argmax(axis=0)
+
+    def closed(self, name: str, x: Array) -> bool:
+        """Tell whether a dyad's margin is used up at all the places."""
+        with np.errstate(all="ignore"):
+            values = self.program(x)[self.names.index(name)] / self.scales[name]
+        return bool((np.abs(values) <= USED_UP).all())
 
     def all_open(self, x: Array) -> bool:
         """Tell whether every dyad can be closed at all the places."""
@@ -86,7 +98,8 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
         limited = resigned(replace(assembly, path=path))
         limited = replace(limited, fits=_fits(limited, margins.names))
         if _runs_through(limited):
-            return limited
+            others = (name for name in margins.names if name not in limited.fits)
+            return through_change_points(limited, others, margins.scales)
     raise AssemblyError("the input has no range on which every dyad can be closed")
 
 
@@ -107,8 +120,15 @@ def _smooth_paths(swing: Swing) -> Iterator[Swing]:
 
 
 def _runs_through(assembly: Assembly) -> bool:
-    margins = _margins(assembly)
-    return margins is None or margins.all_open(_around(assembly.path))
+    """Tell whether every dyad closes all the way, and those that limit the input do so at each visit."""
+    margins, path = _margins(assembly), assembly.path
+    if margins is None or not isinstance(path, Swing):
+        return True
+    visits = np.arange(path.periods, dtype=np.float64) * (2 * math.pi)
+    ends = zip(path.ends, (visits, visits + math.pi), strict=True)
+    return margins.all_open(_around(path)) and all(
+        margins.closed(name, places) for name, places in ends if name in margins.names
+    )
 
 
 def _margins(assembly: Assembly) -> _Margins | None:
@@ -231,6 +251,7 @@ def _near_end(assembly: Assembly, name: str, *, upper: bool) -> NearEnd:
     assert isinstance(path, Swing)
     both = path.ends == (name, name)
     margin = _margin_by_way(assembly, name, upper=upper)
+    noise = GOOD_FIT * np.nanmax(np.abs(margin(np.linspace(0, path.amplitude, FIT_POINTS))))
     width = path.amplitude / 8
     while True:
         ways = width * (1 - np.cos(np.linspace(0.02, math.pi, FIT_POINTS))) / 2
@@ -238,7 +259,7 @@ def _near_end(assembly: Assembly, name: str, *, upper: bool) -> NearEnd:
         weights = ways * (path.amplitude - ways) if both else ways
         fitted = _weighted_fit(ways / width, values, weights)
         error = np.abs(fitted(ways / width) * weights - values).max()
-        if error <= GOOD_FIT * np.abs(values).max() * 8 or width < path.amplitude * 1e-4:
+        if error <= noise or width < path.amplitude * 1e-4:
             return NearEnd(width, tuple(float(c) for c in fitted.coef))
         width /= 2
 

@@ -7,13 +7,13 @@ for an instant; what drives the dyad is at an extreme there, so the place is a z
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .assembly import Swing, Turn
+from .assembly import Turn
 from .chain import Touches
 from .exact import Sum, exact_angle
 from .expression import Graph
@@ -30,47 +30,39 @@ LEAST = 1e-16
 Array = NDArray[np.float64]
 
 
-def through_change_points(
-    assembly: Assembly, names: tuple[str, ...], scales: Mapping[str, float]
-) -> Assembly:
-    """Return the assembly with the change points of its chain passed smoothly."""
+def through_change_points(assembly: Assembly, names: Iterable[str], scales: Mapping[str, float]) -> Assembly:
+    """Return the assembly with the change points of the named dyads passed smoothly."""
     touches = {}
     for name in names:
-        angles = tuple(_angle(assembly, phase) for phase in _touching_phases(assembly, name, scales[name]))
-        if angles:
-            touches[name] = _named(assembly, Touches(angles, _turns(assembly), scales[name] * LEAST))
+        phases = tuple(_touching_phases(assembly, name, scales[name]))
+        if phases:
+            touches[name] = _named(assembly, phases, scales[name] * LEAST)
     if not touches:
         return assembly
     path = assembly.path
-    if isinstance(path, Turn) and any(len(found.angles) % 2 for found in touches.values()):
-        path = Turn(path.start, 2 * path.periods)
+    if any(len(found.places) % 2 for found in touches.values()):
+        path = replace(path, rounds=2 * path.rounds)
     return replace(assembly, path=path, touches=touches)
 
 
-def _turns(assembly: Assembly) -> int:
-    return assembly.path.periods if isinstance(assembly.path, Turn) else 1
-
-
-def _named(assembly: Assembly, found: Touches) -> Touches:
+def _named(assembly: Assembly, phases: tuple[float, ...], least: float) -> Touches:
     """Return the touches with the sign under which the named closure holds just after the start."""
+    path = assembly.path
+    if isinstance(path, Turn):
+        start = exact_angle(path.start)
+        found = Touches(tuple(start + Sum(phase) for phase in phases), path.periods, None, least)
+    else:
+        found = Touches(tuple(Sum(phase) for phase in phases), path.periods, path.amplitude, least)
     side = found.side(assembly.clock(JUST_AFTER, Slope(1.0)))
     assert isinstance(side, float)
     return replace(found, sign=side)
 
 
-def _angle(assembly: Assembly, phase: float) -> Sum:
-    path = assembly.path
-    if isinstance(path, Turn):
-        return exact_angle(path.start) + Sum(phase)
-    return path.middle + Sum(-path.amplitude * math.cos(phase))
-
-
 def _touching_phases(assembly: Assembly, name: str, scale: float) -> Iterator[float]:
-    """Yield the phases at which a dyad's margin touches zero, over a period or one way of a swing."""
+    """Yield the phases at which a dyad's margin touches zero, over a true period."""
     program = _margin_and_rate(assembly, name)
-    span = math.pi if isinstance(assembly.path, Swing) else 2 * math.pi * assembly.path.periods
-    step = span / SAMPLES_A_TURN / _turns(assembly)
-    places = np.arange(-1, round(span / step) + 1) * step
+    count = SAMPLES_A_TURN * assembly.path.periods
+    places = np.arange(-1, count + 1) * (2 * math.pi / SAMPLES_A_TURN)
     with np.errstate(all="ignore"):
         margin = program(places)[0] / scale
     lowest = (margin[1:-1] <= margin[:-2]) & (margin[1:-1] < margin[2:]) & (margin[1:-1] < CANDIDATE)

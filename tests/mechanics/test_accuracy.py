@@ -381,19 +381,19 @@ def test_change_points_down_the_chain_are_passed_smoothly(
     solved = mechanism(six_bar((30, 60, 70, 80), second))
     assert solved.periods == periods
     (touches,) = solved.assembly.touches.values()
-    around = np.concatenate([float(angle) + np.linspace(-1e-3, 1e-3, 2001) for angle in touches.angles])
+    around = np.concatenate([float(angle) + np.linspace(-1e-3, 1e-3, 2001) for angle in touches.places])
     phases = np.concatenate([np.linspace(0, 2 * np.pi * periods, 20001), around])
     motion = solved.solve(phase=phases, speed=1.0)
     for kind in ("position", "velocity"):
         assert np.isfinite(getattr(motion, kind)["D"]).all()
     # Position and velocity go on with no step through each change point.
-    for index in range(len(touches.angles)):
+    for index in range(len(touches.places)):
         part = slice(20001 + 2001 * index, 20001 + 2001 * (index + 1))
         fastest = np.abs(motion.velocity["D"]).max()
         assert np.abs(np.diff(motion.velocity["D"][part], axis=0)).max() <= 1e-4 * fastest
         assert np.abs(np.diff(motion.position["D"][part], 2, axis=0)).max() <= 2e-8 * 80
     # The crank's angle and the pose alike: one at a time gives the same.
-    for angle in touches.angles:
+    for angle in touches.places:
         pose = solved.pose(float(angle), 1.0, 0.0, 2)
         beside = solved.pose(float(angle) + 1e-7, 1.0, 0.0, 2)
         assert pose.velocity["D"] == pytest.approx(beside.velocity["D"], abs=1e-4 * fastest)

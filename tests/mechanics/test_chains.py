@@ -1,0 +1,78 @@
+"""Chains whose dyads limit the input, touch change points, or stand on dyads that do."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from build import six_bar
+
+from linkanim.mechanics.assembly import Swing
+from linkanim.mechanics.mechanism import Mechanism, mechanism
+from linkanim.scenes import load
+from linkanim.scenes.edit import with_dimension
+
+Lengths = tuple[float, float, float, float]
+Key = tuple[str | int, ...]
+
+
+def bends(solved: Mechanism, count: int) -> float:
+    """The greatest second difference of any joint over a true period in `count` steps."""
+    phases = np.linspace(0.0, 2 * np.pi * solved.periods, count + 1)
+    motion = solved.solve(phase=phases, speed=1.0, derivatives=0)
+    return max(float(np.abs(np.diff(place, 2, axis=0)).max()) for place in motion.position.values())
+
+
+def runs_smoothly(solved: Mechanism) -> None:
+    motion = solved.solve(phase=np.linspace(0.0, 2 * np.pi * solved.periods, 721), speed=1.0)
+    for kind in ("position", "velocity", "acceleration"):
+        for joint, values in getattr(motion, kind).items():
+            assert np.isfinite(values).all(), (kind, joint)
+    assert bends(solved, 40_000) <= bends(solved, 4_000) / 20 + 1e-9
+
+
+CHAINS = [
+    # Limits: the second dyad's own at both ends; at one, where the first one's limit cannot be passed.
+    ("stopped by the second loop", (100, 30, 90, 80), (120, 60, 90, 80), 0.0, ("D", "D")),
+    ("stopped inside a double-rocker's range", (100, 80, 30, 90), (120, 60, 110, 50), 1.0, ("D", "D")),
+    ("turns back short of the first loop's limit", (100, 80, 30, 90), (120, 60, 116, 50), 1.0, ("", "D")),
+    # A second loop that closes all along a double-rocker's way out, but not on its way back.
+    ("a double-rocker's own limits, all the way", (100, 80, 30, 90), (120, 60, 160, 150), 1.0, ("B", "B")),
+]
+
+
+@pytest.mark.parametrize(("name", "first", "second", "start", "ends"), CHAINS, ids=[row[0] for row in CHAINS])
+def test_a_limited_chain_runs_smoothly_between_its_ends(
+    name: str, first: Lengths, second: Lengths, start: float, ends: tuple[str, str]
+) -> None:
+    solved = mechanism(six_bar(first, second, start=start))
+    path = solved.assembly.path
+    assert isinstance(path, Swing)
+    assert path.ends == ends
+    runs_smoothly(solved)
+
+
+# Changes of the catalogue's scenes that once gave NaN, a jump, or the wrong dyad as the limit.
+CHANGED: list[tuple[str, list[tuple[Key, float]]]] = [
+    ("press", [(("joints", "B", "length", 0), 261.11)]),
+    ("press", [(("ground", "O7", "length"), 124.18), (("joints", "D", "gear", "offset"), -173.41)]),
+    ("press", [(("ground", "O2", 0), 41.7), (("joints", "C", "length"), 481.42)]),
+    ("press", [(("joints", "H", "at", 0), 191.81), (("joints", "B", "length", 0), 268.68)]),
+    ("six-bar", [(("six-bar", "lengths", 4), 76.39), (("six-bar", "lengths", 1), 84.38)]),
+    ("six-bar", [(("six-bar", "lengths", 0), 37.95), (("drive", "start"), 35.93)]),
+]
+
+
+@pytest.mark.parametrize(("name", "changes"), CHANGED, ids=[f"{row[0]}-{n}" for n, row in enumerate(CHANGED)])
+def test_changed_scenes_run_smoothly(name: str, changes: list[tuple[Key, float]]) -> None:
+    scene = load(name)
+    for key, value in changes:
+        scene = with_dimension(scene, key, value)
+    runs_smoothly(scene.mechanism)
+    assert scene.info.lines
+
+
+def test_the_dyad_that_limits_is_named_not_the_one_that_stands_on_it() -> None:
+    # The press's slider hangs on B: where B's bars end, the slider has no margin at all.
+    path = with_dimension(load("press"), ("joints", "B", "length", 0), 261.11).mechanism.assembly.path
+    assert isinstance(path, Swing)
+    assert path.ends == ("B", "B")
