@@ -22,7 +22,10 @@ from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
 SIZE = (480, 270)
-FPS = 20.0
+RATES = (20.0, 100 / 6, 12.5, 10.0)
+"""Frames a second, the first that keeps a GIF within `LARGEST`."""
+LARGEST = 250_000
+LOOK = Look(hud=False)
 SHEET = "contact-sheet.png"
 TAPE = ".tape.json"
 
@@ -43,8 +46,9 @@ class Gallery:
 def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progress] | None = None) -> Gallery:
     """Record scenes by name into a folder as NAME.gif, from a NAME.tape.json there if it is, and the sheet.
 
-    The folder is made where there is none. `watch` gives the progress to report to, by scene.
-    `BadInput` where the folder's name is a file's; else as `record`.
+    A GIF has as many frames a second, 20 to 10, as keep it within `LARGEST` bytes. The folder is made
+    where there is none. `watch` gives the progress to report to, by scene. `BadInput` where the
+    folder's name is a file's; else as `record`.
     """
     if into.exists() and not into.is_dir():
         raise BadInput(f"{into} is a file; name a folder to put the recordings in")
@@ -65,15 +69,24 @@ def contact_sheet(path: Path, scenes: Iterable[Scene]) -> Path:
         top, left = _GAP + row * (height + _GAP), _GAP + column * (width + _GAP)
         sheet[top : top + height, left : left + width] = tile
     with replacing(path) as part:
-        part.write_bytes(iio.imwrite("<bytes>", sheet, extension=".png"))
+        part.write_bytes(iio.imwrite("<bytes>", sheet, extension=".png", optimize=True))
     return path
 
 
 def _recorded(into: Path, name: str, progress: Progress | None) -> Recording:
+    """Record a scene at the highest of the rates that keep it small; at the lowest where none does."""
+    for fps in RATES:
+        made = _recorded_at(fps, into, name, progress)
+        if made.bytes <= LARGEST:
+            break
+    return made
+
+
+def _recorded_at(fps: float, into: Path, name: str, progress: Progress | None) -> Recording:
     target, tape = into / f"{name}.gif", into / f"{name}{TAPE}"
     if tape.is_file():
-        return record_tape(tape, target, size=SIZE, fps=FPS, progress=progress)
-    return record(load(name), target, size=SIZE, fps=FPS, progress=progress)
+        return record_tape(tape, target, size=SIZE, fps=fps, progress=progress)
+    return record(load(name), target, size=SIZE, fps=fps, look=LOOK, progress=progress)
 
 
 def _tile(scene: Scene) -> Bytes:

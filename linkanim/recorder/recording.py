@@ -12,9 +12,10 @@ import numpy as np
 
 from linkanim.errors import BadInput, RecordingFailed
 from linkanim.recorder import safe
-from linkanim.recorder.encode import Frame, Stream, count_frames, encoding
-from linkanim.recorder.palette import Bytes, Colour, make_palette
+from linkanim.recorder.encode import Stream, count_frames, encoding
+from linkanim.recorder.palette import Colour, make_palette
 from linkanim.recorder.plan import Format, Plan, refuse_size
+from linkanim.recorder.process import Frame
 
 SUFFIXES = (".gif", ".mp4", ".png")
 Progress = Callable[[int, int], None]
@@ -107,7 +108,7 @@ def write(
 
 
 def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Progress | None) -> None:
-    palette = palette_of(frames, plan.frames) if form == "gif" else None
+    palette = palette_of(frames, plan.frames) if form == "gif" else ()
     stream = Stream(frames.size, plan.rate, frames.alpha)
     with encoding(stream, form, part, palette) as send:
         for frame in range(plan.frames):
@@ -116,8 +117,9 @@ def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Prog
                 progress(frame + 1, plan.frames)
 
 
-def palette_of(frames: Frames, count: int) -> Bytes:
+def palette_of(frames: Frames, count: int) -> list[Colour]:
     """Return the palette of a few frames spread over the clip."""
     chosen = sorted({k * count // _SAMPLES for k in range(_SAMPLES)})
     samples = (np.frombuffer(frames.draw(k), np.uint8) for k in chosen)
-    return make_palette(samples, frames.colours, alpha=frames.alpha)
+    palette = make_palette(samples, frames.colours, alpha=frames.alpha).tolist()
+    return [(red, green, blue) for red, green, blue in palette]

@@ -15,8 +15,8 @@ from linkanim.recorder.plan import Clip, Plan, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write
 
 if TYPE_CHECKING:
-    from linkanim.recorder.encode import Frame
     from linkanim.recorder.palette import Colour
+    from linkanim.recorder.process import Frame
     from linkanim.scenes.scene import Scene
 
 

@@ -21,7 +21,7 @@ from linkanim.recorder.scene_frames import record, theme_colours
 if TYPE_CHECKING:
     from linkanim.player.state import State
     from linkanim.player.tape import Tape
-    from linkanim.recorder.encode import Frame
+    from linkanim.recorder.process import Frame
 
 
 class TapeFrames:

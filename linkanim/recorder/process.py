@@ -1,0 +1,121 @@
+"""An encoder as a process: fed through a pipe, listened to, and gone when the work is over."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from threading import Semaphore, Thread
+from typing import IO
+
+from linkanim.errors import RecordingFailed
+
+Frame = bytes | bytearray | memoryview
+"""A frame's bytes, row by row: blue, green, red, and alpha or one that means nothing."""
+
+_PATIENCE = 0.5
+"""Seconds after which an encoder that tells of no frame gets one more all the same."""
+_LAST_WORDS = 8
+_ROOM_FOR_ALL = 1_000_000
+
+
+class _GoneError(Exception):
+    """The encoder does not read any more; what it said and its exit code tell why."""
+
+
+@contextmanager
+def running(
+    command: Sequence[str], *, ahead: int | None = None, surroundings: Mapping[str, str] | None = None
+) -> Iterator[Callable[[Frame], None]]:
+    """Run the encoder and give the function that writes to it, not too far ahead of what is encoded.
+
+    One that queues frames tells of each it is done with by a line on stdout, and gets no more than
+    `ahead` of them; so its memory is the same for few frames and for many. `surroundings` is its
+    environment, ours where None. When the block ends well, the encoder has; else it is gone.
+    `RecordingFailed` where it cannot be started, stops early or reports an error.
+    """
+    process = _started(command, surroundings)
+    room = Semaphore(_ROOM_FOR_ALL if ahead is None else ahead)
+    words: deque[bytes] = deque(maxlen=_LAST_WORDS)
+    frames, told, said = _pipes(process)
+    listeners = (Thread(target=_making_room, args=(told, room)), Thread(target=words.extend, args=(said,)))
+
+    def write(frame: Frame) -> None:
+        room.acquire(timeout=_PATIENCE)
+        try:
+            frames.write(frame)
+        except BrokenPipeError as error:
+            raise _GoneError from error
+
+    try:
+        for listener in listeners:
+            listener.start()
+        with suppress(_GoneError):
+            yield write
+        with suppress(BrokenPipeError):
+            frames.close()
+        process.wait()
+    finally:
+        _stop(process, listeners)
+    _refuse_failure(process.returncode, words)
+
+
+def _started(command: Sequence[str], surroundings: Mapping[str, str] | None) -> subprocess.Popen[bytes]:
+    """Start the encoder in a session of its own: Ctrl-C in the terminal is for us, and we stop it."""
+    pipe = subprocess.PIPE
+    try:
+        return subprocess.Popen(
+            command, stdin=pipe, stdout=pipe, stderr=pipe, env=surroundings, start_new_session=True
+        )
+    except OSError as error:
+        raise not_started(command, error) from error
+
+
+def not_started(command: Sequence[str], error: OSError) -> RecordingFailed:
+    """Return what to raise where an encoder cannot be started."""
+    return RecordingFailed(f"the encoder {command[0]} cannot be started: {error.strerror or error}")
+
+
+def _pipes(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes], IO[bytes]]:
+    """Return the encoder's stdin, stdout and stderr."""
+    if process.stdin is None or process.stdout is None or process.stderr is None:
+        raise RecordingFailed("the encoder has no pipes")
+    return process.stdin, process.stdout, process.stderr
+
+
+def _making_room(told: IO[bytes], room: Semaphore) -> None:
+    for _ in told:
+        room.release()
+    room.release(_ROOM_FOR_ALL)  # the encoder is gone: whoever waits is to find out
+
+
+def _refuse_failure(code: int, words: Iterable[bytes]) -> None:
+    """Raise `RecordingFailed` with the encoder's last words where it did not end well."""
+    if code == 0:
+        return
+    how = f"was stopped by {_signal_name(-code)}" if code < 0 else f"gave up with code {code}"
+    lines = [line.decode(errors="replace").strip() for line in words]
+    said = [re.sub(r"^\[.*?\] ", "", line) for line in lines[-1:]]
+    raise RecordingFailed(": ".join([f"the encoder {how}", *said]))
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def _stop(process: subprocess.Popen[bytes], listeners: Iterable[Thread]) -> None:
+    """Leave no process and no thread behind, however the work ended."""
+    process.kill()
+    process.wait()
+    for listener in listeners:
+        if listener.is_alive():
+            listener.join()
+    for pipe in _pipes(process):
+        with suppress(OSError):
+            pipe.close()

@@ -1,0 +1,133 @@
+"""The GIF writer by itself: each colour to the nearest, and every picture as it was, read by Pillow."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from linkanim.recorder.gif import Job, Nearest, Words, pieces
+
+Colour = tuple[int, int, int]
+WHITE, RED, GREEN, BLACK = (255, 255, 255), (255, 0, 0), (0, 128, 0), (0, 0, 0)
+PALETTE = (WHITE, RED, GREEN, BLACK)
+
+
+def job(width: int, height: int, palette: tuple[Colour, ...] = PALETTE, *, alpha: bool = False) -> Job:
+    return Job("", width, height, 4, palette, alpha)
+
+
+def words(rgb: NDArray[np.int64], opacity: int = 0) -> Words:
+    red, green, blue = rgb.astype(np.uint32).transpose(2, 0, 1)
+    found: Words = np.uint32(opacity << 24) | red << 16 | green << 8 | blue
+    return found
+
+
+def picture(rows: str, opacity: int = 0) -> Words:
+    """Return a picture from letters: w, r, g, k; '.' is not opaque."""
+    colours = {"w": WHITE, "r": RED, "g": GREEN, "k": BLACK, ".": BLACK}
+    lines = rows.split()
+    found = words(np.array([[colours[letter] for letter in line] for line in lines]), opacity)
+    return np.where(np.array([[letter == "." for letter in line] for line in lines]), np.uint32(0), found)
+
+
+def shown(data: bytes, mode: str = "RGB") -> Iterator[NDArray[np.uint8]]:
+    with Image.open(io.BytesIO(data)) as image:
+        for frame in range(getattr(image, "n_frames", 1)):
+            image.seek(frame)
+            yield np.asarray(image.convert(mode))
+
+
+def rgb_of(frame: Words) -> NDArray[np.uint32]:
+    return np.stack([frame >> 16 & 255, frame >> 8 & 255, frame & 255], axis=2)
+
+
+# why, the pictures
+SEQUENCES = [
+    ("one", ["wr gk"]),
+    ("nothing changes", ["wr gk", "wr gk", "wr gk"]),
+    ("all changes", ["wwww rrrr", "rrrr gggg", "kkkk wwww"]),
+    ("black at the edges of the first", ["kkk kwk kkk", "kkk krk kkk"]),
+    ("a corner", ["www www www", "www www wwr", "rww www wwr"]),
+    (
+        "unchanged runs go on to the left, to the right, on both sides, on neither",
+        ["rwww", "rrrr", "wrrw", "gggg"],
+    ),
+    ("a run over the ends of rows", ["wwwr rwww", "kwwr rwwk", "krrr rrrk"]),
+    ("there and back", ["wwww", "wrrw", "wwww", "wrrw"]),
+]
+
+
+@pytest.mark.parametrize(("why", "rows"), SEQUENCES)
+def test_every_picture_is_as_it_was(why: str, rows: list[str]) -> None:
+    frames = [picture(row) for row in rows]
+    height, width = frames[0].shape
+    data = b"".join(pieces(job(width, height), iter(frames)))
+    assert [found.tolist() for found in shown(data)] == [rgb_of(frame).tolist() for frame in frames]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 7, 8, 127, 128, 254, 255])
+@pytest.mark.parametrize("size", [(1, 1), (5, 3), (200, 150)])
+def test_any_number_of_colours_comes_out(count: int, size: tuple[int, int]) -> None:
+    rng = np.random.default_rng(count)
+    palette = rng.permutation(1 << 24)[:count]
+    frames = [palette[rng.integers(0, count, size)].astype(np.uint32) for _ in range(3)]
+    colours = tuple((int(c) >> 16 & 255, int(c) >> 8 & 255, int(c) & 255) for c in palette)
+    data = b"".join(pieces(job(size[1], size[0], colours), iter(frames)))
+    assert all((found == rgb_of(frame)).all() for found, frame in zip(shown(data), frames, strict=True))
+
+
+def test_pictures_with_moving_boxes_are_as_they_were() -> None:
+    rng = np.random.default_rng(7)
+    frames = [np.full((60, 300), 0xFFFFFF, np.uint32)]
+    for _ in range(60):
+        frame = frames[-1].copy()
+        top, left, colour = (
+            rng.integers(0, 50),
+            rng.integers(0, 280),
+            rng.choice([0xFFFFFF, 0xFF0000, 0x8000]),
+        )
+        frame[top : top + rng.integers(1, 12), left : left + rng.integers(1, 250)] = colour
+        frames.append(frame)
+    data = b"".join(pieces(job(300, 60), iter(frames)))
+    assert all((found == rgb_of(frame)).all() for found, frame in zip(shown(data), frames, strict=True))
+
+
+def test_what_is_not_opaque_shows_through_in_every_picture() -> None:
+    frames = [picture(rows, 255) for rows in ("r.. ...", "... ..g", "... ...", "rrr ggg")]
+    data = b"".join(pieces(job(3, 2, alpha=True), iter(frames)))
+    for found, frame in zip(shown(data, "RGBA"), frames, strict=True):
+        opaque = frame >> 24 == 255
+        assert ((found[..., 3] == 255) == opaque).all()
+        assert (found[opaque][:, :3] == rgb_of(frame)[opaque]).all()
+
+
+def test_a_colour_goes_to_the_nearest_of_the_palette_and_to_the_first_of_equals() -> None:
+    rng = np.random.default_rng(3)
+    palette = rng.integers(0, 256, (255, 3))
+    colours = rng.integers(0, 256, (100, 100, 3))
+    far = np.square(colours[:, :, None] - palette[None, None]).sum(axis=3)
+    nearest = Nearest(tuple((int(r), int(g), int(b)) for r, g, b in palette))
+    assert (nearest(words(colours)) == far.argmin(axis=2) + 1).all()
+    assert (nearest(words(colours)) == far.argmin(axis=2) + 1).all()  # known by now
+    assert Nearest(((0, 0, 0), (2, 0, 0)))(words(np.array([[[1, 0, 0]]]))).tolist() == [[1]]
+
+
+def test_opacity_is_no_part_of_a_colour() -> None:
+    nearest = Nearest(PALETTE)
+    assert nearest(picture("wrgk", 255)).tolist() == nearest(picture("wrgk", 0)).tolist() == [[1, 2, 3, 4]]
+
+
+def test_what_stays_costs_next_to_nothing() -> None:
+    rng = np.random.default_rng(1)
+    noise = rng.choice(np.array([0xFFFFFF, 0xFF0000, 0x8000], np.uint32), (100, 100))
+    touched = noise.copy()
+    touched[40:42, 40:42] = 0
+    whole, still, change = (len(b"".join(pieces(job(100, 100), iter(frames)))) for frames in
+                            ([noise], [noise, noise], [noise, touched]))  # fmt: skip
+    assert still - whole < 30
+    assert change - whole < 40
