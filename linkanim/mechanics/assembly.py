@@ -109,7 +109,7 @@ class Loop:
     def closed(self, clock: Clock, path: Path, pace: Slope) -> tuple[SignedRoot, Half]:
         """Return the loop's root and ψ/2 at the clock's instant, ψ running at `pace`."""
         reference = self.root.reference - self.gearing.offset
-        half = clock.half(reference, self.gearing.ratio, sharp=self.root.nearly_vanishes)
+        half = clock.half(reference, self.gearing.ratio)
         swing = swinging(clock, path.low, path.high) if isinstance(path, Swing) else None
         half = sharpened(self.root, half, swing)
         return signed_root(self.root, half, pace, swing), half

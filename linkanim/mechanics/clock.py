@@ -18,34 +18,43 @@ from .planar import Slope
 
 @dataclass(frozen=True, slots=True)
 class Half:
-    """Half an angle: its sine and cosine, signed over two turns, the sine's square, and their product."""
+    """Half an angle: sine and cosine, signed over two turns, their squares and their product."""
 
     sine: Value
     cosine: Value
     square: Value
+    cosine_square: Value
     product: Value
+
+
+def half_of(sine: Value, cosine: Value) -> Half:
+    """Return the half angle of a sine and a cosine."""
+    return Half(sine, cosine, sine * sine, cosine * cosine, sine * cosine)
 
 
 def half_angle(angle: Value, *, sharp: bool = False) -> Half:
     """Return half the angle from one tangent, the circular function that numpy computes many at a time.
 
-    Square and product come from tan(x/2), the signed sine and cosine from tan(x/4). That cosine is
-    right to the last digit of 1; where it is `sharp`, to its own last digit next to its zeros.
+    Squares and product come from tan(x/2), each to its own last digit; the signed sine and cosine
+    from tan(x/4). That cosine is right to the last digit of 1; where it is `sharp`, to its own last
+    digit next to its zeros.
     """
     tangent = tan(angle * 0.5)
-    product = tangent / (tangent * tangent + 1.0)
+    cosine_square = 1.0 / (tangent * tangent + 1.0)
+    product = tangent * cosine_square
     t = tan(angle * 0.25)
     share = 1.0 / (t * t + 1.0)
     cosine = cos(angle * 0.5) if sharp else (1.0 - t) * (1.0 + t) * share
-    return Half((t + t) * share, cosine, tangent * product, product)
+    return Half((t + t) * share, cosine, tangent * product, cosine_square, product)
 
 
 def _turned(half: Half, rest: Value) -> Half:
     """Return the half angle further by a rest below 1e-6."""
     bend = rest * 0.5
-    sine = half.sine + (half.cosine - half.sine * bend) * rest
-    cosine = half.cosine - (half.sine + half.cosine * bend) * rest
-    return Half(sine, cosine, sine * sine, sine * cosine)
+    return half_of(
+        half.sine + (half.cosine - half.sine * bend) * rest,
+        half.cosine - (half.sine + half.cosine * bend) * rest,
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,9 +97,9 @@ class Clock:
         shift = self.origin * ratio - reference
         scaled, low = _scaled(self.angle, ratio)
         if shift.high == 0 and shift.low == 0 and _is_zero(low):
-            return half_angle(scaled, sharp=sharp)
+            return half_angle(scaled)
         total, error = two_sum(scaled, shift.high)
-        return _turned(half_angle(total, sharp=sharp), (error + low + shift.low) * 0.5)
+        return _turned(half_angle(total, sharp=True), (error + low + shift.low) * 0.5)
 
 
 def _is_zero(value: Value) -> bool:

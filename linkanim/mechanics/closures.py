@@ -48,26 +48,23 @@ class Meeting:
 
 
 def meet(p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle: Triangle) -> Meeting:
-    """Return where two bars meet; the shorter one carries the joint, since its direction is sharper."""
-    d, t = triangle.across, triangle
-    a_is_shorter = lengths[0] < lengths[1]
-    if a_is_shorter:
+    """Return where two bars meet, and how they turn.
+
+    The shorter bar carries the joint, since its direction is sharper; the longer one, which turns
+    less, has its rate worked out, and the shorter one's is ρ away.
+    """
+    d, t, rho = triangle.across, triangle, triangle.ratio
+    if lengths[0] < lengths[1]:
         arm_a = d.scaled(t.near) + t.lift
         arm_b = arm_a - d
-    else:
-        arm_b = t.lift - d.scaled(t.far)
-        arm_a = arm_b + d
-    rho = t.ratio
-    turning_a = Turning(
-        t.turn.rate - rho.value * t.far,
-        t.turn.second - rho.rate * t.far,
-    )
-    turning_b = Turning(
-        t.turn.rate + rho.value * t.near,
-        t.turn.second + rho.rate * t.near,
-    )
-    point = p + carried(arm_a, turning_a) if a_is_shorter else q + carried(arm_b, turning_b)
-    return Meeting(arm_a, arm_b, turning_a, turning_b, point)
+        turning_b = t.turn.plus(rho.value * t.near, rho.rate * t.near)
+        turning_a = turning_b.plus(-rho.value, -rho.rate)
+        return Meeting(arm_a, arm_b, turning_a, turning_b, p + carried(arm_a, turning_a))
+    arm_b = t.lift - d.scaled(t.far)
+    arm_a = arm_b + d
+    turning_a = t.turn.plus(-(rho.value * t.far), -(rho.rate * t.far))
+    turning_b = turning_a.plus(rho.value, rho.rate)
+    return Meeting(arm_a, arm_b, turning_a, turning_b, q + carried(arm_b, turning_b))
 
 
 @dataclass(frozen=True, slots=True)

@@ -70,6 +70,10 @@ class Turning:
     rate: Value = 0.0
     second: Value = 0.0
 
+    def plus(self, rate: Value, second: Value) -> Turning:
+        """Return the sum with another turning."""
+        return Turning(self.rate + rate, self.second + second)
+
 
 @dataclass(frozen=True, slots=True)
 class MovingPoint:

@@ -63,11 +63,6 @@ class LoopRoot:
     reference: Sum
 
     @property
-    def nearly_vanishes(self) -> bool:
-        """True where U never vanishes but comes so near that cos(ψ/2) needs all its own digits."""
-        return 0 < 64 * self.u.least < self.u.most
-
-    @property
     def single(self) -> bool:
         """True where the root has no factor U (a slot through a pin)."""
         return self.u is ALWAYS

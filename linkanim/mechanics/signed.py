@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .clock import Clock, Ends, Half
+from .clock import Clock, Ends, Half, half_of
 from .exact import FULL_TURN, HALF_TURN, Sum
 from .expression import Value, cos, maximum, minimum, select, sin, sqrt
 from .planar import Moving, Slope
@@ -70,9 +70,7 @@ def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value, Value]:
     w = spread + root.w.least
     if root.single:
         return 1.0, w, 0.5
-    # Subtracting keeps all but two bits while the least value is not small beside the greatest.
-    roomy = 4 * root.u.least >= root.u.most
-    u = root.u.most - spread if roomy else (half.cosine * half.cosine) * root.spread + root.u.least
+    u = half.cosine_square * root.spread + root.u.least
     return u, w, 0.5 * (root.u.most - root.w.least) - spread
 
 
@@ -137,9 +135,8 @@ def sharpened(root: LoopRoot, half: Half, swing: Swinging | None) -> Half:
     ways_u, ways_w = _ways(root, root.u, swing), _ways(root, root.w, swing)
     cosine = ways_u.touching if ways_u else half.cosine
     if ways_w:
-        sine = ways_w.touching
-        return Half(sine, cosine, sine * sine, sine * cosine)
-    return Half(half.sine, cosine, half.square, half.sine * cosine) if ways_u else half
+        return half_of(ways_w.touching, cosine)
+    return half_of(half.sine, cosine) if ways_u else half
 
 
 def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:
