@@ -77,7 +77,7 @@ def _recorded(into: Path, name: str, progress: Progress | None) -> Recording:
     """Record a scene at the highest of the rates that keep it small; at the lowest where none does."""
     for fps in RATES:
         made = _recorded_at(fps, into, name, progress)
-        if made.bytes <= LARGEST:
+        if made.file_bytes <= LARGEST:
             break
     return made
 

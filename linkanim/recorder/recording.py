@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -49,7 +50,7 @@ class Recording:
     path: Path
     plan: Plan
     size: tuple[int, int]
-    bytes: int
+    file_bytes: int
 
     @property
     def frames(self) -> int:
@@ -71,11 +72,26 @@ class Recording:
         """The dφ/dt as recorded, rad/s, signed."""
         return self.plan.speed
 
+    def _repr_html_(self) -> str | None:
+        """Show a GIF or MP4 in a notebook, the file itself within the page."""
+        data = base64.b64encode(self.path.read_bytes()).decode()
+        match self.path.suffix.lower():
+            case ".gif":
+                return f'<img src="data:image/gif;base64,{data}" width="{self.size[0]}">'
+            case ".mp4":
+                source = f'src="data:video/mp4;base64,{data}" width="{self.size[0]}"'
+                return f"<video {source} autoplay loop muted controls></video>"
+        return None
+
+    def _repr_png_(self) -> bytes | None:
+        """Show the first of numbered frames in a notebook."""
+        return self.path.read_bytes() if self.path.suffix.lower() == ".png" else None
+
     @property
     def summary(self) -> str:
         """The recording in a line: file, frames, length, speed as recorded, size."""
         width, height = self.size
-        return f"{self.path}: {self.plan.summary}, {width}x{height}, {self.bytes / 1e6:.2f} MB"
+        return f"{self.path}: {self.plan.summary}, {width}x{height}, {self.file_bytes / 1e6:.2f} MB"
 
 
 def checked_path(path: str | os.PathLike[str]) -> tuple[Path, Format]:

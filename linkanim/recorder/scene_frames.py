@@ -26,7 +26,7 @@ class SceneFrames:
     def __init__(self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look) -> None:
         self.size = size
         self.alpha = not look.background
-        self.colours = theme_colours(look)
+        self.colours = theme_colours(look.theme)
         self._plan = plan
         self._setting = Setting(scene, size, look)
         self._surface = offscreen(size, alpha=self.alpha)
@@ -66,9 +66,9 @@ def record(
     return write(SceneFrames(scene, plan, size, look), plan, path, progress)
 
 
-def theme_colours(look: Look) -> tuple[Colour, ...]:
-    """Return every colour of the look's theme, flat areas of which a GIF has to show exactly."""
+def theme_colours(theme: str) -> tuple[Colour, ...]:
+    """Return every colour of a theme, flat areas of which a GIF has to show exactly."""
     plain: list[Colour] = []
-    for value in astuple(theme_of(look.theme)):
+    for value in astuple(theme_of(theme)):
         plain += value if isinstance(value[0], tuple) else [value]
     return tuple(dict.fromkeys(plain))

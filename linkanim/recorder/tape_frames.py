@@ -30,7 +30,7 @@ class TapeFrames:
     def __init__(self, tape: Tape, fps: float, size: tuple[int, int]) -> None:
         self.size = size
         self.alpha = not tape.start.look.background
-        self.colours = theme_colours(tape.start.look)
+        self.colours = tuple(colour for theme in _themes(tape) for colour in theme_colours(theme))
         self._tape = tape
         self._fps = fps
         self._surface = offscreen(size, alpha=self.alpha)
@@ -55,6 +55,12 @@ class TapeFrames:
         if self._setting is None or self._setting.made_for != look:
             self._setting = Setting(state.shown, self.size, state.look)
         return self._setting
+
+
+def _themes(tape: Tape) -> tuple[str, ...]:
+    """Return the themes that a tape shows."""
+    changes = any(action.name == "theme" for _, action in tape.actions)
+    return ("light", "dark") if changes else (tape.start.look.theme,)
 
 
 def record_tape(

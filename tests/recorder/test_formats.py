@@ -223,7 +223,7 @@ def test_progress_counts_up_to_all_frames(tmp_path: Path) -> None:
 def test_the_recording_says_what_it_holds(tmp_path: Path) -> None:
     frames = disc("gif")
     recording = write(frames, frames.plan, tmp_path / "disc.gif")
-    assert recording.bytes == (tmp_path / "disc.gif").stat().st_size
+    assert recording.file_bytes == (tmp_path / "disc.gif").stat().st_size
     assert (recording.frames, recording.seconds, recording.size) == (50, 2.0, (64, 48))
     assert recording.summary.startswith(
         f"{tmp_path / 'disc.gif'}: 50 frames at 25 fps, 2 s, one period at 30 rpm"

@@ -1,0 +1,238 @@
+"""Scenes and tapes as recordings: whole periods, without a seam, showing what was asked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from linkanim.errors import BadInput
+from linkanim.picture.look import Look
+from linkanim.picture.theme import theme_of
+from linkanim.player import tape_file
+from linkanim.player.actions import Action
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
+from linkanim.recorder import gallery, measure
+from linkanim.recorder.gallery import make_gallery
+from linkanim.recorder.plan import Format
+from linkanim.recorder.scene_frames import record
+from linkanim.recorder.tape_frames import TapeFrames, record_tape
+from linkanim.scenes import load, names
+
+SIZE = (96, 54)
+BARE = Look(hud=False, trace=False)
+Pixels = NDArray[np.uint8]
+
+
+def shown(path: Path, mode: str = "RGB") -> list[Pixels]:
+    with Image.open(path) as image:
+        return [np.asarray(frame.convert(mode)) for frame in _seeking(image)]
+
+
+def _seeking(image: Image.Image) -> Iterator[Image.Image]:
+    for frame in range(getattr(image, "n_frames", 1)):
+        image.seek(frame)
+        yield image
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_scene_loops_over_its_true_period_without_a_seam(tmp_path: Path, name: str) -> None:
+    scene = load(name)
+    made = record(scene, tmp_path / "out.gif", size=SIZE, fps=20, look=BARE)
+    with Image.open(made.path) as image:
+        assert image.info["loop"] == 0
+        durations = [frame.info["duration"] for frame in _seeking(image)]
+    assert sum(durations) == pytest.approx(1000 * scene.period / abs(scene.linkage.drive.speed), abs=25)
+    pictures = [picture.astype(float) for picture in shown(made.path)]
+    seam, *steps = (np.abs(b - a).mean() for a, b in zip([pictures[-1], *pictures], pictures, strict=False))
+    assert 0 < seam <= 1.2 * max(steps)
+
+
+def test_a_scene_with_a_true_period_of_two_turns_is_recorded_for_two(tmp_path: Path) -> None:
+    scene = load("kite")
+    made = record(scene, tmp_path / "kite.gif", size=SIZE, fps=10)
+    assert made.seconds == pytest.approx(2 * 2 * math.pi / abs(scene.linkage.drive.speed), abs=0.05)
+
+
+def test_reverse_shows_the_same_pictures_backwards(tmp_path: Path) -> None:
+    for name, back in (("forth", False), ("back", True)):
+        record(load("crank-rocker"), tmp_path / f"{name}.png", size=SIZE, fps=10, look=BARE, reverse=back)
+    forth, back_again = (
+        [shown(path)[0].astype(int) for path in sorted(tmp_path.glob(f"{name}-*"))]
+        for name in ("forth", "back")
+    )
+    expected = [forth[0], *reversed(forth[1:])]
+    assert all(np.abs(a - b).max() <= 1 for a, b in zip(expected, back_again, strict=True))
+
+
+def test_two_periods_show_one_twice(tmp_path: Path) -> None:
+    record(load("slider-crank"), tmp_path / "two.png", size=SIZE, fps=10, periods=2, look=BARE)
+    frames = [path.read_bytes() for path in sorted(tmp_path.glob("two-*.png"))]
+    half = len(frames) // 2
+    assert frames[:half] == frames[half:]
+    assert len(set(frames[:half])) == half
+
+
+def test_the_speed_asked_for_is_recorded_and_said_where_it_is_not(tmp_path: Path) -> None:
+    exact = record(load("press"), tmp_path / "a.gif", size=SIZE, fps=10, speed=math.tau / 2)
+    assert (exact.seconds, exact.speed_asked) == (2.0, math.tau / 2)
+    assert exact.speed == pytest.approx(math.tau / 2, rel=1e-15)
+    moved = record(load("press"), tmp_path / "b.gif", size=SIZE, fps=10, speed=math.tau / 2.04)
+    assert "29.41 rpm asked, 30 rpm recorded" in moved.summary
+
+
+@pytest.mark.parametrize(("size", "form"), [((97, 55), "gif"), ((97, 55), "png"), ((64, 36), "gif")])
+def test_gif_and_png_are_exactly_as_large_as_asked(tmp_path: Path, size: tuple[int, int], form: str) -> None:
+    made = record(load("parallelogram"), tmp_path / f"out.{form}", size=size, seconds=0.2)
+    with Image.open(made.path) as image:
+        assert image.size == size
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_flat_colours_of_the_theme_come_out_exactly(tmp_path: Path, theme: str) -> None:
+    look = Look(theme="dark" if theme == "dark" else "light")
+    made = record(load("crank-rocker"), tmp_path / "out.gif", size=(320, 180), seconds=0.4, look=look)
+    for picture in shown(made.path):
+        assert tuple(picture[0, -1]) == theme_of(theme).background
+        assert (picture == theme_of(theme).bodies[0]).all(axis=2).sum() > 20
+
+
+@pytest.mark.parametrize("form", ["gif", "png"])
+def test_a_transparent_recording_has_no_background(tmp_path: Path, form: str) -> None:
+    look = Look(background=False)
+    record(load("crank-rocker"), tmp_path / f"out.{form}", size=SIZE, seconds=0.4, look=look)
+    pictures = [shot for path in sorted(tmp_path.iterdir()) for shot in shown(path, "RGBA")]
+    assert len(pictures) == 10
+    for picture in pictures:
+        assert not picture[[0, -1], -1, 3].any()
+        assert (picture[..., 3] == 255).sum() > 100
+
+
+# why, what is asked beside scene and path
+REFUSED = [
+    ("no such quantity", {"look": Look(chart="rocker.colour")}),
+    ("too small", {"size": (4, 4)}),
+    ("no speed", {"speed": 0.0}),
+    ("no length", {"seconds": -1.0}),
+]
+
+
+@pytest.mark.parametrize(("why", "asked"), REFUSED)
+def test_what_cannot_be_recorded_is_refused_and_nothing_is_written(
+    tmp_path: Path, why: str, asked: dict[str, object]
+) -> None:
+    with pytest.raises(BadInput):
+        record(load("crank-rocker"), tmp_path / "out.gif", **asked)  # type: ignore[arg-type]
+    assert not any(tmp_path.iterdir())
+
+
+def tape(*actions: tuple[int, Action], frames: int = 60, name: str = "crank-rocker") -> Tape:
+    return Tape(begin(load(name)), frames, actions)
+
+
+def kept(tape: Tape, folder: Path) -> Path:
+    path = folder / "made.tape.json"
+    tape_file.write(tape, path)
+    return path
+
+
+def test_a_tape_in_which_nothing_is_done_is_the_scenes_loop(tmp_path: Path) -> None:
+    made = record_tape(kept(tape(frames=7), tmp_path), tmp_path / "tape.gif", size=SIZE, fps=10)
+    record(load("crank-rocker"), tmp_path / "scene.gif", size=SIZE, fps=10)
+    assert made.plan.closes
+    assert (tmp_path / "tape.gif").read_bytes() == (tmp_path / "scene.gif").read_bytes()
+
+
+def test_a_loop_starts_where_its_tape_does(tmp_path: Path) -> None:
+    still = tape()
+    later = replace(still, start=replace(still.start, clock=still.start.clock.go(0, 1.5)))
+    made = record_tape(kept(later, tmp_path), tmp_path / "tape.gif", size=SIZE, fps=10)
+    assert made.plan.phase(0) == 1.5
+    assert made.plan.closes
+
+
+def test_what_is_done_during_a_tape_shows_in_the_recording(tmp_path: Path) -> None:
+    done = tape((12, Action("theme")), (36, Action("mechanism", 1)))
+    made = record_tape(kept(done, tmp_path), tmp_path / "tape.gif", size=SIZE, fps=10)
+    pictures = shown(made.path)
+    assert (made.frames, made.seconds) == (10, 1.0)
+    dark = [tuple(picture[0, -1]) == theme_of("dark").background for picture in pictures]
+    light = [tuple(picture[0, -1]) == theme_of("light").background for picture in pictures]
+    assert dark == [False] * 2 + [True] * 8
+    assert light == [True] * 2 + [False] * 8
+    steps = [np.abs(b.astype(int) - a).mean() for a, b in pairwise(pictures[2:])]
+    assert steps.index(max(steps)) == 3  # the next mechanism comes with frame 36, which is picture 6
+
+
+def test_a_tapes_pictures_do_not_depend_on_the_order_in_which_they_are_drawn() -> None:
+    done = tape((20, Action("direction")), (30, Action("speed", 3)))
+    anew = [bytes(TapeFrames(done, 10, SIZE).draw(k)) for k in range(10)]
+    one = TapeFrames(done, 10, SIZE)
+    assert [bytes(one.draw(k)) for k in (0, 3, 7, 7, 2, 9)] == [anew[k] for k in (0, 3, 7, 7, 2, 9)]
+
+
+def test_the_gallery_is_small_whole_and_the_same_every_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gallery, "SIZE", (192, 108))
+    chosen = ("kite", "press")
+    one, two = (make_gallery(tmp_path / name, chosen) for name in ("one", "two"))
+    files = {path.name: path.read_bytes() for path in (tmp_path / "one").iterdir()}
+    assert set(files) == {"kite.gif", "press.gif", gallery.SHEET}
+    assert files == {path.name: path.read_bytes() for path in (tmp_path / "two").iterdir()}
+    assert [made.path.name for made in one.recordings] == ["kite.gif", "press.gif"]
+    assert two.sheet == tmp_path / "two" / gallery.SHEET
+    with Image.open(one.sheet) as sheet:
+        assert sheet.size == (4 * 198 + 6, 114 + 6)
+
+
+def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gallery, "SIZE", SIZE)
+    (largest,) = make_gallery(tmp_path, ["press"]).recordings
+    monkeypatch.setattr(gallery, "LARGEST", largest.file_bytes - 1)
+    (smaller,) = make_gallery(tmp_path, ["press"]).recordings
+    assert (largest.frames, smaller.frames) == (60, 50)
+    assert smaller.file_bytes < largest.file_bytes
+
+
+def test_the_gallery_takes_a_tape_where_there_is_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gallery, "SIZE", SIZE)
+    tape_file.write(tape((3, Action("theme")), frames=30, name="press"), tmp_path / "press.tape.json")
+    (made,) = make_gallery(tmp_path, ["press"]).recordings
+    assert made.seconds == pytest.approx(0.5, abs=0.05)
+
+
+def test_a_gallery_in_a_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(BadInput, match="is a file"):
+        make_gallery(tmp_path / "file", ["press"])
+
+
+@pytest.mark.parametrize(("form", "least"), [("gif", 50.0), ("mp4", 35.0)])
+def test_the_cost_of_a_recording_is_measured(form: Format, least: float) -> None:
+    found = measure.cost("slider-crank", form, frames=8)
+    assert (found.form, found.frames) == (form, 8)
+    assert least < found.decibels < 100
+    assert 0.001 < found.megabytes < 1
+    assert found.seconds > 0
+    assert found.encode_seconds > 0
+    assert all(20 < megabytes < 1000 for megabytes in found.memory if not math.isnan(megabytes))
+
+
+# what a notebook finds in the page
+@pytest.mark.parametrize(("form", "tag"), [("gif", "<img src"), ("mp4", "<video src"), ("png", None)])
+def test_a_notebook_shows_a_recording(tmp_path: Path, form: str, tag: str | None) -> None:
+    made = record(load("kite"), tmp_path / f"kite.{form}", size=SIZE, seconds=0.2)
+    page, picture = made._repr_html_(), made._repr_png_()
+    assert page is None if tag is None else (page or "").startswith(tag)
+    assert (picture == made.path.read_bytes()) == (form == "png")
