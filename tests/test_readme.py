@@ -78,6 +78,11 @@ def test_every_snippet_runs(snippet: str, tmp_path: Path, monkeypatch: pytest.Mo
     assert [path.name for path in tmp_path.iterdir()] == re.findall(r'record\(scene, "(.+?)"', snippet)
 
 
+@pytest.mark.parametrize("name", linkanim.names())
+def test_every_scene_is_in_the_gallery(name: str) -> None:
+    assert f"(recordings/{name}.gif)" in README
+
+
 def test_every_file_named_is_there() -> None:
     names = re.findall(r"\]\((?!http)([^)#]+)\)", README)
     assert [name for name in names if not (ROOT / name).exists()] == []

@@ -260,7 +260,7 @@ COMMANDS = {
     ),
     "scenes": Command("list the built-in scenes, name first", _scenes, ("linkanim scenes",)),
     "gallery": Command(
-        "record every built-in scene as a small GIF",
+        "record every built-in scene as a small GIF, and draw the chart of bench",
         _gallery,
         ("linkanim gallery", "linkanim gallery --into slides/linkages"),
     ),

@@ -1,36 +1,60 @@
-"""`linkanim gallery`: every scene as a small GIF, and all of them on one sheet."""
+"""`linkanim gallery`: every scene as a small GIF, all of them on one sheet, and the chart of `bench`."""
 
 from __future__ import annotations
 
 import sys
 from argparse import Namespace
+from pathlib import Path
 
 from tqdm import tqdm
 
-from linkanim.cli.record import advance
+from linkanim.bench.command import CHART
+from linkanim.bench.extra import require_extra
+from linkanim.cli.record import advance, bar
 from linkanim.errors import BadInput, WorkFailed
-from linkanim.recorder.gallery import make_gallery
+from linkanim.recorder.gallery import Gallery, make_gallery
 from linkanim.recorder.recording import Progress
 from linkanim.scenes import names
 
 
 def run(options: Namespace) -> None:
-    """Record every built-in scene and draw the sheet; print each file's path."""
-    if not options.into.parent.is_dir():
-        raise BadInput(
-            f"--into {options.into}: there is no folder {options.into.parent}; make it, or choose another"
-        )
-    with tqdm(unit=" frames", leave=False, disable=None, file=sys.stderr) as bar:
+    """Record every built-in scene, draw the sheet and the chart; print each file's path.
 
-        def watch(name: str) -> Progress:
-            bar.reset()
-            bar.set_description(name)
-            return lambda done, total: advance(bar, done, total)
-
-        try:
-            made = make_gallery(options.into, names(), watch)
-        except OSError as error:
-            raise WorkFailed(f"--into {options.into}: {error.strerror or error}") from error
+    Without the packages that `bench` compares with, the chart is left as it is, and that is said on stderr.
+    """
+    into = options.into
+    if not into.parent.is_dir():
+        raise BadInput(f"--into {into}: there is no folder {into.parent}; make it first, or choose another")
+    made = _recorded(into)
     for recording in made.recordings:
         print(recording.path)
-    print(made.sheet)
+    print(made.sheet, flush=True)
+    try:
+        require_extra()
+    except BadInput as missing:
+        print(f"{into / CHART} is left as it is: {missing}", file=sys.stderr)
+    else:
+        print(_charted(into / CHART))
+
+
+def _recorded(into: Path) -> Gallery:
+    with tqdm(unit=" frames", leave=False, disable=None, file=sys.stderr) as drawn:
+
+        def watch(name: str) -> Progress:
+            drawn.reset()
+            drawn.set_description(name)
+            return lambda done, total: advance(drawn, done, total)
+
+        try:
+            return make_gallery(into, names(), watch)
+        except OSError as error:
+            raise WorkFailed(f"--into {into}: {error.strerror or error}") from error
+
+
+def _charted(path: Path) -> Path:
+    """Run the benchmark, for a minute or two, and draw what it found."""
+    # What it compares with takes seconds to import, and need not be installed.
+    from linkanim.bench import drawing, result
+
+    with bar(unit=" rounds") as progress:
+        return drawing.draw(result.run(progress), path)

@@ -13,6 +13,7 @@ from PIL import Image
 
 import linkanim
 from linkanim.cli import main
+from linkanim.errors import BadInput
 from linkanim.player import tape_file
 from linkanim.player.actions import Action
 from linkanim.player.state import begin
@@ -151,6 +152,21 @@ def test_a_gallery_that_cannot_be_is_refused(tmp_path: Path, capsys: pytest.Capt
     assert main(["gallery", "--into", "missing/gallery"]) == 2
     assert capsys.readouterr().err.count("\n") == 2
     assert files(tmp_path) == ["taken"]
+
+
+def test_a_gallery_is_a_gif_for_each_scene_and_a_sheet(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def not_installed() -> None:
+        raise BadInput("bench compares with others, which are not installed")
+
+    monkeypatch.setattr("linkanim.cli.gallery.names", lambda: ("parallelogram",))
+    monkeypatch.setattr("linkanim.cli.gallery.require_extra", not_installed)
+    assert main(["gallery", "--into", "shown"]) == 0
+    printed = capsys.readouterr()
+    assert printed.out.splitlines() == ["shown/parallelogram.gif", "shown/contact-sheet.png"]
+    assert printed.err.startswith("shown/speed-vs-error.png is left as it is: bench compares with others")
+    assert files(tmp_path / "shown") == ["contact-sheet.png", "parallelogram.gif"]
 
 
 # Ctrl-C and SIGTERM in the middle of the work: what was there stays, and nothing else is there
