@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import clock as clocks
 from .assembly import Swing, Turn, gearings
+from .columns import Columns, Floats, Layout, layout
 from .exact import Sum, exact_angle
 from .expression import Graph, Value
 from .limits import restricted
@@ -27,9 +28,7 @@ VECTORS = ("position", "velocity", "acceleration", "com_position", "com_velocity
 NUMBERS = ("angular_velocity", "angular_acceleration", "travel", "travel_velocity", "travel_acceleration")
 DERIVATIVE_OF = dict(zip((*VECTORS, *NUMBERS), (0, 1, 2, 0, 1, 2, 1, 2, 0, 1, 2), strict=True))
 
-Floats = NDArray[np.floating[Any]]
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
-Fixed = Mapping[str, Mapping[str, Array]]
 
 
 @dataclass(frozen=True)
@@ -64,7 +63,7 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _programs(self) -> dict[Variant, tuple[Batch, Rows]]:
+    def _programs(self) -> dict[Variant, tuple[Batch, Layout]]:
         return {}
 
     def pose(self, phase: float, speed: float, acceleration: float, derivatives: int) -> Pose:
@@ -146,65 +145,42 @@ class Mechanism:
         with np.errstate(all="ignore"):
             return self._motion(variant, asked, *self._run(variant, asked))
 
-    def _run(self, variant: Variant, given: _Given) -> tuple[Rows, Floats]:
-        program, rows = self.program(variant)
+    def _run(self, variant: Variant, given: _Given) -> tuple[Layout, Floats]:
+        program, places = self.program(variant)
         rates = (given.w, given.a) if variant.accelerates else (given.w,)
         ways = given.reach
         if ways is None:
-            return rows, program(given.x, *rates)
+            return places, program(given.x, *rates)
         results = program(ways.angle, ways.u, ways.v, *rates)
         results[:, ways.outside] = np.nan
         if variant.derivatives and ways.at_limit.any():
             snapped = program(ways.angle, *ways.snapped, *rates)
-            self._mark_limits(rows, results, snapped, ways.at_limit)
-        return rows, results
+            _mark_limits(places, results, snapped, ways.at_limit)
+        return places, results
 
-    def _mark_limits(self, rows: Rows, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
-        """Give rates the values they have at the limit itself: infinite where they are unbounded."""
-        for row, kind in enumerate(self._kinds(rows)):
-            if DERIVATIVE_OF[kind]:
-                values = snapped[row, at_limit]
-                results[row, at_limit] = np.where(np.isnan(values), np.inf, values)
-
-    def _kinds(self, rows: Rows) -> Iterator[str]:
-        """Yield the quantity that each row of the results holds."""
-        for kind, values in rows.items():
-            for name, components in values.items():
-                if not self._is_fixed(kind, name):
-                    yield from [kind] * len(components)
-
-    def program(self, variant: Variant) -> tuple[Batch, Rows]:
-        """Return the program over arrays for one way of asking, and which rows it fills."""
+    def program(self, variant: Variant) -> tuple[Batch, Layout]:
+        """Return the program over arrays for one way of asking, and where its results lie."""
         found = self._programs.get(variant)
         if found is None:
             names, crank, rows = self._trace(variant)
             rates = ("w", "a") if variant.accelerates else ("w",)
             varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
-            outputs = [
-                component
-                for kind, values in rows.items()
-                for name, components in values.items()
-                if not self._is_fixed(kind, name)
-                for component in components
-            ]
-            if isinstance(self.assembly.path, Swing):
-                outputs.extend(crank)
-            found = self._programs[variant] = (batch(varying, outputs), rows)
+            pins = {joint.name: joint.position for joint in self.linkage.joints if isinstance(joint, Pin)}
+            places = layout(rows, pins, VECTORS[:3])
+            swinging = crank if isinstance(self.assembly.path, Swing) else ()
+            found = self._programs[variant] = (batch(varying, (*places.outputs, *swinging)), places)
         return found
-
-    def _is_fixed(self, kind: str, name: str) -> bool:
-        return kind in VECTORS[:3] and isinstance(self.linkage.joint(name), Pin)
 
     def _reach(self, angle: Array) -> Reach | None:
         path = self.assembly.path
         return None if isinstance(path, Turn) else reach(angle, path)
 
-    def _motion(self, variant: Variant, given: _Given, rows: Rows, results: Floats) -> Motion:
+    def _motion(self, variant: Variant, given: _Given, places: Layout, results: Floats) -> Motion:
         results.flags.writeable = False
-        taken = _Taker(results, given.shape, self._fixed(given.shape))
-        found: dict[str, Any] = {kind: taken.quantity(kind, values) for kind, values in rows.items()}
-        swing = isinstance(self.assembly.path, Swing)
-        angles = self._crank(given, variant, taken.rest() if swing else None)
+        kinds = places.places.items()
+        found: dict[str, Any] = {kind: Columns(names, results, given.shape) for kind, names in kinds}
+        swing = [row.reshape(given.shape) for row in results[len(places.outputs) :]]
+        angles = self._crank(given, variant, swing)
         return Motion(
             self.setting,
             *angles[:2],
@@ -215,30 +191,13 @@ class Mechanism:
             **found,
         )
 
-    @cached_property
-    def _fixed_by_shape(self) -> dict[tuple[int, ...], Fixed]:
-        return {}
-
-    def _fixed(self, shape: tuple[int, ...]) -> Fixed:
-        """Return what does not move, as views of a shape; those of the last shape are kept."""
-        found = self._fixed_by_shape.get(shape)
-        if found is None:
-            pins = {joint.name: joint.position for joint in self.linkage.joints if isinstance(joint, Pin)}
-            places = {name: _repeated(place, shape) for name, place in pins.items()}
-            still = dict.fromkeys(pins, _repeated((0.0, 0.0), shape))
-            found = {"position": places, "velocity": still, "acceleration": still}
-            self._fixed_by_shape.clear()
-            self._fixed_by_shape[shape] = found
-        return found
-
-    def _crank(self, given: _Given, variant: Variant, swing: list[Array] | None) -> tuple[Any, Any, Any, Any]:
+    def _crank(self, given: _Given, variant: Variant, swing: list[Any]) -> tuple[Any, Any, Any, Any]:
         """Return phase, crank angle and its two rates."""
         x, path = given.x.reshape(given.shape), self.assembly.path
         w, a = _shaped(given.w, given.shape), _shaped(given.a, given.shape)
         if isinstance(path, Turn):
             other = x + (path.start if variant.by_phase else -path.start) if path.start else x
             return (x, other, w, a) if variant.by_phase else (other, x, w, a)
-        assert swing is not None
         if variant.by_phase:
             angle, rate, second = swing
             return x, angle, rate, second
@@ -258,31 +217,12 @@ class _Given:
     reach: Reach | None
 
 
-class _Taker:
-    """Hands out the rows of the results, in the order in which they were asked for."""
-
-    def __init__(self, results: Floats, shape: tuple[int, ...], fixed: Fixed) -> None:
-        self._results, self._shape, self._fixed, self._row = results, shape, fixed, 0
-        self._flat = len(shape) == 1
-
-    def quantity(self, kind: str, values: Mapping[str, tuple[Value, ...]]) -> dict[str, Array]:
-        """Return the values of one quantity by name."""
-        fixed = self._fixed.get(kind, {})
-        return {
-            name: fixed[name] if name in fixed else self._take(len(components))
-            for name, components in values.items()
-        }
-
-    def _take(self, count: int) -> Array:
-        # A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
-        first = self._row
-        self._row += count
-        values: Any = self._results[first] if count == 1 else self._results[first : first + count].T
-        shaped: Array = values if self._flat else values.reshape((*self._shape, *values.shape[1:]))
-        return shaped
-
-    def rest(self) -> list[Array]:
-        return [row.reshape(self._shape) for row in self._results[self._row :]]
+def _mark_limits(places: Layout, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
+    """Give rates the values they have at the limit itself: infinite where they are unbounded."""
+    for row, kind in enumerate(places.kinds):
+        if DERIVATIVE_OF[kind]:
+            values = snapped[row, at_limit]
+            results[row, at_limit] = np.where(np.isnan(values), np.inf, values)
 
 
 def _dict_display(values: Mapping[str, tuple[Value, ...]]) -> str:
@@ -298,10 +238,6 @@ def _flat(values: Array, shape: tuple[int, ...]) -> Array:
     """Return the values along one axis, repeated to the shape."""
     repeated = values if values.shape == shape else np.broadcast_to(values, shape)
     return np.ascontiguousarray(repeated).reshape(-1)
-
-
-def _repeated(place: tuple[float, float], shape: tuple[int, ...]) -> Array:
-    return np.broadcast_to(np.array(place), (*shape, 2))
 
 
 def _shaped(rate: Any, shape: tuple[int, ...]) -> Any:

@@ -211,7 +211,9 @@ class _Plan:
                 a, b, below, otherwise = arguments
                 yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
             else:
-                yield f"{node.op}({', '.join(arguments)}, out={place})"
+                # By keyword costs time at every call; numpy asks it only of these two.
+                target = f"out={place}" if node.op in ("minimum", "maximum") else place
+                yield f"{node.op}({', '.join(arguments)}, {target})"
         for row, value in self.copies:
             yield f"o{row}[...] = {self.name(value)}"
 
