@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial import Chebyshev, Polynomial
 from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
@@ -28,6 +28,9 @@ from .path import Assembly, resigned
 from .planar import Slope
 from .program import Batch, batch
 from .touching import through_change_points
+
+if TYPE_CHECKING:
+    from numpy.polynomial import Polynomial
 
 SAMPLES_A_TURN = 2880
 TOUCHING = 1e-12
@@ -266,7 +269,11 @@ def _near_end(assembly: Assembly, name: str, *, upper: bool) -> NearEnd:
 
 def _weighted_fit(x: Array, values: Array, weights: Array) -> Polynomial:
     """Return the polynomial p on [0, 1] for which weights × p comes nearest the values."""
-    columns = np.polynomial.chebyshev.chebvander(2 * x - 1, DEGREE) * weights[:, None]
+    # Here, because it costs as much to import as a linkage without such a limit costs to load.
+    from numpy.polynomial import Chebyshev, Polynomial
+    from numpy.polynomial.chebyshev import chebvander
+
+    columns = chebvander(2 * x - 1, DEGREE) * weights[:, None]
     coefficients = np.linalg.lstsq(columns, values, rcond=None)[0]
     found = Chebyshev(coefficients, domain=[0.0, 1.0]).convert(kind=Polynomial, domain=[-1, 1])
     assert isinstance(found, Polynomial)

@@ -15,10 +15,9 @@ from pathlib import Path
 from linkanim.picture.look import Look
 from linkanim.player import display, tape_file
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.state import State, begin
+from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.player.window import Window
-from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
 _STALLED = FRAMES_PER_SECOND
@@ -37,7 +36,7 @@ def run(
     when left alone for a minute. NoDisplay where there is no screen; BadInput as loading raises it.
     """
     tape = _tape(scene)
-    state = tape.start if tape else _state(scene, look)
+    state = tape.start if tape else begin(scene, look=look)
     with display.opened(size):
         window = Window(replace(state, attract=attract), tape)
         try:
@@ -71,6 +70,3 @@ def _tape(scene: object) -> Tape | None:
     path = str(scene) if isinstance(scene, str | os.PathLike) else ""
     return tape_file.read(Path(path)) if path.lower().endswith(".json") else None
 
-
-def _state(scene: Scene | str | os.PathLike[str] | None, look: Look | None) -> State:
-    return begin(scene if scene is None or isinstance(scene, Scene) else load(scene), look=look)

@@ -6,6 +6,7 @@ as data for the window to carry out.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
@@ -80,18 +81,21 @@ class State:
         return self.clock.at(self.frame)
 
 
-def begin(scene: Scene | None = None, *, look: Look | None = None, attract: bool = False) -> State:
-    """Return the state a window opens with: `scene`, and the catalogue on the shelf.
+def begin(
+    scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | None = None, attract: bool = False
+) -> State:
+    """Return the state a window opens with: `scene`, loaded where it is a name or path, and the catalogue.
 
     Without a scene it is the catalogue's first; one that is not of the catalogue stands before it.
+    BadInput as loading raises it.
     """
+    asked = names()[0] if scene is None else scene
+    found = asked if isinstance(asked, Scene) else load(asked)
     shelf: tuple[Scene | str, ...] = names()
-    if scene is None:
-        scene = load(names()[0])
-    if scene.name not in shelf or load(scene.name) != scene:
-        shelf = (scene, *shelf)
-    place = 0 if shelf[0] is scene else shelf.index(scene.name)
-    return State(scene, fresh(scene), shelf, place, look=look or Look(), attract=attract)
+    if asked not in shelf and (found.name not in shelf or load(found.name) != found):
+        shelf = (found, *shelf)
+    place = 0 if shelf[0] is found else shelf.index(found.name)
+    return State(found, fresh(found), shelf, place, look=look or Look(), attract=attract)
 
 
 def fresh(scene: Scene) -> Clock:
