@@ -47,15 +47,21 @@ UFUNCS: Mapping[str, Callable[..., Any]] = {
 
 
 def needed(outputs: Sequence[Value]) -> list[Expr]:
-    """Return the nodes that the outputs depend on, arguments before their users."""
-    seen: dict[int, Expr] = {}
+    """Return the nodes that the outputs depend on, arguments before their users.
+
+    Each output's nodes come together, the last output's first, which keeps few values waiting for
+    their use: fewer buffers stay in the cache.
+    """
+    found: dict[int, Expr] = {}
     stack = [value for value in outputs if isinstance(value, Expr)]
     while stack:
-        node = stack.pop()
-        if node.index not in seen:
-            seen[node.index] = node
-            stack.extend(argument for argument in node.args if isinstance(argument, Expr))
-    return [seen[index] for index in sorted(seen)]
+        node = stack[-1]
+        waiting = [arg for arg in node.args if isinstance(arg, Expr) and arg.index not in found]
+        if waiting:
+            stack.extend(waiting)
+        else:
+            found.setdefault(node.index, stack.pop())
+    return list(found.values())
 
 
 def _formula(node: Expr) -> str:
