@@ -104,13 +104,17 @@ def test_the_first_frame_comes_from_the_command_itself() -> None:
 
 def test_the_figures_of_drawing_stand_beside_their_bounds() -> None:
     frames = tuple(window.Frames(size, 5.25, 7.0, 5.0) for size in window.SIZES)
-    found = window.Drawing(this_machine(), frames, 0.25)
+    found = window.Drawing(this_machine(), frames, 0.25, 51.3, 0.002)
     lines = {line.split()[0]: line.split() for line in window.as_text(found).splitlines() if line}
     assert lines["1280x720"][1:5] == ["5.2", "ms", "≤", "6"]
     assert lines["1920x1080"][1:5] == ["5.2", "ms", "≤", "10"]
     assert lines["1280x720"][-2:] == ["30", "%"]
     assert lines["first"][-5:] == ["0.25", "s", "≤", "0.4", "s"]
-    assert json.loads(json.dumps(window.as_object(found)))["frames"][0]["most_ms"] == 6.0
+    assert lines["worst"][-5:] == ["51.3", "dB", "≥", "44", "dB"]
+    assert lines["a"][-5:] == ["0.0020", "px", "≤", "0.1", "px"]
+    told = json.loads(json.dumps(window.as_object(found)))
+    assert told["frames"][0]["most_ms"] == 6.0
+    assert (told["dB_against_64_samples"], told["slow_bar_px_rms"]) == (51.3, 0.002)
 
 
 def test_the_figures_of_recordings_are_the_recorders() -> None:

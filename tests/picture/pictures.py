@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pygame
-from numpy.typing import NDArray
 
+from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
@@ -14,7 +13,6 @@ from linkanim.picture.painter import Painter
 from linkanim.picture.raster import Layer, paint
 from linkanim.scenes.scene import Scene
 
-Pixels = NDArray[np.float64]
 BARE = Look(hud=False)
 SMALL = (320, 180)
 
@@ -51,22 +49,3 @@ def alphas(surface: pygame.Surface) -> Pixels:
 def coverage(surface: pygame.Surface) -> Pixels:
     """Return how far white covers black in each pixel, 0 to 1."""
     return pixels(surface)[..., 0] / 255
-
-
-def centre(cover: Pixels) -> complex:
-    """Return the centre of gravity of a coverage, pixel (0, 0) reaching from 0 to 1."""
-    rows, columns = np.indices(cover.shape) + 0.5
-    return complex((columns * cover).sum(), (rows * cover).sum()) / float(cover.sum())
-
-
-def averaged(picture: Pixels, by: int) -> Pixels:
-    """Return the mean of each square of `by` × `by` pixels."""
-    height, width, depth = picture.shape
-    mean: Pixels = picture.reshape(height // by, by, width // by, by, depth).mean(axis=(1, 3))
-    return mean
-
-
-def psnr(one: Pixels, other: Pixels) -> float:
-    """Return the peak signal-to-noise ratio of two pictures in dB."""
-    error = float(np.mean((one - other) ** 2))
-    return 10 * float(np.log10(255**2 / error)) if error else float("inf")
