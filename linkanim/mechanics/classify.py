@@ -10,9 +10,9 @@ import numpy as np
 
 from .assembly import Loop, Swing, Turn
 from .exact import HALF_TURN, Sum
-from .linkage import RPR, RRP, RRR
+from .linkage import RPR, RRP, RRR, Pin
 from .mechanism import Mechanism
-from .motion import Motion
+from .motion import Array, Motion
 from .roots import Kind
 
 SAMPLES = 1440
@@ -132,7 +132,7 @@ def _class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
         return f"geared five-bar{slider}"
     if four_bar is not None:
         name = _four_bar_name(four_bar)
-        return name if dyads == 1 else f"{_bars(dyads)}: {name} and {_rest(dyads)}"
+        return name if dyads == 1 else f"{_bars(dyads)}: {name}{_rest(mechanism, dyads)}"
     if dyads == 1 and RRP in kinds:
         return _slider_name(mechanism)
     if dyads == 1 and RPR in kinds:
@@ -145,8 +145,48 @@ def _bars(dyads: int) -> str:
     return {1: "four-bar", 2: "six-bar", 3: "eight-bar"}.get(dyads, f"{2 * dyads + 2}-bar")
 
 
-def _rest(dyads: int) -> str:
-    return "a second dyad" if dyads == 2 else f"{dyads - 1} further dyads"
+def _rest(mechanism: Mechanism, dyads: int) -> str:
+    """Name the loops after the first, as far as they are four-bars; else say how many dyads follow."""
+    further = [_four_bar_name(bar) for bar in _further_loops(mechanism)]
+    if len(further) == dyads - 1:
+        return "".join(f", then {name}" for name in further)
+    return " and a second dyad" if dyads == 2 else f" and {dyads - 1} further dyads"
+
+
+def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
+    """Yield the four-bars down the chain: dyads from a pin that turns about a fixed pin to another fixed pin."""
+    linkage, cycle = mechanism.linkage, _cycle(mechanism, 0)
+    pins = [joint.name for joint in linkage.joints if isinstance(joint, Pin)]
+    for joint in linkage.joints:
+        if not isinstance(joint, RRR) or joint.name in mechanism.assembly.loops:
+            continue
+        for (moving, fixed), (a, b) in ((joint.ends, joint.lengths), (joint.ends[::-1], joint.lengths[::-1])):
+            pivot = next((pin for pin in pins if _keeps_away(cycle, moving, pin)), None)
+            if fixed in pins and moving not in pins and pivot is not None:
+                ground, crank = _apart(cycle, pivot, fixed), _apart(cycle, pivot, moving)
+                yield FourBar(ground, crank, a, b, 1, _change_point_count(ground, crank, a, b))
+                break
+
+
+def _distances(cycle: Motion, a: str, b: str) -> Array:
+    way = cycle.position[a] - cycle.position[b]
+    return np.hypot(way[:, 0], way[:, 1])
+
+
+def _keeps_away(cycle: Motion, moving: str, pin: str) -> bool:
+    """Tell whether a joint keeps its distance from a fixed pin: then it turns about it."""
+    distances = _distances(cycle, moving, pin)
+    return bool(np.ptp(distances) <= 1e-9 * distances.max())
+
+
+def _apart(cycle: Motion, a: str, b: str) -> float:
+    return float(np.median(_distances(cycle, a, b)))
+
+
+def _change_point_count(g: float, r: float, a: float, b: float) -> int:
+    """Return how many change points the lengths have, read from positions: to 1e-12 of the perimeter."""
+    least = 1e-12 * (g + r + a + b)
+    return int(abs(a + b - g - r) <= least) + int(min(abs(g - r - a + b), abs(g - r + a - b)) <= least)
 
 
 def _four_bar_name(bar: FourBar) -> str:

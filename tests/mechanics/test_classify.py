@@ -127,3 +127,18 @@ IMPOSSIBLE = [
 def test_what_cannot_be_assembled_is_refused_in_words(name: str, linkage: Linkage) -> None:
     with pytest.raises(AssemblyError, match=r"^joint [A-Z]: .*(cannot|more than)"):
         mechanism(linkage)
+
+
+SECOND_LOOPS = [
+    # The rocker of the first loop drives the second: named by its own four lengths.
+    ((120, 60, 100, 90), "six-bar: Grashof crank-rocker, then Grashof crank-rocker"),
+    ((120, 60, 70, 80), "six-bar: Grashof crank-rocker, then triple-rocker (outward/outward)"),
+    ((60, 40, 60, 40), "six-bar: Grashof crank-rocker, then parallelogram"),
+]
+
+
+@pytest.mark.parametrize(("second", "name"), SECOND_LOOPS)
+def test_the_second_loop_of_a_six_bar_is_classed_too(
+    second: tuple[float, float, float, float], name: str
+) -> None:
+    assert classify(mechanism(six_bar((100, 30, 90, 80), second)), "mm").class_name == name
