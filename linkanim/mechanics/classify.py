@@ -154,7 +154,7 @@ def _rest(mechanism: Mechanism, dyads: int) -> str:
 
 
 def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
-    """Yield the four-bars down the chain: dyads between a pin that turns about a fixed one and a fixed pin."""
+    """Yield the four-bars down the chain: dyads between a fixed pin and one that turns about a fixed pin."""
     linkage, cycle = mechanism.linkage, _cycle(mechanism, 0)
     pins = [joint.name for joint in linkage.joints if isinstance(joint, Pin)]
     for joint in linkage.joints:
