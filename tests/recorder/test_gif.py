@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from linkanim.recorder import gif
 from linkanim.recorder.gif import Job, Nearest, Words, pieces
 
 Colour = tuple[int, int, int]
@@ -74,7 +75,7 @@ def test_every_picture_is_as_it_was(why: str, rows: list[str]) -> None:
 @pytest.mark.parametrize("size", [(1, 1), (5, 3), (200, 150)])
 def test_any_number_of_colours_comes_out(count: int, size: tuple[int, int]) -> None:
     rng = np.random.default_rng(count)
-    palette = rng.permutation(1 << 24)[:count]
+    palette = rng.permutation(1 << 12)[:count] * 4095  # spread over all colours, each once
     frames = [palette[rng.integers(0, count, size)].astype(np.uint32) for _ in range(3)]
     colours = tuple((int(c) >> 16 & 255, int(c) >> 8 & 255, int(c) & 255) for c in palette)
     data = b"".join(pieces(job(size[1], size[0], colours), iter(frames)))
@@ -122,12 +123,28 @@ def test_opacity_is_no_part_of_a_colour() -> None:
     assert nearest(picture("wrgk", 255)).tolist() == nearest(picture("wrgk", 0)).tolist() == [[1, 2, 3, 4]]
 
 
+def size(*frames: Words, width: int = 100) -> int:
+    return len(b"".join(pieces(job(width, len(frames[0])), iter(frames))))
+
+
 def test_what_stays_costs_next_to_nothing() -> None:
     rng = np.random.default_rng(1)
     noise = rng.choice(np.array([0xFFFFFF, 0xFF0000, 0x8000], np.uint32), (100, 100))
-    touched = noise.copy()
-    touched[40:42, 40:42] = 0
-    whole, still, change = (len(b"".join(pieces(job(100, 100), iter(frames)))) for frames in
-                            ([noise], [noise, noise], [noise, touched]))  # fmt: skip
-    assert still - whole < 30
-    assert change - whole < 40
+    centre, corners = noise.copy(), noise.copy()
+    centre[40:42, 40:42] = 0
+    corners[[0, -1], [0, -1]] = 0
+    alone = size(noise)
+    assert size(noise, noise) - alone < 30
+    assert size(noise, centre) - alone < 40
+    assert 40 < size(noise, corners) - alone < 300  # all of it once more were over 2000
+
+
+def test_a_colour_that_carries_on_is_written_and_not_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows, columns = np.mgrid[0:100, 0:200]
+    frames = [
+        np.where(np.abs(columns - 60 - 3 * step - rows * 0.3) < 20, 0xFF0000, 0xFFFFFF).astype(np.uint32)
+        for step in range(10)
+    ]
+    carried = size(*frames, width=200)
+    monkeypatch.setattr(gif, "_LONGEST_CARRIED", 0)
+    assert carried < 0.8 * size(*frames, width=200)
