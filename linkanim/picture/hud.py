@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import degrees, pi, tau
 from typing import NamedTuple
 
@@ -57,9 +57,8 @@ def _rows(scene: Scene, pose: Pose, speed: str | None) -> Iterator[Row]:
     info = scene.info
     yield Row("crank angle", _turned(pose.crank_angle) if info.full_turn else _deg(pose.crank_angle))
     yield Row("input speed", speed or rpm(pose.input_speed))
-    if not info.full_turn:
-        low, high = info.input_range
-        yield Row("input range", f"{_deg(low)}…{_deg(high)}")
+    low, high = info.input_range
+    yield Row("input range", "full turn" if info.full_turn else f"{_deg(low)}…{_deg(high)}")
     if info.true_period != 1:
         yield Row("true period", f"{info.true_period} turns")
     unit = scene.length_unit
@@ -80,15 +79,17 @@ def rpm(speed: float) -> str:
 
 def note(scene: Scene, pose: Pose) -> str | None:
     """Return what is special here: a limit of the input or a change point that is near; else None."""
+    return next((words for away, words in _special(scene, pose) if away < 1.0), None)
+
+
+def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, str]]:
+    """Yield the input's limits and change points in words; below 1 away from a pose they are near."""
     info = scene.info
     if not info.full_turn:
         for limit, at in zip(info.input_range, (0.0, pi), strict=True):
-            if _apart(pose.phase, at) < _NEAR_LIMIT:
-                return f"near the limit {_deg(limit)}"
+            yield _apart(pose.phase, at) / _NEAR_LIMIT, f"near the limit {_deg(limit)}"
     for point in info.change_points:
-        if _apart(pose.crank_angle, point) < _NEAR_CHANGE:
-            return f"near the change point {_turned(point)}"
-    return None
+        yield _apart(pose.crank_angle, point) / _NEAR_CHANGE, f"near the change point {_turned(point)}"
 
 
 def _deg(angle: float) -> str:
@@ -140,31 +141,52 @@ class Hud:
         for n, (line, colour) in enumerate(lines, start=len(values)):
             self.type.draw(surface, line, self._place(n + 0.4), size=self.size, colour=colour)
 
+    def holds(self, said: frozenset[str]) -> bool:
+        """Whether all these lines are no wider than the column, and the last row and the note stand in it."""
+        pose = self.scene.pose(0.0)
+        note_at = 0.4 if any(_special(self.scene, pose)) else -1.0
+        low = self._place(len(rows(self.scene, pose)) + note_at)[1] + self.size
+        wide = max(self.type.width(line, self.size) for line in said)
+        return low <= self.column.bottom and wide <= self.column.width
+
     def _place(self, row: float) -> tuple[float, float]:
         return self.column.x, self.first + _STEP * self.size * row
 
 
 def hud_for(scene: Scene, layout: Layout, type_: Type, theme: Theme) -> Hud | None:
-    """Return the HUD of a scene in a window, None where the window has no column for it."""
-    column = layout.hud
-    if column is None:
+    """Return the HUD of a scene in a window, None where the window has no column for it.
+
+    Its text is as large as lets all that it ever says stand in the column.
+    """
+    if layout.hud is None:
         return None
-    size = _fitting(scene, layout, type_)
-    big = round(size * layout.title_size / layout.text_size)
-    groups = ((scene.title, big, theme.ink), (scene.info.class_name, size, theme.dim))
-    lines, y = [], column.y
-    for text, high, colour in groups:
-        for line in type_.wrapped(text, high, column.width):
+    said = _ever_said(scene)
+    empty = Hud(scene, layout.hud, (), 0.0, layout.text_size, type_, theme)
+    sizes = range(layout.text_size, _SMALLEST - 1, -1)
+    huds = (_titled(empty, size, size * layout.title_size / layout.text_size) for size in sizes)
+    found = empty
+    for found in huds:
+        if found.holds(said):
+            break
+    return found
+
+
+def _titled(hud: Hud, size: int, title: float) -> Hud:
+    """Return the HUD with its rows at one text size, below title and class."""
+    lines, y = [], hud.column.y
+    class_name = hud.scene.info.class_name
+    for text, high, colour in (
+        (hud.scene.title, round(title), hud.theme.ink),
+        (class_name, size, hud.theme.dim),
+    ):
+        for line in hud.type.wrapped(text, high, hud.column.width):
             lines.append(Line(line, y, high, colour))
             y += 1.15 * high
-    return Hud(scene, column, tuple(lines), y + 0.9 * size, size, type_, theme)
+    return replace(hud, lines=tuple(lines), first=y + 0.9 * size, size=size)
 
 
-def _fitting(scene: Scene, layout: Layout, type_: Type) -> int:
-    """Return the largest text size at which every row fits the column over the whole cycle."""
-    width = layout.hud.width if layout.hud else 1.0
-    phases = (scene.period * step / _TRIED for step in range(_TRIED))
-    shown = {f"{row.label}  {row.value}" for phase in phases for row in rows(scene, scene.pose(phase))}
-    sizes = range(layout.text_size, _SMALLEST - 1, -1)
-    fitting = (size for size in sizes if all(type_.width(row, size) <= width for row in shown))
-    return next(fitting, _SMALLEST)
+def _ever_said(scene: Scene) -> frozenset[str]:
+    """Return the rows' texts over the whole cycle, and the notes'."""
+    poses = [scene.pose(scene.period * step / _TRIED) for step in range(_TRIED)]
+    told = {f"{row.label}  {row.value}" for pose in poses for row in rows(scene, pose)}
+    return frozenset(told | {words for _, words in _special(scene, poses[0])})

@@ -18,6 +18,8 @@ class Layout:
     unit: float
     scene: Rect
     hud: Rect | None
+    legend: Rect | None
+    """The key to the vectors, at the foot of the HUD's column."""
     chart: Rect | None
 
     @property
@@ -33,7 +35,7 @@ class Layout:
     @property
     def small_size(self) -> int:
         """The height of tick labels and hints."""
-        return max(round(17 * self.unit), 12)
+        return _small(self.unit)
 
 
 def layout(size: tuple[int, int], look: Look) -> Layout:
@@ -46,10 +48,24 @@ def layout(size: tuple[int, int], look: Look) -> Layout:
         chart = Rect(whole.x, whole.bottom - tall, whole.width, tall)
     high = (chart.y - 12 * unit if chart else whole.bottom) - whole.y
     if not look.hud:
-        return Layout(size, unit, Rect(whole.x, whole.y, whole.width, high), None, chart)
-    hud = Rect(whole.x, whole.y, min(max(0.255 * size[0], 204.0), 0.32 * size[0]), high)
-    left = hud.right + 16 * unit
-    return Layout(size, unit, Rect(left, whole.y, max(whole.right - left, 1), high), hud, chart)
+        return Layout(size, unit, Rect(whole.x, whole.y, whole.width, high), None, None, chart)
+    wide = min(max(0.255 * size[0], 204.0), 0.32 * size[0])
+    left = whole.x + wide + 16 * unit
+    scene = Rect(left, whole.y, max(whole.right - left, 1), high)
+    hud, legend = _column(Rect(whole.x, whole.y, wide, high), len(look.vectors) * 1.5 * _small(unit))
+    return Layout(size, unit, scene, hud, legend, chart)
+
+
+def _column(column: Rect, foot: float) -> tuple[Rect, Rect | None]:
+    """Divide the HUD's column: the numbers, and a key so high below them."""
+    if not foot:
+        return column, None
+    numbers = column._replace(height=max(column.height - foot, 1))
+    return numbers, column._replace(y=column.bottom - foot, height=foot)
+
+
+def _small(unit: float) -> int:
+    return max(round(17 * unit), 12)
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,8 @@ from linkanim.picture.theme import Theme
 from linkanim.picture.vectors import Arrows
 from linkanim.picture.view import Rect
 
+_SMALLEST = 8
+
 
 @dataclass(frozen=True)
 class Legend:
@@ -22,13 +24,14 @@ class Legend:
 
     kinds: tuple[Arrows, ...]
     column: Rect
-    layout: Layout
+    size: int
+    """The height of its text."""
     type: Type
     theme: Theme
 
     def draw(self, surface: pygame.Surface) -> None:
         """Draw what stands still: the arrows and what they are called."""
-        size = self.layout.small_size
+        size = self.size
         for n, kind in enumerate(self.kinds):
             foot = complex(self.column.x, self._top(n) + 0.5 * size)
             paint(surface, [Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))])
@@ -39,8 +42,8 @@ class Legend:
         """Draw how much each arrow stands for at this input speed (rad/s)."""
         for n, kind in enumerate(self.kinds):
             at = (self.column.right, self._top(n))
-            size, words = self.layout.small_size, self.meaning(kind, speed)
-            self.type.draw(surface, words, at, size=size, colour=self.theme.dim, anchor="right")
+            words = self.meaning(kind, speed)
+            self.type.draw(surface, words, at, size=self.size, colour=self.theme.dim, anchor="right")
 
     def meaning(self, kind: Arrows, speed: float) -> str:
         """Return in words how much the arrow of the key stands for; a dash where nothing moves."""
@@ -48,12 +51,29 @@ class Legend:
         return f"{three_digits(self._reach / scale)} {kind.unit}" if scale > 0 else "–"
 
     @property
+    def fits(self) -> bool:
+        """Whether words and values stand side by side, with room for values a digit longer."""
+        lines = (f"{kind.words}  0{self.meaning(kind, kind.drive)}" for kind in self.kinds)
+        room = self.column.width - self._reach - 0.6 * self.size
+        return all(self.type.width(line, self.size) <= room for line in lines)
+
+    @property
     def _reach(self) -> float:
         """The length of the key's arrows in pixels."""
-        return 2.6 * self.layout.small_size
+        return 2.6 * self.size
 
     def _top(self, line: int) -> float:
-        return self.column.bottom - 1.5 * self.layout.small_size * (len(self.kinds) - line)
+        return self.column.y + 1.5 * self.size * line
+
+
+def legend_for(kinds: tuple[Arrows, ...], layout: Layout, type_: Type, theme: Theme) -> Legend | None:
+    """Return the key to the arrows, its text as large as fits; None without arrows or a place for it."""
+    column = layout.legend
+    if column is None or not kinds:
+        return None
+    sizes = range(layout.small_size, _SMALLEST, -1)
+    legends = (Legend(kinds, column, size, type_, theme) for size in sizes)
+    return next((legend for legend in legends if legend.fits), Legend(kinds, column, _SMALLEST, type_, theme))
 
 
 def three_digits(value: float) -> str:

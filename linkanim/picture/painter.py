@@ -18,7 +18,7 @@ from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
 from linkanim.picture.ground import ground_layers
 from linkanim.picture.hud import Hud, hud_for
 from linkanim.picture.layout import Gauge, Layout, gauge, layout
-from linkanim.picture.legend import Legend
+from linkanim.picture.legend import legend_for
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
@@ -71,7 +71,7 @@ class Painter:
         self._hud: Hud | None = hud_for(scene, self._layout, self._type, self._theme)
         self._panels = Panels(self._layout, self._type, self._theme)
         self._cast = self._casting()
-        self._legend = self._keyed()
+        self._legend = legend_for(self._cast.arrows, self._layout, self._type, self._theme)
         self._still = self._drawn_once()
         self._names = self._hud.sheet(scene.pose(0.0)) if self._hud else None
 
@@ -149,13 +149,6 @@ class Painter:
                 if kind in self.look.vectors
             ),
         )
-
-    def _keyed(self) -> Legend | None:
-        """Return the key to the arrows, None without arrows or a column to stand in."""
-        column = self._layout.hud
-        if column is None or not self._cast.arrows:
-            return None
-        return Legend(self._cast.arrows, column, self._layout, self._type, self._theme)
 
     def _drawn_once(self) -> pygame.Surface:
         """Return the layer that stands still: background, ground, curves, chart, names."""

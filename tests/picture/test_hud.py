@@ -22,6 +22,7 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
     assert list(told) == [
         "crank angle",
         "input speed",
+        "input range",
         "spring return",
         "spring force",
         "damper cushion",
@@ -39,6 +40,11 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
 def test_a_swinging_input_tells_its_two_limits() -> None:
     scene = load("double-rocker")
     assert Row("input range", "13.8°…108.4°") in rows(scene, scene.pose(1.0))
+
+
+def test_a_crank_s_range_is_the_full_turn() -> None:
+    scene = load("crank-rocker")
+    assert Row("input range", "full turn") in rows(scene, scene.pose(1.0))
 
 
 def test_a_linkage_that_needs_two_turns_says_so() -> None:
@@ -72,16 +78,26 @@ def test_the_crank_angle_is_within_one_turn(angle_deg: float, told: str) -> None
     assert dict(rows(scene, scene.pose(phase)))["crank angle"] == told
 
 
-@pytest.mark.parametrize("size", [(480, 270), (640, 360), (1280, 720), (3840, 2160)])
-@pytest.mark.parametrize("name", ["press", "triple-rocker-out-in"])
-def test_names_and_values_never_touch(name: str, size: tuple[int, int]) -> None:
-    scene, type_ = load(name), Type()
-    hud = hud_for(scene, layout(size, Look()), type_, LIGHT)
+FULL = Look(vectors=frozenset("va"), chart="crank.angle")
+
+
+@pytest.mark.parametrize("size", [(480, 270), (640, 360), (1280, 720), (3840, 2160), (400, 800)])
+@pytest.mark.parametrize("name", names())
+def test_names_and_values_never_touch_nor_reach_the_key_to_the_arrows(
+    name: str, size: tuple[int, int]
+) -> None:
+    scene, type_, parts = load(name), Type(), layout(size, FULL)
+    hud = hud_for(scene, parts, type_, LIGHT)
     assert hud is not None
+    assert parts.legend is not None
     for phase in np.linspace(0, scene.period, 24, endpoint=False):
-        for row in rows(scene, scene.pose(float(phase))):
+        pose = scene.pose(float(phase))
+        for row in rows(scene, pose):
             words = type_.width(row.label, hud.size) + type_.width(row.value, hud.size)
             assert words < hud.column.width - 2
+        assert type_.width(note(scene, pose) or "", hud.size) <= hud.column.width
+        lines = len(rows(scene, pose)) + (1.4 if note(scene, pose) else 0)
+        assert hud.first + 1.42 * hud.size * (lines - 1) + hud.size <= parts.legend.y
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ import pytest
 
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
-from linkanim.picture.legend import Legend, three_digits
-from linkanim.picture.look import Look
+from linkanim.picture.legend import Legend, legend_for, three_digits
+from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.vectors import arrows_of
@@ -35,12 +35,29 @@ def test_numbers_keep_three_digits(value: float, words: str) -> None:
 def test_the_key_says_what_its_arrow_stands_for_at_any_speed() -> None:
     scene = load("press")
     kind = arrows_of(figure(scene), "v", 720, gauge(1.0, 100.0), LIGHT)
-    legend = Legend((kind,), Rect(0, 0, 300, 600), layout((1280, 720), Look()), Type(), LIGHT)
+    legend = Legend((kind,), Rect(0, 0, 300, 600), 17, Type(), LIGHT)
     drive = scene.linkage.drive.speed
     slow, fast = (float(legend.meaning(kind, speed).split()[0]) for speed in (drive, -3 * drive))
-    arrow = 2.6 * layout((1280, 720), Look()).small_size
+    arrow = 2.6 * legend.size
     assert slow == pytest.approx(arrow / kind.scale(drive), rel=5e-3)
     assert fast == pytest.approx(3 * slow, rel=1e-2)
     assert legend.meaning(kind, drive).endswith(" mm/s")
     assert legend.meaning(kind, 0.0) == "–"
     assert math.isfinite(slow)
+
+
+@pytest.mark.parametrize("size", [(400, 800), (480, 270), (640, 360), (1280, 720), (3840, 2160)])
+def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
+    shown, type_, look = figure(load("press")), Type(), Look(vectors=frozenset("va"))
+    measure = gauge(1.0, 100.0)
+    kinds = tuple(arrows_of(shown, kind, size[1], measure, LIGHT) for kind in (VELOCITY, ACCELERATION))
+    legend = legend_for(kinds, layout(size, look), type_, LIGHT)
+    assert legend is not None
+    for kind in kinds:
+        words = [kind.words, legend.meaning(kind, kind.drive)]
+        wide = sum(type_.width(text, legend.size) for text in words) + 3.2 * legend.size
+        assert wide < legend.column.width
+
+
+def test_there_is_no_key_without_arrows() -> None:
+    assert legend_for((), layout((640, 360), Look()), Type(), LIGHT) is None
