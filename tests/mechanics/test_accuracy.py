@@ -17,6 +17,7 @@ from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, meeting
 from linkanim.mechanics.assembly import Swing
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.motion import Motion
+from linkanim.scenes import load
 
 EPS = 2.0**-52
 POSITION = 16 * EPS
@@ -397,3 +398,31 @@ def test_change_points_down_the_chain_are_passed_smoothly(
         pose = solved.pose(float(angle), 1.0, 0.0, 2)
         beside = solved.pose(float(angle) + 1e-7, 1.0, 0.0, 2)
         assert pose.velocity["D"] == pytest.approx(beside.velocity["D"], abs=1e-4 * fastest)
+
+
+def test_the_press_s_rates_are_slopes_to_more_digits_than_asked() -> None:
+    solved = mechanism(load("press").linkage)
+    degree = mp.pi / 180
+
+    def pose(angle: Any) -> Points:
+        a = 55 * unit(angle)
+        d = 330 * unit(mpf("-107.47") * degree) + 61 * unit(-angle - mpf("72.55") * degree)
+        b = meeting(a, d, mpf(283), mpf(165), 1)
+        # The slider's line stands upright: a quarter turn makes it the horizontal one.
+        c = on_line(b * -1j, mpf(322), mpf(0), -1) * 1j
+        return {"A": a, "D": d, "B": b, "C": c, "H": a + (b - a) / 283 * mp.mpc(140, 45)}
+
+    check(solved, pose, tuple(AROUND), 330.0, position=1e-14, rate=1e-13)
+
+
+def test_the_six_bar_s_rates_are_slopes_to_more_digits_than_asked() -> None:
+    first, second = (100.0, 30.0, 90.0, 80.0), (130.0, 60.0, 110.0, 90.0)
+    solved = mechanism(six_bar(first, second))
+
+    def pose(angle: Any) -> Points:
+        a = 30 * unit(angle)
+        b = meeting(a, mp.mpc(100), mpf(90), mpf(80), 1)
+        c = 100 + (b - 100) * mpf(60) / 80
+        return {"A": a, "B": b, "C": c, "D": meeting(c, mp.mpc(230), mpf(110), mpf(90), 1)}
+
+    check(solved, pose, tuple(AROUND), 130.0, position=1e-14, rate=1e-13)
