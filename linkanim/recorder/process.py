@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import signal
 import subprocess
+import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -13,12 +14,16 @@ from typing import IO
 
 from linkanim.errors import RecordingFailed
 
+if sys.platform == "linux":
+    import fcntl
+
 Frame = bytes | bytearray | memoryview
 """A frame's bytes, row by row: blue, green, red, and alpha or one that means nothing."""
 
 _PATIENCE = 0.5
 """Seconds after which an encoder that tells of no frame gets one more all the same."""
 _LAST_WORDS = 8
+_WIDTH = 1 << 20
 _ROOM_FOR_ALL = 1_000_000
 
 
@@ -41,6 +46,7 @@ def running(
     room = Semaphore(_ROOM_FOR_ALL if ahead is None else ahead)
     words: deque[bytes] = deque(maxlen=_LAST_WORDS)
     frames, told, said = _pipes(process)
+    _widen(frames)
     listeners = (Thread(target=_making_room, args=(told, room)), Thread(target=words.extend, args=(said,)))
 
     def write(frame: Frame) -> None:
@@ -84,6 +90,13 @@ def _pipes(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes], IO[b
     if process.stdin is None or process.stdout is None or process.stderr is None:
         raise RecordingFailed("the encoder has no pipes")
     return process.stdin, process.stdout, process.stderr
+
+
+def _widen(pipe: IO[bytes]) -> None:
+    """Have a pipe hold more than its 64 kB where it can: a frame of megabytes then goes over in few turns."""
+    if sys.platform == "linux":
+        with suppress(OSError):
+            fcntl.fcntl(pipe.fileno(), fcntl.F_SETPIPE_SZ, _WIDTH)
 
 
 def _making_room(told: IO[bytes], room: Semaphore) -> None:
