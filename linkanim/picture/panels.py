@@ -10,10 +10,17 @@ import pygame
 
 from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import EditRow, Overlay, Panel
-from linkanim.picture.raster import Layer, Loop, paint
+from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
+
+
+_LINE = 1.42
+"""From line to line of the edit list, in heights of its text."""
+_FRAME = 2.6
+"""How many lines high the edit list is without its rows and what stands below them."""
+_VEIL = 170
 
 
 @dataclass
@@ -31,8 +38,9 @@ class Panels:
         self._marks(surface, overlay)
         if overlay.panel:
             drawn = self._keep("panel", overlay.panel, self._panel)
-            surface.blit(drawn, (round(0.6 * gap), round(0.6 * gap)))
+            surface.blit(drawn, (self._margin, self._margin))
         if overlay.help:
+            surface.blit(self._keep("veil", None, self._veil), (0, 0))
             drawn = self._keep("help", overlay.help, self._help)
             at = ((size[0] - drawn.get_width()) // 2, (size[1] - drawn.get_height()) // 2)
             surface.blit(drawn, at)
@@ -45,6 +53,12 @@ class Panels:
         if kind not in self._kept or self._kept[kind][0] != value:
             self._kept[kind] = (value, make(value))
         return self._kept[kind][1]
+
+    def _veil(self, _: None) -> pygame.Surface:
+        """Return what lets the picture recede behind the help."""
+        veil = pygame.Surface(self.layout.size, pygame.SRCALPHA, 32)
+        veil.fill((*self.theme.background, _VEIL))
+        return veil
 
     def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw the marks of recording and pause at the top right, words and signs."""
@@ -80,7 +94,7 @@ class Panels:
         return sheet
 
     def _help(self, rows: tuple[tuple[str, str], ...]) -> pygame.Surface:
-        size = _fitting(self.layout.text_size, 1.38 * (len(rows) + 3), self.layout.size[1])
+        size = _fitting(self.layout.text_size, 1.38 * (len(rows) + 1.2), self.layout.size[1])
         widths = self._columns(rows, size)
         size = _fitting(size, (sum(widths) + 4 * size) / size, self.layout.size[0])
         keys, words = self._columns(rows, size)
@@ -92,24 +106,51 @@ class Panels:
         return sheet
 
     def _columns(self, rows: tuple[tuple[str, str], ...], size: int) -> list[int]:
+        """Return the width of each of the columns."""
         return [max(self.type.width(text, size) for text in column) for column in zip(*rows, strict=True)]
 
+    @property
+    def _margin(self) -> int:
+        return round(10.8 * self.layout.unit)
+
     def _panel(self, panel: Panel) -> pygame.Surface:
-        size = _fitting(self.layout.text_size, 1.42 * (len(panel.rows) + 7), self.layout.size[1])
-        labels = max((self.type.width(row.label, size) for row in panel.rows), default=0)
-        values = max((self.type.width(row.value, size) for row in panel.rows), default=0)
-        wide = max(labels + values + 5.5 * size, 19.0 * size)
-        room = wide - 2.4 * size
-        foot = [(line, self.theme.warning) for line in self.type.wrapped(panel.error or "", size, room)]
-        foot += [(line, self.theme.dim) for line in self.type.wrapped(panel.hint, size, room, gap="   ")]
-        sheet = self._sheet(wide, 1.42 * size * (len(panel.rows) + len(foot) + 2.6))
-        self.type.draw(sheet, panel.title, (1.2 * size, 0.7 * size), size=size, colour=self.theme.ink)
-        for n, row in enumerate(panel.rows, start=1):
-            self._row(sheet, row, (0.9 + 1.42 * n) * size, size)
-        for n, (line, colour) in enumerate(foot, start=len(panel.rows) + 1):
-            at = (1.2 * size, (1.2 + 1.42 * n) * size)
+        """Return the edit list; where not all of it can stand at a readable size, what is around the chosen."""
+        size, wide, foot = self._measured(panel)
+        shown = _around(panel.rows, int(self._height / size - len(foot) - _FRAME))
+        sheet = self._sheet(wide, _LINE * size * (len(shown) + len(foot) + _FRAME))
+        self._head(sheet, panel, size)
+        for n, row in enumerate(shown, start=1):
+            self._row(sheet, row, (0.9 + _LINE * n) * size, size)
+        for n, (line, colour) in enumerate(foot, start=len(shown) + 1):
+            at = (1.2 * size, (1.2 + _LINE * n) * size)
             self.type.draw(sheet, line, at, size=size, colour=colour)
         return sheet
+
+    @property
+    def _height(self) -> float:
+        """The height there is for the edit list, in lines of a pixel's height of text."""
+        return (self.layout.size[1] - 2 * self._margin) / _LINE
+
+    def _measured(self, panel: Panel) -> tuple[int, float, list[tuple[str, Colour]]]:
+        """Return the list's text size, its width, and the lines below its rows in their colours."""
+        covered = self.layout.hud.right if self.layout.hud else 0.0
+        for size in range(self.layout.text_size, self.layout.small_size - 1, -1):
+            columns = self._columns(tuple((row.label, row.value) for row in panel.rows), size)
+            wide = max(sum(columns) + 5.5 * size, 19.0 * size, covered)
+            room = wide - 2.4 * size
+            foot = [(line, self.theme.warning) for line in self.type.wrapped(panel.error or "", size, room)]
+            foot += [(line, self.theme.dim) for line in self.type.wrapped(panel.hint, size, room, gap="   ")]
+            if len(panel.rows) + len(foot) + _FRAME <= self._height / size:
+                break
+        return size, wide, foot
+
+    def _head(self, sheet: pygame.Surface, panel: Panel, size: int) -> None:
+        """Draw the title, and which of the rows is the chosen one."""
+        self.type.draw(sheet, panel.title, (1.2 * size, 0.7 * size), size=size, colour=self.theme.ink)
+        places = [n for n, row in enumerate(panel.rows, start=1) if row.chosen]
+        at = (sheet.get_width() - 1.2 * size, 0.7 * size)
+        words = "".join(f"{n} of {len(panel.rows)}" for n in places)
+        self.type.draw(sheet, words, at, size=size, colour=self.theme.dim, anchor="right")
 
     def _row(self, sheet: pygame.Surface, row: EditRow, y: float, size: int) -> None:
         if row.chosen:
@@ -119,6 +160,14 @@ class Panels:
         at = (sheet.get_width() - 1.2 * size, y)
         self.type.draw(sheet, row.label, (1.2 * size, y), size=size, colour=self.theme.dim)
         self.type.draw(sheet, row.value, at, size=size, colour=self.theme.ink, anchor="right")
+
+
+def _around(rows: tuple[EditRow, ...], count: int) -> tuple[EditRow, ...]:
+    """Return at most so many rows, and at least one, with the chosen one in their middle where it can be."""
+    count = max(count, 1)
+    chosen = next((n for n, row in enumerate(rows) if row.chosen), 0)
+    first = min(max(chosen - count // 2, 0), max(len(rows) - count, 0))
+    return rows[first : first + count]
 
 
 def _bars(size: float) -> list[Loop]:
