@@ -15,7 +15,6 @@ from linkanim.picture.shapes import box, disc
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 
-
 _LINE = 1.42
 """From line to line of the edit list, in heights of its text."""
 _FRAME = 2.6
@@ -114,7 +113,7 @@ class Panels:
         return round(10.8 * self.layout.unit)
 
     def _panel(self, panel: Panel) -> pygame.Surface:
-        """Return the edit list; where not all of it can stand at a readable size, what is around the chosen."""
+        """Return the edit list; where it would not fit at a size that reads, what is around the chosen row."""
         size, wide, foot = self._measured(panel)
         shown = _around(panel.rows, int(self._height / size - len(foot) - _FRAME))
         sheet = self._sheet(wide, _LINE * size * (len(shown) + len(foot) + _FRAME))
