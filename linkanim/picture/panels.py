@@ -113,7 +113,7 @@ class Panels:
         return round(10.8 * self.layout.unit)
 
     def _panel(self, panel: Panel) -> pygame.Surface:
-        """Return the edit list; where it would not fit at a size that reads, what is around the chosen row."""
+        """Return the edit list; where it would not fit at a size that reads, the rows around the chosen."""
         size, wide, foot = self._measured(panel)
         shown = _around(panel.rows, int(self._height / size - len(foot) - _FRAME))
         sheet = self._sheet(wide, _LINE * size * (len(shown) + len(foot) + _FRAME))
