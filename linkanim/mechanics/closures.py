@@ -101,16 +101,27 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
     # (L²)'/(4 L⁴): what the shares of D and e both change with.
     change = loop.half.product * w * share * share
     excess, outer = 2.0 * (b - a) * (b + a) / k, 2.0 * (g - r) * (g + r) / k
-    turn = (square + (r - g) / (2.0 * g)) * share
+    turn = Turning(*(_turn(square, share, (g, r), rate) for rate in (w, wd)))
     across = loop.across()
     return Triangle(
         across=across,
         near=(square + _near_constant(g - r, a, b) / k) * share,
         far=(square + _near_constant(g - r, b, a) / k) * share,
         lift=across.left().scaled(root.q * share),
-        turn=Turning(turn * w, change * (root.ratio.value * excess + w * outer) + turn * wd),
+        turn=turn.plus(0.0, change * (root.ratio.value * excess + w * outer)),
         ratio=root.ratio,
     )
+
+
+def _turn(square: Value, share: Value, lengths: tuple[float, float], rate: Value) -> Value:
+    """Return e for a rate of ψ, (r² - g r cos ψ)/L² of it: half, and a share where g and r are alike.
+
+    Where one is much the longer, the half would cancel and leave few digits of a small rest.
+    """
+    g, r = lengths
+    if g < 8 * r and r < 8 * g:
+        return share * (rate * ((r - g) * (r + g) / (4.0 * g * r))) + rate * 0.5
+    return (square + (r - g) / (2.0 * g)) * share * rate
 
 
 def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:

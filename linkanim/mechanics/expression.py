@@ -82,7 +82,9 @@ class Expr:
         if positive is not None:
             return positive
         factor, rest = _factored(self)
-        return self._new("neg", self) if factor is None or self.uniform else (-factor) * rest
+        # A sign is free where it meets a sum; only into a number known late is it drawn.
+        late = isinstance(factor, Expr) and not self.uniform
+        return -factor * rest if late and factor is not None else self._new("neg", self)
 
     def _new(self, op: str, *args: Value) -> Expr:
         return self.graph.node(op, *args)
