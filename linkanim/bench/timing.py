@@ -33,8 +33,7 @@ def nanoseconds(
 ) -> dict[Key, float]:
     """Return the median time of each piece of work in ns a pose.
 
-    Each is run once before, to warm up and to see how often it must be repeated; then, `rounds`
-    times, all of them in turn: fewer where `budget` seconds are over by the `wall`'s clock, but
+    Each is run before, to see how often it must be repeated; then, `rounds` times, all of them in turn: fewer where `budget` seconds are over by the `wall`'s clock, but
     three. `progress` is told (rounds done, rounds in all).
     """
     repeats = {key: _repeats(timed, clock) for key, timed in work.items()}
@@ -51,12 +50,17 @@ def nanoseconds(
 
 
 def _repeats(timed: Timed, clock: Callable[[], float]) -> int:
-    timed.work()
     once = _seconds(timed, 1, clock)
     return max(round(LEAST_SECONDS / once), 1) if once > 0 else 1
 
 
 def _seconds(timed: Timed, repeats: int, clock: Callable[[], float]) -> float:
+    """Return the time of the repeats; the first is run once more before, and not timed.
+
+    Memory that lay idle between rounds may have gone back to the machine below a virtual one, and
+    what it takes to get it again is not the work's own.
+    """
+    timed.work()
     start = clock()
     for _ in range(repeats):
         timed.work()
