@@ -33,8 +33,9 @@ def nanoseconds(
 ) -> dict[Key, float]:
     """Return the median time of each piece of work in ns a pose.
 
-    Each is run before, to see how often it must be repeated; then, `rounds` times, all of them in turn: fewer where `budget` seconds are over by the `wall`'s clock, but
-    three. `progress` is told (rounds done, rounds in all).
+    Each is run before, to see how often it must be repeated; then, `rounds` times, all of them in
+    turn: fewer where `budget` seconds are over by the `wall`'s clock, but three. `progress` is told
+    (rounds done, rounds in all).
     """
     repeats = {key: _repeats(timed, clock) for key, timed in work.items()}
     taken: dict[Key, list[float]] = {key: [] for key in work}
