@@ -174,11 +174,9 @@ def hud_for(scene: Scene, layout: Layout, type_: Type, theme: Theme) -> Hud | No
 def _titled(hud: Hud, size: int, title: float) -> Hud:
     """Return the HUD with its rows at one text size, below title and class."""
     lines, y = [], hud.column.y
-    class_name = hud.scene.info.class_name
-    for text, high, colour in (
-        (hud.scene.title, round(title), hud.theme.ink),
-        (class_name, size, hud.theme.dim),
-    ):
+    scene, big = hud.scene, round(title)
+    name = scene.title if hud.type.width(scene.title, big) else scene.name
+    for text, high, colour in ((name, big, hud.theme.ink), (scene.info.class_name, size, hud.theme.dim)):
         for line in hud.type.wrapped(text, high, hud.column.width):
             lines.append(Line(line, y, high, colour))
             y += 1.15 * high

@@ -14,10 +14,14 @@ from linkanim.mechanics.motion import Motion
 from linkanim.scenes.scene import Scene
 
 
+_ROUNDING = 1e-13
+
+
 class Series(NamedTuple):
     """A quantity over one true period: phases (n,), values (n, k), and what the k columns are called.
 
-    Angles are in degrees here, for the eye; `unit` says so. A value that is not bounded is infinite.
+    Angles are in degrees here, for the eye; `unit` says so. A value that is not bounded is infinite, and
+    one that is nothing but rounding errors is 0.
     """
 
     phases: NDArray[np.float64]
@@ -55,7 +59,15 @@ def series_of(scene: Scene, name: str, cycle: Motion) -> Series:
     quantity = table[name]
     values = np.asarray(quantity.read(cycle), float)
     columns = values if values.ndim == 2 else values[:, None]
+    columns = np.where(np.abs(columns) <= _rounding(scene, quantity.unit, cycle), 0.0, columns)
     return Series(cycle.phase, columns, quantity.unit.format(scene.length_unit), quantity.labels)
+
+
+def _rounding(scene: Scene, unit: str, cycle: Motion) -> float:
+    """Return how large rounding errors of a quantity may be, from the extent and the input's speed."""
+    extent = max(float(np.abs(places).max()) for places in cycle.position.values()) if "{}" in unit else 1.0
+    order = 2 if "/s²" in unit else 1 if "/s" in unit else 0
+    return _ROUNDING * extent * abs(scene.linkage.drive.speed) ** order
 
 
 def _table(scene: Scene) -> Mapping[str, _Quantity]:

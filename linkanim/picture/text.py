@@ -1,11 +1,13 @@
-"""Text: one bundled font in a few sizes, every glyph rendered once."""
+"""Text: one font in a few sizes, every glyph rendered once."""
 
 from __future__ import annotations
 
 from typing import Literal
+from unicodedata import normalize
 
 import pygame
 
+from linkanim.picture.fonts import Fonts
 from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import arrows
 
@@ -24,27 +26,20 @@ class Type:
     """The font's sizes and the glyphs that one painter has used; bounded by the font's alphabet."""
 
     def __init__(self) -> None:
-        pygame.font.init()
-        self._fonts: dict[int, pygame.Font] = {}
+        self._fonts = Fonts()
         self._glyphs: dict[tuple[str, int, Colour], pygame.Surface] = {}
-
-    def font(self, size: int) -> pygame.Font:
-        """Return the font at a height in pixels."""
-        if size not in self._fonts:
-            points = round(size * _POINTS)
-            self._fonts[size] = pygame.Font(None, points + (points in _MISSHAPEN))
-        return self._fonts[size]
 
     def width(self, text: str, size: int) -> int:
         """Return how wide a line is in pixels."""
-        return sum(self.glyph(char, size, _ANY).get_width() for char in text)
+        return sum(self.glyph(char, size, _ANY).get_width() for char in normalize("NFC", text))
 
     def glyph(self, char: str, size: int, colour: Colour) -> pygame.Surface:
         """Return one character, anti-aliased on nothing."""
         key = (char, size, colour)
         if key not in self._glyphs:
             turn = _ARROWS.get(char)
-            drawn = self.font(size).render("0" if turn else char, True, colour)
+            points = round(size * _POINTS)
+            drawn = self._fonts.render("0" if turn else char, points + (points in _MISSHAPEN), colour)
             self._glyphs[key] = _arrow(drawn, turn, colour) if turn else drawn
         return self._glyphs[key]
 
@@ -63,7 +58,7 @@ class Type:
         Glyph by glyph, which spaces small text more evenly than the font does, and at whole pixels:
         text that glides reads worse than text that steps.
         """
-        glyphs = [self.glyph(char, size, colour) for char in text]
+        glyphs = [self.glyph(char, size, colour) for char in normalize("NFC", text)]
         width = sum(glyph.get_width() for glyph in glyphs)
         x, y = _left(at[0], width, anchor), round(at[1])
         for glyph in glyphs:
@@ -72,15 +67,27 @@ class Type:
         return width
 
     def wrapped(self, text: str, size: int, width: float, *, gap: str = " ") -> list[str]:
-        """Return the text in lines no wider than `width` where its words, parted by `gap`, allow."""
+        """Return the text in lines no wider than `width`, broken between its words, parted by `gap`.
+
+        A word that is wider is broken inside, as are scripts without spaces.
+        """
         lines: list[str] = []
-        for word in filter(None, text.split(gap)):
+        for word in filter(str.strip, text.split(gap)):
             longer = f"{lines[-1]}{gap}{word}" if lines else word
             if lines and self.width(longer, size) <= width:
                 lines[-1] = longer
             else:
-                lines.append(word)
+                lines += self._broken(word, size, width)
         return lines
+
+    def _broken(self, word: str, size: int, width: float) -> list[str]:
+        """Return a word in pieces no wider than `width`, but of at least one character each."""
+        pieces = [""]
+        for char in word:
+            if pieces[-1] and self.width(pieces[-1] + char, size) > width:
+                pieces.append("")
+            pieces[-1] += char
+        return pieces
 
 
 def _arrow(like: pygame.Surface, turn: complex, colour: Colour) -> pygame.Surface:
