@@ -13,8 +13,8 @@ from linkanim.mechanics.linkage import Body, Pin
 from linkanim.mechanics.motion import Motion
 from linkanim.scenes.scene import Scene
 
-
 _ROUNDING = 1e-13
+"""Of what is as large as the extent, moved at the input's speed."""
 
 
 class Series(NamedTuple):

@@ -1,0 +1,79 @@
+"""The README's screenshots are what the window shows when the keys named here are pressed.
+
+After a deliberate change, `LINKANIM_GOLDENS=write pytest tests/player/test_shots.py` takes them anew;
+look at every one before it is kept.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pygame
+import pytest
+from playing import Player
+
+from linkanim.player import display
+from linkanim.player.state import begin
+from linkanim.scenes import load
+
+FOLDER = Path(__file__).parents[2] / "recordings"
+SIZE = (1280, 720)
+LARGEST = 200_000
+MEAN_LEVELS = 1.0
+"""Another version of the font's renderer may shade some letters otherwise."""
+
+
+def _press(player: Player) -> None:
+    player.type("va")
+    while player.state.look.chart != "C.acceleration":
+        player.type("c")
+    player.tick(75)
+
+
+def _double_rocker(player: Player) -> None:
+    player.type("lv")
+    player.press(pygame.K_b, pygame.KMOD_LSHIFT, "B")
+    while player.state.look.chart != "coupler.angle":
+        player.type("c")
+    player.tick(108)
+
+
+def _help(player: Player) -> None:
+    player.tick(60)
+    player.type("h")
+
+
+def _edit(player: Player) -> None:
+    player.tick(60)
+    player.type("e")
+    player.press(pygame.K_DOWN)
+    player.type("7 cm")
+    player.press(pygame.K_RETURN)
+    player.tick()
+
+
+SHOTS = {
+    "press": ("press", _press),
+    "double-rocker": ("double-rocker", _double_rocker),
+    "help": ("crank-rocker", _help),
+    "edit": ("crank-rocker", _edit),
+}
+
+
+@pytest.mark.parametrize("name", SHOTS)
+def test_a_screenshot_in_recordings_is_what_the_window_shows(name: str, here: Path) -> None:
+    scene, play = SHOTS[name]
+    with display.opened(SIZE):
+        player = Player(begin(load(scene)))
+        play(player)
+        shown = display.surface().convert(24)
+        player.window.close()
+        path = FOLDER / f"{name}.png"
+        if os.environ.get("LINKANIM_GOLDENS") == "write":
+            pygame.image.save(shown, path)
+        assert path.stat().st_size <= LARGEST
+        kept, now = (pygame.surfarray.array3d(one).astype(int) for one in (pygame.image.load(path), shown))
+    assert kept.shape == now.shape
+    assert np.abs(kept - now).mean() < MEAN_LEVELS
