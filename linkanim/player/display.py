@@ -70,6 +70,12 @@ def surface() -> pygame.Surface:
     return found
 
 
+def name(title: str) -> None:
+    """Let the window's frame show a scene's title, without what no frame can show."""
+    shown = "".join(char for char in title if char.isprintable())
+    pygame.display.set_caption(f"{shown} – linkanim")
+
+
 def is_full() -> bool:
     """Tell whether the window fills the screen."""
     return bool(surface().get_flags() & pygame.FULLSCREEN)

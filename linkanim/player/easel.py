@@ -76,7 +76,7 @@ class Easel:
     def _fitting(self, state: State, size: tuple[int, int]) -> Setting:
         if self._setting is None or self._setting.made_for != (id(state.shown), size, state.look):
             if self._state.scene is not state.scene or self._setting is None:
-                pygame.display.set_caption(f"{state.scene.title} – linkanim")
+                display.name(state.scene.title)
             self._setting = Setting(state.shown, size, state.look)
         return self._setting
 

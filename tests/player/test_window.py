@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pygame
@@ -13,7 +14,7 @@ from playing import CTRL, SHIFT, SIZE, Player
 
 from linkanim.player import display
 from linkanim.player.clock import STEP
-from linkanim.player.state import TOAST_FRAMES, State
+from linkanim.player.state import TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
 from linkanim.scenes.edit import dimensions
@@ -163,6 +164,13 @@ def test_an_unbound_key_changes_nothing(player: Player) -> None:
     player.press(*plain("x"))
     player.press(pygame.K_TAB, pygame.KMOD_LALT, "")
     assert player.pixels == pixels
+
+
+@pytest.mark.parametrize("title", ["", "a\x00b", "one\ntwo", "\u200b", "曲柄", "A" * 300])
+def test_a_window_opens_on_any_title(here: Path, title: str) -> None:
+    with display.opened(SIZE):
+        assert Player(begin(replace(load("crank-rocker"), title=title))).tick()
+        assert pygame.display.get_caption()[0].endswith("– linkanim")
 
 
 def test_keys_of_one_frame_are_taken_one_after_the_other(player: Player) -> None:
