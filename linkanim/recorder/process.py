@@ -109,10 +109,10 @@ def _refuse_failure(code: int, words: Iterable[bytes]) -> None:
     """Raise `RecordingFailed` with the encoder's last words where it did not end well."""
     if code == 0:
         return
-    how = f"was stopped by {_signal_name(-code)}" if code < 0 else f"gave up with code {code}"
     lines = [line.decode(errors="replace").strip() for line in words]
-    said = [re.sub(r"^\[.*?\] ", "", line) for line in lines[-1:]]
-    raise RecordingFailed(": ".join([f"the encoder {how}", *said]))
+    said = "".join(": " + re.sub(r"^\[.*?\] ", "", line) for line in lines[-1:])
+    how = f"was stopped by {_signal_name(-code)}" if code < 0 else "gave up"
+    raise RecordingFailed(f"the encoder {how}{said or f' with code {code}' * (code > 0)}")
 
 
 def _signal_name(number: int) -> str:
