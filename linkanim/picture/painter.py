@@ -55,21 +55,29 @@ class Painter:
 
     It solves one cycle and draws its static layer when it is made; make a new one when scene, size
     or look changes. `beside` is a scene that must fit into the view too, such as the other closure.
+    `before` is a painter that this one takes over from: what it drew of text and panels is kept where
+    the size is the same, and nothing else changes.
     Raises BadInput where the look's chart is no quantity of the scene.
     """
 
     def __init__(
-        self, scene: Scene, size: tuple[int, int], look: Look, *, beside: Scene | None = None
+        self,
+        scene: Scene,
+        size: tuple[int, int],
+        look: Look,
+        *,
+        beside: Scene | None = None,
+        before: Painter | None = None,
     ) -> None:
         self.scene, self.size, self.look = scene, size, look
         self._theme: Theme = theme_of(look.theme)
         self._layout: Layout = layout(size, look)
         self._figure: Figure = figure(scene)
-        self._type = Type()
+        self._type: Type = before._type if before and before.size == size else Type()
         self.view, self._gauge = self._framed(figure(beside) if beside else self._figure)
         self._strip: Strip | None = self._chart()
         self._hud: Hud | None = hud_for(scene, self._layout, self._type, self._theme)
-        self._panels = Panels(self._layout, self._type, self._theme)
+        self._panels: Panels = self._laid_over(before)
         self._cast = self._casting()
         self._legend = legend_for(self._cast.arrows, self._layout, self._type, self._theme)
         self._still = self._drawn_once()
@@ -125,6 +133,11 @@ class Painter:
         pan = (self.look.pan[0] * height, self.look.pan[1] * height)
         view = moved(fit(box, room), (width / 2, height / 2), zoom=self.look.zoom, pan=pan)
         return view, measure
+
+    def _laid_over(self, before: Painter | None) -> Panels:
+        if before and (before._layout, before._theme) == (self._layout, self._theme):
+            return before._panels
+        return Panels(self._layout, self._type, self._theme)
 
     def _chart(self) -> Strip | None:
         if self.look.chart is None:

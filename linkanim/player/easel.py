@@ -19,12 +19,14 @@ _SMALLEST = 32
 
 
 class Setting:
-    """A painter with the scene of its ghost, made for one scene, size and look."""
+    """A painter with the scene of its ghost, made for one scene, size and look; it follows `before`."""
 
-    def __init__(self, scene: Scene, size: tuple[int, int], look: Look) -> None:
+    def __init__(self, scene: Scene, size: tuple[int, int], look: Look, before: Setting | None = None) -> None:
         self.made_for = (id(scene), size, look)
         self._scene, self._look = scene, look
-        self.painter = Painter(scene, size, look, beside=self._ghost)
+        self.painter: Painter = Painter(
+            scene, size, look, beside=self._ghost, before=before.painter if before else None
+        )
 
     def paint(self, surface: pygame.Surface, phase: float, speed: float, over: Overlay) -> Pose:
         """Paint a phase, the other closure behind it where the look asks; return its pose."""
@@ -77,7 +79,7 @@ class Easel:
         if self._setting is None or self._setting.made_for != (id(state.shown), size, state.look):
             if self._state.scene is not state.scene or self._setting is None:
                 display.name(state.scene.title)
-            self._setting = Setting(state.shown, size, state.look)
+            self._setting = Setting(state.shown, size, state.look, self._setting)
         return self._setting
 
     @property

@@ -162,7 +162,7 @@ def _names(press: Press) -> tuple[str, ...]:
     """Return the names a press may be bound under, the most particular first."""
     if press.ctrl:
         return ("ctrl+shift+" + press.key,) if press.shift else ("ctrl+" + press.key,)
-    symbol = () if press.text.isalnum() else (press.text,)
+    symbol = () if press.text.isalpha() else (press.text,)
     return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
 
 

@@ -13,6 +13,7 @@ from pictures import BARE, SMALL, alphas, painted, pixels
 from linkanim.bench.fidelity import frame_decibels
 from linkanim.errors import BadInput
 from linkanim.picture import painter as painting
+from linkanim.picture.fonts import Fonts
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import EditRow, Overlay, Panel
@@ -107,6 +108,32 @@ def test_nothing_grows_with_the_number_of_frames() -> None:
 @pytest.mark.parametrize("name", ["press", "crank-rocker", "slider-crank"])
 def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str) -> None:
     assert frame_decibels(load(name), (1.0,)) >= 44
+
+
+@pytest.mark.parametrize("look", [FULL, replace(FULL, theme="dark"), replace(FULL, chart=None)])
+@pytest.mark.parametrize("size", [(640, 360), (320, 180)])
+def test_a_painter_that_takes_over_paints_as_one_that_begins(look: Look, size: tuple[int, int]) -> None:
+    scene, overlay = load("press"), Overlay(help=(("H", "help"),), toast="told")
+    before = Painter(load("press"), (640, 360), FULL)
+    before.paint(offscreen((640, 360)), scene.pose(0.5), overlay)
+    pictures = []
+    for painter in (Painter(scene, size, look), Painter(scene, size, look, before=before)):
+        surface = offscreen(size)
+        painter.paint(surface, scene.pose(1.0), overlay)
+        pictures.append(_bytes(surface))
+    assert pictures[0] == pictures[1]
+
+
+def test_a_painter_that_takes_over_renders_no_glyph_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, surface = load("press"), offscreen((640, 360))
+    before = Painter(scene, (640, 360), FULL)
+    before.paint(surface, scene.pose(0.5), Overlay(toast="told"))
+
+    def refused(*_: object) -> None:
+        raise AssertionError("a glyph is rendered again")
+
+    monkeypatch.setattr(Fonts, "render", refused)
+    Painter(scene, (640, 360), FULL, before=before).paint(surface, scene.pose(0.5), Overlay(toast="told"))
 
 
 @pytest.mark.parametrize(("chart", "bottom"), [(None, 350), ("coupler.angle", 253)])

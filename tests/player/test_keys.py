@@ -43,6 +43,8 @@ PLAYING = {
     "shift+tab": (Press("tab", "\t", shift=True), Action("mechanism", -1)),
     "1": (Press("1", "1"), Action("select", 0)),
     "9": (Press("9", "9"), Action("select", 8)),
+    # where digits are typed with Shift, as on French keyboards
+    "shift+&, a 1": (Press("", "1", shift=True), Action("select", 0)),
     "b": (Press("b", "b"), Action("closure")),
     "shift+b": (Press("b", "B", shift=True), Action("ghost")),
     "t": (Press("t", "t"), Action("trace")),
