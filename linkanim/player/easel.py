@@ -21,12 +21,13 @@ _SMALLEST = 32
 class Setting:
     """A painter with the scene of its ghost, made for one scene, size and look; it follows `before`."""
 
-    def __init__(self, scene: Scene, size: tuple[int, int], look: Look, before: Setting | None = None) -> None:
+    def __init__(
+        self, scene: Scene, size: tuple[int, int], look: Look, before: Setting | None = None
+    ) -> None:
         self.made_for = (id(scene), size, look)
         self._scene, self._look = scene, look
-        self.painter: Painter = Painter(
-            scene, size, look, beside=self._ghost, before=before.painter if before else None
-        )
+        last: Painter | None = before.painter if before else None
+        self.painter: Painter = Painter(scene, size, look, beside=self._ghost, before=last)
 
     def paint(self, surface: pygame.Surface, phase: float, speed: float, over: Overlay) -> Pose:
         """Paint a phase, the other closure behind it where the look asks; return its pose."""
