@@ -53,7 +53,7 @@ class TapeFrames:
     def _setting_for(self, state: State) -> Setting:
         look = (id(state.shown), self.size, state.look)
         if self._setting is None or self._setting.made_for != look:
-            self._setting = Setting(state.shown, self.size, state.look)
+            self._setting = Setting(state.shown, self.size, state.look, self._setting)
         return self._setting
 
 
