@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 from linkanim.errors import BadInput
@@ -100,3 +101,13 @@ class Scene:
         """Return the motion at one phase in plain floats: the way of a frame."""
         rate = self.linkage.drive.speed if speed is None else speed
         return self.mechanism.pose(float(phase), float(rate), float(acceleration), derivatives)
+
+    def _repr_html_(self) -> str:
+        """Return the scene's title and what is told of its linkage, as a notebook shows it."""
+        rows = (("scene", f"{self.name}: {self.title}"), ("source", self.source), *self.info.lines)
+        cells = "".join(
+            f"<tr><th style='text-align:left'>{escape(label)}</th><td>{escape(value)}</td></tr>"
+            for label, value in rows
+            if value
+        )
+        return f"<table>{cells}</table>"
