@@ -46,7 +46,15 @@ def untouched(folder: Path) -> bool:
 
 def children(pid: int) -> list[int]:
     tasks = Path(f"/proc/{pid}/task").iterdir()
-    return [int(child) for task in tasks for child in (task / "children").read_text().split()]
+    return [int(child) for task in tasks for child in _children_of_thread(task)]
+
+
+def _children_of_thread(task: Path) -> list[str]:
+    try:
+        return (task / "children").read_text().split()
+    except (FileNotFoundError, ProcessLookupError):
+        # A thread that ended since it was listed has no children any more.
+        return []
 
 
 def gone(pid: int) -> bool:
