@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .exact import Sum, two_product, two_sum
-from .expression import Graph, Value, cos, sqrt, tan
+from .expression import Value, cos, sqrt, tan
 from .planar import Slope
 
 
@@ -159,8 +159,3 @@ def by_angle(ends: Ends, pace: Slope) -> Ends:
         Slope(root_v, (half_rate * 0.5) / root_v),
         by_phase=False,
     )
-
-
-def inputs(graph: Graph, names: tuple[str, ...]) -> tuple[Value, ...]:
-    """Return the named inputs of a program."""
-    return tuple(graph.input(name) for name in names)

@@ -27,14 +27,11 @@ from .linkage import Linkage
 from .path import Assembly, resigned
 from .planar import Slope
 from .program import Batch, batch
-from .touching import through_change_points
+from .touching import SAMPLES_A_TURN, TOUCHING, through_change_points
 
 if TYPE_CHECKING:
     from numpy.polynomial import Polynomial
 
-SAMPLES_A_TURN = 2880
-TOUCHING = 1e-12
-"""A margin no further below zero than this share of its greatest value is a touch, not a limit."""
 USED_UP = 1e-10
 """A margin below this share of its greatest value is one at its limit."""
 STOPPED_SHORT = 1 / 64

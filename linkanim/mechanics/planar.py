@@ -58,10 +58,6 @@ class Moving:
     rate: Value = 0.0
     second: Value = 0.0
 
-    def scaled(self, factor: float) -> Moving:
-        """Return the quantity times a constant."""
-        return Moving(self.value * factor, self.rate * factor, self.second * factor)
-
 
 @dataclass(frozen=True, slots=True)
 class Turning:

@@ -24,7 +24,7 @@ from .program import Batch, batch
 SAMPLES_A_TURN = 2880
 CANDIDATE = 1e-4
 TOUCHING = 1e-12
-"""Shares of a margin's greatest value: sampled minima worth a closer look, and those that are none."""
+"""Shares of a margin's greatest value: sampled minima worth a closer look, and those that touch zero."""
 LEAST = 1e-16
 
 Array = NDArray[np.float64]
