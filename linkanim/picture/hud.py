@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import degrees, pi, tau
 from typing import NamedTuple
 
@@ -110,6 +111,9 @@ class Hud:
     """Where the HUD's lines stand: what keeps still is drawn once, on a sheet, values at every frame."""
 
     scene: Scene
+    layout: Layout
+    said: frozenset[str]
+    """All that its rows and notes ever say."""
     column: Rect
     lines: tuple[Line, ...]
     """The title's and the class's."""
@@ -119,13 +123,14 @@ class Hud:
     type: Type
     theme: Theme
 
-    def sheet(self, pose: Pose) -> pygame.Surface:
-        """Return what stands still, on nothing: title, class and the names of the rows."""
+    @cached_property
+    def sheet(self) -> pygame.Surface:
+        """What stands still, on nothing: title, class and the names of the rows."""
         sheet = pygame.Surface((round(self.column.right), round(self.column.bottom)), pygame.SRCALPHA, 32)
         for line in self.lines:
             at = (self.column.x, line.y)
             self.type.draw(sheet, line.text, at, size=line.size, colour=line.colour)
-        for n, row in enumerate(rows(self.scene, pose)):
+        for n, row in enumerate(rows(self.scene, self.scene.pose(0.0))):
             self.type.draw(sheet, row.label, self._place(n), size=self.size, colour=self.theme.dim)
         return sheet.subsurface(sheet.get_bounding_rect())
 
@@ -141,32 +146,39 @@ class Hud:
         for n, (line, colour) in enumerate(lines, start=len(values)):
             self.type.draw(surface, line, self._place(n + 0.4), size=self.size, colour=colour)
 
-    def holds(self, said: frozenset[str]) -> bool:
-        """Whether all these lines are no wider than the column, and the last row and the note stand in it."""
+    @property
+    def holds(self) -> bool:
+        """Whether all that it says is no wider than the column, and the last row and the note stand in it."""
         pose = self.scene.pose(0.0)
         note_at = 0.4 if any(_special(self.scene, pose)) else -1.0
         low = self._place(len(rows(self.scene, pose)) + note_at)[1] + self.size
-        wide = max(self.type.width(line, self.size) for line in said)
+        wide = max(self.type.width(line, self.size) for line in self.said)
         return low <= self.column.bottom and wide <= self.column.width
 
     def _place(self, row: float) -> tuple[float, float]:
         return self.column.x, self.first + _STEP * self.size * row
 
 
-def hud_for(scene: Scene, layout: Layout, type_: Type, theme: Theme) -> Hud | None:
+def hud_for(
+    scene: Scene, layout: Layout, type_: Type, theme: Theme, *, before: Hud | None = None
+) -> Hud | None:
     """Return the HUD of a scene in a window, None where the window has no column for it.
 
-    Its text is as large as lets all that it ever says stand in the column.
+    Its text is as large as lets all that it ever says stand in the column. `before` is the HUD of the
+    picture before this one: it stays where nothing that it depends on has changed.
     """
     if layout.hud is None:
         return None
-    said = _ever_said(scene)
-    empty = Hud(scene, layout.hud, (), 0.0, layout.text_size, type_, theme)
+    known = before is not None and before.scene is scene
+    if before and known and (before.layout, before.theme) == (layout, theme):
+        return before
+    said = before.said if before and known else _ever_said(scene)
+    empty = Hud(scene, layout, said, layout.hud, (), 0.0, layout.text_size, type_, theme)
     sizes = range(layout.text_size, _SMALLEST - 1, -1)
     huds = (_titled(empty, size, size * layout.title_size / layout.text_size) for size in sizes)
     found = empty
     for found in huds:
-        if found.holds(said):
+        if found.holds:
             break
     return found
 

@@ -56,7 +56,7 @@ class Painter:
     It solves one cycle and draws its static layer when it is made; make a new one when scene, size
     or look changes. `beside` is a scene that must fit into the view too, such as the other closure.
     `before` is a painter that this one takes over from: what it drew of text and panels is kept where
-    the size is the same, and nothing else changes.
+    the size is the same, and nothing else changes. Its HUD stays where scene, size and theme do.
     Raises BadInput where the look's chart is no quantity of the scene.
     """
 
@@ -76,12 +76,12 @@ class Painter:
         self._type: Type = before._type if before and before.size == size else Type()
         self.view, self._gauge = self._framed(figure(beside) if beside else self._figure)
         self._strip: Strip | None = self._chart()
-        self._hud: Hud | None = hud_for(scene, self._layout, self._type, self._theme)
+        said = before._hud if before else None
+        self._hud: Hud | None = hud_for(scene, self._layout, self._type, self._theme, before=said)
         self._panels: Panels = self._laid_over(before)
         self._cast = self._casting()
         self._legend = legend_for(self._cast.arrows, self._layout, self._type, self._theme)
         self._still = self._drawn_once()
-        self._names = self._hud.sheet(scene.pose(0.0)) if self._hud else None
 
     def paint(
         self,
@@ -101,8 +101,8 @@ class Painter:
         paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
         if self._strip:
             self._strip.draw_reading(canvas, pose.phase)
-        if self._hud and self._names:
-            canvas.blit(self._names, self._names.get_offset())
+        if self._hud:
+            canvas.blit(self._hud.sheet, self._hud.sheet.get_offset())
             self._hud.draw_values(canvas, pose, overlay)
         if self._legend:
             self._legend.draw_values(canvas, pose.input_speed)

@@ -12,6 +12,7 @@ from pictures import BARE, SMALL, alphas, painted, pixels
 
 from linkanim.bench.fidelity import frame_decibels
 from linkanim.errors import BadInput
+from linkanim.picture import hud
 from linkanim.picture import painter as painting
 from linkanim.picture.fonts import Fonts
 from linkanim.picture.look import Look
@@ -77,9 +78,9 @@ def test_what_stands_still_is_drawn_once(monkeypatch: pytest.MonkeyPatch) -> Non
     def counted(name: str) -> None:
         real = getattr(painting, name)
 
-        def count(*args: Any) -> Any:
+        def count(*args: Any, **named: Any) -> Any:
             calls[name] = calls.get(name, 0) + 1
-            return real(*args)
+            return real(*args, **named)
 
         monkeypatch.setattr(painting, name, count)
 
@@ -134,6 +135,29 @@ def test_a_painter_that_takes_over_renders_no_glyph_again(monkeypatch: pytest.Mo
 
     monkeypatch.setattr(Fonts, "render", refused)
     Painter(scene, (640, 360), FULL, before=before).paint(surface, scene.pose(0.5), Overlay(toast="told"))
+
+
+def test_a_step_of_a_pan_measures_the_hud_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = load("press")
+    before = Painter(scene, (640, 360), Look())
+
+    def refused(*_: object) -> None:
+        raise AssertionError("the HUD is measured again")
+
+    monkeypatch.setattr(hud, "rows", refused)
+    after = Painter(scene, (640, 360), replace(Look(), pan=(0.1, 0.2), zoom=2.0), before=before)
+    assert after.view != before.view
+    assert after._hud is before._hud
+
+
+@pytest.mark.parametrize("change", [{"theme": "dark"}, {"vectors": frozenset("va")}, {"chart": "3.angle"}])
+def test_a_hud_follows_its_theme_and_its_place(change: dict[str, Any]) -> None:
+    scene, look = load("press"), replace(Look(), **change)
+    before = Painter(scene, (640, 360), Look())
+    taken, new = (Painter(scene, (640, 360), look, before=first)._hud for first in (before, None))
+    assert taken is not None
+    assert new is not None
+    assert (taken.column, taken.size, taken.lines) == (new.column, new.size, new.lines)
 
 
 @pytest.mark.parametrize(("chart", "bottom"), [(None, 350), ("coupler.angle", 253)])
