@@ -22,7 +22,7 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("units",),
+            ("digits", "units"),
             ("mechanics",),
             ("scenes",),
             ("picture",),
@@ -38,6 +38,7 @@ RANK = {
 
 THIRD_PARTIES = {
     "errors": set(),
+    "digits": set(),
     "units": set(),
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},

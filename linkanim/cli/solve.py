@@ -18,6 +18,7 @@ from linkanim.cli import table
 from linkanim.cli.commands import EVERY_ANGLE
 from linkanim.cli.strict import finite, json_text
 from linkanim.cli.tree import BLOCK, Leaf, Tree, leaves, rows, tree
+from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.motion import Motion
 from linkanim.recorder.safe import checked_target, replacing
@@ -89,10 +90,10 @@ def _solved(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Mo
         return scene.solve(phase=inputs, speed=speed, acceleration=acceleration)
     motion = scene.solve(angle=inputs, speed=speed, acceleration=acceleration)
     if not asked.sweep and any(np.isnan(points).any() for points in motion.position.values()):
-        low, high = (f"{math.degrees(limit):.6g} deg" for limit in scene.info.input_range)
+        low, high = (f"{significant(math.degrees(limit), 6)} deg" for limit in scene.info.input_range)
         raise OutOfRange(
-            f"{scene.name}: --angle {asked.degrees[0]:.6g} deg cannot be reached; the crank angle goes from "
-            f"{low} to {high} (--phase runs through both limits)"
+            f"{scene.name}: --angle {significant(asked.degrees[0], 6)} deg cannot be reached; "
+            f"the crank angle goes from {low} to {high} (--phase runs through both limits)"
         )
     return motion
 

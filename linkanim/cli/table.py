@@ -6,6 +6,7 @@ import math
 from collections.abc import Container, Iterator, Mapping, Sequence
 
 from linkanim.cli.tree import Tree
+from linkanim.digits import significant
 from linkanim.mechanics.linkage import Pin
 from linkanim.scenes.scene import Scene
 
@@ -102,10 +103,7 @@ def columns(lines: Sequence[Sequence[str]]) -> str:
 
 
 def _number(value: float) -> str:
-    """Return seven digits; words for what has no finite value."""
-    if not math.isfinite(value):
-        return "unbounded" if math.isinf(value) else "-"
-    return f"{value + 0.0:.7g}"  # -0.0 + 0.0 is 0.0
+    return significant(value, 7)
 
 
 def _degrees(value: float) -> str:

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from linkanim.digits import degrees, short, significant
+
 from .assembly import Loop, Swing, Turn
 from .exact import HALF_TURN, Sum
 from .linkage import RPR, RRP, RRR, Pin
@@ -233,7 +235,8 @@ def _slot_name(mechanism: Mechanism) -> str:
 def _grashof(bar: FourBar) -> str:
     s, p, q, longest = sorted(bar.links.values())
     relation = "=" if bar.change_points else "<" if bar.margin > 0 else ">"
-    return f"s + l = {s + longest:g} {relation} p + q = {p + q:g}"
+    outer, inner = significant(s + longest, 6), significant(p + q, 6)
+    return f"s + l = {outer} {relation} p + q = {inner}"
 
 
 def _circuits(bar: FourBar) -> int:
@@ -347,8 +350,8 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     yield "class", info.class_name
     if info.grashof:
         yield "Grashof", info.grashof
-    low, high = (math.degrees(angle) for angle in info.input_range)
-    yield "input", "turns fully" if info.full_turn else f"swings {low:.4g}°…{high:.4g}°"
+    low, high = map(degrees, info.input_range)
+    yield "input", "turns fully" if info.full_turn else f"swings {low}…{high}"
     if info.turning_links:
         yield "turns fully", ", ".join(info.turning_links)
     if info.toggles:
@@ -360,12 +363,12 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     if info.transmission_angle:
         yield "transmission angle", _degrees(info.transmission_angle, "…")
     if info.stroke is not None:
-        yield "stroke", f"{info.stroke:.6g} {unit}"
+        yield "stroke", f"{significant(info.stroke, 6)} {unit}"
     if info.time_ratio is not None:
         yield "time ratio", f"{info.time_ratio:.4f}"
     turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
-    yield "true period", f"{turns}, {info.period_seconds:.4g} s"
+    yield "true period", f"{turns}, {short(info.period_seconds)} s"
 
 
 def _degrees(angles: tuple[float, ...], between: str = ", ") -> str:
-    return between.join(f"{math.degrees(angle):.4g}°" for angle in angles)
+    return between.join(map(degrees, angles))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, floor, isfinite, log10
+from math import ceil, floor, log10
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from linkanim.digits import power_of_ten, stepped
 
 _WILD = 8.0
 """A peak this many times the span of the middle nine tenths is cut off, or all else would be a line."""
@@ -40,7 +42,7 @@ def linear(low: float, high: float, *, most: int = 5, unit: str = "") -> Axis:
     """
     step = _degrees(high - low, most) if unit == "°" else _step(high - low, most)
     first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
-    ticks = tuple((k * step, f"{number(k * step, step)}{unit}") for k in range(first, last + 1))
+    ticks = tuple((k * step, f"{stepped(k * step, step)}{unit}") for k in range(first, last + 1))
     return Axis(low, high, ticks)
 
 
@@ -63,25 +65,6 @@ def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "") -> Axi
         low, high = (low - 0.5 * size, high + 0.5 * size) if size else (-1.0, 1.0)
     room = 0.06 * (high - low)
     return linear(low - room, high + room, most=most, unit=unit)
-
-
-def number(value: float, step: float) -> str:
-    """Return a number with the decimals that a step between neighbours needs, and a true minus sign."""
-    if not isfinite(value):
-        return "∞" if value > 0 else "−∞" if value < 0 else "–"
-    size = max(abs(value), abs(step))
-    if size >= 1e6 or (0 < size < 1e-4):
-        return f"{value + 0.0:.3g}".replace("-", "−")
-    places = min(max(-floor(log10(step) + 1e-9), 0), 6) if step > 0 else 0
-    text = f"{value:.{places}f}"
-    return f"{text.lstrip('-') if not float(text) else text}".replace("-", "−")
-
-
-def power_of_ten(power: int) -> str:
-    """Return 10 to a whole power as it is written on an axis."""
-    if 0 <= power <= 3:
-        return str(10**power)
-    return f"1e{power}".replace("-", "−")
 
 
 def _span(finite: NDArray[np.float64]) -> tuple[float, float]:

@@ -10,7 +10,8 @@ import numpy as np
 import pygame
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.picture.axis import Axis, around, linear, number
+from linkanim.digits import stepped
+from linkanim.picture.axis import Axis, around, linear
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Layout
 from linkanim.picture.quantities import Series, series_of
@@ -162,7 +163,7 @@ class Strip:
         """Return the values under the cursor in words."""
         span, gap = self.plot.y.high - self.plot.y.low, "" if self.series.unit == "°" else " "
         return "   ".join(
-            f"{label} {number(float(value), span / 500)}{gap}{self.series.unit}".strip()
+            f"{label} {stepped(float(value), span / 500)}{gap}{self.series.unit}".strip()
             for label, value in zip(self.series.labels, self.values_at(phase), strict=True)
         )
 

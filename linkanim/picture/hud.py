@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import pygame
 
+from linkanim.digits import rpm, stepped, typeset
 from linkanim.mechanics.motion import Pose
-from linkanim.picture.axis import number
 from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.raster import Colour
@@ -57,25 +57,20 @@ def rows(scene: Scene, pose: Pose, speed: str | None = None) -> tuple[Row, ...]:
 def _rows(scene: Scene, pose: Pose, speed: str | None) -> Iterator[Row]:
     info = scene.info
     yield Row("crank angle", _turned(pose.crank_angle) if info.full_turn else _deg(pose.crank_angle))
-    yield Row("input speed", speed or rpm(pose.input_speed))
+    yield Row("input speed", speed or typeset(rpm(pose.input_speed)))
     low, high = info.input_range
     yield Row("input range", "full turn" if info.full_turn else f"{_deg(low)}…{_deg(high)}")
     if info.true_period != 1:
         yield Row("true period", f"{info.true_period} turns")
     unit = scene.length_unit
     for name, spring in pose.spring.items():
-        yield Row(f"spring {name}", f"{number(spring.length, 0.1)} {unit}")
+        yield Row(f"spring {name}", f"{stepped(spring.length, 0.1)} {unit}")
         if spring.force is not None:
-            yield Row("spring force", f"{number(spring.force, 0.1)} N")
+            yield Row("spring force", f"{stepped(spring.force, 0.1)} N")
     for name, damper in pose.damper.items():
-        yield Row(f"damper {name}", f"{number(damper.rate or 0.0, 0.1)} {unit}/s")
+        yield Row(f"damper {name}", f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s")
         if damper.force is not None:
-            yield Row("damper force", f"{number(damper.force, 0.1)} N")
-
-
-def rpm(speed: float) -> str:
-    """Return an angular speed in rad/s as turns a minute, clockwise negative."""
-    return f"{speed * 60 / tau:.4g} rpm".replace("-", "−")
+            yield Row("damper force", f"{stepped(damper.force, 0.1)} N")
 
 
 def note(scene: Scene, pose: Pose) -> str | None:
@@ -94,12 +89,12 @@ def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, str]]:
 
 
 def _deg(angle: float) -> str:
-    return f"{number(degrees(angle), 0.1)}°"
+    return f"{stepped(degrees(angle), 0.1)}°"
 
 
 def _turned(angle: float) -> str:
     """Return an angle within one turn, rounded first, so that none reads 360°."""
-    return f"{number(round(degrees(angle) % 360, 1) % 360, 0.1)}°"
+    return f"{stepped(round(degrees(angle) % 360, 1) % 360, 0.1)}°"
 
 
 def _apart(one: float, other: float) -> float:

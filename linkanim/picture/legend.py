@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import floor, log10
 
 import pygame
 
+from linkanim.digits import three_digits
 from linkanim.picture.layout import Layout
 from linkanim.picture.raster import Layer, paint
 from linkanim.picture.shapes import arrows
@@ -74,10 +74,3 @@ def legend_for(kinds: tuple[Arrows, ...], layout: Layout, type_: Type, theme: Th
     sizes = range(layout.small_size, _SMALLEST, -1)
     legends = (Legend(kinds, column, size, type_, theme) for size in sizes)
     return next((legend for legend in legends if legend.fits), Legend(kinds, column, _SMALLEST, type_, theme))
-
-
-def three_digits(value: float) -> str:
-    """Return a positive number to three digits, without an exponent where it has up to six."""
-    if not 1e-3 <= value < 1e6:
-        return f"{value:.2e}"
-    return f"{value:.{max(2 - floor(log10(value)), 0)}f}"

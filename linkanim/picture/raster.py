@@ -98,9 +98,7 @@ def _edges(layers: Sequence[Layer]) -> tuple[Loop, Loop, _Ints]:
     return begin, end, np.repeat(layer_of_loop, counts)
 
 
-def _by_row(
-    begin: Loop, end: Loop, number: _Ints, lowest: _Ints
-) -> tuple[_Ints, _Floats, _Floats, _Floats]:
+def _by_row(begin: Loop, end: Loop, number: _Ints, lowest: _Ints) -> tuple[_Ints, _Floats, _Floats, _Floats]:
     """Cut edges at pixel rows; return each piece's line, its signed height, and x at both ends."""
     falls = end.imag > begin.imag
     top, bottom = np.where(falls, begin, end), np.where(falls, end, begin)

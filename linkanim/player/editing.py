@@ -5,11 +5,11 @@ Every change gives a new scene or a refusal; the last good scene always runs on.
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
+from linkanim.digits import degrees, typeset
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.classify import Info
 from linkanim.scenes.edit import Dimension, dimensions, with_dimension
@@ -131,7 +131,7 @@ def _loss(before: Info, after: Info) -> str | None:
     """Say that the input no longer turns fully, where it did; else None."""
     if after.full_turn or not before.full_turn:
         return None
-    low, high = (f"{math.degrees(limit):.4g}°".replace("-", "−") for limit in after.input_range)
+    low, high = (typeset(degrees(limit)) for limit in after.input_range)
     cause = f"{after.grashof}: " if after.grashof else ""
     return f"{cause}the crank cannot turn fully; it swings {low}…{high} (Enter takes it all the same)"
 

@@ -69,4 +69,3 @@ def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterato
 def _tape(scene: object) -> Tape | None:
     path = str(scene) if isinstance(scene, str | os.PathLike) else ""
     return tape_file.read(Path(path)) if path.lower().endswith(".json") else None
-

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from linkanim.digits import significant
 from linkanim.picture.overlay import EditRow, Overlay, Panel
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.editing import Editing, chosen
@@ -37,7 +38,7 @@ def panel(editing: Editing, scene: Scene) -> Panel:
     """Return the list of dimensions, the value being typed in its place."""
     at = chosen(editing, scene)
     rows = tuple(
-        EditRow(item.label, f"{item.value:.10g} {item.unit}".strip(), chosen=item == at)
+        EditRow(item.label, f"{significant(item.value, 10)} {item.unit}".strip(), chosen=item == at)
         for item in dimensions(scene)
     )
     if editing.typed:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal, NamedTuple
 
+from linkanim.digits import rpm, short
 from linkanim.errors import BadInput
 
 Format = Literal["gif", "mp4", "png"]
@@ -84,7 +85,7 @@ class Plan:
     @property
     def speed_text(self) -> str:
         """The speed as recorded, in words."""
-        return f"{_short(_rpm(self.speed))} rpm"
+        return rpm(self.speed)
 
     @property
     def moved(self) -> bool:
@@ -94,13 +95,13 @@ class Plan:
     @property
     def summary(self) -> str:
         """The clip in words: frames, length, periods and speed, with what rounding moved."""
-        clip = f"{self.frames} frames at {_short(float(self.rate))} fps, {_short(self.seconds)} s"
+        clip = f"{self.frames} frames at {short(float(self.rate))} fps, {short(self.seconds)} s"
         said = f"{clip}, {self._extent} at {self.speed_text}"
-        asked = _rpm(math.copysign(self.clip.speed, self.speed))
+        asked = rpm(math.copysign(self.clip.speed, self.speed))
         if self.moved and self.closes:
-            said += f" ({_short(asked)} rpm asked, {self.speed_text} recorded)"
+            said += f" ({asked} asked, {self.speed_text} recorded)"
         elif self.moved:
-            said += f" ({_short(self.clip.seconds or 0.0)} s asked)"
+            said += f" ({short(self.clip.seconds or 0.0)} s asked)"
         return said
 
     @property
@@ -109,7 +110,7 @@ class Plan:
             return "not closed"
         if self.clip.periods == 1:
             return "one period"
-        return f"{self.clip.periods} periods of {_short(self.period_seconds)} s"
+        return f"{self.clip.periods} periods of {short(self.period_seconds)} s"
 
 
 def make_plan(clip: Clip, form: Format) -> Plan:
@@ -171,20 +172,22 @@ def _centiseconds(length: Fraction, fps: Fraction) -> tuple[int, Fraction]:
 def _refuse_nonsense(clip: Clip) -> None:
     """Raise `BadInput` for what is not a number of its kind, or makes a clip of absurd length."""
     if not math.isfinite(clip.speed) or clip.speed == 0.0:
-        raise BadInput(f"a speed of {clip.speed:g} rad/s has no period to record; give one such as 30 rpm")
+        raise BadInput(
+            f"a speed of {short(clip.speed)} rad/s has no period to record; give one such as 30 rpm"
+        )
     slowest, fastest = RATES
     if not slowest <= clip.fps <= fastest:
         raise BadInput(
-            f"{clip.fps:g} frames a second cannot be recorded; give {slowest} to {fastest}, such as 25"
+            f"{short(clip.fps)} frames a second cannot be recorded; give {slowest} to {fastest}, such as 25"
         )
     if clip.periods < 1:
         raise BadInput(f"{clip.periods} periods cannot be recorded; give a whole number from 1")
     if clip.seconds is not None and not (math.isfinite(clip.seconds) and clip.seconds > 0.0):
-        raise BadInput(f"{clip.seconds:g} s cannot be recorded; give a positive number of seconds")
+        raise BadInput(f"{short(clip.seconds)} s cannot be recorded; give a positive number of seconds")
     seconds = clip.periods * clip.period / abs(clip.speed) if clip.seconds is None else clip.seconds
     if seconds * clip.fps > MOST_FRAMES:
         raise BadInput(
-            f"{_short(seconds)} s at {_short(clip.fps)} fps are {_short(seconds * clip.fps)} frames,"
+            f"{short(seconds)} s at {short(clip.fps)} fps are {short(seconds * clip.fps)} frames,"
             f" more than {MOST_FRAMES}; raise the speed, or lower the frames a second or the length"
         )
 
@@ -194,19 +197,11 @@ def _refuse_too_few(clip: Clip, frames: int) -> None:
     if clip.seconds is None and frames < FEWEST_PER_PERIOD * clip.periods:
         period = clip.period / abs(clip.speed)
         raise BadInput(
-            f"one period at {_short(_rpm(clip.speed))} rpm lasts {_short(period)} s, too short for"
-            f" {FEWEST_PER_PERIOD} frames at {_short(clip.fps)} fps;"
+            f"one period at {rpm(clip.speed)} lasts {short(period)} s, too short for"
+            f" {FEWEST_PER_PERIOD} frames at {short(clip.fps)} fps;"
             " lower the speed, or raise the frames a second"
         )
     if frames < 1:
         raise BadInput(
-            f"{_short(clip.seconds or 0.0)} s at {_short(clip.fps)} fps is less than a frame; ask for longer"
+            f"{short(clip.seconds or 0.0)} s at {short(clip.fps)} fps is less than a frame; ask for longer"
         )
-
-
-def _rpm(speed: float) -> float:
-    return speed * 30.0 / math.pi
-
-
-def _short(number: float) -> str:
-    return f"{number:.4g}" if abs(number) < 1000 else f"{number:.0f}"

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkanim.picture.axis import around, decades, linear, number
+from linkanim.picture.axis import around, decades, linear
 
 
 @pytest.mark.parametrize(
@@ -86,20 +86,3 @@ def test_a_wild_peak_is_cut_so_that_the_rest_can_be_seen() -> None:
     assert around(values).high < 10
     values[50] = 5.0
     assert around(values).high > 5
-
-
-@pytest.mark.parametrize(
-    ("value", "step", "text"),
-    [
-        (-0.04, 0.1, "0.0"),  # never "-0.0"
-        (-12.34, 0.1, "−12.3"),
-        (1234.5, 100, "1234"),
-        (2.5e6, 1e6, "2.5e+06"),
-        (3e-5, 1e-5, "3e−05"),
-        (math.inf, 1, "∞"),
-        (-math.inf, 1, "−∞"),
-        (math.nan, 1, "–"),
-    ],
-)
-def test_numbers_have_the_decimals_their_steps_need(value: float, step: float, text: str) -> None:
-    assert number(value, step) == text

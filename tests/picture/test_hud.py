@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from linkanim.picture.hud import Row, hud_for, note, rows, rpm
+from linkanim.picture.hud import Row, hud_for, note, rows
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
 from linkanim.picture.text import Type
@@ -100,12 +100,9 @@ def test_names_and_values_never_touch_nor_reach_the_key_to_the_arrows(
         assert hud.first + 1.42 * hud.size * (lines - 1) + hud.size <= parts.legend.y
 
 
-@pytest.mark.parametrize(
-    ("speed", "words"),
-    [(2 * math.pi / 3, "20 rpm"), (-math.pi / 2, "−15 rpm"), (1.0, "9.549 rpm"), (0.0, "0 rpm")],
-)
-def test_speed_is_told_in_turns_a_minute(speed: float, words: str) -> None:
-    assert rpm(speed) == words
+def test_a_clockwise_speed_has_a_true_minus() -> None:
+    scene = load("press")
+    assert Row("input speed", "−15 rpm") in rows(scene, scene.pose(0.0, speed=-math.pi / 2))
 
 
 def test_a_speed_in_words_replaces_the_pose_s() -> None:

@@ -8,28 +8,13 @@ import pytest
 
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
-from linkanim.picture.legend import Legend, legend_for, three_digits
+from linkanim.picture.legend import Legend, legend_for
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.vectors import arrows_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
-
-
-@pytest.mark.parametrize(
-    ("value", "words"),
-    [
-        (123.456, "123"),
-        (12.3456, "12.3"),
-        (0.01234, "0.0123"),
-        (123456.0, "123456"),
-        (1.5e6, "1.50e+06"),
-        (1e-5, "1.00e-05"),
-    ],
-)
-def test_numbers_keep_three_digits(value: float, words: str) -> None:
-    assert three_digits(value) == words
 
 
 def test_the_key_says_what_its_arrow_stands_for_at_any_speed() -> None:

@@ -1,0 +1,57 @@
+"""Numbers as people read them: how many digits, which minus, and what stands where there is no value."""
+
+from __future__ import annotations
+
+from math import degrees as to_degrees
+from math import floor, isfinite, isinf, log10, pi
+
+
+def significant(value: float, digits: int) -> str:
+    """Return at most so many significant digits in ASCII: "unbounded" for an infinity, "-" for NaN."""
+    if not isfinite(value):
+        return "unbounded" if isinf(value) else "-"
+    return f"{value + 0.0:.{digits}g}"  # -0.0 + 0.0 is 0.0
+
+
+def short(value: float) -> str:
+    """Return four significant digits, and every digit before the point: 33.33, 12346."""
+    return significant(value, 4) if abs(value) < 1000 else f"{value:.0f}"
+
+
+def rpm(speed: float) -> str:
+    """Return an angular speed in rad/s as turns a minute, clockwise negative."""
+    return f"{short(speed * 30 / pi)} rpm"
+
+
+def degrees(angle: float) -> str:
+    """Return an angle in radians as degrees of four significant digits."""
+    return f"{significant(to_degrees(angle), 4)}°"
+
+
+def stepped(value: float, step: float) -> str:
+    """Return a number, set, with the decimals that a step between neighbours needs."""
+    if not isfinite(value):
+        return "∞" if value > 0 else "−∞" if value < 0 else "–"
+    size = max(abs(value), abs(step))
+    if size >= 1e6 or (0 < size < 1e-4):
+        return typeset(significant(value, 3))
+    places = min(max(-floor(log10(step) + 1e-9), 0), 6) if step > 0 else 0
+    text = f"{value:.{places}f}"
+    return typeset(text if float(text) else text.lstrip("-"))
+
+
+def three_digits(value: float) -> str:
+    """Return a positive number to three digits, without an exponent where it has up to six."""
+    if not 1e-3 <= value < 1e6:
+        return f"{value:.2e}"
+    return f"{value:.{max(2 - floor(log10(value)), 0)}f}"
+
+
+def power_of_ten(power: int) -> str:
+    """Return 10 to a whole power as it is written on an axis."""
+    return str(10**power) if 0 <= power <= 3 else typeset(f"1e{power}")
+
+
+def typeset(text: str) -> str:
+    """Return the text with true minus signs, as it is set on a picture."""
+    return text.replace("-", "−")

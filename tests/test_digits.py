@@ -1,0 +1,90 @@
+"""Numbers as people read them."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from linkanim.digits import degrees, power_of_ten, rpm, short, significant, stepped, three_digits, typeset
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "words"),
+    [
+        (123.456789, 7, "123.4568"),
+        (0.1, 7, "0.1"),
+        (-0.0, 7, "0"),  # never "-0"
+        (-2.5, 4, "-2.5"),  # ASCII: a column can be read back
+        (math.inf, 7, "unbounded"),
+        (-math.inf, 7, "unbounded"),
+        (math.nan, 7, "-"),
+    ],
+)
+def test_significant_digits(value: float, digits: int, words: str) -> None:
+    assert significant(value, digits) == words
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [(33.3333333, "33.33"), (25.0, "25"), (12345.6, "12346"), (-12345.6, "-12346"), (-0.0, "0")],
+)
+def test_a_short_number_has_no_exponent_where_it_is_large(value: float, words: str) -> None:
+    assert short(value) == words
+
+
+@pytest.mark.parametrize(
+    ("speed", "words"),
+    [(2 * math.pi / 3, "20 rpm"), (-math.pi / 2, "-15 rpm"), (1.0, "9.549 rpm"), (0.0, "0 rpm")],
+)
+def test_speed_is_told_in_turns_a_minute(speed: float, words: str) -> None:
+    assert rpm(speed) == words
+
+
+@pytest.mark.parametrize(
+    ("angle", "words"),
+    [(math.pi / 2, "90°"), (-1.0, "-57.3°"), (-0.0, "0°"), (math.radians(87.456), "87.46°")],
+)
+def test_an_angle_is_told_in_degrees(angle: float, words: str) -> None:
+    assert degrees(angle) == words
+
+
+@pytest.mark.parametrize(
+    ("value", "step", "text"),
+    [
+        (-0.04, 0.1, "0.0"),  # never "-0.0"
+        (-12.34, 0.1, "−12.3"),
+        (1234.5, 100, "1234"),
+        (2.5e6, 1e6, "2.5e+06"),
+        (3e-5, 1e-5, "3e−05"),
+        (math.inf, 1, "∞"),
+        (-math.inf, 1, "−∞"),
+        (math.nan, 1, "–"),
+    ],
+)
+def test_numbers_have_the_decimals_their_steps_need(value: float, step: float, text: str) -> None:
+    assert stepped(value, step) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (123.456, "123"),
+        (12.3456, "12.3"),
+        (0.01234, "0.0123"),
+        (123456.0, "123456"),
+        (1.5e6, "1.50e+06"),
+        (1e-5, "1.00e-05"),
+    ],
+)
+def test_numbers_keep_three_digits(value: float, words: str) -> None:
+    assert three_digits(value) == words
+
+
+@pytest.mark.parametrize(("power", "words"), [(0, "1"), (3, "1000"), (4, "1e4"), (-16, "1e−16")])
+def test_a_power_of_ten(power: int, words: str) -> None:
+    assert power_of_ten(power) == words
+
+
+def test_a_set_text_has_true_minus_signs() -> None:
+    assert typeset("-15 rpm … -3e-05") == "−15 rpm … −3e−05"
