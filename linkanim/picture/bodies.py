@@ -7,27 +7,27 @@ import numpy as np
 from linkanim.mechanics.linkage import RPR, Body
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts import Part, Stamp, lined
+from linkanim.picture.parts import Part, Stamp, glazed, lined
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import box, disc, rounded, unit
+from linkanim.picture.shapes import box, disc, hull, rounded, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
 BLOCK = (4.6, 3.2)
 """A slider block's length and height in half widths of a bar."""
-_TINT = 0.3
-"""How much of the background is in a plate's colour, so that a large one does not shout."""
 
 
 def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
-    """Return every body, back to front: blocks, then plates, then bars, each in the scene's order."""
+    """Return every body, back to front: blocks, then plates, then bars, each in the scene's order.
+
+    Plates are clear enough to show what lies behind them.
+    """
     colours = colours_of(figure, theme)
-    plates = [body for body in figure.bodies if len(body.joints) > 2]
-    bars = [body for body in figure.bodies if len(body.joints) == 2]
+    placed = {body: _local(body, figure, view) for body in figure.bodies}
+    plates = [body for body, points in placed.items() if len(hull(points)) > 2]
+    bars = [body for body in placed if body not in plates]
     blocks = _sliders(figure, gauge, theme) + [_collar(slot, gauge, theme) for slot in figure.slots]
-    tinted = {body.name: mixed(colours[body.name], theme.background, _TINT) for body in plates}
-    fills = {**colours, **tinted}
-    solid = [_body(body, figure, view, gauge, (theme.outline, fills[body.name])) for body in plates + bars]
+    solid = [_body(body, placed[body], gauge, (theme.outline, colours[body.name])) for body in plates + bars]
     slotted = [_slot(slot, figure, view, gauge, theme) for slot in figure.slots]
     return (*_behind(figure, view, gauge, theme), *solid, *slotted, *blocks) if slotted else (*blocks, *solid)
 
@@ -53,10 +53,10 @@ def _local(body: Body, figure: Figure, view: View) -> list[complex]:
     return [(place - places[0]) / turn for place in places]
 
 
-def _body(body: Body, figure: Figure, view: View, gauge: Gauge, colours: tuple[Colour, Colour]) -> Part:
-    points = _local(body, figure, view)
-    layers = lined(points, gauge.bar, gauge.outline, colours)
-    return Part(body.joints[0], body.joints[0], body.joints[1], tuple(layers))
+def _body(body: Body, points: list[complex], gauge: Gauge, colours: tuple[Colour, Colour]) -> Part:
+    shaped = glazed if len(hull(points)) > 2 else lined
+    layers = shaped(points, gauge.bar, gauge.outline, colours)
+    return Part(body.joints[0], body.joints[0], body.joints[1], tuple(layers), body.joints)
 
 
 def _sliders(figure: Figure, gauge: Gauge, theme: Theme) -> list[Part]:
@@ -71,14 +71,14 @@ def _block(joint: str, gauge: Gauge, theme: Theme, turn: complex) -> Part:
     edge = 2 * gauge.outline
     outer, inner = box(length, height, 0.4 * gauge.bar), box(length - edge, height - edge, 0.3 * gauge.bar)
     layers = (Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner]))
-    return Part(joint, joint, joint, layers)
+    return Part(joint, joint, joint, layers, (joint,))
 
 
 def _collar(slot: RPR, gauge: Gauge, theme: Theme) -> Part:
     """Return the block that slides in a slotted bar and turns with it."""
     block = _block(slot.through, gauge, theme, 1 + 0j)
     small = tuple(Layer(layer.colour, [0.62 * loop for loop in layer.loops]) for layer in block.layers)
-    return Part(slot.through, slot.pivot, slot.name, small)
+    return Part(slot.through, slot.pivot, slot.name, small, block.joints)
 
 
 def _reach(slot: RPR, figure: Figure, view: View) -> tuple[complex, complex]:
@@ -95,7 +95,7 @@ def _behind(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Part
     for slot in figure.slots:
         points = [0j, *_reach(slot, figure, view)]
         layers = lined(points, 1.35 * gauge.bar, gauge.outline, (theme.outline, theme.metal))
-        parts.append(Part(slot.pivot, slot.pivot, slot.name, tuple(layers)))
+        parts.append(Part(slot.pivot, slot.pivot, slot.name, tuple(layers), (slot.pivot,)))
     return parts
 
 

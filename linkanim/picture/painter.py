@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import zip_longest
 
 import numpy as np
 import pygame
@@ -22,7 +23,7 @@ from linkanim.picture.legend import legend_for
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
-from linkanim.picture.parts import Part, Places, Stamp, placed
+from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
 from linkanim.picture.raster import Layer, paint, paints
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.text import Type
@@ -43,10 +44,12 @@ class Cast:
     wheels: tuple[Part, ...]
     struts: tuple[Coil | Cushion, ...]
     bodies: tuple[Part, ...]
+    pinned: tuple[tuple[str, ...], ...]
+    """The pins and marks that lie below the first of the bodies, and on each."""
     pin: Stamp
     mass: Stamp
     traces: tuple[Trace, ...]
-    marks: tuple[Stamp, ...]
+    marks: Mapping[str, Stamp]
     arrows: tuple[Arrows, ...]
 
 
@@ -148,14 +151,19 @@ class Painter:
     def _casting(self) -> Cast:
         known = (self._figure, self.view, self._gauge, self._theme)
         curves = traces(*known) if self.look.trace else ()
+        bodies = body_parts(*known)
+        marked = [trace.joint for trace in curves if trace.joint not in self._figure.pins]
         return Cast(
             wheels=wheel_parts(*known),
             struts=(*coils(*known), *cushions(*known)),
-            bodies=body_parts(*known),
+            bodies=bodies,
+            pinned=by_depth(bodies, (*self._figure.pins, *marked)),
             pin=pin_stamp(self._gauge, self._theme),
             mass=mass_stamp(self._gauge, self._theme),
             traces=curves,
-            marks=tuple(mark_stamp(trace.colour, self._gauge, self._theme) for trace in curves),
+            marks={
+                trace.joint: mark_stamp(trace.colour, self._gauge, self._theme) for trace in reversed(curves)
+            },
             arrows=tuple(
                 arrows_of(self._figure, kind, self.size[1], self._gauge, self._theme)
                 for kind in (VELOCITY, ACCELERATION)
@@ -170,7 +178,7 @@ class Painter:
         still.fill((*self._theme.background, 255 if self.look.background else 0))
         known = (self._figure, self.view, self._gauge, self._theme)
         scene = [*wheel_layers(*known), *ground_layers(*known)]
-        paint(still, self._on_stage(scene + [trace.whole() for trace in self._cast.traces]))
+        paint(still, self._on_stage(scene + self._curves(still=True)))
         if self._strip:
             self._strip.draw(still)
         if self._legend:
@@ -199,33 +207,39 @@ class Painter:
 
     def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer]:
         """Return all that moves, back to front, the chart's cursor last."""
-        layers = [*self._below(pose), *(self._ghost(ghost) if ghost else ()), *self._above(pose)]
+        layers = [*placed(self._cast.wheels, self._places(pose)), *(self._ghost(ghost) if ghost else ())]
+        layers += [*self._curves(still=False), *self._above(pose)]
         return self._on_stage(layers) + (self._strip.cursor(pose.phase) if self._strip else [])
 
-    def _below(self, pose: Pose) -> Iterator[Layer]:
-        places = self._places(pose)
-        yield from placed(self._cast.wheels, places)
+    def _curves(self, *, still: bool) -> list[Layer]:
+        """Return the whole curves; they are part of what stands still where nothing moves behind them."""
+        moving_behind = bool(self._cast.wheels) or self.look.ghost
+        return [] if still == moving_behind else [trace.whole() for trace in self._cast.traces]
 
     def _above(self, pose: Pose) -> Iterator[Layer]:
         places, cast = self._places(pose), self._cast
-        for strut in cast.struts:
-            yield from strut.layers(places)
-        yield from placed(cast.bodies, places)
         for trace in cast.traces:
             yield from trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
-        yield from cast.pin.at([places[name] for name in self._figure.pins])
+        for strut in cast.struts:
+            yield from strut.layers(places)
+        yield from self._pinned(places)
         yield from cast.mass.at([self.view.place(at) for at in pose.com_position.values()])
-        for trace, mark in zip(cast.traces, cast.marks, strict=True):
-            yield from mark.at([places[trace.joint]])
         for kind in cast.arrows:
             yield from kind.layers(pose, self.view, self.scene.trace)
 
+    def _pinned(self, places: Places) -> Iterator[Layer]:
+        """Yield the bodies with their pins, each pin at the depth of its own links."""
+        for names, part in zip_longest(self._cast.pinned, self._cast.bodies):
+            yield from self._cast.pin.at([places[name] for name in names if name in self._figure.pins])
+            for name in names:
+                if name in self._cast.marks:
+                    yield from self._cast.marks[name].at([places[name]])
+            if part:
+                yield from part.placed(places)
+
     def _ghost(self, pose: Pose) -> Iterator[Layer]:
         """Yield the other closure's bodies and pins, mostly background."""
-        places = self._places(pose)
-        layers = placed(self._cast.bodies, places)
-        layers += self._cast.pin.at([places[name] for name in self._figure.pins])
-        for layer in layers:
+        for layer in self._pinned(self._places(pose)):
             yield Layer(mixed(layer.colour, self._theme.background, _GHOST), layer.loops, layer.alpha)
 
     def _places(self, pose: Pose) -> Places:

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import rounded, unit
 
+_GLAZED = 0.6
+"""How much a plate covers of what lies behind it."""
+
 Places = Mapping[str, complex]
 """Where the joints lie in pixels, as x + yi."""
 
@@ -16,13 +19,14 @@ Places = Mapping[str, complex]
 class Part:
     """Layers about the joint `at`, drawn for the direction from `tail` to `head` being 1.
 
-    Without a direction (`tail` == `head`) the part keeps its own.
+    Without a direction (`tail` == `head`) the part keeps its own. The pins of `joints` go through it.
     """
 
     at: str
     tail: str
     head: str
     layers: tuple[Layer, ...]
+    joints: tuple[str, ...] = ()
 
     def placed(self, places: Places) -> list[Layer]:
         """Return the layers where the joints now lie."""
@@ -53,7 +57,25 @@ def placed(parts: Iterable[Part], places: Places) -> list[Layer]:
     return [layer for part in parts for layer in part.placed(places)]
 
 
+def by_depth(parts: Sequence[Part], names: Iterable[str]) -> tuple[tuple[str, ...], ...]:
+    """Return which joints' pins are drawn before the first part, and which after each of the parts.
+
+    A pin lies on the foremost of the parts that it goes through, so that a part further forward hides it.
+    """
+    depth = {name: n for n, part in enumerate(parts, start=1) for name in part.joints}
+    kept = tuple(names)
+    return tuple(tuple(name for name in kept if depth.get(name, 0) == n) for n in range(len(parts) + 1))
+
+
 def lined(points: list[complex], radius: float, width: float, colours: tuple[Colour, Colour]) -> list[Layer]:
     """Return a rounded outline around points in (edge colour, fill colour), the edge inside the radius."""
     edge, fill = colours
     return [Layer(edge, [rounded(points, radius)]), Layer(fill, [rounded(points, max(radius - width, 0.1))])]
+
+
+def glazed(points: list[complex], radius: float, width: float, colours: tuple[Colour, Colour]) -> list[Layer]:
+    """Return the same with a fill that lets through what lies behind, and ends under the outline."""
+    edge, fill = colours
+    inner = rounded(points, max(radius - width, 0.1))
+    pane = rounded(points, max(radius - width / 2, 0.1))
+    return [Layer(fill, [pane], _GLAZED), Layer(edge, [rounded(points, radius), inner[::-1]])]

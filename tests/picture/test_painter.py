@@ -14,14 +14,18 @@ from linkanim.bench.fidelity import frame_decibels
 from linkanim.errors import BadInput
 from linkanim.picture import hud
 from linkanim.picture import painter as painting
+from linkanim.picture.bodies import colours_of
+from linkanim.picture.figure import figure
 from linkanim.picture.fonts import Fonts
-from linkanim.picture.look import Look
+from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import EditRow, Overlay, Panel
 from linkanim.picture.painter import Painter
 from linkanim.picture.quantities import quantities
+from linkanim.picture.shapes import hull
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load, names
+from linkanim.scenes.scene import Scene
 
 FULL = Look(vectors=frozenset("va"), chart="B.velocity")
 
@@ -179,8 +183,9 @@ def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
     clear, solid = painted(scene, 1.0, look), painted(scene, 1.0, replace(look, background=True))
     opacity = alphas(clear)
     assert opacity[0, 0] == 0
-    assert 0.05 < (opacity == 255).mean() < 0.5
-    inside = opacity == 255
+    inside, plate = opacity == 255, (opacity > 0.5 * 255) & (opacity < 0.75 * 255)
+    assert 0.01 < inside.mean() < 0.1
+    assert 0.03 < plate.mean() < 0.2
     assert pixels(clear)[inside] == pytest.approx(pixels(solid)[inside], abs=2)
 
 
@@ -319,3 +324,67 @@ def test_an_edit_list_stays_inside_the_window_and_shows_the_chosen_row_at_a_size
 def test_odd_windows_are_painted_without_complaint(size: tuple[int, int]) -> None:
     surface = painted(load("press"), 1.0, FULL, size)
     assert len(np.unique(pixels(surface).reshape(-1, 3), axis=0)) > 3
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize(
+    ("name", "phase", "pin", "bar"),
+    [
+        ("triple-rocker-in-out", 0.0, "A", "rocker"),
+        ("triple-rocker-in-out", 2.0, "O2", "rocker"),
+        ("double-rocker", 0.0, "A", "rocker"),
+        ("kite", 5.227, "O2", "rocker"),
+    ],
+)
+def test_a_pin_that_passes_behind_a_bar_does_not_show_on_it(
+    name: str, phase: float, pin: str, bar: str, theme: ThemeName
+) -> None:
+    """Such a pin would look like a joint of that bar, which the linkage does not have."""
+    scene, size, look = load(name), (1280, 720), replace(BARE, theme=theme)
+    x, y = Painter(scene, size, look).view.to_pixel(*scene.pose(phase).position[pin])
+    drawn = painted(scene, phase, look, size)
+    wanted = colours_of(figure(scene), theme_of(theme))[bar]
+    assert tuple(drawn.get_at((int(x), int(y))))[:3] == wanted
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize(
+    ("name", "phase"), [("slider-crank", 0.0), ("slider-crank", 0.3), ("crank-rocker", 4.5), ("six-bar", 2.0)]
+)
+def test_a_curve_is_not_cut_where_it_enters_a_plate(name: str, phase: float, theme: ThemeName) -> None:
+    scene, size, look = load(name), (640, 360), replace(BARE, theme=theme)
+    with_curve, without = (
+        pixels(painted(scene, phase, replace(look, trace=trace), size)) for trace in (True, False)
+    )
+    differ = np.abs(with_curve - without).max(axis=-1)
+    behind = [differ[int(y), int(x)] for x, y in _curve_behind_plates(scene, phase, size)]
+    assert len(behind) > 15
+    assert min(behind) > 12
+
+
+def _curve_behind_plates(scene: Scene, phase: float, size: tuple[int, int]) -> list[tuple[float, float]]:
+    """Return pixels of the traced joint's curve that lie well inside a plate, and behind no bar."""
+    shown, painter, pose = figure(scene), Painter(scene, size, BARE), scene.pose(phase)
+    at = {name: painter.view.place(place) for name, place in pose.position.items()}
+    plates = [[at[name] for name in body.joints] for body in shown.bodies if len(body.joints) > 2]
+    bars = [[at[name] for name in body.joints] for body in shown.bodies if len(body.joints) == 2]
+    points = [place for name in scene.trace for place in shown.path(name, painter.view)[::3]]
+    return [
+        (point.real, point.imag)
+        for point in points
+        if any(_margin(point, plate) > 8 for plate in plates)
+        and all(_distance(point, *bar) > 12 for bar in bars)
+    ]
+
+
+def _margin(point: complex, corners: list[complex]) -> float:
+    """Return how far a point lies inside a convex polygon; negative outside."""
+    ring = hull(corners)
+    sides = zip(ring, ring[1:] + ring[:1], strict=True)
+    return min(((point - one) * (other - one).conjugate()).imag / abs(other - one) for one, other in sides)
+
+
+def _distance(point: complex, one: complex, other: complex) -> float:
+    """Return how far a point lies from a line between two others."""
+    along = ((point - one) / (other - one)).real
+    return abs(point - one - min(max(along, 0.0), 1.0) * (other - one))
