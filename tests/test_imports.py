@@ -22,7 +22,7 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("digits", "units"),
+            ("digits", "units", "whole"),
             ("mechanics",),
             ("scenes",),
             ("picture",),
@@ -40,6 +40,7 @@ THIRD_PARTIES = {
     "errors": set(),
     "digits": set(),
     "units": set(),
+    "whole": set(),
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},
     "picture": {"numpy", "pygame"},

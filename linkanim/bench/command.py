@@ -10,7 +10,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from linkanim.errors import BadInput, WorkFailed
+from linkanim.errors import BadInput
+from linkanim.whole import made_folder
 
 CHART = "speed-vs-error.png"
 
@@ -52,7 +53,7 @@ def _speed_and_error(options: Namespace, progress: Progress | None) -> int:
     from linkanim.bench.extra import require_extra
 
     require_extra()
-    into = _folder(options.into)
+    into = made_folder(options.into)
     from linkanim.bench import drawing, report, result
 
     found = result.run(progress)
@@ -80,16 +81,3 @@ def _recordings(options: Namespace) -> int:
 
 def _json(value: Any) -> str:
     return json.dumps(value, indent=2, allow_nan=False)
-
-
-def _folder(path: Path) -> Path:
-    """Return the folder, made where only it is missing."""
-    if path.exists() and not path.is_dir():
-        raise BadInput(f"--into {path}: is a file; name a folder")
-    if not path.parent.is_dir():
-        raise BadInput(f"--into {path}: there is no folder {path.parent}; make it first, or choose another")
-    try:
-        path.mkdir(exist_ok=True)
-    except OSError as error:
-        raise WorkFailed(f"--into {path}: cannot be made: {error.strerror or error}") from error
-    return path

@@ -11,7 +11,7 @@ from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Result, Row
 from linkanim.picture.offscreen import offscreen, png_bytes
 from linkanim.picture.scatter import Names, Point, scatter
-from linkanim.recorder.safe import checked_target, replacing
+from linkanim.whole import checked_target, replacing
 
 SIZE = (1280, 640)
 LEAST = 1e-17
@@ -31,7 +31,7 @@ class Panel(NamedTuple):
 def draw(result: Result, path: Path) -> Path:
     """Write both pictures, one below the other, as a PNG; return where it is.
 
-    BadInput where the path cannot be; RecordingFailed where the disk refuses.
+    BadInput where the path cannot be; WorkFailed where the disk refuses.
     """
     target = checked_target(path, (".png",))
     width, height = SIZE

@@ -11,7 +11,7 @@ from tqdm import tqdm
 from linkanim.bench.command import CHART
 from linkanim.bench.extra import require_extra
 from linkanim.cli.record import advance, bar
-from linkanim.errors import BadInput, WorkFailed
+from linkanim.errors import BadInput
 from linkanim.recorder.gallery import Gallery, make_gallery
 from linkanim.recorder.recording import Progress
 from linkanim.scenes import names
@@ -23,8 +23,6 @@ def run(options: Namespace) -> None:
     Without the packages that `bench` compares with, the chart is left as it is, and that is said on stderr.
     """
     into = options.into
-    if not into.parent.is_dir():
-        raise BadInput(f"--into {into}: there is no folder {into.parent}; make it first, or choose another")
     made = _recorded(into)
     for recording in made.recordings:
         print(recording.path)
@@ -45,10 +43,7 @@ def _recorded(into: Path) -> Gallery:
             drawn.set_description(name)
             return lambda done, total: advance(drawn, done, total)
 
-        try:
-            return make_gallery(into, names(), watch)
-        except OSError as error:
-            raise WorkFailed(f"--into {into}: {error.strerror or error}") from error
+        return make_gallery(into, names(), watch)
 
 
 def _charted(path: Path) -> Path:

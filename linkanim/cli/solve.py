@@ -21,9 +21,9 @@ from linkanim.cli.tree import BLOCK, Leaf, Tree, leaves, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.motion import Motion
-from linkanim.recorder.safe import checked_target, replacing
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
+from linkanim.whole import checked_target, replacing
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pygame
 
-from linkanim.errors import WorkFailed
+from linkanim import whole
+from linkanim.picture.offscreen import png_bytes
 
-FOLDER = "recordings"
+FOLDER = Path("recordings")
 
 
 def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
@@ -18,22 +19,11 @@ def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
     return next(stem for stem in stems if not any((folder / (stem + suffix)).exists() for suffix in suffixes))
 
 
-def folder() -> Path:
-    """Return recordings/ under the current folder, made if it is not there; WorkFailed if it cannot be."""
-    path = Path(FOLDER)
-    try:
-        path.mkdir(exist_ok=True)
-    except OSError as error:
-        raise WorkFailed(f"{path}: cannot be made: {error.strerror or error}") from None
-    return path
-
-
 def screenshot(surface: pygame.Surface, name: str) -> Path:
-    """Write the picture as a PNG under a free name, and return its path; WorkFailed if it cannot be."""
-    into = folder()
-    path = into / f"{free_stem(into, name, ('.png',))}.png"
-    try:
-        pygame.image.save(surface, path)
-    except (pygame.error, OSError) as error:
-        raise WorkFailed(f"{path}: cannot be written: {error}") from None
-    return path
+    """Write the picture as a PNG under a free name in `FOLDER`, made if it is not there; return its path.
+
+    `BadInput` where the folder's name is a file's, `WorkFailed` where the disk refuses.
+    """
+    whole.made_folder(FOLDER)
+    first, *others = (FOLDER / f"{name}-{number}.png" for number in range(1, 10_000))
+    return whole.add(png_bytes(surface), first, others)

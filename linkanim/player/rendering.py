@@ -11,8 +11,9 @@ from pathlib import Path
 
 from linkanim.errors import WorkFailed
 from linkanim.player import tape_file
-from linkanim.player.files import folder, free_stem
+from linkanim.player.files import FOLDER, free_stem
 from linkanim.player.tape import Tape
+from linkanim.whole import made_folder
 
 _TAIL = 400
 _COUNT = re.compile(r"(\d+)/(\d+)")
@@ -59,7 +60,7 @@ class Rendering:
 
 def render(tape: Tape, form: str) -> Rendering:
     """Write the tape into recordings/ and start rendering it beside; WorkFailed where that cannot be."""
-    into = folder()
+    into = made_folder(FOLDER)
     stem = free_stem(into, tape.start.scene.name, (tape_file.SUFFIX, f".{form}"))
     kept, target = into / f"{stem}{tape_file.SUFFIX}", into / f"{stem}.{form}"
     tape_file.write(tape, kept)

@@ -10,7 +10,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from linkanim.errors import BadInput, WorkFailed
+from linkanim import whole
+from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.player.actions import Action, is_known
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
@@ -32,12 +33,8 @@ _MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
 
 def write(tape: Tape, path: Path) -> None:
     """Write the tape as a file that was not there before; WorkFailed where that cannot be."""
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            json.dump(to_document(tape), file, ensure_ascii=False, allow_nan=False, indent=1)
-            file.write("\n")
-    except OSError as error:
-        raise WorkFailed(f"{path}: cannot be written: {error.strerror or error}") from None
+    text = json.dumps(to_document(tape), ensure_ascii=False, allow_nan=False, indent=1)
+    whole.add(f"{text}\n".encode(), path)
 
 
 def read(path: Path) -> Tape:

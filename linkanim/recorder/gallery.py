@@ -10,16 +10,15 @@ from pathlib import Path
 import imageio.v3 as iio
 import numpy as np
 
-from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.recorder.palette import Bytes
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.recording import Progress, Recording
-from linkanim.recorder.safe import replacing
 from linkanim.recorder.scene_frames import SceneFrames, record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
+from linkanim.whole import made_folder, replacing
 
 SIZE = (480, 270)
 RATES = (20.0, 100 / 6, 12.5, 10.0)
@@ -47,12 +46,10 @@ def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progre
     """Record scenes by name into a folder as NAME.gif, from a NAME.tape.json there if it is, and the sheet.
 
     A GIF has as many frames a second, 20 to 10, as keep it within `LARGEST` bytes. The folder is made
-    where there is none. `watch` gives the progress to report to, by scene. `BadInput` where the
-    folder's name is a file's; else as `record`.
+    where only it is missing. `watch` gives the progress to report to, by scene. `BadInput` where it
+    cannot be a folder; else as `record`.
     """
-    if into.exists() and not into.is_dir():
-        raise BadInput(f"{into} is a file; name a folder to put the recordings in")
-    into.mkdir(parents=True, exist_ok=True)
+    made_folder(into)
     chosen = tuple(names)
     recordings = tuple(_recorded(into, name, watch(name) if watch else None) for name in chosen)
     return Gallery(recordings, contact_sheet(into / SHEET, [load(name) for name in chosen]))

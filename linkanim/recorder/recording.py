@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import base64
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, cast
 
 import numpy as np
 
-from linkanim.errors import BadInput, RecordingFailed
-from linkanim.recorder import safe
+from linkanim import whole
+from linkanim.errors import BadInput, RecordingFailed, WorkFailed
 from linkanim.recorder.encode import Stream, count_frames, encoding
 from linkanim.recorder.palette import Colour, make_palette
 from linkanim.recorder.plan import Format, Plan, refuse_size
@@ -95,8 +96,8 @@ class Recording:
 
 
 def checked_path(path: str | os.PathLike[str]) -> tuple[Path, Format]:
-    """Return the path and the format its ending stands for; `BadInput` as `safe.checked_target`."""
-    target = safe.checked_target(path, SUFFIXES)
+    """Return the path and the format its ending stands for; `BadInput` as `whole.checked_target`."""
+    target = whole.checked_target(path, SUFFIXES)
     return target, cast(Format, target.suffix.lower()[1:])
 
 
@@ -113,14 +114,25 @@ def write(
     refuse_size(frames.size)
     if frames.alpha and form == "mp4":
         raise BadInput(f"{target.name}: MP4 has no transparency; record a GIF or PNG, or keep the background")
-    finished = safe.numbering if form == "png" else safe.replacing
-    with finished(target) as part:
+    finished = whole.numbering if form == "png" else whole.replacing
+    with _saying_why(target), finished(target) as part:
         _encode(frames, plan, part, form, progress)
         held = count_frames(part, form)
         if held != plan.frames:
             raise RecordingFailed(f"{held} of {plan.frames} frames came out")
-    made = safe.numbered(target) if form == "png" else [target]
+    made = whole.numbered(target) if form == "png" else [target]
     return Recording(made[0], plan, frames.size, sum(file.stat().st_size for file in made))
+
+
+@contextmanager
+def _saying_why(target: Path) -> Iterator[None]:
+    """Have every failure meanwhile be a `RecordingFailed` that names the target."""
+    try:
+        yield
+    except RecordingFailed as error:
+        raise RecordingFailed(f"{target} was not recorded: {error}") from error
+    except WorkFailed as error:
+        raise RecordingFailed(str(error)) from error
 
 
 def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Progress | None) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from itertools import count
 from pathlib import Path
 
 import tomli_w
 
-from linkanim.errors import SceneError, WorkFailed
+from linkanim import whole
+from linkanim.errors import SceneError
 from linkanim.scenes.scene import Scene
 
 _LIST = re.compile(r" = \[\n((?:    .*,\n)+)\]$", re.MULTILINE)
@@ -30,30 +32,11 @@ def save(scene: Scene, folder: Path) -> Path:
     The name is the scene's, or that with -2, -3, ...: an older file stays as it is. WorkFailed, with
     nothing left behind, where the folder cannot be written.
     """
-    content = text(scene).encode("utf-8")
-    number = 1
-    while True:
-        path = folder / f"{scene.name}{f'-{number}' if number > 1 else ''}.toml"
-        try:
-            path.touch(exist_ok=False)
-            return _filled(path, content)
-        except FileExistsError:
-            number += 1
-        except OSError as error:
-            raise WorkFailed(f"{path}: cannot be written: {(error.strerror or str(error)).lower()}") from None
+    numbered = (folder / f"{scene.name}-{number}.toml" for number in count(2))
+    return whole.add(text(scene).encode("utf-8"), folder / f"{scene.name}.toml", numbered)
 
 
 def _on_one_line(found: re.Match[str]) -> str:
     """Return a list as people write it, [283, 165], rather than an item a line."""
     items = (line.strip().removesuffix(",") for line in found[1].splitlines())
     return f" = [{', '.join(items)}]"
-
-
-def _filled(path: Path, content: bytes) -> Path:
-    """Write into the empty file made for it, or take that away again."""
-    try:
-        path.write_bytes(content)
-    except OSError:
-        path.unlink()
-        raise
-    return path

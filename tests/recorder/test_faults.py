@@ -14,7 +14,7 @@ import pytest
 from moving_disc import TWO_SECONDS, MovingDisc, disc
 
 from linkanim.errors import BadInput, RecordingFailed
-from linkanim.recorder import encode, recording, safe
+from linkanim.recorder import encode, recording
 from linkanim.recorder.plan import Format
 from linkanim.recorder.recording import write
 
@@ -236,18 +236,6 @@ def test_a_full_disk_is_one_line(target: Path, form: Format) -> None:
     assert untouched(target.parent)
 
 
-def test_temporaries_of_living_runs_stay(tmp_path: Path) -> None:
-    living = tmp_path / f".linkanim-{os.getppid()}-0123abcd.part"
-    living.touch()
-    dead = subprocess.Popen([sys.executable, "-c", ""])
-    dead.wait()
-    (tmp_path / f".linkanim-{dead.pid}-0123abcd.part").mkdir()
-    (tmp_path / f".linkanim-{dead.pid}-4567abcd.part").touch()
-    (tmp_path / f".linkanim-{dead.pid}.part.gif").touch()  # not a name of ours
-    safe.clear_stale(tmp_path)
-    assert {path.name for path in tmp_path.iterdir()} == {living.name, f".linkanim-{dead.pid}.part.gif"}
-
-
 def test_a_folder_that_takes_no_files_is_one_line(tmp_path: Path, form: Format) -> None:
     folder = Path("/proc/self") if os.geteuid() == 0 else tmp_path
     tmp_path.chmod(0o500)
@@ -280,15 +268,6 @@ def test_paths_that_cannot_be_are_refused_before_any_work(tmp_path: Path, asked:
     with pytest.raises(BadInput, match=named):
         write(frames, frames.plan, tmp_path / asked)
     assert {path.name for path in tmp_path.iterdir()} == {"there.gif", "file.txt"}
-
-
-def test_a_link_stays_a_link(tmp_path: Path) -> None:
-    (tmp_path / "real.gif").write_bytes(BEFORE)
-    (tmp_path / "link.gif").symlink_to("real.gif")
-    frames = disc("gif")
-    write(frames, frames.plan, tmp_path / "link.gif")
-    assert (tmp_path / "link.gif").is_symlink()
-    assert (tmp_path / "real.gif").read_bytes().startswith(b"GIF89a")
 
 
 def test_older_higher_numbered_frames_go_and_others_stay(tmp_path: Path) -> None:

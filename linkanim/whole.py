@@ -1,7 +1,8 @@
 """Files that appear under their name when they are whole, or not at all.
 
 Work goes to a temporary name beside the target, `.linkanim-PID-TOKEN.part`, and takes the target's
-name at the end. What a killed run left behind is cleared by the next one in that folder.
+name at the end, when its bytes are on the disk. What a killed run left behind is cleared by the next
+one in that folder. Everything that is written goes through here: `WorkFailed` where disk or folder refuse.
 """
 
 from __future__ import annotations
@@ -10,11 +11,13 @@ import os
 import re
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from errno import EEXIST
+from itertools import chain
 from pathlib import Path
 
-from linkanim.errors import BadInput, RecordingFailed
+from linkanim.errors import BadInput, WorkFailed
 
 _PART = re.compile(r"\.linkanim-(\d+)-[0-9a-f]+\.part")
 
@@ -36,23 +39,77 @@ def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> P
     return asked
 
 
+def made_folder(path: Path) -> Path:
+    """Return the folder, made where only it is missing; `BadInput` where a file or no parent is there."""
+    if path.exists() and not path.is_dir():
+        raise BadInput(f"{path} is a file; name a folder")
+    if not path.parent.is_dir():
+        raise BadInput(f"{path}: there is no folder {path.parent}; make it first, or choose another")
+    try:
+        path.mkdir(exist_ok=True)
+    except OSError as error:
+        raise WorkFailed(f"{path}: cannot be made: {(error.strerror or str(error)).lower()}") from error
+    return path
+
+
 @contextmanager
 def replacing(target: Path) -> Iterator[Path]:
     """Give the path of a new file, which takes the target's name when the block ends well.
 
     Where the target is a link, what it points to is replaced. Whatever ends the block otherwise,
     the new file goes and an old one stays as it was.
-    `RecordingFailed` where the disk or the folder refuses.
     """
     whole = target.resolve()
-    clear_stale(whole.parent)
-    part = _part(whole.parent)
+    with _beginning(whole.parent, target) as part:
+        yield part
+        _settle(part)
+        part.replace(whole)
+
+
+def add(content: bytes, target: Path, others: Iterable[Path] = ()) -> Path:
+    """Write a new file under the name, or the first of the others that is free; never over an old one.
+
+    Returns the name it took; all lie in one folder. `WorkFailed` where none is free, too.
+    """
+    with _beginning(target.parent, target) as part:
+        part.write_bytes(content)
+        _settle(part)
+        for name in chain([target], others):
+            if _taken(part, name):
+                return name
+        raise FileExistsError(EEXIST, os.strerror(EEXIST))
+
+
+def _taken(part: Path, target: Path) -> bool:
+    """Give a part a name that is free, in one step; return whether it was."""
     try:
-        with saying_why(target):
+        target.hardlink_to(part)
+    except FileExistsError:
+        return False
+    except (OSError, NotImplementedError):  # a file system that knows no links
+        return _moved(part, target)
+    return True
+
+
+def _moved(part: Path, target: Path) -> bool:
+    """Give a part a name that is free by reserving it first; return whether it was."""
+    try:
+        target.touch(exist_ok=False)
+    except FileExistsError:
+        return False
+    part.replace(target)
+    return True
+
+
+@contextmanager
+def _beginning(folder: Path, target: Path) -> Iterator[Path]:
+    """Give an empty file of a temporary name, which is gone at the end unless it took another."""
+    clear_stale(folder)
+    part = _part(folder)
+    try:
+        with _saying_why(target):
             part.touch(exist_ok=False)
             yield part
-            _settle(part)
-            part.replace(whole)
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
@@ -63,13 +120,12 @@ def numbering(target: Path) -> Iterator[Path]:
     """Give a new folder for 0001.png, 0002.png, ...; they become NAME-0001.png, ... of NAME.png together.
 
     Numbered files of the same name that are there already are replaced, and the higher-numbered
-    ones go; where the block or the replacing fails they are all as they were. `RecordingFailed` where
-    the disk or the folder refuses.
+    ones go; where the block or the replacing fails they are all as they were.
     """
     clear_stale(target.parent)
     part = _part(target.parent)
     try:
-        with saying_why(target):
+        with _saying_why(target):
             part.mkdir()
             yield part
             _swap(part, target)
@@ -95,14 +151,13 @@ def clear_stale(folder: Path) -> None:
 
 
 @contextmanager
-def saying_why(target: Path) -> Iterator[None]:
-    """Have every failure meanwhile be a `RecordingFailed` that names the target and the reason."""
+def _saying_why(target: Path) -> Iterator[None]:
+    """Have the system's refusals meanwhile be a `WorkFailed` that names the target and the reason."""
     try:
         yield
-    except RecordingFailed as error:
-        raise RecordingFailed(f"{target} was not recorded: {error}") from error
     except OSError as error:
-        raise RecordingFailed(f"{target} was not recorded: {error.strerror or error}") from error
+        reason = (error.strerror or str(error)).lower()
+        raise WorkFailed(f"{target}: cannot be written: {reason}") from error
 
 
 def _part(folder: Path) -> Path:
