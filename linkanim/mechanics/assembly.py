@@ -18,7 +18,7 @@ from .exact import FULL_TURN, HALF_TURN, Sum, exact_angle, quarter_turns, unit
 from .linkage import RPR, RRP, RRR, Crank, Joint, Linkage, Pin
 from .planar import Slope, Vec
 from .roots import Kind, LoopRoot, four_bar_root, slider_root, slot_root
-from .signed import SignedRoot, sharpened, signed_root, swinging
+from .signed import SignedRoot, sharpened, sign_of_root, signed_root, swinging
 
 STRAIGHT = Sum(0.0)
 
@@ -108,11 +108,17 @@ class Loop:
 
     def closed(self, clock: Clock, path: Path, pace: Slope) -> tuple[SignedRoot, Half]:
         """Return the loop's root and ψ/2 at the clock's instant, ψ running at `pace`."""
-        reference = self.root.reference - self.gearing.offset
-        half = clock.half(reference, self.gearing.ratio)
+        half = self._half(clock)
         swing = swinging(clock, path.low, path.high) if isinstance(path, Swing) else None
         half = sharpened(self.root, half, swing)
         return signed_root(self.root, half, pace, swing), half
+
+    def sign(self, clock: Clock) -> int:
+        """Return the sign of the loop's root at an instant between its limits, in plain floats."""
+        return sign_of_root(self.root, self._half(clock))
+
+    def _half(self, clock: Clock) -> Half:
+        return clock.half(self.root.reference - self.gearing.offset, self.gearing.ratio)
 
 
 @dataclass(frozen=True, slots=True)
@@ -275,7 +281,12 @@ def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Arc] | None:
 
 def _arcs(linkage: Linkage, name: str, root: LoopRoot) -> list[Arc] | None:
     """Return the open ranges of one loop in the crank's own angle."""
-    if root.u.most <= 0 or root.w.most <= 0:
+    if min(root.u.most, root.w.most) == 0:
+        raise AssemblyError(
+            f"joint {name}: it can be put together at one angle of the input only, so that nothing "
+            "could move; make one length a little longer or shorter"
+        )
+    if min(root.u.most, root.w.most) < 0:
         raise AssemblyError(f"joint {name}: {why_apart(linkage, name)}")
     ends, reference = (name, name), root.reference
     u_limits, w_limits = root.u.kind is Kind.LIMIT, root.w.kind is Kind.LIMIT

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from linkanim.errors import AssemblyError
+import numpy as np
 
 from . import clock as clocks
 from .assembly import Arc, Loop, Path, Swing, Turn, find_loops, gearings, open_arcs
 from .chain import LimitFit, Touches
 from .exact import exact_angle
-from .expression import Value
+from .expression import Graph, Value
 from .linkage import RPR, RRP, RRR, Crank, Joint, Linkage, Pin, Polar, Rigid
-from .planar import Slope
+from .planar import MovingPoint, Slope
+from .program import batch
 from .roots import Kind
 from .traversal import Kinematics, Plan, walk
 
@@ -55,34 +56,29 @@ def assemble(linkage: Linkage) -> Assembly:
     scale = _scale(linkage)
     scaled = _scaled(linkage, scale)
     loops = find_loops(scaled)
-    for path in _paths(scaled, loops, open_arcs(linkage, loops)):
-        found = _as_named(Assembly(scaled, loops, path, {}, 1.0 / scale))
-        if found is not None:
-            return found
-    raise _not_there()
+    return _named(
+        Assembly(scaled, loops, path, {}, 1.0 / scale)
+        for path in _paths(scaled, loops, open_arcs(linkage, loops))
+    )
 
 
 def resigned(assembly: Assembly) -> Assembly:
     """Return the assembly with its closures named anew on its path."""
-    found = _as_named(assembly)
-    if found is None:
-        raise _not_there()
-    return found
+    return _named([assembly])
 
 
-def _not_there() -> AssemblyError:
-    return AssemblyError(
-        "the assembly asked for does not exist on this linkage's input range; ask for the other one"
-    )
+def _named(assemblies: Iterable[Assembly]) -> Assembly:
+    """Return the first assembly on which the dyads can lie as they are named, with the signs for it.
 
-
-def _as_named(assembly: Assembly) -> Assembly | None:
-    """Return the assembly with signs under which its dyads lie as they are named; None where none do."""
-    for signs in _sign_choices(assembly.linkage, assembly.loops, assembly.path):
-        signed = replace(assembly, signs=signs)
-        if _is_as_named(signed):
-            return signed
-    return None
+    Where the joint that a name goes by lies on one side whatever the signs, they are the first
+    assembly's first: then the name is that of the dyad's own side.
+    """
+    found = [
+        replace(assembly, signs=signs)
+        for assembly in assemblies
+        for signs in _sign_choices(assembly.linkage, assembly.loops, assembly.path)
+    ]
+    return next((assembly for assembly in found if _is_as_named(assembly)), found[0])
 
 
 def _scale(linkage: Linkage) -> float:
@@ -193,8 +189,7 @@ def _just_after_start(loop: Loop | None, path: Path) -> int:
         clock = clocks.turn(JUST_AFTER, pace, exact_angle(path.start))
     else:
         clock = clocks.swing_by_phase(JUST_AFTER, pace, path.middle, path.amplitude)
-    root, _ = loop.closed(clock, path, pace)
-    return 1 if float(root.q) >= 0 else -1  # type: ignore[arg-type]
+    return loop.sign(clock)
 
 
 def _is_as_named(assembly: Assembly) -> bool:
@@ -202,10 +197,16 @@ def _is_as_named(assembly: Assembly) -> bool:
     named = [joint for joint in assembly.linkage.joints if isinstance(joint, RRR) and joint.side_of]
     if not named:
         return True
-    points = assembly.walk(assembly.clock(JUST_AFTER, Slope(1.0))).points
-    for joint in named:
-        assert joint.side_of is not None
-        b, p, q = (points[name].position for name in joint.side_of)
-        if float((q - p).cross(b - p)) * joint.side <= 0:  # type: ignore[arg-type]
-            return False
-    return True
+    graph = Graph()
+    points = assembly.walk(assembly.clock(graph.input("x"), Slope(0.0))).points
+    # Compiled, so that only what the named joints need is worked out: what follows may not close yet.
+    program = batch({"x": True}, [_side(points, joint) for joint in named])
+    with np.errstate(all="ignore"):
+        return bool((program(np.array([JUST_AFTER])) > 0).all())
+
+
+def _side(points: Mapping[str, MovingPoint], joint: RRR) -> Value:
+    """Return a number that is positive where the joint lies as it is named."""
+    assert joint.side_of is not None
+    b, p, q = (points[name].position for name in joint.side_of)
+    return (q - p).cross(b - p) * float(joint.side)

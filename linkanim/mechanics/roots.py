@@ -113,10 +113,12 @@ def four_bar_root(ground: float, crank: float, bars: tuple[float, float], refere
     u_least = gap(coupler, rocker, -ground, -crank) * math.fsum((coupler, rocker, ground, crank))
     w_least = gap(ground, -crank, -coupler, rocker) * gap(ground, -crank, coupler, -rocker)
     size = float(spread)
+    touching_u = gap(coupler, rocker, -ground, crank) == 0
+    touching_w = 0 in (gap(ground, crank, -coupler, rocker), gap(ground, crank, coupler, -rocker))
     return LoopRoot(
         1.0,
-        factor(u_least / size, float(u_most / spread), Fraction(1), u_most / spread),
-        factor(w_least / size, float(w_most / spread), Fraction(1), w_most / spread),
+        factor(u_least / size, _unless(touching_u, u_most / spread), Fraction(1), u_most / spread),
+        factor(w_least / size, _unless(touching_w, w_most / spread), Fraction(1), w_most / spread),
         reference,
     )
 
@@ -129,8 +131,8 @@ def slider_root(crank: float, rod: float, eccentricity: float, reference: Sum) -
     r, b, e = (Fraction(length) for length in (crank, rod, eccentricity))
     return LoopRoot(
         2.0 * crank,
-        factor(gap(rod, -eccentricity, -crank), float(b - e + r), 2 * r, b - e + r),
-        factor(gap(rod, eccentricity, -crank), float(b + e + r), 2 * r, b + e + r),
+        factor(gap(rod, -eccentricity, -crank), gap(rod, -eccentricity, crank), 2 * r, b - e + r),
+        factor(gap(rod, eccentricity, -crank), gap(rod, eccentricity, crank), 2 * r, b + e + r),
         reference,
     )
 
@@ -140,4 +142,11 @@ def slot_root(ground: float, crank: float, offset: float, reference: Sum) -> Loo
     g, r, o = (Fraction(length) for length in (ground, crank, offset))
     least = gap(ground, -crank, -offset) * gap(ground, -crank, offset)
     most = (g + r) ** 2 - o**2
-    return LoopRoot(4.0 * ground * crank, ALWAYS, factor(least, float(most), 4 * g * r, most), reference)
+    touching = 0 in (gap(ground, crank, -offset), gap(ground, crank, offset))
+    only = factor(least, _unless(touching, most), 4 * g * r, most)
+    return LoopRoot(4.0 * ground * crank, ALWAYS, only, reference)
+
+
+def _unless(touching: bool, most: Fraction) -> float:
+    """Return the greatest value of a factor; none where the bars just reach each other, once a turn."""
+    return 0.0 if touching else float(most)

@@ -57,6 +57,15 @@ def signed_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None)
     return _product_root(root, half, pace, swing)
 
 
+def sign_of_root(root: LoopRoot, half: Half) -> int:
+    """Return the sign of q just after a swing's lower limit or at an angle of a turn, in plain floats.
+
+    Only a change point changes it: every other factor of q is positive there.
+    """
+    sides = ((root.u, half.cosine), (root.w, half.sine))
+    return math.prod(-1 if factor.kind is Kind.CHANGE_POINT and side < 0 else 1 for factor, side in sides)  # type: ignore[operator]
+
+
 def _spread_rates(root: LoopRoot, half: Half, pace: Slope) -> Moving:
     """Return K sin²(ψ/2) with its two derivatives."""
     w, square = pace.value, half.square * root.spread
@@ -96,6 +105,7 @@ class _Ways:
     `short` completes x + y to π; `sign` is that of cos(ψ/2) (sin(ψ/2) for W) over the whole swing.
     """
 
+    ends: Ends
     x: Slope
     y: Slope
     upper: bool
@@ -121,6 +131,7 @@ def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | Non
     at_upper, at_lower = upper <= OWN_LIMIT, lower <= OWN_LIMIT
     u, v = swing.ends.u, swing.ends.v
     return _Ways(
+        swing.ends,
         u if at_upper else Slope(u.value + 0.5 * upper, u.rate),
         v if at_lower else Slope(v.value + 0.5 * lower, v.rate),
         at_upper,
@@ -141,15 +152,14 @@ def sharpened(root: LoopRoot, half: Half, swing: Swinging | None) -> Half:
 
 def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:
     """Return q as the product of its two signed roots, and ρ with what vanishes in both divided out."""
-    half_rate = pace.value * 0.5
+    half_rate, scale = pace.value * 0.5, math.sqrt(root.spread)
     first = half.product * (pace.value * root.spread)
     u, w, _ = factor_values(root, half)
     sine = Slope(half.sine, half.cosine * half_rate)
     cosine = Slope(half.cosine, -(half.sine * half_rate))
-    scale = math.sqrt(root.spread)
-    plain_u = _plain_part(u, 0.0 if root.single else -first, cosine)
-    part_u = _part(root.u, plain_u, scale, _ways(root, root.u, swing), swing)
-    part_w = _part(root.w, _plain_part(w, first, sine), scale, _ways(root, root.w, swing), swing)
+    plain_u = Slope(u, 0.0 if root.single else -first)
+    part_u = _part(root.u, plain_u, cosine, scale, _ways(root, root.u, swing))
+    part_w = _part(root.w, Slope(w, first), sine, scale, _ways(root, root.w, swing))
     upper, lower = part_u.upper or part_w.upper, part_u.lower or part_w.lower
     share = pace
     if swing is not None and (upper or lower):
@@ -170,23 +180,20 @@ class _Part:
     lower: bool = False
 
 
-def _plain_part(value: Value, rate: Value, touching: Slope) -> _Part:
-    whole = sqrt(value)
-    return _Part(whole, Slope(whole, rate * 0.5 / whole), touching)
-
-
-def _part(factor: Factor, plain: _Part, scale: float, ways: _Ways | None, swing: Swinging | None) -> _Part:
+def _part(factor: Factor, value: Slope, touching: Slope, scale: float, ways: _Ways | None) -> _Part:
+    """Return the root of a factor; its `value` may have no digits left where a limit's root is used."""
     if factor.kind is Kind.CHANGE_POINT:
-        return _Part(plain.left.value * scale, Slope(scale), Slope(1.0))
-    if ways is None or swing is None:
-        return plain
+        return _Part(touching.value * scale, Slope(scale), Slope(1.0))
+    if ways is None:
+        whole = sqrt(value.value)
+        return _Part(whole, Slope(whole, value.rate * 0.5 / whole), touching)
     regular = _root_of_sine(ways.x, ways.y.value + ways.short, divided=ways.upper)
     regular = regular * _root_of_sine(ways.y, ways.x.value + ways.short, divided=ways.lower)
     regular = regular.scaled(scale)
     whole = regular.value
-    whole = whole * swing.ends.root_u.value if ways.upper else whole
-    whole = whole * swing.ends.root_v.value if ways.lower else whole
-    return _Part(whole, regular, plain.left, ways.upper, ways.lower)
+    whole = whole * ways.ends.root_u.value if ways.upper else whole
+    whole = whole * ways.ends.root_v.value if ways.lower else whole
+    return _Part(whole, regular, touching, ways.upper, ways.lower)
 
 
 def _root_of_sine(x: Slope, supplement: Value, *, divided: bool) -> Slope:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from linkanim.mechanics.linkage import (
     RPR,
@@ -11,6 +12,7 @@ from linkanim.mechanics.linkage import (
     Body,
     Crank,
     Drive,
+    Joint,
     Line,
     Linkage,
     Pin,
@@ -45,6 +47,28 @@ def four_bar(
         Drive("A", 1.0, start),
         BARS,
     )
+
+
+def rocker_driven(
+    lengths: tuple[float, float, float, float], *, side: int = 1, start: float = 0.0
+) -> Linkage:
+    """Ground, crank, coupler, rocker, the rocker being the input; named by the side of B."""
+    g, r, a, b = lengths
+    return Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("O4", (g, 0.0), Polar(g, 0.0, "O2")),
+            Crank("B", "O4", b),
+            RRR("A", ("B", "O2"), (a, r), side, side_of=("B", "A", "O4")),
+        ),
+        Drive("B", 1.0, start),
+        BARS,
+    )
+
+
+def with_joints(linkage: Linkage, *joints: Joint) -> Linkage:
+    """The linkage with more joints at the end of its chain."""
+    return replace(linkage, joints=(*linkage.joints, *joints))
 
 
 def slider_crank(

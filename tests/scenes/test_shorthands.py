@@ -61,6 +61,17 @@ def test_a_four_bar_driven_at_its_rocker_is_named_by_the_side_of_b(assembly: str
     assert scene.linkage.drive.joint == "B"
 
 
+# Change-point linkages at the rocker, where B may lie on one side of A -> O4 for both closures.
+@pytest.mark.parametrize("assembly", ["", "assembly = 'open'", "assembly = 'crossed'"])
+@pytest.mark.parametrize("lengths", [(4, 2, 4, 2), (4, 2, 5, 3), (5, 2, 4, 3), (3, 3, 5, 5), (2, 2, 2, 2)])
+def test_a_change_point_linkage_loads_driven_at_its_rocker(
+    lengths: tuple[int, int, int, int], assembly: str
+) -> None:
+    keys = ("ground", "crank", "coupler", "rocker")
+    table = "".join(f"{key} = {length}\n" for key, length in zip(keys, lengths, strict=True))
+    assert read(f"[four-bar]\n{table}driver = 'rocker'\n{assembly}\n").period > 0
+
+
 @pytest.mark.parametrize(
     ("angle", "place"),
     [

@@ -1,0 +1,146 @@
+"""Putting linkages together: every four-bar that can be, under either name, driven at either end."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from build import four_bar, rocker_driven, slider_crank, slotted, with_joints
+
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.linkage import RRR, Linkage, Pin
+from linkanim.mechanics.mechanism import Mechanism, mechanism
+
+Lengths = tuple[float, float, float, float]
+Point = tuple[float, float]
+
+
+RIGID = [
+    # Stretched out, the two bars just reach: 24.3 + 22.6 is 87 - 40.1, but not in floats.
+    ("decimals", four_bar((87.0, 40.1, 24.3, 22.6))),
+    ("integers", four_bar((9.0, 4.0, 3.0, 2.0))),
+    ("one bar as long as the three others", four_bar((2.3, 4.1, 9.6, 3.2))),
+    ("driven at the rocker", rocker_driven((9.0, 4.0, 3.0, 2.0))),
+    ("a rod that just reaches its line", slider_crank(4.1, 2.2, 6.3)),
+    ("a rod that just reaches its line, on the other side", slider_crank(4.1, 2.2, -6.3)),
+    ("a slot as far off as the pin ever is", slotted(2.2, 4.1, 5.0, 6.3)),
+]
+
+
+@pytest.mark.parametrize(("name", "linkage"), RIGID, ids=[row[0] for row in RIGID])
+def test_what_can_be_put_together_in_one_place_only_is_refused(name: str, linkage: Linkage) -> None:
+    with pytest.raises(AssemblyError, match=r"one angle of the input only, so that nothing could move"):
+        mechanism(linkage)
+
+
+def test_a_factor_that_vanishes_at_the_start_does_not_keep_a_four_bar_from_loading() -> None:
+    # Next to the lower limit U has no digits left in floats; only its root has.
+    solved = mechanism(four_bar((87.0, 40.1, 24.3 + 1e-12, 22.6)))
+    here = solved.pose(1.0, 1.0, 0.0, 2)
+    assert math.dist(here.position["A"], here.position["B"]) == pytest.approx(24.3, rel=1e-11)
+
+
+LATER_DYADS = [
+    # Bars on A that the swing of the rocker alone would pull apart.
+    ("a dyad on A", (100.0, 70.0, 90.0, 80.0), RRR("C", ("A", "O6"), (60.0, 220.0)), Pin("O6", (300.0, 0.0))),
+    ("a dyad on B", (100.0, 70.0, 90.0, 80.0), RRR("C", ("A", "O6"), (70.0, 60.0)), Pin("O6", (0.0, 120.0))),
+]
+
+
+@pytest.mark.parametrize(("name", "lengths", "dyad", "pin"), LATER_DYADS, ids=[row[0] for row in LATER_DYADS])
+def test_a_dyad_that_limits_a_rocker_driven_four_bar_is_found_after_it_is_named(
+    name: str, lengths: Lengths, dyad: RRR, pin: Pin
+) -> None:
+    solved = mechanism(with_joints(rocker_driven(lengths), pin, dyad))
+    assert "C" in solved.assembly.path.ends  # type: ignore[union-attr]
+    for phase in (0.1, 1.0, 3.0, 5.0):
+        pose = solved.pose(phase, 1.0, 0.0, 0)
+        bars = [math.dist(pose.position["C"], pose.position[end]) for end in dyad.ends]
+        assert bars == pytest.approx(dyad.lengths, rel=1e-12)
+
+
+def left_of(point: Point, start: Point, end: Point) -> float:
+    """Positive where the point lies left of the way from start to end."""
+    (x, y), (x0, y0), (x1, y1) = point, start, end
+    return (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)
+
+
+def is_closed(solved: Mechanism, lengths: Lengths) -> bool:
+    """Tell whether all four bars keep their lengths over the true period."""
+    g, r, a, b = lengths
+    bars = {("O2", "O4"): g, ("O2", "A"): r, ("A", "B"): a, ("O4", "B"): b}
+    phases = 0.05 + 0.1 * np.arange(63 * solved.periods)
+    position = solved.solve(phase=phases, speed=1.0, derivatives=0).position
+    return all(
+        np.abs(np.hypot(*(position[p] - position[q]).T) - length).max() <= 1e-12 * max(lengths)
+        for (p, q), length in bars.items()
+    )
+
+
+def may_be_assembled(lengths: Lengths) -> bool:
+    return 2 * max(lengths) < sum(lengths)
+
+
+SIZES = (2.0, 3.0, 4.0, 5.0)
+SMALL = [lengths for lengths in itertools.product(SIZES, SIZES, SIZES, SIZES) if may_be_assembled(lengths)]
+
+
+@pytest.mark.parametrize("side", [1, -1], ids=["open", "crossed"])
+@pytest.mark.parametrize("build", [four_bar, rocker_driven], ids=["crank", "rocker"])
+def test_every_four_bar_that_can_be_assembled_loads_with_either_name(
+    build: Callable[..., Linkage], side: int
+) -> None:
+    # Grashof, triple rockers, parallelograms, kites and rhombi among them.
+    assert len(SMALL) > 200
+    for lengths in SMALL:
+        assert is_closed(mechanism(build(lengths, side=side)), lengths), lengths
+
+
+@pytest.mark.parametrize("lengths", [(4.0, 2.0, 4.0, 2.0), (4.0, 2.0, 5.0, 3.0), (100.0, 70.0, 90.0, 80.0)])
+def test_the_two_names_of_a_rocker_driven_four_bar_are_two_motions(lengths: Lengths) -> None:
+    first, second = (
+        mechanism(rocker_driven(lengths, side=side)).pose(1.0, 1.0, 0.0, 0).position["A"] for side in (1, -1)
+    )
+    assert math.dist(first, second) > 0.1
+
+
+def test_the_antiparallelogram_driven_at_its_rocker_is_the_crossed_one() -> None:
+    for side, crossed in ((1, False), (-1, True)):
+        pose = mechanism(rocker_driven((4.0, 2.0, 4.0, 2.0), side=side)).pose(1.0, 1.0, 0.0, 0).position
+        parallel = math.dist(pose["A"], (pose["B"][0] - 4.0, pose["B"][1])) < 1e-12
+        assert parallel is not crossed
+
+
+def test_where_b_lies_on_one_side_for_both_the_name_is_that_of_the_pin_a() -> None:
+    named_by_a = 0
+    for lengths in SMALL[::3]:
+        both = [mechanism(rocker_driven(lengths, side=sign)).pose(1e-5, 1.0, 0.0, 0) for sign in (1, -1)]
+        b_sides = [left_of(*(pose.position[name] for name in ("B", "A", "O4"))) for pose in both]
+        a_sides = [left_of(*(pose.position[name] for name in ("A", "B", "O2"))) for pose in both]
+        # A folded rhombus has A on O4 itself: B lies on no side there.
+        by_a = b_sides[0] * b_sides[1] > -1e-15
+        named_by_a += by_a
+        assert a_sides[0] < 0 < a_sides[1] if by_a else b_sides[1] < 0 < b_sides[0], lengths
+    assert named_by_a > 20
+
+
+REFUSED = [
+    ("a ground that is too long", rocker_driven((300.0, 30.0, 90.0, 80.0))),
+    (
+        "a dyad out of the reach of A",
+        with_joints(
+            rocker_driven((100.0, 70.0, 90.0, 80.0)),
+            Pin("O6", (300.0, 0.0)),
+            RRR("C", ("A", "O6"), (60.0, 120.0)),
+        ),
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "linkage"), REFUSED, ids=[row[0] for row in REFUSED])
+def test_bars_that_never_meet_are_still_refused(name: str, linkage: Linkage) -> None:
+    with pytest.raises(AssemblyError, match="cannot meet at any angle"):
+        mechanism(linkage)
