@@ -1,12 +1,20 @@
-"""Which font has a character: the bundled one, or the system's; what none has is spelt or left out."""
+"""Which font has a character: the bundled face, or the system's; what none has is spelt or left out.
+
+The face is Source Sans Pro (Paul D. Hunt, SIL Open Font License 1.1), from a wheel of its own: Latin,
+Greek and Cyrillic, subscripts, digits of one width, and the same glyphs on every machine.
+"""
 
 from __future__ import annotations
 
 import unicodedata
 import warnings
 from collections.abc import Iterator
+from importlib.resources import files
 
 import pygame
+
+REGULAR = "SourceSansPro-Regular.ttf"
+SEMIBOLD = "SourceSansPro-Semibold.ttf"
 
 _NOWHERE = "\U0010fffe"
 """Not a character: a font draws its sign for what it lacks."""
@@ -18,67 +26,89 @@ _WIDE = (
     *("dejavusans", "freesans"),
 )
 """Families with many characters, as pygame names them; looked through in this order."""
-_EM = 0.95
-"""A system font's size in heights of the bundled font's line."""
-
 
 class Fonts:
-    """The bundled font and those of the system's that were needed, by size."""
+    """The bundled face in its two weights, and those of the system's fonts that were needed, by size."""
 
     def __init__(self) -> None:
         pygame.font.init()
-        self._opened: dict[tuple[str | None, int], pygame.Font] = {}
-        self._spelt: dict[str, tuple[str | None, str]] = {}
+        self._opened: dict[tuple[str, int], pygame.Font] = {}
+        self._spelt: dict[str, tuple[str, str]] = {}
 
-    def render(self, char: str, points: int, colour: tuple[int, int, int]) -> pygame.Surface:
-        """Return a character on nothing, as high as the bundled font's line; of no width if left out."""
+    def ascent(self, em: int) -> int:
+        """Return how far the bundled face's line reaches above its baseline, in pixels."""
+        return self._font(REGULAR, em).get_ascent()
+
+    def render(self, char: str, em: int, colour: tuple[int, int, int], *, face: str) -> pygame.Surface:
+        """Return a character on nothing, as high as the bundled face's line; of no width if left out.
+
+        `em` is the face's size in pixels, `face` REGULAR or SEMIBOLD.
+        """
         home, text = self._spelling(char)
-        bundled = self._font(None, points)
-        if home is None and text:
+        bundled = self._font(face, em)
+        if home == REGULAR and text:
             return bundled.render(text, True, colour)
-        high = bundled.render("0", True, colour).get_height()
-        if home is None:
-            return pygame.Surface((0, high))
-        font = self._font(home, round(_EM * high))
+        if home == REGULAR:
+            return pygame.Surface((0, bundled.get_height()))
+        font = self._font(home, em)
         drawn = font.render(text, True, colour)
-        line = pygame.Surface((drawn.get_width(), high), pygame.SRCALPHA, 32)
+        line = pygame.Surface((drawn.get_width(), bundled.get_height()), pygame.SRCALPHA, 32)
         line.blit(drawn, (0, bundled.get_ascent() - font.get_ascent()))
         return line
 
-    def _font(self, path: str | None, points: int) -> pygame.Font:
-        if (path, points) not in self._opened:
-            self._opened[path, points] = pygame.Font(path, points)
-        return self._opened[path, points]
+    def advance(self, char: str, em: int, *, face: str) -> int:
+        """Return how far the pen moves on over a character, in pixels."""
+        home, text = self._spelling(char)
+        return self._font(face if home == REGULAR else home, em).size(text)[0]
 
-    def _spelling(self, char: str) -> tuple[str | None, str]:
-        """Return the font file (None: the bundled font) and the text that a character is drawn with."""
+    def kerning(self, one: str, other: str, em: int, *, face: str) -> int:
+        """Return how many pixels more there are between two neighbours of the bundled face; or less."""
+        parts = [self._spelling(char) for char in (one, other)]
+        if any(home != REGULAR for home, _ in parts):
+            return 0
+        font, (left, right) = self._font(face, em), (text for _, text in parts)
+        return font.size(left + right)[0] - font.size(left)[0] - font.size(right)[0]
+
+    def _font(self, path: str, em: int) -> pygame.Font:
+        if (path, em) not in self._opened:
+            self._opened[path, em] = pygame.Font(_file(path), em)
+        return self._opened[path, em]
+
+    def _spelling(self, char: str) -> tuple[str, str]:
+        """Return the font file (REGULAR: the bundled face) and the text that a character is drawn with."""
         if char not in self._spelt:
             self._spelt[char] = self._found(char)
         return self._spelt[char]
 
-    def _found(self, char: str) -> tuple[str | None, str]:
+    def _found(self, char: str) -> tuple[str, str]:
         if char.isspace():
-            return None, " "
+            return REGULAR, " "
         if not char.isprintable() or unicodedata.combining(char):
-            return None, ""
-        if _has(self._font(None, 24), char):
-            return None, char
+            return REGULAR, ""
+        if _has(self._font(REGULAR, 24), char):
+            return REGULAR, char
         homes = (path for path in self._system() if _has(self._font(path, 24), char))
         home = next(homes, None)
-        return (home, char) if home else (None, self._likeness(char))
+        return (home, char) if home else (REGULAR, self._likeness(char))
 
     def _likeness(self, char: str) -> str:
         """Return what of a character's parts the bundled font has: Ǆ as DŽ, ﬁ as fi."""
         parts = unicodedata.normalize("NFKC", char)
-        return "".join(part for part in parts if part.isprintable() and _has(self._font(None, 24), part))
+        return "".join(part for part in parts if part.isprintable() and _has(self._font(REGULAR, 24), part))
 
     def _system(self) -> Iterator[str]:
         """Yield the files of the system's fonts, those that were needed before first."""
-        used = tuple(dict.fromkeys(home for home, _ in self._spelt.values() if home))
+        used = tuple(dict.fromkeys(home for home, _ in self._spelt.values() if home != REGULAR))
         yield from used
         for path in _files():
             if path not in used:
                 yield path
+
+
+def _file(path: str) -> str:
+    """Return where a font's file lies; the bundled face's by its name alone."""
+    bundled = path in (REGULAR, SEMIBOLD)
+    return str(files("font_source_sans_pro") / "files" / path) if bundled else path
 
 
 def _files() -> Iterator[str]:

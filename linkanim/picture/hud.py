@@ -30,12 +30,13 @@ _SMALLEST = 9
 
 
 class Line(NamedTuple):
-    """A line that stands still: its text, top, size and colour."""
+    """A line that stands still: its text, top, size, colour and weight."""
 
     text: str
     y: float
     size: int
     colour: Colour
+    strong: bool
 
 
 class Row(NamedTuple):
@@ -108,7 +109,7 @@ class Hud:
     scene: Scene
     layout: Layout
     said: frozenset[str]
-    """All that its rows and notes ever say."""
+    """All that its rows ever say."""
     column: Rect
     lines: tuple[Line, ...]
     """The title's and the class's."""
@@ -124,7 +125,7 @@ class Hud:
         sheet = pygame.Surface((round(self.column.right), round(self.column.bottom)), pygame.SRCALPHA, 32)
         for line in self.lines:
             at = (self.column.x, line.y)
-            self.type.draw(sheet, line.text, at, size=line.size, colour=line.colour)
+            self.type.draw(sheet, line.text, at, size=line.size, colour=line.colour, strong=line.strong)
         for n, row in enumerate(rows(self.scene, self.scene.pose(0.0))):
             self.type.draw(sheet, row.label, self._place(n), size=self.size, colour=self.theme.dim)
         return sheet.subsurface(sheet.get_bounding_rect())
@@ -134,9 +135,10 @@ class Hud:
         values = rows(self.scene, pose, overlay.speed)
         for n, row in enumerate(values):
             at = (self.column.right, self._place(n)[1])
-            self.type.draw(surface, row.value, at, size=self.size, colour=self.theme.ink, anchor="right")
-        special = note(self.scene, pose)
-        lines = [(special, self.theme.warning)] if special else []
+            ink = self.theme.ink
+            self.type.draw(surface, row.value, at, size=self.size, colour=ink, anchor="right", strong=True)
+        special = self._wrapped(note(self.scene, pose) or "")
+        lines = [(line, self.theme.warning) for line in special]
         lines += [(line, self.theme.ink) for line in overlay.notes]
         for n, (line, colour) in enumerate(lines, start=len(values)):
             self.type.draw(surface, line, self._place(n + 0.4), size=self.size, colour=colour)
@@ -145,10 +147,14 @@ class Hud:
     def holds(self) -> bool:
         """Whether all that it says is no wider than the column, and the last row and the note stand in it."""
         pose = self.scene.pose(0.0)
-        note_at = 0.4 if any(_special(self.scene, pose)) else -1.0
-        low = self._place(len(rows(self.scene, pose)) + note_at)[1] + self.size
-        wide = max(self.type.width(line, self.size) for line in self.said)
+        notes = max((len(self._wrapped(words)) for _, words in _special(self.scene, pose)), default=0)
+        last = len(rows(self.scene, pose)) + (notes - 0.6 if notes else -1.0)
+        low = self._place(last)[1] + self.size
+        wide = max(self.type.width(line, self.size, strong=True) for line in self.said)
         return low <= self.column.bottom and wide <= self.column.width
+
+    def _wrapped(self, words: str) -> list[str]:
+        return self.type.wrapped(words, self.size, self.column.width)
 
     def _place(self, row: float) -> tuple[float, float]:
         return self.column.x, self.first + _STEP * self.size * row
@@ -181,17 +187,19 @@ def hud_for(
 def _titled(hud: Hud, size: int, title: float) -> Hud:
     """Return the HUD with its rows at one text size, below title and class."""
     lines, y = [], hud.column.y
-    scene, big = hud.scene, round(title)
+    scene, big, theme = hud.scene, round(title), hud.theme
     name = scene.title if hud.type.width(scene.title, big) else scene.name
-    for text, high, colour in ((name, big, hud.theme.ink), (scene.info.class_name, size, hud.theme.dim)):
-        for line in hud.type.wrapped(text, high, hud.column.width):
-            lines.append(Line(line, y, high, colour))
+    for text, high, colour, strong in (
+        (name, big, theme.ink, True),
+        (scene.info.class_name, size, theme.dim, False),
+    ):
+        for line in hud.type.wrapped(text, high, hud.column.width, strong=strong):
+            lines.append(Line(line, y, high, colour, strong))
             y += 1.15 * high
     return replace(hud, lines=tuple(lines), first=y + 0.9 * size, size=size)
 
 
 def _ever_said(scene: Scene) -> frozenset[str]:
-    """Return the rows' texts over the whole cycle, and the notes'."""
+    """Return the rows' texts over the whole cycle."""
     poses = [scene.pose(scene.period * step / _TRIED) for step in range(_TRIED)]
-    told = {f"{row.label}  {row.value}" for pose in poses for row in rows(scene, pose)}
-    return frozenset(told | {words for _, words in _special(scene, poses[0])})
+    return frozenset(f"{row.label}  {row.value}" for pose in poses for row in rows(scene, pose))

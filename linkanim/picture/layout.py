@@ -49,7 +49,7 @@ def layout(size: tuple[int, int], look: Look) -> Layout:
     high = (chart.y - 12 * unit if chart else whole.bottom) - whole.y
     if not look.hud:
         return Layout(size, unit, Rect(whole.x, whole.y, whole.width, high), None, None, chart)
-    wide = min(max(0.255 * size[0], 204.0), 0.32 * size[0])
+    wide = min(max(0.255 * size[0], 204.0), 0.36 * size[0])
     left = whole.x + wide + 16 * unit
     scene = Rect(left, whole.y, max(whole.right - left, 1), high)
     hud, legend = _column(Rect(whole.x, whole.y, wide, high), len(look.vectors) * 1.5 * _small(unit))

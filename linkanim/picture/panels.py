@@ -100,13 +100,14 @@ class Panels:
         sheet = self._sheet(keys + words + 4 * size, 1.38 * size * (len(rows) + 1.1))
         for n, (key, does) in enumerate(rows):
             y = (0.9 + 1.38 * n) * size
-            self.type.draw(sheet, key, (1.4 * size, y), size=size, colour=self.theme.ink)
+            self.type.draw(sheet, key, (1.4 * size, y), size=size, colour=self.theme.ink, strong=True)
             self.type.draw(sheet, does, (2.6 * size + keys, y), size=size, colour=self.theme.dim)
         return sheet
 
     def _columns(self, rows: tuple[tuple[str, str], ...], size: int) -> list[int]:
         """Return the width of each of the columns."""
-        return [max(self.type.width(text, size) for text in column) for column in zip(*rows, strict=True)]
+        columns = zip(*rows, strict=True)
+        return [max(self.type.width(text, size, strong=True) for text in column) for column in columns]
 
     @property
     def _margin(self) -> int:
@@ -145,7 +146,8 @@ class Panels:
 
     def _head(self, sheet: pygame.Surface, panel: Panel, size: int) -> None:
         """Draw the title, and which of the rows is the chosen one."""
-        self.type.draw(sheet, panel.title, (1.2 * size, 0.7 * size), size=size, colour=self.theme.ink)
+        at = (1.2 * size, 0.7 * size)
+        self.type.draw(sheet, panel.title, at, size=size, colour=self.theme.ink, strong=True)
         places = [n for n, row in enumerate(panel.rows, start=1) if row.chosen]
         at = (sheet.get_width() - 1.2 * size, 0.7 * size)
         words = "".join(f"{n} of {len(panel.rows)}" for n in places)

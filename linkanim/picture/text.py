@@ -1,46 +1,88 @@
-"""Text: one font in a few sizes, every glyph rendered once."""
+"""Text: one face in two weights and a few sizes, every glyph rendered once, subscripts set as such.
+
+A subscript is written with Unicode's own signs (`O₂`, `ω₃`, `aₓ`) or, where there are none for it, in
+braces (`I_{13}`, `v_{BA}`); either is typeset smaller and lower. `subscripted` writes a joint's name so.
+"""
 
 from __future__ import annotations
 
-from typing import Literal
+import re
+from collections.abc import Iterator
+from typing import Literal, NamedTuple
 from unicodedata import normalize
 
 import pygame
 
-from linkanim.picture.fonts import Fonts
-from linkanim.picture.raster import Colour, Layer, paint
-from linkanim.picture.shapes import arrows
+from linkanim.picture.fonts import REGULAR, SEMIBOLD, Fonts
+from linkanim.picture.raster import Colour
 
 Anchor = Literal["left", "centre", "right"]
 
-_ANY: Colour = (0, 0, 0)
-_POINTS = 1.37
-"""From a line's height in pixels to the size the font goes by."""
-_MISSHAPEN = (15, 18)
-"""At these sizes the font's hinting cuts the dot of the i or the bar of the t."""
-_ARROWS = {"→": 1, "↓": 1j, "←": -1, "↑": -1j}
-"""Signs the font lacks, and the way they point in the window."""
+_FINE = 4
+"""Glyphs are drawn so many times larger and averaged, and placed to such a part of a pixel."""
+_X_HEIGHT = 0.486
+"""Of the face, in ems."""
+_REACH = 0.51
+"""The height of an x in heights of a line."""
+_BASE = 0.78
+"""Where the baseline lies, in heights of a line below its top."""
+_SUB, _LOWER, _LEAST = 0.72, 0.2, 8
+"""A subscript's size and how far it is lowered, in sizes of its text; its least size in pixels."""
+_LOOSE = 7
+"""Where an x is no higher than this, in pixels, neighbours stand a part of a pixel further apart."""
+_SUBSCRIPT = re.compile(r"_\{([^{}]*)\}|([\u2080-\u209c\u1d62-\u1d6a\u2c7c]+)")
+_LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
+_INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
+
+
+class Run(NamedTuple):
+    """Part of a line that is set in one way."""
+
+    text: str
+    lowered: bool
+
+
+def runs(text: str) -> tuple[Run, ...]:
+    """Return a line in its runs: what stands on the line, and its subscripts in plain letters."""
+    return tuple(run for run in _runs(normalize("NFC", text)) if run.text)
+
+
+def subscripted(name: str) -> str:
+    """Return a name with the number it ends in as a subscript: O2 as O₂; another name as it is."""
+    return _INDEX.sub(lambda found: found[1].translate(_LOWERED), name)
+
+
+class _Place(NamedTuple):
+    """A glyph of a line: which, at what size, how far right (in parts of a pixel) and how far down."""
+
+    char: str
+    size: int
+    x: int
+    y: int
 
 
 class Type:
-    """The font's sizes and the glyphs that one painter has used; bounded by the font's alphabet."""
+    """The face's sizes and the glyphs that one painter has used; bounded by the face's alphabet."""
 
     def __init__(self) -> None:
         self._fonts = Fonts()
-        self._glyphs: dict[tuple[str, int, Colour], pygame.Surface] = {}
+        self._glyphs: dict[tuple[str, int, Colour, str, int], pygame.Surface] = {}
+        self._steps: dict[tuple[str, str, int, str], int] = {}
 
-    def width(self, text: str, size: int) -> int:
-        """Return how wide a line is in pixels."""
-        return sum(self.glyph(char, size, _ANY).get_width() for char in normalize("NFC", text))
+    def width(self, text: str, size: int, *, strong: bool = False) -> int:
+        """Return how wide a line is in pixels; `strong` is the semibold weight."""
+        *_, end = self._set(text, size, _face(strong))
+        return -(-end.x // _FINE)
 
-    def glyph(self, char: str, size: int, colour: Colour) -> pygame.Surface:
-        """Return one character, anti-aliased on nothing."""
-        key = (char, size, colour)
+    def glyph(
+        self, char: str, size: int, colour: Colour, *, strong: bool = False, part: int = 0
+    ) -> pygame.Surface:
+        """Return one character, anti-aliased on nothing, `part` quarters of a pixel further right."""
+        face = _face(strong)
+        key = (char, size, colour, face, part)
         if key not in self._glyphs:
-            turn = _ARROWS.get(char)
-            points = round(size * _POINTS)
-            drawn = self._fonts.render("0" if turn else char, points + (points in _MISSHAPEN), colour)
-            self._glyphs[key] = _arrow(drawn, turn, colour) if turn else drawn
+            drawn = self._fonts.render(char, _em(size), colour, face=face)
+            self._glyphs[key] = _averaged(drawn, part, self._fonts.ascent(_em(size)), colour)
         return self._glyphs[key]
 
     def draw(
@@ -52,21 +94,53 @@ class Type:
         size: int,
         colour: Colour,
         anchor: Anchor = "left",
+        strong: bool = False,
     ) -> int:
         """Draw one line whose top is at `at`, and return its width in pixels.
 
-        Glyph by glyph, which spaces small text more evenly than the font does, and at whole pixels:
-        text that glides reads worse than text that steps.
+        `text` may hold subscripts, as the module says; `strong` is the semibold weight. A line begins
+        at a whole pixel, for text that glides reads worse than text that steps; its glyphs stand
+        to a quarter of one, which spaces small text evenly.
         """
-        glyphs = [self.glyph(char, size, colour) for char in normalize("NFC", text)]
-        width = sum(glyph.get_width() for glyph in glyphs)
-        x, y = _left(at[0], width, anchor), round(at[1])
-        for glyph in glyphs:
-            surface.blit(glyph, (x, y))
-            x += glyph.get_width()
+        *places, end = self._set(text, size, _face(strong))
+        width = -(-end.x // _FINE)
+        x, y = _left(at[0], width, anchor), round(at[1]) + round(_BASE * size)
+        for char, small, right, down in places:
+            glyph = self.glyph(char, small, colour, strong=strong, part=right % _FINE)
+            above = -(-self._fonts.ascent(_em(small)) // _FINE)
+            surface.blit(glyph, (x + right // _FINE, y + down - above))
         return width
 
-    def wrapped(self, text: str, size: int, width: float, *, gap: str = " ") -> list[str]:
+    def _set(self, text: str, size: int, face: str) -> Iterator[_Place]:
+        """Yield where the glyphs of a line stand from the left of its baseline, then its end."""
+        x = 0
+        for run in runs(text):
+            small = max(round(_SUB * size), min(size, _LEAST)) if run.lowered else size
+            down, before = round(_LOWER * size) if run.lowered else 0, ""
+            for char in run.text:
+                x += self._step(before, char, small, face)
+                yield _Place(char, small, x, down)
+                before = char
+            x += self._step(before, "", small, face)
+        yield _Place("", size, x, 0)
+
+    def _step(self, before: str, char: str, size: int, face: str) -> int:
+        """Return how far the pen moves from a character to the next of its run, in parts of a pixel."""
+        key = (before, char, size, face)
+        if before and key not in self._steps:
+            self._steps[key] = self._fonts.advance(before, _em(size), face=face) + self._gap(key)
+        return self._steps[key] if before else 0
+
+    def _gap(self, key: tuple[str, str, int, str]) -> int:
+        """Return what is between two neighbours beside the first one's width, in parts of a pixel."""
+        before, char, size, face = key
+        if _x_height(size) <= _LOOSE:
+            return 1
+        return self._fonts.kerning(before, char, _em(size), face=face) if char else 0
+
+    def wrapped(
+        self, text: str, size: int, width: float, *, gap: str = " ", strong: bool = False
+    ) -> list[str]:
         """Return the text in lines no wider than `width`, broken between its words, parted by `gap`.
 
         A word that is wider is broken inside, as are scripts without spaces.
@@ -74,29 +148,54 @@ class Type:
         lines: list[str] = []
         for word in filter(str.strip, text.split(gap)):
             longer = f"{lines[-1]}{gap}{word}" if lines else word
-            if lines and self.width(longer, size) <= width:
+            if lines and self.width(longer, size, strong=strong) <= width:
                 lines[-1] = longer
             else:
-                lines += self._broken(word, size, width)
+                lines += self._broken(word, size, width, strong=strong)
         return lines
 
-    def _broken(self, word: str, size: int, width: float) -> list[str]:
+    def _broken(self, word: str, size: int, width: float, *, strong: bool) -> list[str]:
         """Return a word in pieces no wider than `width`, but of at least one character each."""
         pieces = [""]
         for char in word:
-            if pieces[-1] and self.width(pieces[-1] + char, size) > width:
+            if pieces[-1] and self.width(pieces[-1] + char, size, strong=strong) > width:
                 pieces.append("")
             pieces[-1] += char
         return pieces
 
 
-def _arrow(like: pygame.Surface, turn: complex, colour: Colour) -> pygame.Surface:
-    """Return an arrow as high as a digit, on nothing."""
-    high = like.get_height()
-    sign = pygame.Surface((round(0.95 * high), high), pygame.SRCALPHA, 32)
-    middle, reach = complex(0.48 * high, 0.42 * high), 0.72 * high * turn
-    paint(sign, [Layer(colour, arrows([middle - reach / 2], [reach], 0.13 * high))])
-    return sign
+def _runs(text: str) -> Iterator[Run]:
+    end = 0
+    for found in _SUBSCRIPT.finditer(text):
+        yield Run(text[end : found.start()], lowered=False)
+        yield Run(found[1] or normalize("NFKC", found[2] or ""), lowered=True)
+        end = found.end()
+    yield Run(text[end:], lowered=False)
+
+
+def _face(strong: bool) -> str:
+    return SEMIBOLD if strong else REGULAR
+
+
+def _x_height(size: int) -> int:
+    """Return how high an x is for a line's height, in whole pixels: its edges lie between pixels."""
+    return max(round(_REACH * size), 1)
+
+
+def _em(size: int) -> int:
+    """Return the face's size in parts of a pixel for a line's height in pixels."""
+    return round(_FINE * _x_height(size) / _X_HEIGHT)
+
+
+def _averaged(drawn: pygame.Surface, part: int, ascent: int, colour: Colour) -> pygame.Surface:
+    """Return a large glyph at its size, its baseline between two pixels, so many parts further right."""
+    width, height = drawn.get_size()
+    down = -ascent % _FINE
+    room = (-(-(part + width) // _FINE) * _FINE, -(-(down + height) // _FINE) * _FINE)
+    large = pygame.Surface(room, pygame.SRCALPHA, 32)
+    large.fill((*colour, 0))
+    large.blit(drawn, (part, down))
+    return pygame.transform.smoothscale(large, (room[0] // _FINE, room[1] // _FINE))
 
 
 def _left(x: float, width: int, anchor: Anchor) -> int:

@@ -93,10 +93,10 @@ def test_names_and_values_never_touch_nor_reach_the_key_to_the_arrows(
     for phase in np.linspace(0, scene.period, 24, endpoint=False):
         pose = scene.pose(float(phase))
         for row in rows(scene, pose):
-            words = type_.width(row.label, hud.size) + type_.width(row.value, hud.size)
+            words = type_.width(row.label, hud.size) + type_.width(row.value, hud.size, strong=True)
             assert words < hud.column.width - 2
-        assert type_.width(note(scene, pose) or "", hud.size) <= hud.column.width
-        lines = len(rows(scene, pose)) + (1.4 if note(scene, pose) else 0)
+        told = type_.wrapped(note(scene, pose) or "", hud.size, hud.column.width)
+        lines = len(rows(scene, pose)) + (len(told) + 0.4 if told else 0)
         assert hud.first + 1.42 * hud.size * (lines - 1) + hud.size <= parts.legend.y
 
 

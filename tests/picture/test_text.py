@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pygame
 import pytest
+from pictures import pixels
 
+from linkanim.bench.fidelity import Pixels
 from linkanim.picture import fonts
 from linkanim.picture.hud import hud_for
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.text import Type
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.text import Type, runs, subscripted
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load
 
@@ -59,8 +63,8 @@ def test_what_no_font_has_is_spelt_or_left_out(alone: Type, char: str, spelt: st
     assert not spelt or _bytes(alone, char) == _bytes(alone, spelt)
 
 
-@pytest.mark.parametrize("char", "aßжΩµ°…−²×")
-def test_the_bundled_font_has_what_scenes_are_written_in(alone: Type, char: str) -> None:
+@pytest.mark.parametrize("char", "aßжΩµ°…−²×→↑←↓½±∞≤√′" + "αβγδθμφψωΔΣ" + "₀₁₂₃₄₅₆₇₈₉")
+def test_the_bundled_face_has_what_scenes_are_written_in(alone: Type, char: str) -> None:
     assert alone.width(char, SIZE) > 0
     assert _bytes(alone, char) != _bytes(alone, "a" if char != "a" else "b")
 
@@ -85,6 +89,76 @@ def test_a_font_of_the_system_draws_what_the_bundled_one_lacks() -> None:
 def test_a_system_that_cannot_list_its_fonts_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pygame.font, "get_fonts", lambda: [])
     assert Type().width("曲", SIZE) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("crank angle", [("crank angle", False)]),
+        # with Unicode's own signs, several digits together, letters among them
+        ("O₂", [("O", False), ("2", True)]),
+        ("r₁₀ = aₓ", [("r", False), ("10", True), (" = a", False), ("x", True)]),
+        # what Unicode has no sign for; a decomposed letter
+        ("v_{BA}, e\u0301", [("v", False), ("BA", True), (", é", False)]),
+        # no subscripts: a name with a low line, an open brace, nothing between the braces
+        ("coupler_point", [("coupler_point", False)]),
+        ("a_{b", [("a_{b", False)]),
+        ("a_{}b", [("a", False), ("b", False)]),
+        ("", []),
+    ],
+)
+def test_a_line_is_told_in_runs(text: str, told: list[tuple[str, bool]]) -> None:
+    assert [tuple(run) for run in runs(text)] == told
+
+
+@pytest.mark.parametrize(
+    ("name", "set_as"),
+    [("O2", "O₂"), ("P12", "P₁₂"), ("A_3", "A₃"), ("A", "A"), ("3", "3"), ("rod", "rod"), ("A2b", "A2b")],
+)
+def test_a_name_s_number_is_its_subscript(name: str, set_as: str) -> None:
+    assert subscripted(name) == set_as
+
+
+def _line(text: str, size: int, *, strong: bool = False) -> Pixels:
+    """Return how dark a line is drawn, in columns of the picture (x, y), from (4, 20)."""
+    surface = offscreen((300, 80))
+    surface.fill((255, 255, 255))
+    Type().draw(surface, text, (4, 20), size=size, colour=(0, 0, 0), strong=strong)
+    return 255 - pixels(surface)[..., 0].T
+
+
+@pytest.mark.parametrize("text", ["O₂", "O_{2}"])
+def test_a_subscript_is_smaller_and_lower_than_its_letter(text: str) -> None:
+    letter, whole = (np.flatnonzero(_line(one, SIZE).max(axis=0) > 60) for one in ("O", text))
+    digit = np.flatnonzero(_line(text, SIZE)[4 + Type().width("O", SIZE) :].max(axis=0) > 60)
+    assert whole[-1] == digit[-1] > letter[-1] + 1
+    assert np.ptp(digit) < 0.85 * np.ptp(letter)
+    assert digit[0] > letter[0] + 3
+
+
+WORDS = ("crank angle", "Grashof", "minute", "illumination", "double-rocker", "0123456789", "near the limit")
+
+
+@pytest.mark.parametrize("strong", [False, True])
+@pytest.mark.parametrize("size", range(9, 15))
+@pytest.mark.parametrize("word", WORDS)
+def test_small_letters_do_not_fuse(word: str, size: int, strong: bool) -> None:
+    """Between two neighbours there is a column that is less than half as dark as ink."""
+    columns, type_ = _line(word, size, strong=strong).max(axis=1), Type()
+    for end in range(1, len(word)):
+        edge = 4 + type_.width(word[:end], size, strong=strong)
+        assert columns[edge - 2 : edge + 2].min() < 128, word[end - 1 : end + 1]
+
+
+@pytest.mark.parametrize("strong", [False, True])
+@pytest.mark.parametrize("size", [9, 14, 21, 40])
+def test_a_number_keeps_its_place_while_its_digits_change(size: int, strong: bool) -> None:
+    type_ = Type()
+    assert len({type_.width(f"{digit}17.3°", size, strong=strong) for digit in range(10)}) == 1
+
+
+def test_the_semibold_weight_is_darker() -> None:
+    assert _line("crank angle", SIZE, strong=True).sum() > 1.2 * _line("crank angle", SIZE).sum()
 
 
 @pytest.mark.parametrize("text", ["one two three", "a/path/without/spaces", "曲柄搖杆機構" * 5, "A" * 70])
