@@ -3,12 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
 from linkanim.mechanics.linkage import Pin
+from linkanim.mechanics.register import (
+    DAMPER,
+    POINT,
+    SPRING,
+    TRAVELLING,
+    TRAVELLING_COEFFICIENTS,
+    TURNING,
+    TURNING_COEFFICIENTS,
+    Measure,
+    plain_unit,
+)
 from linkanim.scenes.scene import Scene
+
+_TURNING = (*TURNING, *TURNING_COEFFICIENTS)
+_TRAVELLING = (*TRAVELLING, *TRAVELLING_COEFFICIENTS)
 
 
 def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
@@ -27,46 +41,44 @@ def _tables(unit: str, pose: Tree) -> Iterator[list[list[str]]]:
     bodies = pose["bodies"].items()
     coms = [(f"com of {name}", body["com"]) for name, body in bodies if "com" in body]
     points = [*pose["joints"].items(), *coms]
-    yield [_point_titles(unit), *([name, *_point(point)] for name, point in points)]
-    yield [_turning_titles(), *([name, *_turning(body)] for name, body in bodies if "angle" in body)]
-    yield [_sliding_titles(unit), *([name, *_sliding(body)] for name, body in bodies if "travel" in body)]
-    elements = [*_elements("spring", pose["springs"]), *_elements("damper", pose["dampers"])]
-    yield [["element", f"length {unit}", f"rate {unit}/s", "force N"], *elements]
+    yield [["joint", *_titles(POINT, unit)], *([name, *_cells(POINT, point)] for name, point in points)]
+    for title, key, measures in (("body", "angle", _TURNING), ("slider", "travel", _TRAVELLING)):
+        found = [[name, *_cells(measures, _flat(body))] for name, body in bodies if key in body]
+        yield [[title, *_titles(measures, unit)], *found]
+    struts = (("spring", SPRING, pose["springs"]), ("damper", DAMPER, pose["dampers"]))
+    elements = [
+        [f"{kind} {name}", *_cells(measures, strut)]
+        for kind, measures, found in struts
+        for name, strut in found.items()
+    ]
+    yield [["element", *_titles(SPRING, unit)], *elements]
 
 
-def _point_titles(unit: str) -> list[str]:
-    quantities = (("", unit), ("v", f"{unit}/s"), ("a", f"{unit}/s^2"))
-    return ["joint", *(f"{letter}{axis} {per}" for letter, per in quantities for axis in "xy")]
+def _titles(measures: Iterable[Measure], unit: str) -> Iterator[str]:
+    """Yield a column's title for each number of the measures: a vector of a point has two."""
+    for measure in measures:
+        per = plain_unit(measure.unit, unit)
+        if measure in POINT:
+            letter = measure.heading if measure.order else ""
+            yield from (f"{letter}{axis} {per}" for axis in "xy")
+        else:
+            yield f"{measure.heading} {per}"
 
 
-def _point(point: Tree) -> list[str]:
-    return [_number(value) for key in ("position", "velocity", "acceleration") for value in point[key]]
+def _cells(measures: Iterable[Measure], known: Tree) -> Iterator[str]:
+    for measure in measures:
+        value = known[measure.key]
+        if isinstance(value, list):
+            yield from map(_number, value)
+        elif measure.name == "force" and math.isnan(value):
+            yield "not given"
+        else:
+            yield _degrees(value) if measure.unit == "rad" else _number(value)
 
 
-def _turning_titles() -> list[str]:
-    return ["body", "angle deg", "omega rad/s", "alpha rad/s^2", "dq/dtheta", "d2q/dtheta2"]
-
-
-def _turning(body: Tree) -> list[str]:
-    rates = (body["angular_velocity"], body["angular_acceleration"], *body["coefficients"])
-    return [_degrees(body["angle"]), *map(_number, rates)]
-
-
-def _sliding_titles(unit: str) -> list[str]:
-    rates = [f"v {unit}/s", f"a {unit}/s^2", f"ds/dtheta {unit}", f"d2s/dtheta2 {unit}"]
-    return ["slider", f"travel {unit}", *rates]
-
-
-def _sliding(body: Tree) -> list[str]:
-    values = (body["travel"], body["velocity"], body["acceleration"], *body["coefficients"])
-    return [_number(value) for value in values]
-
-
-def _elements(kind: str, elements: Mapping[str, Tree]) -> Iterator[list[str]]:
-    for name, element in elements.items():
-        force = element["force"]
-        known = "not given" if math.isnan(force) else _number(force)
-        yield [f"{kind} {name}", _number(element["length"]), _number(element["rate"]), known]
+def _flat(body: Tree) -> Tree:
+    """Return a body's tree with its two coefficients under their own keys."""
+    return {**body, **dict(zip("12", body["coefficients"], strict=True))}
 
 
 def of_sweep(scene: Scene, found: Iterator[Tree]) -> str:

@@ -5,13 +5,15 @@ The tree is that of `solve --json`; its leaves are arrays (N,), a value for each
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.motion import Motion, Strut
+from linkanim.mechanics.linkage import Body
+from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.register import CENTRE, DAMPER, POINT, SPRING, Measure, measures_of, parts
 from linkanim.scenes.scene import Scene
 
 Leaf = NDArray[np.float64]
@@ -25,57 +27,29 @@ def tree(scene: Scene, motion: Motion) -> Tree:
     """Return joints, bodies, springs and dampers of N poses, in the scene's unit, radians and seconds."""
     linkage = scene.linkage
     return {
-        "joints": {joint.name: _point(motion, joint.name) for joint in linkage.joints},
-        "bodies": {
-            body.name: _slider(motion, body.name) if body.slider else _body(motion, body.name)
-            for body in linkage.bodies
-        },
-        "springs": {spring.name: _element(motion.spring[spring.name]) for spring in linkage.springs},
-        "dampers": {damper.name: _element(motion.damper[damper.name]) for damper in linkage.dampers},
+        "joints": {joint.name: _known(POINT, motion, joint.name) for joint in linkage.joints},
+        "bodies": {body.name: _body(motion, body) for body in linkage.bodies},
+        "springs": {item.name: _known(SPRING, motion, item.name) for item in linkage.springs},
+        "dampers": {item.name: _known(DAMPER, motion, item.name) for item in linkage.dampers},
     }
 
 
-def _point(motion: Motion, joint: str) -> Tree:
-    return {
-        "position": _xy(motion.position[joint]),
-        "velocity": _xy(motion.velocity[joint]),
-        "acceleration": _xy(motion.acceleration[joint]),
-    }
+def _body(motion: Motion, body: Body) -> Tree:
+    own, slopes = measures_of(body)
+    known = _known(own, motion, body.name)
+    known["coefficients"] = [measure.read(motion, body.name) for measure in slopes]
+    return {**known, "com": _known(CENTRE, motion, body.name)} if body.com else known
 
 
-def _body(motion: Motion, body: str) -> Tree:
-    turning = {
-        "angle": motion.angle[body],
-        "angular_velocity": motion.angular_velocity[body],
-        "angular_acceleration": motion.angular_acceleration[body],
-        "coefficients": list(motion.coefficient[body]),
-    }
-    if body not in motion.com_position:
-        return turning
-    com = {
-        "position": _xy(motion.com_position[body]),
-        "velocity": _xy(motion.com_velocity[body]),
-        "acceleration": _xy(motion.com_acceleration[body]),
-    }
-    return {**turning, "com": com}
+def _known(measures: Iterable[Measure], motion: Motion, part: str) -> Tree:
+    return {measure.key: _leaf(measure.read(motion, part), motion) for measure in measures}
 
 
-def _slider(motion: Motion, body: str) -> Tree:
-    return {
-        "travel": motion.travel[body],
-        "velocity": motion.travel_velocity[body],
-        "acceleration": motion.travel_acceleration[body],
-        "coefficients": list(motion.coefficient[body]),
-    }
-
-
-def _element(element: Strut) -> Tree:
-    force = np.full(np.shape(element.length), np.nan) if element.force is None else element.force
-    return {"length": element.length, "rate": element.rate, "force": force}
-
-
-def _xy(points: Leaf) -> list[Leaf]:
-    return [points[..., 0], points[..., 1]]
+def _leaf(found: Any, motion: Motion) -> Leaf | list[Leaf]:
+    """Return a vector as [x, y], and NaN at every instant for what is not known (None)."""
+    if found is None:
+        return np.full(np.shape(motion.phase), np.nan)
+    return list(parts(found)) if np.ndim(found) > np.ndim(motion.phase) else found
 
 
 def mapped(change: Callable[[Any], Any], node: Any) -> Any:

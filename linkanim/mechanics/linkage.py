@@ -142,6 +142,11 @@ class Spring:
     stiffness: float | None = None
     free_length: float | None = None
 
+    @property
+    def forceful(self) -> bool:
+        """Whether its force is known."""
+        return self.stiffness is not None and self.free_length is not None
+
 
 @dataclass(frozen=True, slots=True)
 class Damper:
@@ -150,6 +155,11 @@ class Damper:
     name: str
     between: tuple[str, str]
     coefficient: float | None = None
+
+    @property
+    def forceful(self) -> bool:
+        """Whether its force is known."""
+        return self.coefficient is not None
 
 
 @dataclass(frozen=True, slots=True)

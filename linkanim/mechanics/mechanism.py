@@ -22,11 +22,8 @@ from .path import Assembly, assemble
 from .planar import MovingPoint, Slope
 from .program import Batch, batch, scalar
 from .reach import Reach, reach
+from .register import DERIVATIVE_OF, NUMBERS, VECTORS
 from .traversal import Kinematics
-
-VECTORS = ("position", "velocity", "acceleration", "com_position", "com_velocity", "com_acceleration")
-NUMBERS = ("angular_velocity", "angular_acceleration", "travel", "travel_velocity", "travel_acceleration")
-DERIVATIVE_OF = dict(zip((*VECTORS, *NUMBERS), (0, 1, 2, 0, 1, 2, 1, 2, 0, 1, 2), strict=True))
 
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
 
@@ -203,7 +200,7 @@ class Mechanism:
             return x, angle, rate, second
         assert given.reach is not None
         phase = 2 * np.arctan2(np.sqrt(given.reach.v), np.sqrt(given.reach.u))
-        return phase.reshape(given.shape), x, w, a
+        return np.where(given.reach.outside, np.nan, phase).reshape(given.shape), x, w, a
 
 
 @dataclass(frozen=True)
@@ -253,13 +250,16 @@ def _rows(kinematics: Kinematics, unscale: float, variant: Variant) -> Rows:
 
 
 def _quantities(k: Kinematics, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:
-    for kinds, points in ((VECTORS[:3], k.points), (VECTORS[3:], k.centres)):
-        for kind, part in zip(kinds, ("position", "velocity", "acceleration"), strict=True):
-            yield kind, {name: _pair(point, part, unscale) for name, point in points.items()}
-    yield "angular_velocity", {name: (turning.rate,) for name, turning in k.bodies.items()}
-    yield "angular_acceleration", {name: (turning.second,) for name, turning in k.bodies.items()}
-    for kind, part in zip(NUMBERS[2:], ("value", "rate", "second"), strict=True):
-        yield kind, {name: (getattr(travel, part) * unscale,) for name, travel in k.travels.items()}
+    for kind in VECTORS:
+        part = ("position", "velocity", "acceleration")[DERIVATIVE_OF[kind]]
+        points = k.centres if kind.startswith("com_") else k.points
+        yield kind, {name: _pair(point, part, unscale) for name, point in points.items()}
+    for kind in NUMBERS:
+        part = ("value", "rate", "second")[DERIVATIVE_OF[kind]]
+        if kind.startswith("angular"):
+            yield kind, {name: (getattr(turning, part),) for name, turning in k.bodies.items()}
+        else:
+            yield kind, {name: (getattr(travel, part) * unscale,) for name, travel in k.travels.items()}
 
 
 def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from .assembly import Gearing
 from .linkage import Body, Damper, Linkage, Spring
+from .register import parts
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -52,29 +53,10 @@ class Setting:
         return next(body for body in self.linkage.bodies if body.name == name)
 
 
-def strut_of(
-    item: Spring | Damper, metre: float, ends: tuple[Any, Any], rates: tuple[Any, Any] | None
-) -> Strut:
-    """Return length, rate and force between two points given as (x, y) pairs or arrays."""
-    dx, dy = ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]
-    length = (dx * dx + dy * dy) ** 0.5
-    rate = None
-    if rates is not None:
-        rate = (dx * (rates[1][0] - rates[0][0]) + dy * (rates[1][1] - rates[0][1])) / length
-    return Strut(length, rate, _force(item, metre, length, rate))
-
-
-def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
-    if isinstance(item, Damper):
-        known = item.coefficient is not None and rate is not None
-        return item.coefficient * rate * metre if known else None
-    if item.stiffness is None or item.free_length is None:
-        return None
-    return item.stiffness * (length - item.free_length) * metre
-
-
 def coefficients(rate: Any, second: Any, input_rate: Any, input_second: Any) -> tuple[Any, Any]:
-    """Return dq/dθ and d²q/dθ² from rates in time of q and of the input θ."""
+    """Return dq/dθ and d²q/dθ² from rates in time of q and of the input θ; infinite where θ rests."""
+    if np.ndim(input_rate) == 0 and input_rate == 0:
+        return np.full(np.shape(rate), math.inf)[()], np.full(np.shape(rate), math.inf)[()]
     first = rate / input_rate
     return first, (second - first * input_second) / (input_rate * input_rate)
 
@@ -100,12 +82,103 @@ class Lazy(Mapping[str, Any]):
         return len(self._names)
 
 
+class Derived:
+    """What a motion and a pose tell besides what is solved; vectors are (x, y) or (..., 2)."""
+
+    setting: Setting
+    position: Mapping[str, Any]
+    velocity: Mapping[str, Any]
+    angular_velocity: Mapping[str, Any]
+    angular_acceleration: Mapping[str, Any]
+    travel_velocity: Mapping[str, Any]
+    travel_acceleration: Mapping[str, Any]
+    phase: Any
+    crank_angle: Any
+    crank_rate: Any
+    crank_second: Any
+
+    @cached_property
+    def angle(self) -> Mapping[str, Any]:
+        """Each body's angle, first -> second joint.
+
+        A crank's own angle counts its turns. The others' are in one turn at one instant, and of many
+        instants without jumps along the first axis.
+        """
+        bodies = tuple(body.name for body in self.setting.linkage.bodies if body.slider is None)
+        return Lazy(bodies, self._angle)
+
+    def _angle(self, name: str) -> Any:
+        body = self.setting.body(name)
+        crank = self.setting.crank_of(body)
+        if crank is not None:
+            return _crank_angle(self.crank_angle, *crank) + 0.0 * self.phase  # where there is no phase, NaN
+        (x0, y0), (x1, y1) = (parts(self.position[joint]) for joint in body.joints[:2])
+        return self._principal(name, y1 - y0, x1 - x0)
+
+    def _principal(self, name: str, dy: Any, dx: Any) -> Any:
+        """Return a body's angle from the way between two of its joints."""
+        raise NotImplementedError
+
+    @cached_property
+    def coefficient(self) -> Mapping[str, tuple[Any, Any]]:
+        """Each body's kinematic coefficients, (dq/dθ, d²q/dθ²) with q its angle or travel.
+
+        Infinite at a limit of the input.
+        """
+        names = (*self.angular_acceleration, *self.travel_acceleration)
+        return Lazy(names, self._coefficient)
+
+    def _coefficient(self, name: str) -> tuple[Any, Any]:
+        turns = name in self.angular_velocity
+        crank = self.setting.crank_of(self.setting.body(name))
+        if crank is not None:
+            rest = self.angular_velocity[name] * 0.0
+            return rest + float(crank[0].ratio), rest
+        rate = (self.angular_velocity if turns else self.travel_velocity)[name]
+        second = (self.angular_acceleration if turns else self.travel_acceleration)[name]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return coefficients(rate, second, self.crank_rate, self.crank_second)
+
+    @cached_property
+    def spring(self) -> Mapping[str, Strut]:
+        """Each spring's length, rate and force."""
+        return self._struts(self.setting.linkage.springs)
+
+    @cached_property
+    def damper(self) -> Mapping[str, Strut]:
+        """Each damper's length, rate and force."""
+        return self._struts(self.setting.linkage.dampers)
+
+    def _struts(self, items: tuple[Spring, ...] | tuple[Damper, ...]) -> Mapping[str, Strut]:
+        by_name = {item.name: item for item in items}
+        return Lazy(tuple(by_name), lambda name: self._strut(by_name[name]))
+
+    def _strut(self, item: Spring | Damper) -> Strut:
+        (x0, y0), (x1, y1) = (parts(self.position[joint]) for joint in item.between)
+        dx, dy = x1 - x0, y1 - y0
+        length = (dx * dx + dy * dy) ** 0.5
+        rate = None
+        if self.velocity:
+            (u0, v0), (u1, v1) = (parts(self.velocity[joint]) for joint in item.between)
+            rate = (dx * (u1 - u0) + dy * (v1 - v0)) / length
+        return Strut(length, rate, _force(item, self.setting.linkage.metre, length, rate))
+
+
+def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
+    if isinstance(item, Damper):
+        known = item.coefficient is not None and rate is not None
+        return item.coefficient * rate * metre if known else None
+    if item.stiffness is None or item.free_length is None:
+        return None
+    return item.stiffness * (length - item.free_length) * metre
+
+
 @dataclass(frozen=True)
-class Motion:
+class Motion(Derived):
     """The motion at many instants: vectors are arrays (..., 2), numbers (...).
 
-    Rows outside the input's range are NaN. Rates that are truly unbounded (at a limit, per unit of
-    input speed) are infinite.
+    Rows outside the input's range are NaN, their phase too. Rates that are truly unbounded (at a
+    limit, per unit of input speed) are infinite.
     """
 
     setting: Setting
@@ -127,65 +200,35 @@ class Motion:
     travel_velocity: Mapping[str, Array]
     travel_acceleration: Mapping[str, Array]
 
-    @cached_property
-    def angle(self) -> Mapping[str, Array]:
-        """Each body's angle, first -> second joint, without jumps along the first axis."""
-        bodies = tuple(body.name for body in self.setting.linkage.bodies if body.slider is None)
-        return Lazy(bodies, self._angle)
-
-    def _angle(self, name: str) -> Array:
-        body = self.setting.body(name)
-        crank = self.setting.crank_of(body)
-        if crank is not None:
-            return np.asarray(_crank_angle(self.crank_angle, *crank))
-        way = self.position[body.joints[1]] - self.position[body.joints[0]]
-        principal: Array = np.arctan2(way[..., 1], way[..., 0])
+    def _principal(self, name: str, dy: Any, dx: Any) -> Array:
+        principal: Array = np.arctan2(dy, dx)
         return principal if principal.ndim == 0 else self._unwrapped(principal, name)
 
     def _unwrapped(self, principal: Array, name: str) -> Array:
         """Add whole turns so that steps follow the angular velocity between neighbours."""
-        predicted = np.zeros_like(principal)
-        if name in self.angular_velocity and np.ndim(self.input_speed) == 0 and self.input_speed:
-            pace = np.nan_to_num(self.angular_velocity[name] / self.input_speed, posinf=0.0, neginf=0.0)
-            steps = np.diff(self.phase, axis=0) * (pace[1:] + pace[:-1]) / 2
-            predicted[1:] = np.cumsum(steps, axis=0)
-        rest: Array = np.unwrap(principal - predicted, axis=0) + predicted
-        return rest
+        steps = np.diff(principal, axis=0)
+        turns = np.rint((self._steps(name, steps) - steps) / math.tau)
+        whole = np.zeros_like(principal)
+        np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
+        return principal + math.tau * (whole - _before_stretch(whole, np.isnan(principal)))
 
-    @cached_property
-    def coefficient(self) -> Mapping[str, tuple[Array, Array]]:
-        """Each body's kinematic coefficients, (dq/dθ, d²q/dθ²) with q its angle or travel."""
-        names = (*self.angular_acceleration, *self.travel_acceleration)
-        return Lazy(names, self._coefficient)
+    def _steps(self, name: str, like: Array) -> Array:
+        """Return about how far a body turns from each instant to the next; 0 where that is not known."""
+        # Driven by its angle a swing has no uniform phase, driven by its phase no uniform angle.
+        by_angle = np.ndim(self.crank_rate) == 0
+        clock, pace = (self.crank_angle, self.crank_rate) if by_angle else (self.phase, self.input_speed)
+        if name not in self.angular_velocity or np.ndim(pace) or not pace:
+            return np.zeros_like(like)
+        rates = np.nan_to_num(self.angular_velocity[name] / pace, posinf=0.0, neginf=0.0)
+        steps: Array = np.nan_to_num(np.diff(clock, axis=0)) * (rates[1:] + rates[:-1]) / 2
+        return steps
 
-    def _coefficient(self, name: str) -> tuple[Array, Array]:
-        turns = name in self.angular_velocity
-        rate = (self.angular_velocity if turns else self.travel_velocity)[name]
-        second = (self.angular_acceleration if turns else self.travel_acceleration)[name]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return coefficients(rate, second, self.crank_rate, self.crank_second)
 
-    @cached_property
-    def spring(self) -> Mapping[str, Strut]:
-        """Each spring's length, rate and force."""
-        return self._struts(self.setting.linkage.springs)
-
-    @cached_property
-    def damper(self) -> Mapping[str, Strut]:
-        """Each damper's length, rate and force."""
-        return self._struts(self.setting.linkage.dampers)
-
-    def _struts(self, items: tuple[Spring, ...] | tuple[Damper, ...]) -> Mapping[str, Strut]:
-        by_name = {item.name: item for item in items}
-
-        def find(name: str) -> Strut:
-            ends = tuple(np.moveaxis(self.position[joint], -1, 0) for joint in by_name[name].between)
-            rates = None
-            if self.velocity:
-                rates = tuple(np.moveaxis(self.velocity[joint], -1, 0) for joint in by_name[name].between)
-            return strut_of(by_name[name], self.setting.linkage.metre, ends, rates)  # type: ignore[arg-type]
-
-        return Lazy(tuple(by_name), find)
+def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:
+    """Return for each row what stood in the last row of the gap before it, 0 where there is none."""
+    rows = np.arange(len(gap)).reshape(-1, *[1] * (gap.ndim - 1))
+    last = np.maximum.accumulate(np.where(gap, rows, -1), axis=0)
+    return np.where(last < 0, 0.0, np.take_along_axis(whole, np.maximum(last, 0), axis=0))
 
 
 def _crank_angle(input_angle: Any, gearing: Gearing, from_pin: bool) -> Any:
@@ -193,30 +236,8 @@ def _crank_angle(input_angle: Any, gearing: Gearing, from_pin: bool) -> Any:
     return angle + math.pi if from_pin else angle
 
 
-class Pose:
+class Pose(Derived):
     """The motion at one instant, as plain floats and (x, y) tuples; the attributes are Motion's."""
-
-    __slots__ = (
-        "_angles",
-        "acceleration",
-        "angular_acceleration",
-        "angular_velocity",
-        "com_acceleration",
-        "com_position",
-        "com_velocity",
-        "crank_angle",
-        "crank_rate",
-        "crank_second",
-        "input_acceleration",
-        "input_speed",
-        "phase",
-        "position",
-        "setting",
-        "travel",
-        "travel_acceleration",
-        "travel_velocity",
-        "velocity",
-    )
 
     def __init__(self, setting: Setting, drive: tuple[float, float, float], found: tuple[Any, ...]) -> None:
         self.setting = setting
@@ -251,42 +272,5 @@ class Pose:
     crank_rate: float
     crank_second: float
 
-    @property
-    def angle(self) -> dict[str, float]:
-        """Each body's angle; a crank's own angle is not brought into one turn, the others' are."""
-        bodies = self.setting.linkage.bodies
-        return {body.name: self._angle(body) for body in bodies if body.slider is None}
-
-    def _angle(self, body: Body) -> float:
-        crank = self.setting.crank_of(body)
-        if crank is not None:
-            return float(_crank_angle(self.crank_angle, *crank))
-        (x0, y0), (x1, y1) = self.position[body.joints[0]], self.position[body.joints[1]]
-        return math.atan2(y1 - y0, x1 - x0)
-
-    @property
-    def coefficient(self) -> dict[str, tuple[float, float]]:
-        """Each body's kinematic coefficients; infinite at a limit of the input."""
-        rates = {**self.angular_velocity, **self.travel_velocity}
-        seconds = {**self.angular_acceleration, **self.travel_acceleration}
-        return {name: self._coefficient(rates[name], seconds[name]) for name in seconds}
-
-    def _coefficient(self, rate: float, second: float) -> tuple[float, float]:
-        if self.crank_rate == 0:
-            return math.inf, math.inf
-        return coefficients(rate, second, self.crank_rate, self.crank_second)
-
-    @property
-    def spring(self) -> dict[str, Strut]:
-        """Each spring's length, rate and force."""
-        return {item.name: self._strut(item) for item in self.setting.linkage.springs}
-
-    @property
-    def damper(self) -> dict[str, Strut]:
-        """Each damper's length, rate and force."""
-        return {item.name: self._strut(item) for item in self.setting.linkage.dampers}
-
-    def _strut(self, item: Spring | Damper) -> Strut:
-        a, b = item.between
-        rates = (self.velocity[a], self.velocity[b]) if self.velocity else None
-        return strut_of(item, self.setting.linkage.metre, (self.position[a], self.position[b]), rates)
+    def _principal(self, name: str, dy: float, dx: float) -> float:
+        return math.atan2(dy, dx)

@@ -14,7 +14,7 @@ from linkanim.digits import stepped
 from linkanim.picture.axis import Axis, around, linear
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Layout
-from linkanim.picture.quantities import Series, series_of
+from linkanim.picture.quantities import Series, quantity, series_of
 from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import disc, segments, stroke
 from linkanim.picture.text import Type
@@ -185,7 +185,7 @@ class Strip:
 
 def strip(figure: Figure, name: str, layout: Layout, pen: Pen) -> Strip:
     """Return the chart of a quantity for a window; BadInput where the scene has no such quantity."""
-    found = series_of(figure.scene, name, figure.cycle)
+    found = series_of(figure.scene, quantity(figure.scene, name), figure.cycle)
     rect = layout.chart or Rect(0, 0, *layout.size)
     most = max(min(round(rect.height / (2.1 * pen.small)), 6), 2)
     values = around(found.values, most=most, unit="°" if found.unit == "°" else "")

@@ -1,0 +1,295 @@
+"""The register of quantities: what can be told of a linkage, in which symbol, words and unit.
+
+Motion's attributes, charts, the tables of `solve`, JSON, CSV and refusals all read from here. Symbols are
+those of the textbooks on mechanisms (ω, α, v, a; h and f for first kinematic coefficients); what follows
+an underscore is set as a subscript.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+
+from linkanim.errors import BadInput
+
+from .linkage import Body, Damper, Linkage, Pin, Spring
+
+_STANDARD = {
+    "crank": "2",
+    "coupler": "3",
+    "rod": "3",
+    "rocker": "4",
+    "slider": "4",
+    "coupler2": "5",
+    "rocker2": "6",
+}
+"""The numbers that textbooks give the links of the common linkages; the ground is 1."""
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_NEAREST = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What can be told of each part of one sort, such as the angular velocity of a body.
+
+    `name` ends the token, and is Motion's attribute where that holds it; `key` is the name in JSON and
+    `heading` in a table of plain letters. In `unit`, `{}` stands for the unit of length. `order` counts
+    derivatives in time. `read` takes a Motion or a Pose and the part's name.
+    """
+
+    name: str
+    key: str
+    symbol: str
+    words: str
+    unit: str
+    order: int
+    heading: str
+    read: Callable[[Any, str], Any]
+
+
+def _attribute(name: str) -> Callable[[Any, str], Any]:
+    return lambda motion, part: getattr(motion, name)[part]
+
+
+def _coefficient(order: int) -> Callable[[Any, str], Any]:
+    return lambda motion, part: motion.coefficient[part][order]
+
+
+def _solved(name: str, symbol: str, words: str, unit: str, order: int, heading: str = "") -> Measure:
+    """Return the measure that Motion holds under its own name."""
+    key = name.removeprefix("travel_").removeprefix("com_")
+    return Measure(name, key, symbol, words, unit, order, heading or symbol, _attribute(name))
+
+
+POINT = (
+    _solved("position", "r", "position", "{}", 0),
+    _solved("velocity", "v", "velocity", "{}/s", 1),
+    _solved("acceleration", "a", "acceleration", "{}/s²", 2),
+)
+CENTRE = (
+    _solved("com_position", "r", "position", "{}", 0),
+    _solved("com_velocity", "v", "velocity", "{}/s", 1),
+    _solved("com_acceleration", "a", "acceleration", "{}/s²", 2),
+)
+TURNING = (
+    _solved("angle", "θ", "angle", "rad", 0, "angle"),
+    _solved("angular_velocity", "ω", "angular velocity", "rad/s", 1, "omega"),
+    _solved("angular_acceleration", "α", "angular acceleration", "rad/s²", 2, "alpha"),
+)
+TRAVELLING = (
+    _solved("travel", "s", "travel", "{}", 0, "travel"),
+    _solved("travel_velocity", "v", "velocity", "{}/s", 1),
+    _solved("travel_acceleration", "a", "acceleration", "{}/s²", 2),
+)
+
+
+def _coefficients(symbol: str, unit: str, letter: str) -> tuple[Measure, Measure]:
+    first, second = "kinematic coefficient", "second kinematic coefficient"
+    return (
+        Measure("coefficient", "1", symbol, first, f"{unit}/rad", 0, f"d{letter}/dtheta", _coefficient(0)),
+        Measure(
+            "second_coefficient",
+            "2",
+            f"{symbol}′",
+            second,
+            f"{unit}/rad²",
+            0,
+            f"d2{letter}/dtheta2",
+            _coefficient(1),
+        ),
+    )
+
+
+TURNING_COEFFICIENTS = _coefficients("h", "rad", "q")
+TRAVELLING_COEFFICIENTS = _coefficients("f", "{}", "s")
+
+
+def measures_of(body: Body) -> tuple[tuple[Measure, ...], tuple[Measure, Measure]]:
+    """Return the measures of a body that turns or slides, and its two kinematic coefficients."""
+    if body.slider is None:
+        return TURNING, TURNING_COEFFICIENTS
+    return TRAVELLING, TRAVELLING_COEFFICIENTS
+
+
+def strut_measures(kind: str) -> tuple[Measure, Measure, Measure]:
+    """Return length, rate and force of the struts of one kind, "spring" or "damper"."""
+
+    def part(name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
+        def read(motion: Any, strut: str) -> Any:
+            return getattr(getattr(motion, kind)[strut], name)
+
+        return Measure(name, name, symbol, words, unit, order, name, read)
+
+    return (
+        part("length", "L", "length", "{}", 0),
+        part("rate", "v", "rate of length", "{}/s", 1),
+        part("force", "F", "force", "N", int(kind == "damper")),
+    )
+
+
+SPRING, DAMPER = strut_measures("spring"), strut_measures("damper")
+
+VECTORS = tuple(measure.name for measure in (*POINT, *CENTRE))
+NUMBERS = tuple(measure.name for measure in (*TURNING[1:], *TRAVELLING))
+DERIVATIVE_OF = {measure.name: measure.order for measure in (*POINT, *CENTRE, *TURNING, *TRAVELLING)}
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A quantity of one linkage: `rocker.angular_velocity`, ω_4, "Rocker: angular velocity", rad/s.
+
+    `read` takes a Motion (arrays) or a Pose (floats) and gives radians and the scene's unit of length:
+    one value an instant, or one in each of `columns`. `unit` and `order` are as in `Measure`.
+    """
+
+    token: str
+    symbol: str
+    words: str
+    unit: str
+    order: int
+    read: Callable[[Any], Any]
+    columns: tuple[str, ...] = ("",)
+
+    def shown(self, motion: Any) -> Any:
+        """Return the values as people read them: angles in degrees."""
+        found = self.read(motion)
+        return np.degrees(found) if self.unit == "rad" else found
+
+    def shown_unit(self, length_unit: str) -> str:
+        """Return the unit that goes with `shown`."""
+        return "°" if self.unit == "rad" else self.unit.format(length_unit)
+
+    @property
+    def title(self) -> str:
+        """The words with the symbol, as far as plain text can set it: "Rocker: angular velocity ω₄"."""
+        return f"{self.words} {plain(self.symbol)}"
+
+
+def plain(symbol: str) -> str:
+    """Return a symbol as one line of text: ω₄ for ω_4, but v_B as it is."""
+    base, _, index = symbol.partition("_")
+    return base + index.translate(_SUBSCRIPTS) if index.isdecimal() and index.isascii() else symbol
+
+
+def plain_unit(unit: str, length_unit: str) -> str:
+    """Return a unit in plain letters, angles in degrees: "rad/s^2", "deg"."""
+    return "deg" if unit == "rad" else unit.format(length_unit).replace("²", "^2")
+
+
+def link_labels(linkage: Linkage) -> dict[str, str]:
+    """Return what each body is called in symbols: its number, by name or by custom; else its name."""
+    named = [body.name for body in linkage.bodies]
+    taken = {name for name in named if name.isdecimal()}
+    labels = {}
+    for name in named:
+        number = _STANDARD.get(name, name)
+        labels[name] = name if name in taken or number in taken else number
+        taken.add(labels[name])
+    return labels
+
+
+def register(linkage: Linkage) -> dict[str, Quantity]:
+    """Return all quantities of a linkage by their tokens: bodies, joints, centres of mass, struts."""
+    return {quantity.token: quantity for quantity in _quantities(linkage)}
+
+
+def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
+    """Return the quantity of that token; BadInput with the nearest ones and the list where there is none.
+
+    `of` says whose quantities they are.
+    """
+    if token in known:
+        return known[token]
+    near = get_close_matches(token, list(known), n=_NEAREST)
+    meant = f" (did you mean {' or '.join(near)}?)" if near else ""
+    raise BadInput(f"quantity {token!r}: {of} has none of this name{meant}; it has {', '.join(known)}")
+
+
+def _quantities(linkage: Linkage) -> Iterator[Quantity]:
+    labels = link_labels(linkage)
+    for body in linkage.bodies:
+        yield from _of_body(body, labels[body.name])
+    for joint in linkage.joints:
+        if not isinstance(joint, Pin):
+            for measure in POINT:
+                yield from _of_point(measure, joint.name, joint.name, joint.name)
+    for body in linkage.bodies:
+        if body.com is not None:
+            for measure in CENTRE:
+                label, words = f"G{labels[body.name]}", f"{called(body)}, centre of mass"
+                yield from _of_point(measure, body.name, label, words)
+    for spring in linkage.springs:
+        yield from _of_strut(spring)
+    for damper in linkage.dampers:
+        yield from _of_strut(damper)
+
+
+def called(body: Body) -> str:
+    """Return what a body is called in words: "Rocker", "Link 3", "Slider 5"."""
+    if not body.name.isdecimal():
+        return body.name[:1].upper() + body.name[1:]
+    return f"{'Slider' if body.slider else 'Link'} {body.name}"
+
+
+def _of_body(body: Body, label: str) -> Iterator[Quantity]:
+    own, slopes = measures_of(body)
+    for measure in (*own, *slopes):
+        yield _bound(measure, body.name, f"{measure.symbol}_{label}", called(body))
+
+
+def _bound(measure: Measure, part: str, symbol: str, words: str) -> Quantity:
+    """Return the quantity that a measure is of one part."""
+    token, said = f"{part}.{measure.name}", f"{words}: {measure.words}"
+    told = (token, symbol, said, measure.unit, measure.order)
+    return Quantity(*told, lambda motion: measure.read(motion, part))
+
+
+def _of_point(measure: Measure, part: str, label: str, words: str) -> Iterator[Quantity]:
+    """Yield a vector, a position as its two components and else its magnitude, and each component."""
+    token, said = f"{part}.{measure.name}", f"{words}: {measure.words}"
+
+    def vector(motion: Any) -> Any:
+        return measure.read(motion, part)
+
+    whole = (f"{measure.symbol}_{label}", said, measure.unit, measure.order)
+    if measure.order:
+        yield Quantity(token, *whole, lambda motion: _size(vector(motion)))
+    else:
+        yield Quantity(token, *whole, vector, ("x", "y"))
+    for index, axis in enumerate("xy"):
+        symbol = f"{measure.symbol}_{label}{axis}" if measure.order else f"{axis}_{label}"
+        yield Quantity(
+            f"{token}.{axis}",
+            symbol,
+            f"{said}, {axis}",
+            measure.unit,
+            measure.order,
+            _component(vector, index),
+        )
+
+
+def _component(vector: Callable[[Any], Any], index: int) -> Callable[[Any], Any]:
+    return lambda motion: parts(vector(motion))[index]
+
+
+def parts(vector: Any) -> tuple[Any, Any]:
+    """Return x and y of a pair of floats, or of an array (..., 2)."""
+    return vector if isinstance(vector, tuple) else (vector[..., 0], vector[..., 1])
+
+
+def _size(vector: Any) -> Any:
+    x, y = parts(vector)
+    return math.hypot(x, y) if isinstance(vector, tuple) else np.hypot(x, y)
+
+
+def _of_strut(strut: Spring | Damper) -> Iterator[Quantity]:
+    kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
+    for measure in measures:
+        if measure.name != "force" or strut.forceful:
+            symbol = f"{measure.symbol}_{strut.name}"
+            yield _bound(measure, strut.name, symbol, f"{kind.capitalize()} {strut.name}")

@@ -1,0 +1,132 @@
+"""The register of quantities: every number under its token, symbol, words, unit and order."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.linkage import Body, Drive, Linkage
+from linkanim.mechanics.register import link_labels, look_up, plain, register
+from linkanim.scenes import load, names
+
+# token, symbol, words, unit
+TOLD = [
+    # a four-bar's links have the textbooks' numbers
+    ("crank-rocker", "crank.angle", "θ₂", "Crank: angle", "rad"),
+    ("crank-rocker", "coupler.angular_velocity", "ω₃", "Coupler: angular velocity", "rad/s"),
+    ("crank-rocker", "rocker.angular_velocity", "ω₄", "Rocker: angular velocity", "rad/s"),
+    ("crank-rocker", "rocker.angular_acceleration", "α₄", "Rocker: angular acceleration", "rad/s²"),
+    ("crank-rocker", "rocker.coefficient", "h₄", "Rocker: kinematic coefficient", "rad/rad"),
+    ("crank-rocker", "rocker.second_coefficient", "h′₄", "Rocker: second kinematic coefficient", "rad/rad²"),
+    ("six-bar", "rocker2.angular_velocity", "ω₆", "Rocker2: angular velocity", "rad/s"),
+    ("slider-crank", "rod.angle", "θ₃", "Rod: angle", "rad"),
+    ("slider-crank", "slider.travel", "s₄", "Slider: travel", "{}"),
+    ("slider-crank", "slider.coefficient", "f₄", "Slider: kinematic coefficient", "{}/rad"),
+    # bodies that are named by a number keep it
+    ("press", "3.angular_velocity", "ω₃", "Link 3: angular velocity", "rad/s"),
+    ("press", "5.travel_velocity", "v₅", "Slider 5: velocity", "{}/s"),
+    ("press", "5.travel_acceleration", "a₅", "Slider 5: acceleration", "{}/s²"),
+    # a vector has a magnitude and two components; what is no number stays as it is in plain text
+    ("press", "B.position", "r_B", "B: position", "{}"),
+    ("press", "B.position.x", "x_B", "B: position, x", "{}"),
+    ("press", "B.velocity", "v_B", "B: velocity", "{}/s"),
+    ("press", "B.velocity.y", "v_By", "B: velocity, y", "{}/s"),
+    ("press", "3.com_acceleration.x", "a_G3x", "Link 3, centre of mass: acceleration, x", "{}/s²"),
+    ("press", "return.length", "L_return", "Spring return: length", "{}"),
+    ("press", "return.force", "F_return", "Spring return: force", "N"),
+    ("press", "cushion.rate", "v_cushion", "Damper cushion: rate of length", "{}/s"),
+]
+
+
+@pytest.mark.parametrize(("scene", "token", "symbol", "words", "unit"), TOLD)
+def test_a_quantity_has_symbol_words_and_unit(
+    scene: str, token: str, symbol: str, words: str, unit: str
+) -> None:
+    found = register(load(scene).linkage)[token]
+    assert (found.token, plain(found.symbol), found.words, found.unit) == (token, symbol, words, unit)
+
+
+@pytest.mark.parametrize("name", names())
+def test_no_two_quantities_are_called_the_same(name: str) -> None:
+    known = register(load(name).linkage).values()
+    assert len({quantity.words for quantity in known}) == len(known)
+    assert len({quantity.symbol for quantity in known}) == len(known)
+
+
+@pytest.mark.parametrize("name", names())
+def test_the_order_says_how_a_quantity_grows_with_the_speed(name: str) -> None:
+    scene = load(name)
+    slow, quick = (scene.solve(phase=[0.7, 2.5, 4.0], speed=speed) for speed in (0.5, -1.5))
+    for quantity in register(scene.linkage).values():
+        before, after = quantity.read(slow), quantity.read(quick)
+        factor = (-3.0) ** quantity.order
+        if quantity.token.endswith(("velocity", "acceleration")) and quantity.symbol[0] in "va":
+            before, after, factor = np.abs(before), np.abs(after), abs(factor)  # magnitudes have no sign
+        assert after == pytest.approx(before * factor, rel=1e-9, abs=1e-9), quantity.token
+
+
+@pytest.mark.parametrize("name", names())
+def test_a_pose_and_a_motion_are_read_alike(name: str) -> None:
+    scene = load(name)
+    pose, motion = scene.pose(1.3), scene.solve(phase=[1.3])
+    for quantity in register(scene.linkage).values():
+        assert quantity.read(pose) == pytest.approx(quantity.read(motion)[0], rel=1e-9, abs=1e-9)
+
+
+def _press(token: str) -> Any:
+    scene = load("press")
+    return register(scene.linkage)[token].read(scene.solve(angle=[1.1], speed=10.0))[0]
+
+
+def test_values_are_those_of_the_motion() -> None:
+    motion = load("press").solve(angle=[1.1], speed=10.0)
+    x, y = motion.velocity["B"][0]
+    assert (_press("B.velocity.x"), _press("B.velocity.y")) == (x, y)
+    assert _press("B.velocity") == math.hypot(x, y)
+    assert tuple(_press("B.position")) == tuple(motion.position["B"][0])
+    assert _press("3.com_velocity.y") == motion.com_velocity["3"][0, 1]
+    assert _press("5.travel_velocity") == motion.travel_velocity["5"][0]
+    assert (_press("3.coefficient"), _press("3.second_coefficient")) == tuple(
+        part[0] for part in motion.coefficient["3"]
+    )
+    assert _press("cushion.force") == motion.damper["cushion"].force[0]
+
+
+def test_people_read_degrees_and_the_scenes_unit() -> None:
+    scene = load("press")
+    known, pose = register(scene.linkage), scene.pose(1.1)
+    assert known["3.angle"].shown(pose) == pytest.approx(math.degrees(pose.angle["3"]))
+    assert known["3.angle"].shown_unit("mm") == "°"
+    assert known["B.velocity"].shown_unit("mm") == "mm/s"
+    assert known["B.velocity"].shown(pose) == known["B.velocity"].read(pose)
+    assert known["3.angular_velocity"].title == "Link 3: angular velocity ω₃"
+
+
+def test_a_wrong_token_is_answered_with_the_nearest_and_the_list() -> None:
+    known = register(load("crank-rocker").linkage)
+    with pytest.raises(
+        BadInput, match=r"'rocker\.angel': crank-rocker .*mean rocker\.angle.*; it has crank\.angle, "
+    ):
+        look_up(known, "rocker.angel", "crank-rocker")
+
+
+def test_a_number_is_given_once() -> None:
+    bodies = tuple(Body(name) for name in ("crank", "4", "rocker", "rod", "coupler", "arm"))
+    labels = link_labels(Linkage((), Drive("A", 1.0), bodies))
+    assert labels == {
+        "crank": "2",
+        "4": "4",
+        "rocker": "rocker",
+        "rod": "3",
+        "coupler": "coupler",
+        "arm": "arm",
+    }
+
+
+def test_a_crank_turns_with_the_input_at_a_limit_too() -> None:
+    assert load("double-rocker").pose(0.0).coefficient["crank"] == (1.0, 0.0)
+    assert np.all(load("double-rocker").solve(phase=[0.0, 1.0]).coefficient["crank"][0] == 1.0)
