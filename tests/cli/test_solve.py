@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
@@ -182,6 +183,50 @@ def test_body_angles_do_not_jump_in_a_sweep(solved: Callable[..., Any]) -> None:
     assert angles[-1] - angles[0] == pytest.approx(4 * math.pi, rel=1e-12)
 
 
+# a sweep that leaves the range, twice: what follows a gap begins anew
+LEAVING = ["0:120:10", "-120:480:1", "120:-120:-1"]
+
+
+@pytest.mark.parametrize("sweep", LEAVING)
+def test_a_sweep_that_leaves_the_range_keeps_the_angles_of_what_is_in_it(
+    solved: Callable[..., Any], sweep: str
+) -> None:
+    found = solved("double-rocker", "--sweep", sweep)
+    reached = [pose["joints"]["B"]["position"] != [None, None] for pose in found]
+    assert True in reached
+    assert False in reached
+    for pose, there in zip(found, reached, strict=True):
+        for name, ends in (("crank", "O2 A"), ("coupler", "A B"), ("rocker", "O4 B")):
+            told = pose["bodies"][name]["angle"]
+            if not there:
+                assert told is None
+                continue
+            (x0, y0), (x1, y1) = (pose["joints"][joint]["position"] for joint in ends.split())
+            assert math.remainder(told - math.atan2(y1 - y0, x1 - x0), math.tau) == pytest.approx(
+                0, abs=1e-12
+            )
+        assert (pose["phase"] is None) != there
+        assert pose["angle"] is not None
+    for before, after in pairwise(range(len(found))):
+        if reached[before] and reached[after]:
+            for name in ("crank", "coupler", "rocker"):
+                step = found[after]["bodies"][name]["angle"] - found[before]["bodies"][name]["angle"]
+                assert abs(step) < 1.2
+
+
+def test_the_words_and_cells_of_what_is_out_of_reach_have_no_phase(solve: Solve) -> None:
+    words = solve("double-rocker", "--sweep", "60:120:60").splitlines()
+    _, reached, beyond = (re.split(r"\s{2,}", line.strip()) for line in words)
+    assert "-" not in reached
+    assert beyond[:2] == ["120", "-"]
+    assert set(beyond[1:]) == {"-"}
+    cells = solve("double-rocker", "--sweep", "60:120:60", "--csv", "-").splitlines()
+    row = dict(zip(cells[0].split(","), cells[2].split(","), strict=True))
+    assert row.pop("angle_deg") == "120.0"
+    assert float(row.pop("angle")) == math.radians(120)
+    assert {name: value for name, value in row.items() if value and ".O" not in name} == {}
+
+
 def test_csv_holds_the_numbers_of_the_json(
     solve: Solve, solved: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -233,6 +278,46 @@ def test_the_words_of_a_pose_name_everything(solve: Solve) -> None:
     for name in ("O2", "A", "B", "com of 3", "2", "7", "5", "spring return", "damper cushion"):
         assert name in firsts
     assert "3.327055" in words
+
+
+def tables_of(words: str) -> dict[str, dict[str, float]]:
+    """Read the tables of a pose back: {"rocker": {"omega rad/s": 1.2, ...}, ...}."""
+    found: dict[str, dict[str, float]] = {}
+    for block in words.split("\n\n")[1:]:
+        head, *lines = (re.split(r"\s{2,}", line.strip()) for line in block.splitlines())
+        for name, *cells in lines:
+            found[name] = dict(zip(head[1:], map(float, cells), strict=True))
+    return found
+
+
+def test_each_column_of_the_words_holds_what_its_title_says(solve: Solve, solved: Callable[..., Any]) -> None:
+    asked = ("press", "--angle", "87 deg", "--speed", "10 rad/s", "--acceleration", "3 rad/s^2")
+    pose, words = solved(*asked), tables_of(solve(*asked))
+    body, slider, point = pose["bodies"]["3"], pose["bodies"]["5"], pose["joints"]["B"]
+    spring, damper, com = pose["springs"]["return"], pose["dampers"]["cushion"], body["com"]
+    meant = {
+        ("3", "angle deg"): math.degrees(body["angle"]),
+        ("3", "omega rad/s"): body["angular_velocity"],
+        ("3", "alpha rad/s^2"): body["angular_acceleration"],
+        ("3", "dq/dtheta rad/rad"): body["coefficients"][0],
+        ("3", "d2q/dtheta2 rad/rad^2"): body["coefficients"][1],
+        ("5", "travel mm"): slider["travel"],
+        ("5", "v mm/s"): slider["velocity"],
+        ("5", "a mm/s^2"): slider["acceleration"],
+        ("5", "ds/dtheta mm/rad"): slider["coefficients"][0],
+        ("5", "d2s/dtheta2 mm/rad^2"): slider["coefficients"][1],
+        ("B", "x mm"): point["position"][0],
+        ("B", "vy mm/s"): point["velocity"][1],
+        ("B", "ax mm/s^2"): point["acceleration"][0],
+        ("com of 3", "y mm"): com["position"][1],
+        ("com of 3", "vx mm/s"): com["velocity"][0],
+        ("com of 3", "ay mm/s^2"): com["acceleration"][1],
+        ("spring return", "length mm"): spring["length"],
+        ("spring return", "force N"): spring["force"],
+        ("damper cushion", "rate mm/s"): damper["rate"],
+        ("damper cushion", "force N"): damper["force"],
+    }
+    assert {place: words[place[0]][place[1]] for place in meant} == pytest.approx(meant, rel=1e-6)
 
 
 def test_the_words_of_a_limit_say_unbounded(solve: Solve) -> None:
