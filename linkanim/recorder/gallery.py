@@ -10,6 +10,8 @@ from pathlib import Path
 import imageio.v3 as iio
 import numpy as np
 
+from linkanim.picture.figure import figure
+from linkanim.picture.gears import teeth_a_second
 from linkanim.picture.look import Look
 from linkanim.recorder.palette import Bytes
 from linkanim.recorder.plan import Clip, make_plan
@@ -28,6 +30,8 @@ LOOK = Look(hud=False)
 SHEET = "contact-sheet.png"
 TAPE = ".tape.json"
 
+_FRAMES_A_TOOTH = 3
+"""With two a tooth seems to stand still, with fewer to turn backwards."""
 _COLUMNS = 4
 _GAP = 6
 _EARLY = 0.09
@@ -45,14 +49,20 @@ class Gallery:
 def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progress] | None = None) -> Gallery:
     """Record scenes by name into a folder as NAME.gif, from a NAME.tape.json there if it is, and the sheet.
 
-    A GIF has as many frames a second, 20 to 10, as keep it within `LARGEST` bytes. The folder is made
-    where only it is missing. `watch` gives the progress to report to, by scene. `BadInput` where it
-    cannot be a folder; else as `record`.
+    A GIF has as many frames a second, 20 to 10, as keep it within `LARGEST` bytes, and never so few that
+    a gear's teeth seem to stand or to turn back. The folder is made where only it is missing. `watch`
+    gives the progress to report to, by scene. `BadInput` where it cannot be a folder; else as `record`.
     """
     made_folder(into)
     chosen = tuple(names)
     recordings = tuple(_recorded(into, name, watch(name) if watch else None) for name in chosen)
     return Gallery(recordings, contact_sheet(into / SHEET, [load(name) for name in chosen]))
+
+
+def rates(scene: Scene) -> tuple[float, ...]:
+    """Return those of `RATES` at which a tooth moves less than a third of its pitch; one at least."""
+    teeth = teeth_a_second(figure(scene))
+    return tuple(fps for fps in RATES if fps > _FRAMES_A_TOOTH * teeth) or RATES[:1]
 
 
 def contact_sheet(path: Path, scenes: Iterable[Scene]) -> Path:
@@ -72,7 +82,7 @@ def contact_sheet(path: Path, scenes: Iterable[Scene]) -> Path:
 
 def _recorded(into: Path, name: str, progress: Progress | None) -> Recording:
     """Record a scene at the highest of the rates that keep it small; at the lowest where none does."""
-    for fps in RATES:
+    for fps in rates(load(name)):
         made = _recorded_at(fps, into, name, progress)
         if made.file_bytes <= LARGEST:
             break

@@ -19,7 +19,7 @@ from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
-from linkanim.picture.theme import LIGHT
+from linkanim.picture.theme import DARK, LIGHT, Theme, contrast
 from linkanim.picture.trace import traces
 from linkanim.picture.vectors import LONGEST, arrows_of
 from linkanim.picture.view import View
@@ -117,6 +117,48 @@ def test_gears_roll_on_each_other_and_their_teeth_mesh_at_every_angle(ratio: Fra
         reach += _profile(rims[1], places["Q"], contact + math.pi)
         # a tooth meets a gap: together they reach as far as the pivots are apart
         assert reach == pytest.approx(abs(places["Q"] - places["O"]), abs=0.35 * 2 * 5 * _module(pair))
+
+
+@pytest.mark.parametrize("ratio", [Fraction(-1), Fraction(-1, 3), Fraction(-5, 2), Fraction(-9)])
+def test_teeth_touch_and_never_cut_into_each_other(ratio: Fraction) -> None:
+    scene = geared(ratio)
+    shown, view = figure(scene), View(5.0, 0.0, 0.0)
+    parts = wheel_parts(shown, view, GAUGE, LIGHT)
+    module = 5 * _module(pairs(shown)[0])
+    for phase in np.linspace(0, 1.5, 40):
+        pose = scene.pose(float(phase))
+        places = {name: view.place(point) for name, point in pose.position.items()}
+        one, other = (part.placed(places)[0].loops[0] for part in parts)
+        gap = min(_gap(one, other), _gap(other, one))
+        assert -0.05 * module < gap < 0.25 * module
+
+
+def _gap(points: Loop, outline: Loop) -> float:
+    """Return how far points stay off an outline; negative where one is inside."""
+    sides, reach = np.roll(outline, -1) - outline, points[:, None] - outline
+    inside = np.abs(np.angle((reach - sides) / reach).sum(axis=1)) > math.pi
+    away = np.abs(reach - np.clip((reach / sides).real, 0, 1) * sides).min(axis=1)
+    return float(np.min(np.where(inside, -away, away)))
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK])
+def test_two_wheels_are_told_apart_by_tone_and_outline(theme: Theme) -> None:
+    parts = wheel_parts(figure(geared(Fraction(-1))), VIEW, GAUGE, theme)
+    (tone, hole, edge), (other, _, other_edge) = ([layer.colour for layer in part.layers] for part in parts)
+    assert contrast(tone, other) > 1.25
+    assert contrast(edge, other_edge) > 1.25
+    for fill, line in ((tone, edge), (other, other_edge)):
+        assert contrast(fill, line) > 1.8
+    assert contrast(tone, hole) > 1.1
+
+
+def test_wheels_have_few_teeth_and_none_too_few() -> None:
+    counts = [
+        (pair.driver.teeth, pair.driven.teeth)
+        for ratio in (Fraction(-1), Fraction(-1, 3), Fraction(-1, 2))
+        for pair in pairs(figure(geared(ratio)))
+    ]
+    assert counts == [(12, 12), (9, 27), (9, 18)]
 
 
 def _module(pair: Pair) -> float:
