@@ -181,7 +181,8 @@ def _flank(teeth: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _involute(angle: ArrayLike) -> NDArray[np.float64]:
-    return np.tan(angle) - np.asarray(angle)
+    flank: NDArray[np.float64] = np.tan(angle) - np.asarray(angle)
+    return flank
 
 
 def _belt(figure: Figure, view: View, pair: Pair, gauge: Gauge) -> Iterator[Loop]:
