@@ -19,10 +19,11 @@ from linkanim.bench.report import columns
 from linkanim.errors import WorkFailed
 from linkanim.picture.look import Look
 from linkanim.player import display
+from linkanim.player.advance import advance
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.easel import Easel
 from linkanim.player.show import overlay
-from linkanim.player.state import advance, begin
+from linkanim.player.state import begin
 from linkanim.scenes import load
 
 SCENE = "press"

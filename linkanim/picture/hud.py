@@ -46,19 +46,19 @@ class Row(NamedTuple):
     value: str
 
 
-def rows(scene: Scene, pose: Pose, speed: str | None = None) -> tuple[Row, ...]:
+def rows(scene: Scene, pose: Pose) -> tuple[Row, ...]:
     """Return the numbers of a pose: the same names in the same order at every pose of a scene.
 
     `speed` replaces the input speed in words. Forces appear where they are known; lengths are in the
     scene's unit, forces in newtons, tension positive.
     """
-    return tuple(_rows(scene, pose, speed))
+    return tuple(_rows(scene, pose))
 
 
-def _rows(scene: Scene, pose: Pose, speed: str | None) -> Iterator[Row]:
+def _rows(scene: Scene, pose: Pose) -> Iterator[Row]:
     info = scene.info
     yield Row("crank angle", _turned(pose.crank_angle) if info.full_turn else _deg(pose.crank_angle))
-    yield Row("input speed", speed or typeset(rpm(pose.input_speed)))
+    yield Row("input speed", typeset(rpm(pose.input_speed)))
     low, high = info.input_range
     yield Row("input range", "full turn" if info.full_turn else f"{_deg(low)}…{_deg(high)}")
     if info.true_period != 1:
@@ -132,7 +132,7 @@ class Hud:
 
     def draw_values(self, surface: pygame.Surface, pose: Pose, overlay: Overlay) -> None:
         """Draw the values of a pose, and what is special there."""
-        values = rows(self.scene, pose, overlay.speed)
+        values = rows(self.scene, pose)
         for n, row in enumerate(values):
             at = (self.column.right, self._place(n)[1])
             ink = self.theme.ink

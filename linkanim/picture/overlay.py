@@ -28,12 +28,11 @@ class Panel:
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    `speed` replaces the scene's own speed in the HUD. `help` holds (key, what it does).
+    `help` holds (key, what it does).
     `notes` are further lines under the HUD.
     """
 
     paused: bool = False
-    speed: str | None = None
     toast: str | None = None
     recording: str | None = None
     help: tuple[tuple[str, str], ...] | None = None

@@ -1,19 +1,25 @@
-"""What can happen to the player: the one vocabulary of keys, mouse, tapes and `advance`."""
+"""The one table of actions: what value each may have, what it does, and whether a tape keeps it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-Value = None | int | float | str | tuple[float, ...]
+from linkanim.player.action import Action
+from linkanim.player.handlers import clock, edits, looks, outside, shelf
+from linkanim.player.state import State
 
 
-class Action(NamedTuple):
-    """One thing that was asked for, as plain data (a tape writes it as it stands)."""
+class Rule(NamedTuple):
+    """One action: the test that its value must pass, and what it makes of a state.
 
-    name: str
-    value: Value = None
+    `taped` is False for what is done outside the picture, which no tape keeps.
+    """
+
+    check: Callable[[object], bool]
+    handle: Callable[[State, Any], State]
+    taped: bool = True
 
 
 def _nothing(value: object) -> bool:
@@ -40,54 +46,50 @@ def _numbers(count: int) -> Callable[[object], bool]:
     return lambda value: isinstance(value, tuple) and len(value) == count and all(map(_number, value))
 
 
-MOTION: Mapping[str, Callable[[object], bool]] = {
-    "pause": _nothing,
-    "step": _whole,  # degrees of phase, along the way the crank runs
-    "speed": _whole,  # steps of the speed ladder
-    "direction": _nothing,
-    "start": _nothing,
-    "scrub": _number,  # the phase to go to, rad
+ACTIONS: Mapping[str, Rule] = {
+    "pause": Rule(_nothing, clock.pause),
+    "step": Rule(_whole, clock.step),  # degrees of phase, along the way the crank runs
+    "speed": Rule(_whole, clock.speed),  # steps of the speed ladder
+    "direction": Rule(_nothing, clock.direction),
+    "start": Rule(_nothing, clock.start),
+    "scrub": Rule(_number, clock.scrub),  # the phase to go to, rad
+    "mechanism": Rule(_whole, shelf.mechanism),  # places further on the shelf
+    "select": Rule(_whole, shelf.select),  # the place in the catalogue, from 0
+    "closure": Rule(_nothing, shelf.closure),
+    "trace": Rule(_nothing, looks.trace),
+    "vectors": Rule(_one_of("v", "a"), looks.vectors),
+    "ghost": Rule(_nothing, looks.ghost),
+    "chart": Rule(_whole, looks.chart),  # quantities further
+    "theme": Rule(_nothing, looks.theme),
+    "help": Rule(_nothing, looks.help_),
+    # notches, about the point (x, y): window heights from the picture's middle, y down
+    "zoom": Rule(_numbers(3), looks.zoom),
+    "pan": Rule(_numbers(2), looks.pan),  # window heights, right and down
+    "fit": Rule(_nothing, looks.fit),
+    "edit": Rule(_nothing, edits.edit),
+    "choose": Rule(_whole, edits.choose),
+    "nudge": Rule(_whole, edits.nudge),
+    "type": Rule(_text, edits.write),
+    "erase": Rule(_nothing, edits.erase),
+    "take": Rule(_nothing, edits.take),
+    "undo": Rule(_nothing, edits.undo),
+    "redo": Rule(_nothing, edits.redo),
+    "back": Rule(_nothing, outside.back),
+    "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),
+    "screenshot": Rule(_nothing, outside.effect("screenshot"), taped=False),
+    "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),
+    "save": Rule(_nothing, outside.effect("save"), taped=False),
+    "quit": Rule(_nothing, outside.effect("quit"), taped=False),
+    "note": Rule(_text, outside.note, taped=False),  # something the window has to say, as a toast
 }
-SCENES: Mapping[str, Callable[[object], bool]] = {
-    "mechanism": _whole,  # places further on the shelf
-    "select": _whole,  # the place on the shelf, from 0
-    "closure": _nothing,
-}
-LOOKS: Mapping[str, Callable[[object], bool]] = {
-    "trace": _nothing,
-    "vectors": _one_of("v", "a"),
-    "ghost": _nothing,
-    "chart": _whole,  # quantities further
-    "theme": _nothing,
-    "help": _nothing,
-    "zoom": _numbers(3),  # notches, about the point (x, y): window heights from the picture's middle, y down
-    "pan": _numbers(2),  # window heights, right and down
-    "fit": _nothing,
-}
-EDITING: Mapping[str, Callable[[object], bool]] = {
-    "edit": _nothing,
-    "choose": _whole,
-    "nudge": _whole,
-    "type": _text,
-    "erase": _nothing,
-    "take": _nothing,
-    "undo": _nothing,
-    "redo": _nothing,
-}
-OUTSIDE: Mapping[str, Callable[[object], bool]] = {
-    "record": _one_of("gif", "mp4"),
-    "screenshot": _nothing,
-    "fullscreen": _nothing,
-    "save": _nothing,
-    "back": _nothing,
-    "quit": _nothing,
-    "note": _text,  # something the window has to say, as a toast
-}
-KNOWN: Mapping[str, Callable[[object], bool]] = {**MOTION, **SCENES, **LOOKS, **EDITING, **OUTSIDE}
-"""Every action's name, with the test that its value must pass."""
 
 
 def is_known(action: Action) -> bool:
     """Tell whether the action is one of ours and its value is of the right kind."""
-    check = KNOWN.get(action.name)
-    return check is not None and check(action.value)
+    rule = ACTIONS.get(action.name)
+    return rule is not None and rule.check(action.value)
+
+
+def is_taped(action: Action) -> bool:
+    """Tell whether a tape keeps the action: one that is known and shows in the picture."""
+    return is_known(action) and ACTIONS[action.name].taped

@@ -20,10 +20,20 @@ def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
 
 
 def screenshot(surface: pygame.Surface, name: str) -> Path:
-    """Write the picture as a PNG under a free name in `FOLDER`, made if it is not there; return its path.
+    """Write the picture as a PNG under a free name; errors as `_added`."""
+    return _added(png_bytes(surface), name, ".png")
+
+
+def report(text: str, name: str) -> Path:
+    """Write a fault's report under a free name; errors as `_added`."""
+    return _added(f"{text}\n".encode(), f"{name}-fault", ".json")
+
+
+def _added(data: bytes, name: str, suffix: str) -> Path:
+    """Write a file under a free name in `FOLDER`, made if it is not there; return its path.
 
     `BadInput` where the folder's name is a file's, `WorkFailed` where the disk refuses.
     """
     whole.made_folder(FOLDER)
-    first, *others = (FOLDER / f"{name}-{number}.png" for number in range(1, 10_000))
-    return whole.add(png_bytes(surface), first, others)
+    first, *others = (FOLDER / f"{name}-{number}{suffix}" for number in range(1, 10_000))
+    return whole.add(data, first, others)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 from pygame.event import Event
 
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
 from linkanim.player.keys import Bind, Press, key_names
 
 _WAIT = 24

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
 
 
 class Bind(NamedTuple):

@@ -7,7 +7,7 @@ from typing import Literal, Protocol
 import pygame
 from pygame.event import Event
 
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
 from linkanim.player.scrub import phase_towards
 from linkanim.scenes.scene import Scene
 

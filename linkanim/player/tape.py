@@ -6,12 +6,11 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
+from linkanim.player.actions import is_taped
+from linkanim.player.advance import advance
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.state import State, advance
-
-NOT_TAPED = frozenset({"record", "screenshot", "fullscreen", "save", "quit", "note"})
-"""Actions that are done outside the picture."""
+from linkanim.player.state import State
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ def starting(state: State) -> State:
 
 def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:
     """Return those of the actions that belong on a tape: what shows, not what is done outside."""
-    return tuple(action for action in actions if action.name not in NOT_TAPED)
+    return tuple(filter(is_taped, actions))
 
 
 class Taping:
@@ -94,11 +93,13 @@ class Reel:
         self._tape = tape
         self._by_frame = _by_frame(tape)
 
-    def next(self, state: State) -> tuple[State, tuple[Action, ...]]:
-        """Return the state to go on from, and what the tape does then; after its end it is the start."""
-        if state.frame >= self._tape.frames:
-            state = self._tape.start
-        return state, tuple(self._by_frame.get(state.frame + 1, ()))
+    def rewound(self, state: State) -> State:
+        """Return the state to go on from: after the tape's end it is the start."""
+        return self._tape.start if state.frame >= self._tape.frames else state
+
+    def actions(self, frame: int) -> tuple[Action, ...]:
+        """Return what the tape does at a frame."""
+        return tuple(self._by_frame.get(frame, ()))
 
 
 def _by_frame(tape: Tape) -> dict[int, list[Action]]:

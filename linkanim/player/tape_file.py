@@ -13,12 +13,13 @@ from typing import Any
 from linkanim import whole
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
-from linkanim.player.actions import Action, is_known
+from linkanim.player.action import Action
+from linkanim.player.actions import is_taped
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.document import Part
 from linkanim.player.editing import Editing
 from linkanim.player.state import State
-from linkanim.player.tape import NOT_TAPED, Tape
+from linkanim.player.tape import Tape
 from linkanim.scenes import names
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
@@ -199,6 +200,6 @@ def _action(top: Part, entry: object) -> tuple[int, Action]:
         raise top.wrong("actions", entry, "[frame, name] or [frame, name, value]")
     frame, name, value = entry[0], entry[1], entry[2] if len(entry) == 3 else None
     action = Action(name, tuple(value) if isinstance(value, list) else value)
-    if not isinstance(name, str) or not is_known(action) or name in NOT_TAPED:
+    if not isinstance(name, str) or not is_taped(action):
         raise top.wrong("actions", entry, "an action of this version; record the tape again")
     return frame, action

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pygame
@@ -10,14 +11,16 @@ from pygame.event import Event
 
 from linkanim.errors import LinkanimError
 from linkanim.player import display, files
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
+from linkanim.player.advance import aged, carried, settled
 from linkanim.player.easel import Easel
+from linkanim.player.fault import recovered, report
 from linkanim.player.keyboard import Keyboard
 from linkanim.player.keys import bind_of
 from linkanim.player.mouse import Mouse
 from linkanim.player.rendering import Rendering, render
 from linkanim.player.show import overlay
-from linkanim.player.state import State, advance
+from linkanim.player.state import State
 from linkanim.player.tape import Reel, Tape, Taping
 from linkanim.scenes.write import save
 
@@ -43,16 +46,18 @@ class Window:
         self._told: list[str] = []
         self._windowed = display.frame()
         self._open = True
+        self._good: State | None = None
+        self._reported: set[str] = set()
 
     def tick(self, frames: int = 1) -> bool:
         """Go so many frames on, paint and flip; False when the window is to be closed.
 
         What happened since the last tick comes at its first frame.
         """
-        actions = self._actions(pygame.event.get())
+        events = pygame.event.get()
         for frame in range(frames):
-            self._advance(actions if frame == 0 else ())
-        self.easel.show(self.state, overlay(self.state))
+            self._advance(events if frame == 0 else [])
+        self._show()
         return self._open
 
     def close(self) -> None:
@@ -60,24 +65,56 @@ class Window:
         for rendering in self._renderings:
             rendering.close()
 
-    def _advance(self, asked: tuple[Action, ...]) -> None:
-        actions = (*self._reeled(asked), *asked, *self._news())
-        self.state = advance(self.state, actions)
+    def _advance(self, events: list[Event]) -> None:
+        """Go one frame on; each key is asked what it means once those before it are done."""
+        self.state, done = aged(self._rewound()), []
+        for action in self._asked(events):
+            self.state = carried(self.state, action)
+            done.append(action)
+        self.state = settled(self.state)
         if self._taping:
-            self._taping.note(self.state.frame, actions)
-        if asked:
-            for effect in self.state.effects:
-                self._carry_out(effect)
+            self._taping.note(self.state.frame, tuple(done))
+        for effect in self.state.effects:
+            self._carry_out(effect)
 
-    def _reeled(self, asked: tuple[Action, ...]) -> tuple[Action, ...]:
-        """Return what the tape does at the next frame; a key that changes something ends it."""
-        if self._reel is None:
-            return ()
-        if any(action.name not in _BESIDE_A_TAPE for action in asked):
+    def _asked(self, events: list[Event]) -> Iterator[Action]:
+        """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
+        yield from self._reeled()
+        for event in events:
+            for action in self._meant(event):
+                yield from self._off_the_reel(action)
+                yield action
+        yield from self._keyboard.repeated(self.state.frame)
+        yield from self._news()
+
+    def _rewound(self) -> State:
+        """Return the state to go on from: a tape that has ended goes on from its start."""
+        return self._reel.rewound(self.state) if self._reel else self.state
+
+    def _reeled(self) -> Iterator[Action]:
+        """Yield what the tape does at this frame; what it would do outside is left out."""
+        if self._reel:
+            yield from self._reel.actions(self.state.frame)
+            self.state = replace(self.state, effects=())
+
+    def _off_the_reel(self, action: Action) -> Iterator[Action]:
+        """Leave the tape where an action changes something."""
+        if self._reel and action.name not in _BESIDE_A_TAPE:
             self._reel = None
-            return (Action("note", "the tape is left: the keys are yours"),)
-        self.state, actions = self._reel.next(self.state)
-        return actions
+            yield Action("note", "the tape is left: the keys are yours")
+
+    def _show(self) -> None:
+        """Paint and flip; a scene that cannot be painted gives way to the last that could."""
+        try:
+            self.easel.show(self.state, overlay(self.state))
+        except Exception as error:
+            if self._good is None:
+                raise
+            self._carry_out(Action("report", report(self.state.shown, error, phase=self.state.phase)))
+            self._taping = None
+            self.state = recovered(self.state, self._good, error)
+            self.easel.show(self.state, overlay(self.state))
+        self._good = self.state
 
     def _news(self) -> tuple[Action, ...]:
         """Return, as notes, what was done outside, and how far recordings are."""
@@ -105,6 +142,8 @@ class Window:
             case "screenshot":
                 picture = self.easel.picture(self.state, overlay(self.state))
                 self._told.append(str(files.screenshot(picture, self.state.scene.name)))
+            case "report":
+                self._report(str(effect.value))
             case "save":
                 self._told.append(f"{save(self.state.scene, Path())} is written")
             case "fullscreen":
@@ -114,22 +153,20 @@ class Window:
                 if self.state.recording:
                     self._render(self.state.recording.format)
 
+    def _report(self, text: str) -> None:
+        """Write the report of a fault, each but once: a held key meets the same one again and again."""
+        if text not in self._reported:
+            self._reported.add(text)
+            written = files.report(text, self.state.scene.name)
+            self._told.append(f"{written} holds what a report of the fault needs")
+
     def _render(self, form: str) -> None:
         taping, self._taping = self._taping, None
         if taping:
             self._renderings.append(render(taping.tape(self.state.frame), form))
 
-    def _actions(self, events: Iterable[Event]) -> tuple[Action, ...]:
-        """Return what the events ask for, each key as it is meant after those before it."""
-        asked: list[Action] = []
-        then = self.state
-        for event in events:
-            for action in self._asked(event, then):
-                asked.append(action)
-                then = advance(then, [action])
-        return (*asked, *self._keyboard.repeated(self.state.frame))
-
-    def _asked(self, event: Event, state: State) -> tuple[Action, ...]:
+    def _meant(self, event: Event) -> tuple[Action, ...]:
+        """Return what an event asks for in the state as it is."""
         if event.type == pygame.QUIT:
             return (Action("quit"),)
         if event.type in _UNCOVERED:
@@ -139,7 +176,7 @@ class Window:
         if event.type != pygame.KEYDOWN:
             return ()
         press = self._keyboard.press(event)
-        editing = state.editing
+        editing = self.state.editing
         bind = bind_of(press, editing=editing.open, typing=editing.typed != "") if press else None
-        self._keyboard.hold(event, bind, state.frame)
+        self._keyboard.hold(event, bind, self.state.frame)
         return (bind.action,) if bind else ()

@@ -15,7 +15,7 @@ import linkanim
 from linkanim.cli import main
 from linkanim.errors import BadInput
 from linkanim.player import tape_file
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 

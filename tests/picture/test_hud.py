@@ -105,11 +105,6 @@ def test_a_clockwise_speed_has_a_true_minus() -> None:
     assert Row("input speed", "−15 rpm") in rows(scene, scene.pose(0.0, speed=-math.pi / 2))
 
 
-def test_a_speed_in_words_replaces_the_pose_s() -> None:
-    scene = load("press")
-    assert Row("input speed", "33 rpm") in rows(scene, scene.pose(0.0), "33 rpm")
-
-
 @pytest.mark.parametrize(
     ("name", "phase", "told"),
     [

@@ -6,9 +6,10 @@ from itertools import pairwise
 
 import pytest
 
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
+from linkanim.player.advance import advance
 from linkanim.player.glide import FRAMES
-from linkanim.player.state import State, advance, begin
+from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.scenes.edit import dimensions
 
@@ -181,6 +182,28 @@ def test_a_length_is_followed_smoothly(crank: State) -> None:
     assert lengths == sorted(lengths, reverse=True)
     assert max(a - b for a, b in pairwise(lengths)) < 2.0
     assert state.shown is state.scene
+
+
+def test_a_change_begins_and_ends_gently(crank: State) -> None:
+    lengths = []
+    state = typed(crank, "40")
+    for _ in range(FRAMES + 1):
+        lengths.append(shown_crank(state))
+        state = advance(state)
+    steps = [a - b for a, b in pairwise(lengths)]
+    assert max(steps[0], steps[-1]) < max(steps) / 4
+    assert lengths[FRAMES // 2] == pytest.approx(45.0)
+    assert steps == pytest.approx(steps[::-1])
+
+
+def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
+    state = crank
+    for _ in range(52):
+        state = after(state, Action("nudge", 1), Action("nudge", -1))
+    state = after(state, *[Action("nudge", -1)] * 3)
+    assert value(after(state, *["undo"] * 3), "crank") == 50.0
+    assert len(state.editing.past) == 100
+    assert after(state, *["undo"] * 100).editing.past == ()
 
 
 def test_a_second_change_starts_from_what_is_shown(crank: State) -> None:

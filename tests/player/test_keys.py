@@ -7,7 +7,8 @@ import sys
 
 import pytest
 
-from linkanim.player.actions import Action, is_known
+from linkanim.player.action import Action
+from linkanim.player.actions import is_known
 from linkanim.player.keys import (
     EDIT_KEYS,
     KEYS,

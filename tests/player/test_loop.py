@@ -15,9 +15,10 @@ import pytest
 
 from linkanim.errors import BadInput, NoDisplay
 from linkanim.player import display
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
+from linkanim.player.advance import advance
 from linkanim.player.loop import frames, run
-from linkanim.player.state import advance, begin
+from linkanim.player.state import begin
 from linkanim.player.tape import Tape, starting
 from linkanim.player.tape_file import write
 from linkanim.player.window import Window

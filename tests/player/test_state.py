@@ -9,14 +9,11 @@ from dataclasses import replace
 import pytest
 
 from linkanim.picture.look import Look
-from linkanim.player.actions import KNOWN, Action
+from linkanim.player.action import Action
+from linkanim.player.advance import ATTRACT_AFTER, ATTRACT_EACH, advance
 from linkanim.player.state import (
-    ATTRACT_AFTER,
-    ATTRACT_EACH,
-    HANDLERS,
     TOAST_FRAMES,
     State,
-    advance,
     begin,
 )
 from linkanim.scenes import load, names
@@ -38,10 +35,6 @@ def after(state: State, *asked: Action | str) -> State:
     for one in asked:
         state = advance(state, [Action(one) if isinstance(one, str) else one])
     return state
-
-
-def test_every_known_action_has_a_handler() -> None:
-    assert set(HANDLERS) == set(KNOWN)
 
 
 def test_a_second_turns_the_crank_by_its_speed(rocker: State) -> None:

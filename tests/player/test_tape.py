@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.player.actions import Action
-from linkanim.player.state import State, advance, begin
+from linkanim.player.action import Action
+from linkanim.player.advance import advance
+from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape, starting, taped
 from linkanim.player.tape_file import from_document, read, to_document, write
 from linkanim.scenes import load

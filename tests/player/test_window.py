@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import pygame
@@ -13,6 +14,8 @@ import pytest
 from playing import CTRL, SHIFT, SIZE, Player
 
 from linkanim.player import display
+from linkanim.player.action import Action
+from linkanim.player.advance import carried
 from linkanim.player.clock import STEP
 from linkanim.player.state import TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
@@ -98,6 +101,35 @@ def test_an_arrow_steps_a_degree_and_pauses(player: Player) -> None:
     assert player.state.phase - before == pytest.approx(11 * STEP)
 
 
+def test_a_held_arrow_waits_and_then_goes_on(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    held = {pygame.K_RIGHT: True}
+    monkeypatch.setattr(pygame.key, "get_pressed", lambda: held)
+    player.press(*bare(pygame.K_RIGHT))
+    phases = [player.state.phase for _ in range(36) if player.tick()]
+    steps = [n for n, (a, b) in enumerate(pairwise(phases), start=2) if b != a]
+    assert steps == [24, 27, 30, 33, 36]
+    held[pygame.K_RIGHT] = False
+    player.tick(12)
+    assert player.state.phase == phases[-1]
+
+
+def test_a_late_frame_repeats_a_held_key_as_often_as_time_went_by(
+    player: Player, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pygame.key, "get_pressed", lambda: {pygame.K_RIGHT: True})
+    player.press(*bare(pygame.K_RIGHT))
+    before = player.state.phase
+    player.tick(33)
+    assert player.state.phase - before == pytest.approx(4 * STEP)
+
+
+def test_a_key_that_is_not_held_on_happens_once(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pygame.key, "get_pressed", lambda: {pygame.K_t: True})
+    player.press(*plain("t"))
+    player.tick(60)
+    assert not player.state.look.trace
+
+
 def test_tab_and_numbers_walk_the_catalogue(player: Player) -> None:
     player.press(*plain("r"))
     first = player.pixels
@@ -178,6 +210,19 @@ def test_keys_of_one_frame_are_taken_one_after_the_other(player: Player) -> None
         pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=ord(letter), mod=0, unicode=letter))
     player.tick()
     assert (player.state.editing.open, player.state.editing.typed) == (True, "7")
+
+
+def test_a_key_is_carried_out_once(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Action] = []
+
+    def counted(state: State, action: Action) -> State:
+        asked.append(action)
+        return carried(state, action)
+
+    monkeypatch.setattr("linkanim.player.window.carried", counted)
+    player.press(*plain("e"))
+    player.press(*bare(pygame.K_RIGHT))
+    assert asked == [Action("edit"), Action("nudge", 1)]
 
 
 def test_a_screenshot_is_the_picture_and_tells_its_name(player: Player, here: Path) -> None:

@@ -19,7 +19,7 @@ from linkanim.picture.gears import teeth_a_second
 from linkanim.picture.look import Look
 from linkanim.picture.theme import theme_of
 from linkanim.player import tape_file
-from linkanim.player.actions import Action
+from linkanim.player.action import Action
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.recorder import gallery, measure

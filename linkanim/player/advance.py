@@ -1,0 +1,68 @@
+"""The player's only way forward: `advance(state, actions)`, pure.
+
+A frame is three steps, so that the window can ask what a key means once those before it are done:
+the state grows a frame older, each action is carried out, and a window left alone walks on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from linkanim.player.action import Action
+from linkanim.player.actions import ACTIONS
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.fault import refused
+from linkanim.player.glide import followed
+from linkanim.player.state import State
+
+ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
+ATTRACT_EACH = 15 * FRAMES_PER_SECOND
+
+
+def advance(state: State, actions: Iterable[Action] = ()) -> State:
+    """Return the state one frame on, the actions carried out in their order.
+
+    KeyError for an action that is not in `actions.ACTIONS`.
+    """
+    state = aged(state)
+    for action in actions:
+        state = carried(state, action)
+    return settled(state)
+
+
+def aged(state: State) -> State:
+    """Return the state a frame older: a toast whose time is up goes, a changing length is followed."""
+    state = replace(state, frame=state.frame + 1, effects=())
+    if state.toast and state.frame >= state.toast.until:
+        state = replace(state, toast=None)
+    return _followed(state) if state.glide else state
+
+
+def carried(state: State, action: Action) -> State:
+    """Return the state with one action carried out; one that a solver fails at changes nothing."""
+    handle = ACTIONS[action.name].handle
+    if action.name != "note":
+        state = replace(state, touched=state.frame)
+    try:
+        return handle(state, action.value)
+    except Exception as error:
+        return refused(state, action, error)
+
+
+def settled(state: State) -> State:
+    """Return the state at the end of a frame: left alone for a minute, it walks on through the shelf."""
+    idle = state.frame - state.touched - ATTRACT_AFTER
+    busy = state.recording or state.editing.open or state.editing.changed
+    if not state.attract or busy or idle < 0 or idle % ATTRACT_EACH:
+        return state
+    onward = replace(carried(replace(state, help=False), Action("mechanism", 1)), touched=state.touched)
+    return replace(onward, clock=onward.clock.pause(onward.frame, False))
+
+
+def _followed(state: State) -> State:
+    assert state.glide is not None
+    try:
+        return replace(state, glide=followed(state.glide, state.scene, state.frame))
+    except Exception as error:
+        return refused(replace(state, glide=None), Action("glide"), error)

@@ -1,0 +1,64 @@
+"""Actions on the look: what is shown beside the linkage, in which theme, and how near."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from linkanim.errors import LinkanimError
+from linkanim.picture.quantities import quantities
+from linkanim.player.assembly import other_closure
+from linkanim.player.framing import panned, zoomed
+from linkanim.player.state import State, told
+
+
+def chart(state: State, further: int) -> State:
+    """Show the quantity so many further; none follows the last."""
+    charts = (None, *quantities(state.scene))
+    at = charts.index(state.look.chart) if state.look.chart in charts else 0
+    return replace(state, look=replace(state.look, chart=charts[(at + further) % len(charts)]))
+
+
+def trace(state: State, _: None) -> State:
+    """Show or hide the trace."""
+    return replace(state, look=replace(state.look, trace=not state.look.trace))
+
+
+def vectors(state: State, kind: str) -> State:
+    """Show or hide the velocities or accelerations."""
+    return replace(state, look=replace(state.look, vectors=state.look.vectors ^ {kind}))
+
+
+def ghost(state: State, _: None) -> State:
+    """Show or hide the other closure, where there is one."""
+    if not state.look.ghost:
+        try:
+            other_closure(state.scene)
+        except LinkanimError as error:
+            return told(state, str(error))
+    return replace(state, look=replace(state.look, ghost=not state.look.ghost))
+
+
+def theme(state: State, _: None) -> State:
+    """Go from light to dark, or back."""
+    return replace(state, look=replace(state.look, theme="light" if state.look.theme == "dark" else "dark"))
+
+
+def zoom(state: State, about: tuple[float, float, float]) -> State:
+    """Go so many notches nearer to a point."""
+    notches, x, y = about
+    return replace(state, look=zoomed(state.look, notches, (x, y)))
+
+
+def pan(state: State, by: tuple[float, float]) -> State:
+    """Shift the picture."""
+    return replace(state, look=panned(state.look, by))
+
+
+def fit(state: State, _: None) -> State:
+    """Let the linkage fill its room again."""
+    return replace(state, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
+
+
+def help_(state: State, _: None) -> State:
+    """Open or close the help."""
+    return replace(state, help=not state.help)

@@ -1,0 +1,60 @@
+"""Actions that put another scene on: of the shelf, or the other closure of the same."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from linkanim.errors import LinkanimError
+from linkanim.picture.quantities import quantities
+from linkanim.player import editing as edit
+from linkanim.player.assembly import other_closure
+from linkanim.player.editing import Editing
+from linkanim.player.fault import proved
+from linkanim.player.state import State, fresh, told
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+
+def mechanism(state: State, further: int) -> State:
+    """Put on the scene so many places further on the shelf."""
+    if not state.shelf:
+        return state
+    return _put_on(state, (state.place + further) % len(state.shelf))
+
+
+def select(state: State, place: int) -> State:
+    """Choose of the catalogue, whatever else stands on the shelf."""
+    named = [at for at, entry in enumerate(state.shelf) if isinstance(entry, str)]
+    return _put_on(state, named[place]) if place < len(named) else state
+
+
+def closure(state: State, _: None) -> State:
+    """Exchange the scene for its other closure; undo goes back."""
+    try:
+        scene = other_closure(state.scene)
+    except LinkanimError as error:
+        return told(state, str(error))
+    return exchanged(replace(state, editing=edit.changed(state.editing, state.scene)), scene)
+
+
+def exchanged(state: State, scene: Scene) -> State:
+    """Show a changed scene at the phase the old one stands at; whatever its solver raises."""
+    clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed)
+    proved(scene, clock.at(state.frame))
+    look = replace(state.look, chart=_kept_chart(state, scene))
+    return replace(state, scene=scene, clock=clock, look=look)
+
+
+def _put_on(state: State, place: int) -> State:
+    """Start a mechanism as its file says, paused where the last one was."""
+    entry = state.shelf[place]
+    scene = proved(load(entry) if isinstance(entry, str) else entry, 0.0)
+    clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
+    look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
+    editing = Editing(open=state.editing.open)
+    return replace(state, scene=scene, place=place, clock=clock, look=look, editing=editing, glide=None)
+
+
+def _kept_chart(state: State, scene: Scene) -> str | None:
+    chart = state.look.chart
+    return chart if chart and chart in quantities(scene) else None
