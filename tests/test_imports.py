@@ -22,7 +22,7 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("digits", "units", "whole"),
+            ("digits", "document", "units", "whole"),
             ("mechanics",),
             ("scenes",),
             ("picture",),
@@ -39,6 +39,7 @@ RANK = {
 THIRD_PARTIES = {
     "errors": set(),
     "digits": set(),
+    "document": set(),
     "units": set(),
     "whole": set(),
     "mechanics": {"numpy"},

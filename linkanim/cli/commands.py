@@ -89,8 +89,8 @@ def _with_command(words: list[str]) -> list[str]:
 
 def _refuse_misspelt(word: str) -> None:
     """Raise `BadInput` for a first word that is neither a command, a scene nor a path."""
+    from linkanim.document import meant
     from linkanim.scenes import names
-    from linkanim.scenes.check import meant
 
     known = (*COMMANDS, *names())
     if word in known or any(mark in word for mark in "./\\"):

@@ -11,18 +11,19 @@ from pathlib import Path
 from typing import Any
 
 from linkanim import whole
+from linkanim.document import Section
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.player.action import Action
 from linkanim.player.actions import is_taped
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
-from linkanim.player.document import Part
 from linkanim.player.editing import Editing
 from linkanim.player.state import State
 from linkanim.player.tape import Tape
 from linkanim.scenes import names
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.units import shown
 
 VERSION = 1
 SUFFIX = ".tape.json"
@@ -30,6 +31,7 @@ SUFFIX = ".tape.json"
 _MARK = "linkanim_tape"
 _LARGEST = 50_000_000
 _MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
+_LARGEST_SIDE = 16_384
 
 
 def write(tape: Tape, path: Path) -> None:
@@ -106,16 +108,22 @@ def from_document(document: object, where: str) -> Tape:
     if document[_MARK] != VERSION:
         found = repr(document[_MARK])[:20]
         raise BadInput(f"{where}: is a tape of version {found}; this linkanim reads version {VERSION}")
-    top = Part(document, where)
+    top = Section(where, document)
     frames = top.whole("frames", 0, _MOST_FRAMES)
-    width, height = top.numbers("size", 2)
-    return Tape(_start(top, where), frames, _actions(top, frames), (round(width), round(height)))
+    return Tape(_start(top), frames, _actions(top, frames), _size(top))
 
 
-def _start(top: Part, where: str) -> State:
-    start = top.part("start")
-    scene = _scene(top.part("scene"), where)
-    shelf = tuple(_entry(top, entry, where) for entry in top.items("shelf")) or (scene,)
+def _size(top: Section) -> tuple[int, int]:
+    sides = top.listed("size", 2)
+    width, height = (sides.whole(key, 1, _LARGEST_SIDE) for key in sides.values)
+    return width, height
+
+
+def _start(top: Section) -> State:
+    start = top.table("start")
+    scene = _scene(top.table("scene"))
+    entries = top.listed("shelf")
+    shelf = tuple(_entry(entries, key) for key in entries.values) or (scene,)
     clock = Clock(
         scene.linkage.drive.speed,
         phase=start.number("phase"),
@@ -128,52 +136,52 @@ def _start(top: Part, where: str) -> State:
         clock=clock,
         shelf=shelf,
         place=start.whole("place", 0, len(shelf) - 1),
-        look=_look(start.part("look")),
+        look=_look(start.table("look")),
         help=start.flag("help"),
-        editing=_editing(start.part("editing"), where),
+        editing=_editing(start.table("editing")),
     )
 
 
-def _entry(top: Part, entry: object, where: str) -> Scene | str:
-    if isinstance(entry, str) and entry in names():
-        return entry
-    if isinstance(entry, dict):
-        return _scene(Part(entry, where, "shelf."), where)
-    raise top.wrong("shelf", entry, "a scene of the catalogue, or a scene whole")
+def _entry(entries: Section, key: str) -> Scene | str:
+    entry = entries.need(key)
+    return str(entry) if entry in names() else _scene(entries.table(key))
 
 
-def _scene(part: Part, where: str) -> Scene:
-    return scene_from(part.table("document"), name=part.text("name"), where=where)
+def _scene(part: Section) -> Scene:
+    document = part.need("document")
+    if not isinstance(document, dict):
+        raise part.error("document", "must be a scene file's table")
+    return scene_from(document, name=part.text("name"), where=part.where)
 
 
-def _scenes(part: Part, key: str, where: str) -> tuple[Scene, ...]:
-    return tuple(_scene(Part(scene, where, f"{part.path}{key}."), where) for scene in part.items(key))
+def _scenes(part: Section, key: str) -> tuple[Scene, ...]:
+    scenes = part.listed(key)
+    return tuple(_scene(scenes.table(one)) for one in scenes.values)
 
 
-def _look(part: Part) -> Look:
-    zoom = part.number("zoom")
-    pan = part.numbers("pan", 2)
-    chart = part.value("chart")
-    if chart is not None and not isinstance(chart, str):
-        raise part.wrong("chart", chart, "a quantity's name, or null")
-    vectors = part.items("vectors")
-    if not set(map(str, vectors)) <= {"v", "a"}:
-        raise part.wrong("vectors", vectors, '"v" and "a"')
+def _look(part: Section) -> Look:
+    pan = part.listed("pan", 2)
+    across, down = (pan.number(key) for key in pan.values)
     return Look(
-        theme="dark" if part.text("theme") == "dark" else "light",
+        theme=part.choice("theme", ("light", "dark")),
         trace=part.flag("trace"),
-        vectors=frozenset(map(str, vectors)),
-        chart=chart,
+        vectors=_vectors(part),
+        chart=None if part.need("chart") is None else part.text("chart"),
         hud=part.flag("hud"),
         background=part.flag("background"),
-        zoom=min(max(zoom, 0.01), 100.0),
-        pan=(pan[0], pan[1]),
+        zoom=min(max(part.number("zoom"), 0.01), 100.0),
+        pan=(across, down),
         ghost=part.flag("ghost"),
     )
 
 
-def _editing(part: Part, where: str) -> Editing:
-    past, future = (_scenes(part, key, where) for key in ("past", "future"))
+def _vectors(part: Section) -> frozenset[str]:
+    kinds = part.listed("vectors")
+    return frozenset(kinds.choice(key, ("v", "a")) for key in kinds.values)
+
+
+def _editing(part: Section) -> Editing:
+    past, future = (_scenes(part, key) for key in ("past", "future"))
     return Editing(
         open=part.flag("open"),
         chosen=part.whole("chosen", 0, 10_000),
@@ -183,23 +191,28 @@ def _editing(part: Part, where: str) -> Editing:
     )
 
 
-def _actions(top: Part, frames: int) -> tuple[tuple[int, Action], ...]:
-    found = []
-    last = 0
-    for entry in top.items("actions"):
-        frame, action = _action(top, entry)
-        if not last <= frame <= frames:
-            raise top.wrong("actions", entry, f"in the order of their frames, up to {frames}")
-        last = frame
+def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
+    entries = top.listed("actions")
+    found: list[tuple[int, Action]] = []
+    for key, entry in entries.values.items():
+        try:
+            frame, action = _action(entry)
+        except ValueError as error:
+            raise entries.error(key, f"{shown(entry)} is not {error}") from None
+        if not (found[-1][0] if found else 0) <= frame <= frames:
+            raise entries.error(key, f"{shown(entry)} is not in the order of frames, up to {frames}")
         found.append((frame, action))
     return tuple(found)
 
 
-def _action(top: Part, entry: object) -> tuple[int, Action]:
-    if not isinstance(entry, list) or len(entry) not in (2, 3) or not isinstance(entry[0], int):
-        raise top.wrong("actions", entry, "[frame, name] or [frame, name, value]")
-    frame, name, value = entry[0], entry[1], entry[2] if len(entry) == 3 else None
+def _action(entry: Any) -> tuple[int, Action]:
+    """Return the frame and the action of an entry; ValueError with what it should be where it is none."""
+    match entry:
+        case [int(frame), str(name), *rest] if len(rest) < 2:
+            value = rest[0] if rest else None
+        case _:
+            raise ValueError("[frame, name] or [frame, name, value]")
     action = Action(name, tuple(value) if isinstance(value, list) else value)
-    if not isinstance(name, str) or not is_taped(action):
-        raise top.wrong("actions", entry, "an action of this version; record the tape again")
+    if not is_taped(action):
+        raise ValueError("an action of this version; record the tape again")
     return frame, action

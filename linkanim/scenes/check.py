@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
-from difflib import get_close_matches
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, ClassVar, Self
 
 from linkanim import units
-from linkanim.errors import SceneError, UnitError
+from linkanim.document import Section
+from linkanim.errors import BadInput, SceneError, UnitError
 from linkanim.mechanics.linkage import Point
-from linkanim.units import shown
 
-_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _SMALL = 12
 _STEEP = 100
 _LARGEST = 1e100
@@ -23,50 +21,16 @@ _FRACTION = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)
 
 
 @dataclass(frozen=True)
-class Table:
-    """One table of the file: its values, its key path, and the unit that bare lengths are in."""
+class Table(Section):
+    """One table of a scene file; bare lengths are in `unit`."""
 
-    where: str
-    values: Mapping[str, Any]
-    path: str = ""
+    refusal: ClassVar[type[BadInput]] = SceneError
+
     unit: str = "mm"
 
-    def __contains__(self, key: str) -> bool:
-        return key in self.values
-
-    def key(self, key: str) -> str:
-        """Return the key's full path, as TOML writes it."""
-        last = key if _BARE_KEY.fullmatch(key) else shown(key)
-        return f"{self.path}.{last}" if self.path else last
-
-    def error(self, key: str, reason: str) -> SceneError:
-        """Return (not raise) the error about one key: file, key, value if it has one, and the reason."""
-        value = self.values.get(key)
-        said = "" if value is None or isinstance(value, Mapping | list) else f" = {shown(value)}"
-        return SceneError(f"{self.where}: {self.key(key)}{said}: {reason}")
-
-    def wrong(self, reason: str) -> SceneError:
-        """Return (not raise) the error about this table as a whole."""
-        return SceneError(f"{self.where}: {self.path}: {reason}" if self.path else f"{self.where}: {reason}")
-
-    def only(self, *known: str) -> None:
-        """Refuse keys that are not `known`, each with the nearest known one."""
-        for key in self.values:
-            if key not in known:
-                raise self.error(key, f"unknown key{meant(key, known)}; known here: {', '.join(known)}")
-
-    def need(self, key: str) -> Any:
-        """Return the key's value; SceneError where it is missing."""
-        if key not in self.values:
-            raise self.wrong(f'"{key}" is missing')
-        return self.values[key]
-
-    def table(self, key: str) -> Table:
-        """Return the table under a key, empty where there is none."""
-        value = self.values.get(key, {})
-        if not isinstance(value, Mapping):
-            raise self.error(key, f"must be a table, [{self.key(key)}] or {{ ... }}")
-        return Table(self.where, value, self.key(key), self.unit)
+    def under(self, key: str, values: Mapping[str, Any]) -> Self:
+        """Return a table that stands under a key."""
+        return replace(super().under(key, values), unit=self.unit)
 
     def tables(self, key: str) -> Iterable[tuple[str, Table]]:
         """Iterate the named tables under a key ([joints.A], [joints.B], ...)."""
@@ -83,20 +47,6 @@ class Table:
             if not 1 <= len(name) <= 32 or not name.isprintable() or "." in name or name != name.strip():
                 raise self.error(name, "a name has 1 to 32 printable characters, no dot, no outer spaces")
         return tuple(self.values)
-
-    def text(self, key: str, default: str | None = None) -> str:
-        """Return a text; `default` where it is missing, an error where that is None."""
-        value = self.need(key) if default is None else self.values.get(key, default)
-        if not isinstance(value, str):
-            raise self.error(key, "must be a text in quotes")
-        return value
-
-    def choice(self, key: str, options: tuple[str, ...]) -> str:
-        """Return one of the options, the first where the key is missing."""
-        value = self.values.get(key, options[0])
-        if value not in options:
-            raise self.error(key, f"must be {' or '.join(shown(option) for option in options)}")
-        return str(value)
 
     def names(self, key: str, count: int | None = None) -> tuple[str, ...]:
         """Return a list of names, all different, `count` of them if given."""
@@ -115,7 +65,7 @@ class Table:
 
     def lengths(self, key: str, count: int) -> tuple[float, ...]:
         """Return a list of `count` lengths, each above zero."""
-        items, names = self._items(key, count)
+        items, names = self._lengths(key, count)
         return tuple(items.length(name) for name in names)
 
     def offset(self, key: str) -> float:
@@ -124,7 +74,7 @@ class Table:
 
     def point(self, key: str) -> Point:
         """Return two lengths of either sign."""
-        items, (x, y) = self._items(key, 2)
+        items, (x, y) = self._lengths(key, 2)
         return items.offset(x), items.offset(y)
 
     def angle(self, key: str, default: str | None = None) -> float:
@@ -156,14 +106,14 @@ class Table:
             raise self.error(key, f'is not a small fraction, so the loop is long; the nearest is "{near}"')
         return near
 
-    def _items(self, key: str, count: int) -> tuple[Table, tuple[str, ...]]:
+    def _lengths(self, key: str, count: int) -> tuple[Self, tuple[str, ...]]:
         """Return a list's items as a table, and its keys: errors then say `length[1]`."""
         value = self.need(key)
         if not isinstance(value, list) or len(value) != count:
             example = list(range(10, 10 * count + 1, 10))
             raise self.error(key, f"must be a list of {count} lengths, such as {example}")
-        names = tuple(f"{key}[{i}]" for i in range(count))
-        return _Items(self.where, dict(zip(names, value, strict=True)), self.path, self.unit), names
+        items = self.listed(key)
+        return items, tuple(items.values)
 
     def _length(self, value: object) -> float:
         return units.length(value, unit=self.unit)
@@ -184,19 +134,6 @@ class Table:
         if number < 1.0 / _LARGEST:
             raise self.error(key, f"is beyond what can be computed; write more than {1.0 / _LARGEST:g}")
         return number
-
-
-class _Items(Table):
-    """The items of a list, under keys such as `length[1]` that need no quotes."""
-
-    def key(self, key: str) -> str:
-        return f"{self.path}.{key}" if self.path else key
-
-
-def meant(name: str, known: Iterable[str]) -> str:
-    """Return ': did you mean "crank"?' for a name close to a known one, else an empty text."""
-    near = get_close_matches(name, list(known), n=1, cutoff=0.6)
-    return f" (did you mean {shown(near[0])}?)" if near else ""
 
 
 def _fraction(value: object) -> Fraction | None:

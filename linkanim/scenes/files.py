@@ -7,8 +7,8 @@ import stat
 from importlib.resources import files
 from pathlib import Path
 
+from linkanim.document import meant
 from linkanim.errors import BadInput, SceneError
-from linkanim.scenes.check import meant
 from linkanim.scenes.read import parse, scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from linkanim import units
+from linkanim.document import meant
 from linkanim.errors import AssemblyError, SceneError
 from linkanim.mechanics.linkage import (
     RPR,
@@ -22,7 +23,7 @@ from linkanim.mechanics.linkage import (
     Rigid,
     Spring,
 )
-from linkanim.scenes.check import Table, meant
+from linkanim.scenes.check import Table
 from linkanim.scenes.joints import read_joint, read_pin
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand

@@ -110,7 +110,7 @@ def test_flat_colours_of_the_theme_come_out_exactly(tmp_path: Path, theme: str) 
 @pytest.mark.parametrize("form", ["gif", "png"])
 def test_a_transparent_recording_has_no_background(tmp_path: Path, form: str) -> None:
     look = Look(background=False)
-    record(load("crank-rocker"), tmp_path / f"out.{form}", size=SIZE, seconds=0.4, look=look)
+    record(load("crank-rocker"), tmp_path / f"out.{form}", size=(192, 108), seconds=0.4, look=look)
     pictures = [shot for path in sorted(tmp_path.iterdir()) for shot in shown(path, "RGBA")]
     assert len(pictures) == 10
     for picture in pictures:

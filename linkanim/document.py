@@ -1,0 +1,136 @@
+"""A document's tables read key by key; what is wrong is said with its file, key, value and way out.
+
+Scene files and tapes are such documents: TOML and JSON come as the same tables, lists and values.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from typing import Any, ClassVar, Self, TypeVar
+
+from linkanim.errors import BadInput
+from linkanim.units import shown
+
+Option = TypeVar("Option", bound=str)
+
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?")
+
+
+@dataclass(frozen=True)
+class Section:
+    """One table of a document: its values, and the keys that lead to it.
+
+    Every reader raises `refusal` where the key is missing or its value is of another kind.
+    """
+
+    refusal: ClassVar[type[BadInput]] = BadInput
+
+    where: str
+    values: Mapping[str, Any]
+    path: str = ""
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.values
+
+    def key(self, key: str) -> str:
+        """Return the key's full path, as TOML writes it."""
+        last = key if _BARE_KEY.fullmatch(key) else shown(key)
+        return f"{self.path}.{last}" if self.path else last
+
+    def error(self, key: str, reason: str) -> BadInput:
+        """Return (not raise) the error about one key: file, key, value if it has one, and the reason."""
+        value = self.values.get(key)
+        said = "" if value is None or isinstance(value, Mapping | list) else f" = {shown(value)}"
+        return self.refusal(f"{self.where}: {self.key(key)}{said}: {reason}")
+
+    def wrong(self, reason: str) -> BadInput:
+        """Return (not raise) the error about this table as a whole."""
+        place = f"{self.where}: {self.path}" if self.path else self.where
+        return self.refusal(f"{place}: {reason}")
+
+    def only(self, *known: str) -> None:
+        """Refuse keys that are not `known`, each with the nearest known one."""
+        for key in self.values:
+            if key not in known:
+                raise self.error(key, f"unknown key{meant(key, known)}; known here: {', '.join(known)}")
+
+    def need(self, key: str) -> Any:
+        """Return the key's value, whatever it is."""
+        if key not in self.values:
+            raise self.wrong(f'"{key}" is missing')
+        return self.values[key]
+
+    def table(self, key: str) -> Self:
+        """Return the table under a key, empty where there is none."""
+        value = self.values.get(key, {})
+        if not isinstance(value, Mapping):
+            raise self.error(key, f"must be a table, [{self.key(key)}] or {{ ... }}")
+        return self.under(key, value)
+
+    def under(self, key: str, values: Mapping[str, Any]) -> Self:
+        """Return a table that stands under a key."""
+        return type(self)(self.where, values, self.key(key))
+
+    def items(self, key: str, count: int | None = None) -> list[Any]:
+        """Return a list, of `count` items if given."""
+        value = self.need(key)
+        if not isinstance(value, list) or count not in (None, len(value)):
+            raise self.error(key, f"must be a list of {count} items" if count else "must be a list")
+        return value
+
+    def listed(self, key: str, count: int | None = None) -> Self:
+        """Return a list's items as a table in the place of this one, under `key[0]`, `key[1]`, ..."""
+        values = {f"{key}[{i}]": value for i, value in enumerate(self.items(key, count))}
+        return replace(self, values=values)
+
+    def text(self, key: str, default: str | None = None) -> str:
+        """Return a text; `default` where it is missing, an error where that is None."""
+        value = self.need(key) if default is None else self.values.get(key, default)
+        if not isinstance(value, str):
+            raise self.error(key, "must be a text in quotes")
+        return value
+
+    def choice(self, key: str, options: tuple[Option, ...]) -> Option:
+        """Return one of the options, the first where the key is missing."""
+        value = self.values.get(key, options[0])
+        if value not in options:
+            raise self.error(key, f"must be {' or '.join(shown(option) for option in options)}")
+        return options[options.index(value)]
+
+    def flag(self, key: str) -> bool:
+        """Return true or false."""
+        value = self.need(key)
+        if not isinstance(value, bool):
+            raise self.error(key, "must be true or false")
+        return value
+
+    def number(self, key: str) -> float:
+        """Return a finite number."""
+        value = self.need(key)
+        if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
+            raise self.error(key, "must be a finite number")
+        return float(value)
+
+    def whole(self, key: str, low: int, high: int) -> int:
+        """Return a whole number from `low` to `high`."""
+        value = self.need(key)
+        if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
+            raise self.error(key, f"must be a whole number from {low} to {high}")
+        return value
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Return ' (did you mean "crank"?)' for a name close to a known one, else an empty text."""
+    near = get_close_matches(name, list(known), n=1, cutoff=0.6)
+    return f" (did you mean {shown(near[0])}?)" if near else ""
+
+
+def _is_finite(value: float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number beyond floats
+        return False
