@@ -51,6 +51,7 @@ class Easel:
         self._setting: Setting | None = None
         self._shown: object = None
         self._state = state
+        self._titled: str | None = None
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
@@ -58,12 +59,19 @@ class Easel:
         if min(surface.get_size()) < _SMALLEST:
             return
         self._state = state
+        self._name(state.scene.title)
         setting = self._fitting(state, surface.get_size())
         picture = (setting, state.phase, state.clock.speed, over)
         if picture != self._shown:
             setting.paint(surface, state.phase, state.clock.speed, over)
             pygame.display.flip()
             self._shown = picture
+
+    def _name(self, title: str) -> None:
+        """Let the window bear the scene's title; the system is told only what is new to it."""
+        if title != self._titled:
+            display.name(title)
+            self._titled = title
 
     def uncovered(self) -> None:
         """Take note that the window has to be painted anew."""
@@ -78,8 +86,6 @@ class Easel:
 
     def _fitting(self, state: State, size: tuple[int, int]) -> Setting:
         if self._setting is None or self._setting.made_for != (id(state.shown), size, state.look):
-            if self._state.scene is not state.scene or self._setting is None:
-                display.name(state.scene.title)
             self._setting = Setting(state.shown, size, state.look, self._setting)
         return self._setting
 

@@ -122,7 +122,8 @@ EDIT_KEYS: tuple[Row, ...] = (
 )
 """What the keys do while the dimensions are being edited; the others keep their meaning."""
 
-_STARTS_A_VALUE = frozenset("0123456789.-")
+_MEANT = frozenset({"space", "h", "e"})
+"""Keys that print and still keep their meaning in the open list, while no value is begun."""
 
 
 class Press(NamedTuple):
@@ -137,8 +138,8 @@ class Press(NamedTuple):
 def bind_of(press: Press, *, editing: bool = False, typing: bool = False) -> Bind | None:
     """Return what a key asks for; None where it is not bound.
 
-    `editing`: the dimensions are open; `typing`: a value has been begun, and what can be printed
-    belongs to it.
+    `editing`: the dimensions are open, and what can be printed belongs to the value; `typing`: one has
+    been begun, and even the keys that keep their meaning in the list are print.
     """
     if editing and not press.ctrl and _is_typed(press, typing):
         return Bind(press.key, Action("type", press.text), repeats=True)
@@ -151,7 +152,7 @@ _ALWAYS = EDIT_KEYS[3:]  # undo, redo and save need no open list
 
 
 def _is_typed(press: Press, typing: bool) -> bool:
-    return press.text.isprintable() and (typing or press.text in _STARTS_A_VALUE) and press.text != ""
+    return press.text.isprintable() and press.text != "" and (typing or press.key not in _MEANT)
 
 
 def _binds(table: tuple[Row, ...]) -> Iterator[Bind]:

@@ -86,7 +86,7 @@ def test_a_key_asks_for_what_the_table_says(press: Press, action: Action | None)
     assert asked(press) == action
 
 
-# With the dimensions open a value may begin with a digit, a point or a minus; then all print is text.
+# With the dimensions open all print belongs to the value, but Space, H and E until one is begun.
 EDITING = {
     "up chooses": (Press("up"), False, Action("choose", -1)),
     "right nudges": (Press("right"), False, Action("nudge", 1)),
@@ -94,7 +94,16 @@ EDITING = {
     "a digit begins a value": (Press("7", "7"), False, Action("type", "7")),
     "zero begins a value": (Press("0", "0"), False, Action("type", "0")),
     "minus begins a value": (Press("-", "-"), False, Action("type", "-")),
-    "a letter keeps its meaning": (Press("d", "d"), False, Action("direction")),
+    "a letter begins a value": (Press("d", "d"), False, Action("type", "d")),
+    "a letter that quits elsewhere": (Press("q", "q"), False, Action("type", "q")),
+    "a plus begins a value": (Press("=", "+", shift=True), False, Action("type", "+")),
+    "a keypad's digit": (Press("kp7", "7"), False, Action("type", "7")),
+    "a letter no key is named after": (Press("", "ö"), False, Action("type", "ö")),
+    "h still helps": (Press("h", "h"), False, Action("help")),
+    "h belongs to the value": (Press("h", "h"), True, Action("type", "h")),
+    "e still closes": (Press("e", "e"), False, Action("edit")),
+    "e belongs to the value": (Press("e", "e"), True, Action("type", "e")),
+    "f1 helps while typing": (Press("f1"), True, Action("help")),
     "a letter belongs to the unit": (Press("d", "d"), True, Action("type", "d")),
     "space belongs to the value": (Press("space", " "), True, Action("type", " ")),
     "space still pauses": (Press("space", " "), False, Action("pause")),

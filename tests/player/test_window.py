@@ -158,6 +158,26 @@ def test_every_scene_runs_in_the_window(player: Player, name: str) -> None:
     assert player.pixels != before
 
 
+def test_the_windows_title_is_the_scenes(player: Player) -> None:
+    for key in (bare(pygame.K_TAB), plain("4"), bare(pygame.K_TAB, SHIFT), plain("b"), plain("9")):
+        player.press(*key)
+        assert pygame.display.get_caption()[0] == f"{player.state.scene.title} – linkanim"
+    assert player.state.scene.name == names()[8]
+
+
+def test_letters_in_the_open_list_are_typed_and_refused_there(player: Player) -> None:
+    player.press(*plain("e"))
+    before = player.state.look, player.state.scene
+    player.type("abc")
+    assert player.state.editing.typed == "abc"
+    player.press(*bare(pygame.K_RETURN))
+    assert (player.state.look, player.state.scene) == before
+    assert "abc" in str(player.state.editing.refusal)
+    player.press(*bare(pygame.K_ESCAPE))
+    player.press(*SPACE)
+    assert (player.state.editing.typed, player.state.clock.paused) == ("", False)
+
+
 def test_r_goes_back_to_the_start(player: Player) -> None:
     player.press(*plain("r"))
     start = player.pixels
