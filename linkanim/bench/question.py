@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.linkage import RRR, Crank, Drive, Linkage, Pin, Polar, Rigid
+from linkanim.mechanics.kinds import RRR, Crank, Pin, Polar, Rigid
+from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.scenes.scene import Scene
 
 Floats = NDArray[np.float64]

@@ -7,7 +7,7 @@ from collections.abc import Container, Iterable, Iterator, Sequence
 
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
-from linkanim.mechanics.linkage import Pin
+from linkanim.mechanics.kinds import Pin
 from linkanim.mechanics.register import (
     DAMPER,
     POINT,

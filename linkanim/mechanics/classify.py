@@ -10,9 +10,9 @@ import numpy as np
 
 from linkanim.digits import degrees, short, significant
 
-from .assembly import Loop, Swing, Turn
 from .exact import HALF_TURN, Sum
-from .linkage import RPR, RRP, RRR, Pin
+from .kinds import RPR, RRP, RRR, Pin
+from .loop import Loop
 from .mechanism import Mechanism
 from .motion import Array, Motion
 from .roots import Kind
@@ -86,13 +86,12 @@ def classify(mechanism: Mechanism, length_unit: str) -> Info:
     loops, path = mechanism.assembly.loops, mechanism.assembly.path
     four_bar = _four_bar(mechanism)
     slider = _stroke(mechanism)
-    turns = isinstance(path, Turn)
     info = Info(
         class_name=_class_name(mechanism, four_bar),
         grashof=_grashof(four_bar) if four_bar else None,
-        input_range=(0.0, 2 * math.pi) if isinstance(path, Turn) else (float(path.low), float(path.high)),
-        full_turn=turns,
-        toggles=() if isinstance(path, Turn) else _toggles(path),
+        input_range=path.input_range,
+        full_turn=path.full_turn,
+        toggles=path.limits,
         change_points=tuple(_change_points(mechanism)),
         circuits=_circuits(four_bar) if four_bar and len(loops) == 1 else None,
         true_period=mechanism.periods,
@@ -104,11 +103,6 @@ def classify(mechanism: Mechanism, length_unit: str) -> Info:
         lines=(),
     )
     return replace(info, lines=tuple(_lines(info, length_unit)))
-
-
-def _toggles(path: Swing) -> tuple[float, ...]:
-    """Return the input's limits; an end at which it merely turns back is none."""
-    return tuple(float(limit) for limit, dyad in zip((path.low, path.high), path.ends, strict=True) if dyad)
 
 
 def _four_bar(mechanism: Mechanism) -> FourBar | None:
@@ -220,7 +214,7 @@ def _slider_name(mechanism: Mechanism) -> str:
     if loop is None:
         return "slider linkage"
     eccentric = loop.root.u.least != loop.root.w.least
-    turns = isinstance(mechanism.assembly.path, Turn)
+    turns = mechanism.assembly.path.full_turn
     return ("offset " if eccentric else "in-line ") + ("slider-crank" if turns else "slider-rocker")
 
 
@@ -251,15 +245,8 @@ def _change_points(mechanism: Mechanism) -> Iterator[float]:
             continue
         for factor, extra in ((loop.root.u, HALF_TURN), (loop.root.w, Sum(0.0))):
             angle = float(loop.root.reference + extra)
-            if factor.kind is Kind.CHANGE_POINT and _within(mechanism, angle):
+            if factor.kind is Kind.CHANGE_POINT and mechanism.assembly.path.holds(angle):
                 yield angle % (2 * math.pi)
-
-
-def _within(mechanism: Mechanism, angle: float) -> bool:
-    path = mechanism.assembly.path
-    if isinstance(path, Turn):
-        return True
-    return abs(math.remainder(angle - float(path.middle), 2 * math.pi)) <= path.amplitude
 
 
 def _transmission(mechanism: Mechanism) -> tuple[float, float] | None:

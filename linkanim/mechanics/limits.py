@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
 
-from . import clock as clocks
-from .assembly import Path, Swing, Turn, why_apart
+from .assembly import Assembly, resigned
 from .chain import LimitFit, NearEnd
+from .clock import swing_by_angle
 from .exact import Sum, exact_angle
 from .expression import Graph, Value
 from .linkage import Linkage
-from .path import Assembly, resigned
+from .path import Path, Swing, Turn
 from .planar import Slope
 from .program import Batch, batch
 from .touching import SAMPLES_A_TURN, TOUCHING, through_change_points
@@ -92,7 +92,7 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     values, whose = margins.lowest(places)
     if (values < 0).all():
         name = margins.names[int(whose[values.argmax()])]
-        raise AssemblyError(f"joint {name}: {why_apart(linkage, name)}")
+        raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart()}")
     found = _swing(assembly.path, _open_interval(assembly, places, values, margins))
     for path in _smooth_paths(found):
         limited = resigned(replace(assembly, path=path))
@@ -133,7 +133,7 @@ def _runs_through(assembly: Assembly) -> bool:
 
 def _margins(assembly: Assembly) -> _Margins | None:
     graph = Graph()
-    found = assembly.walk(assembly.clock(graph.input("x"), Slope(0.0))).margins
+    found = assembly.walk_at(graph.input("x"), Slope(0.0)).margins
     names = tuple(found)
     if not names:
         return None
@@ -283,7 +283,7 @@ def _margin_by_way(assembly: Assembly, name: str, *, upper: bool) -> Callable[[A
     assert isinstance(path, Swing)
     graph = Graph()
     u, v = graph.input("u"), graph.input("v")
-    value: Value = assembly.walk(clocks.swing_by_angle(v - u, u, v, Slope(0.0), path.middle)).margins[name]
+    value: Value = assembly.walk(swing_by_angle(v - u, u, v, Slope(0.0), path.middle)).margins[name]
     program = batch({"u": True, "v": True}, [value])
 
     def margin(way: Array) -> Array:

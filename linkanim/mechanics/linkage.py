@@ -6,114 +6,12 @@ Joints stand in the order in which they can be solved: each one names only joint
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
-from fractions import Fraction
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
-Point = tuple[float, float]
-
-
-@dataclass(frozen=True, slots=True)
-class Polar:
-    """Where a fixed pin lies as it was written: `length` at `angle` from `base`.
-
-    `base` names a fixed pin; None is the origin of coordinates. Kept because a length that is
-    read back from coordinates is rounded, and a change point depends on its last bit.
-    """
-
-    length: float
-    angle: float
-    base: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Pin:
-    """A fixed pin on the ground."""
-
-    name: str
-    position: Point
-    polar: Polar | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Gear:
-    """A gear pair: angle = ratio × (angle of the crank `driver`) + offset."""
-
-    driver: str
-    ratio: Fraction
-    offset: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Crank:
-    """A pin that turns about the fixed pin `pivot`; geared to another crank, or the input."""
-
-    name: str
-    pivot: str
-    length: float
-    gear: Gear | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class RRR:
-    """Two bars that meet in a pin: `lengths[i]` from `ends[i]`.
-
-    `side` is +1 where the pin lies left of the line from `ends[0]` to `ends[1]`, -1 right.
-    With `side_of = (b, p, q)` it says instead on which side of p -> q the joint b lies just
-    after the start of the drive (a four-bar driven at its rocker is named that way).
-    """
-
-    name: str
-    ends: tuple[str, str]
-    lengths: tuple[float, float]
-    side: int = 1
-    side_of: tuple[str, str, str] | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """A fixed line of travel: through a fixed pin, at `angle`, shifted by `offset` to its left."""
-
-    through: str
-    angle: float
-    offset: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class RRP:
-    """A bar from `end` to a slider on `line`; `side` +1 is the closure further forward, -1 back."""
-
-    name: str
-    end: str
-    length: float
-    line: Line
-    side: int = 1
-
-
-@dataclass(frozen=True, slots=True)
-class RPR:
-    """A bar that turns about the fixed pin `pivot`, its slot passing through the joint `through`.
-
-    through = pivot + s·u + offset·n with s > 0, u the bar's direction and n to its left;
-    the joint itself is pivot + length·u.
-    """
-
-    name: str
-    pivot: str
-    through: str
-    length: float
-    offset: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Rigid:
-    """A point of a body: `at` = (along `on[0]` -> `on[1]`, to the left of it) from `on[0]`."""
-
-    name: str
-    on: tuple[str, str]
-    at: Point
-
-
-Joint = Pin | Crank | RRR | RRP | RPR | Rigid
+from .frames import frames_of
+from .joint import Frame, Joint, Point
+from .kinds import Crank, Pin
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +26,11 @@ class Body:
     joints: tuple[str, ...] = ()
     com: Point | None = None
     slider: str | None = None
+
+    def scaled(self, factor: float) -> Body:
+        """Return the body with the place of its centre of mass times a factor."""
+        com = self.com and (self.com[0] * factor, self.com[1] * factor)
+        return replace(self, com=com)
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,12 +90,39 @@ class Linkage:
         """Return the joint of that name; KeyError where there is none."""
         return self.by_name[name]
 
-    @property
+    def pin(self, name: str) -> Pin:
+        """Return the fixed pin of that name, which must be one."""
+        joint = self.by_name[name]
+        assert isinstance(joint, Pin)
+        return joint
+
+    def crank(self, name: str) -> Crank:
+        """Return the crank whose pin has that name, which must be one."""
+        joint = self.by_name[name]
+        assert isinstance(joint, Crank)
+        return joint
+
+    @cached_property
     def by_name(self) -> dict[str, Joint]:
         """Map each joint's name to the joint."""
         return {joint.name: joint for joint in self.joints}
+
+    @cached_property
+    def frames(self) -> tuple[Frame, ...]:
+        """The rigid bodies, the ground first: where each one's joints lie in its own frame."""
+        return frames_of(self.joints)
 
     @property
     def cranks(self) -> Iterator[Crank]:
         """The cranks in the order of the joints, the input among them."""
         return (joint for joint in self.joints if isinstance(joint, Crank))
+
+    @property
+    def pins(self) -> Iterator[Pin]:
+        """The fixed pins in the order of the joints."""
+        return (joint for joint in self.joints if isinstance(joint, Pin))
+
+    def scaled(self, factor: float) -> Linkage:
+        """Return the linkage with the lengths of its joints and bodies times a factor."""
+        joints = tuple(joint.scaled(factor) for joint in self.joints)
+        return replace(self, joints=joints, bodies=tuple(body.scaled(factor) for body in self.bodies))

@@ -10,20 +10,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import clock as clocks
-from .assembly import Swing, Turn, gearings
+from .assembly import Assembly, assemble
+from .clock import Clock
 from .columns import Columns, Floats, Layout, layout
-from .exact import Sum, exact_angle
 from .expression import Graph, Value
 from .limits import restricted
-from .linkage import Linkage, Pin
+from .linkage import Linkage
 from .motion import Array, Motion, Pose, Setting
-from .path import Assembly, assemble
 from .planar import MovingPoint, Slope
 from .program import Batch, batch, scalar
-from .reach import Reach, reach
+from .reach import Reach
 from .register import DERIVATIVE_OF, NUMBERS, VECTORS
-from .traversal import Kinematics
+from .walk import Kinematics
 
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
 
@@ -53,7 +51,7 @@ class Mechanism:
     @cached_property
     def setting(self) -> Setting:
         """What motions and poses share."""
-        return Setting(self.linkage, gearings(self.linkage))
+        return Setting(self.linkage, self.assembly.gears)
 
     @cached_property
     def _poses(self) -> dict[tuple[int, bool], Callable[..., Any]]:
@@ -87,15 +85,11 @@ class Mechanism:
         angle = clock.angle + float(clock.origin)
         return names, (angle, clock.rate, clock.second), _rows(kinematics, self.assembly.unscale, variant)
 
-    def _clock(self, graph: Graph, pace: Slope, *, by_phase: bool) -> tuple[tuple[str, ...], clocks.Clock]:
+    def _clock(self, graph: Graph, pace: Slope, *, by_phase: bool) -> tuple[tuple[str, ...], Clock]:
         path = self.assembly.path
-        if isinstance(path, Turn):
-            origin = exact_angle(path.start) if by_phase else Sum(0.0)
-            return ("x",), clocks.turn(graph.input("x"), pace, origin)
         if by_phase:
-            return ("x",), clocks.swing_by_phase(graph.input("x"), pace, path.middle, path.amplitude)
-        x, u, v = (graph.input(name) for name in "xuv")
-        return ("x", "u", "v"), clocks.swing_by_angle(x, u, v, pace, path.middle)
+            return ("x",), path.clock(graph.input("x"), pace)
+        return path.clock_by_angle(graph, pace)
 
     def _scalar(self, variant: Variant) -> Any:
         names, crank, rows = self._trace(variant)
@@ -137,7 +131,7 @@ class Mechanism:
         x = _flat(given, shape)
         w, a = (_flat(rate, shape) if varying else float(rate) for rate in rates)
         variant = Variant(by_phase, derivatives, varying or a != 0.0, varying)
-        ways = None if by_phase else self._reach(x)
+        ways = None if by_phase else self.assembly.path.reach(x)
         asked = _Given(x, w, a, shape, ways)
         with np.errstate(all="ignore"):
             return self._motion(variant, asked, *self._run(variant, asked))
@@ -162,15 +156,11 @@ class Mechanism:
             names, crank, rows = self._trace(variant)
             rates = ("w", "a") if variant.accelerates else ("w",)
             varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
-            pins = {joint.name: joint.position for joint in self.linkage.joints if isinstance(joint, Pin)}
+            pins = {joint.name: joint.position for joint in self.linkage.pins}
             places = layout(rows, pins, VECTORS[:3])
-            swinging = crank if isinstance(self.assembly.path, Swing) else ()
+            swinging = () if self.assembly.path.full_turn else crank
             found = self._programs[variant] = (batch(varying, (*places.outputs, *swinging)), places)
         return found
-
-    def _reach(self, angle: Array) -> Reach | None:
-        path = self.assembly.path
-        return None if isinstance(path, Turn) else reach(angle, path)
 
     def _motion(self, variant: Variant, given: _Given, places: Layout, results: Floats) -> Motion:
         results.flags.writeable = False
@@ -191,16 +181,11 @@ class Mechanism:
     def _crank(self, given: _Given, variant: Variant, swing: list[Any]) -> tuple[Any, Any, Any, Any]:
         """Return phase, crank angle and its two rates."""
         x, path = given.x.reshape(given.shape), self.assembly.path
-        w, a = _shaped(given.w, given.shape), _shaped(given.a, given.shape)
-        if isinstance(path, Turn):
-            other = x + (path.start if variant.by_phase else -path.start) if path.start else x
-            return (x, other, w, a) if variant.by_phase else (other, x, w, a)
-        if variant.by_phase:
-            angle, rate, second = swing
-            return x, angle, rate, second
-        assert given.reach is not None
-        phase = 2 * np.arctan2(np.sqrt(given.reach.v), np.sqrt(given.reach.u))
-        return np.where(given.reach.outside, np.nan, phase).reshape(given.shape), x, w, a
+        rates = _shaped(given.w, given.shape), _shaped(given.a, given.shape)
+        if not variant.by_phase:
+            return path.phases(x, given.reach), x, *rates
+        angle, *moving = swing or (path.angles(x), *rates)
+        return x, angle, moving[0], moving[1]
 
 
 @dataclass(frozen=True)
@@ -254,12 +239,14 @@ def _quantities(k: Kinematics, unscale: float) -> Iterator[tuple[str, Mapping[st
         part = ("position", "velocity", "acceleration")[DERIVATIVE_OF[kind]]
         points = k.centres if kind.startswith("com_") else k.points
         yield kind, {name: _pair(point, part, unscale) for name, point in points.items()}
+    turnings = {name: (turning.value, turning.rate) for name, turning in k.bodies.items()}
+    travels = {name: (way.value, way.rate, way.second) for name, way in k.travels.items()}
     for kind in NUMBERS:
-        part = ("value", "rate", "second")[DERIVATIVE_OF[kind]]
+        order = DERIVATIVE_OF[kind]
         if kind.startswith("angular"):
-            yield kind, {name: (getattr(turning, part),) for name, turning in k.bodies.items()}
+            yield kind, {name: (rates[order - 1],) for name, rates in turnings.items()}
         else:
-            yield kind, {name: (getattr(travel, part) * unscale,) for name, travel in k.travels.items()}
+            yield kind, {name: (ways[order] * unscale,) for name, ways in travels.items()}
 
 
 def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:

@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .assembly import Gearing
 from .linkage import Body, Damper, Linkage, Spring
+from .loop import Gearing
 from .register import parts
 
 Array = NDArray[np.float64]

@@ -1,212 +1,247 @@
-"""Putting a linkage together: the input's path, and the sign of each closure on it."""
+"""The path of the input: how far it goes, how its phase moves it, when everything is back.
+
+A path is found once for a linkage; every pose is computed from it.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
-from . import clock as clocks
-from .assembly import Arc, Loop, Path, Swing, Turn, find_loops, gearings, open_arcs
-from .chain import LimitFit, Touches
-from .exact import exact_angle
+from linkanim.errors import AssemblyError
+
+from .clock import Clock, swing_by_angle, swing_by_phase, turn
+from .exact import FULL_TURN, HALF_TURN, Sum, exact_angle
 from .expression import Graph, Value
-from .linkage import RPR, RRP, RRR, Crank, Joint, Linkage, Pin, Polar, Rigid
-from .planar import MovingPoint, Slope
-from .program import batch
-from .roots import Kind
-from .traversal import Kinematics, Plan, walk
+from .joint import Joint
+from .linkage import Linkage
+from .loop import Loop
+from .planar import Slope
+from .reach import Array, Reach, reach
+from .roots import Kind, LoopRoot
+from .signed import Swinging
 
-JUST_AFTER = 1e-6
-"""Phase at which a closure is judged where it is ambiguous at the start itself."""
 
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """The input turns fully from `start`; every joint is back after `turns` turns.
 
-@dataclass(frozen=True)
-class Assembly:
-    """A linkage's loops, the path of its input and the sign of every closure.
-
-    `linkage` has its lengths scaled by a power of two where products of four of them could leave
-    the range of a float; `unscale` brings results back.
+    `rounds` is how often that takes to bring back a chain that passes a change point.
     """
 
-    linkage: Linkage
-    loops: Mapping[str, Loop]
-    path: Path
-    signs: Mapping[str, int]
-    unscale: float = 1.0
-    fits: Mapping[str, LimitFit] = field(default_factory=dict)
-    touches: Mapping[str, Touches] = field(default_factory=dict)
+    start: float
+    turns: int
+    rounds: int = 1
 
-    def walk(self, clock: clocks.Clock) -> Kinematics:
-        """Return the motion of everything at the clock's instant."""
-        plan = Plan(self.linkage, self.loops, self.signs, self.path, self.fits, self.touches)
-        return walk(plan, clock)
+    full_turn: ClassVar[bool] = True
+    limits: ClassVar[tuple[float, ...]] = ()
+    """The angles at which a dyad stops the input."""
 
-    def clock(self, phase: Value, pace: Slope) -> clocks.Clock:
-        """Return the input's state at a phase, in plain floats or noted expressions."""
-        if isinstance(self.path, Turn):
-            return clocks.turn(phase, pace, exact_angle(self.path.start))
-        return clocks.swing_by_phase(phase, pace, self.path.middle, self.path.amplitude)
+    @property
+    def periods(self) -> int:
+        """The number of turns after which every joint is back."""
+        return self.turns * self.rounds
 
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the input goes: one turn from 0."""
+        return 0.0, 2 * math.pi
 
-def assemble(linkage: Linkage) -> Assembly:
-    """Return the linkage put together as it asks; AssemblyError where it cannot be."""
-    scale = _scale(linkage)
-    scaled = _scaled(linkage, scale)
-    loops = find_loops(scaled)
-    return _named(
-        Assembly(scaled, loops, path, {}, 1.0 / scale)
-        for path in _paths(scaled, loops, open_arcs(linkage, loops))
-    )
+    @property
+    def one_way(self) -> float:
+        """The phase after which the input has been everywhere that it goes, on every closure."""
+        return 2 * math.pi * self.periods
 
-
-def resigned(assembly: Assembly) -> Assembly:
-    """Return the assembly with its closures named anew on its path."""
-    return _named([assembly])
-
-
-def _named(assemblies: Iterable[Assembly]) -> Assembly:
-    """Return the first assembly on which the dyads can lie as they are named, with the signs for it.
-
-    Where the joint that a name goes by lies on one side whatever the signs, they are the first
-    assembly's first: then the name is that of the dyad's own side.
-    """
-    found = [
-        replace(assembly, signs=signs)
-        for assembly in assemblies
-        for signs in _sign_choices(assembly.linkage, assembly.loops, assembly.path)
-    ]
-    return next((assembly for assembly in found if _is_as_named(assembly)), found[0])
-
-
-def _scale(linkage: Linkage) -> float:
-    """Return 1, or the power of two that brings extreme lengths near 1."""
-    longest = max((abs(length) for length in _lengths(linkage)), default=1.0)
-    exponent = math.frexp(longest)[1]
-    return 1.0 if abs(exponent) < 128 else math.ldexp(1.0, -exponent)
-
-
-def _lengths(linkage: Linkage) -> Iterator[float]:
-    for joint in linkage.joints:
-        match joint:
-            case Pin():
-                yield from joint.position
-            case RRR():
-                yield from joint.lengths
-            case Crank() | RRP() | RPR():
-                yield joint.length
-            case Rigid():
-                yield from joint.at
-
-
-def _scaled(linkage: Linkage, scale: float) -> Linkage:
-    if scale == 1.0:
-        return linkage
-    bodies = tuple(
-        body if body.com is None else replace(body, com=(body.com[0] * scale, body.com[1] * scale))
-        for body in linkage.bodies
-    )
-    joints = tuple(_scaled_joint(joint, scale) for joint in linkage.joints)
-    return replace(linkage, joints=joints, bodies=bodies)
-
-
-def _scaled_joint(joint: Joint, scale: float) -> Joint:
-    match joint:
-        case Pin():
-            polar = joint.polar and Polar(joint.polar.length * scale, joint.polar.angle, joint.polar.base)
-            return Pin(joint.name, (joint.position[0] * scale, joint.position[1] * scale), polar)
-        case Crank():
-            return replace(joint, length=joint.length * scale)
-        case RRR():
-            return replace(joint, lengths=(joint.lengths[0] * scale, joint.lengths[1] * scale))
-        case RRP():
-            line = replace(joint.line, offset=joint.line.offset * scale)
-            return replace(joint, length=joint.length * scale, line=line)
-        case RPR():
-            return replace(joint, length=joint.length * scale, offset=joint.offset * scale)
-        case Rigid():
-            return replace(joint, at=(joint.at[0] * scale, joint.at[1] * scale))
-
-
-def _paths(linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Arc] | None) -> Iterator[Path]:
-    """Yield the paths the input may take, the one asked for first."""
-    if arcs is None:
-        yield Turn(linkage.drive.start, turns_to_return(linkage, loops))
-        return
-    for arc in sorted(arcs, key=lambda arc: _rank(arc, linkage.drive.start, loops)):
-        yield Swing(arc.low, arc.high, arc.ends)
-
-
-def _rank(arc: Arc, start: float, loops: Mapping[str, Loop]) -> tuple[bool, bool]:
-    """Order ranges: the one that contains the start, then the one above the ground line."""
-    middle, half = float(arc.low + arc.high) / 2, float(arc.high - arc.low) / 2
-    apart = abs(math.remainder(start - middle, 2 * math.pi))
-    above = math.sin(middle - float(loops[arc.ends[0]].root.reference)) > 0
-    return not apart <= half, not above
-
-
-def turns_to_return(linkage: Linkage, loops: Mapping[str, Loop]) -> int:
-    """Return after how many turns of the input every joint is back.
-
-    A crank geared p/q needs q turns; a loop with one change point needs its half angle to return.
-    """
-    counts = [gearing.ratio.denominator for gearing in gearings(linkage).values()]
-    for loop in loops.values():
-        kinds = (loop.root.u.kind, loop.root.w.kind)
-        if kinds.count(Kind.CHANGE_POINT) == 1:
-            counts.append((loop.gearing.ratio / 2).denominator)
-    return math.lcm(*counts)
-
-
-def _sign_choices(linkage: Linkage, loops: Mapping[str, Loop], path: Path) -> Iterator[dict[str, int]]:
-    """Yield the closures' signs on a path: one choice, two where a dyad is named by another joint's side."""
-    signs = {}
-    named_otherwise = []
-    for joint in linkage.joints:
-        match joint:
-            case RRR():
-                signs[joint.name] = -joint.side if joint.side_of else joint.side
-                if joint.side_of:
-                    named_otherwise.append(joint.name)
-            case RRP():
-                signs[joint.name] = joint.side
-            case RPR():
-                signs[joint.name] = 1
-    signs = {name: sign * _just_after_start(loops.get(name), path) for name, sign in signs.items()}
-    yield signs
-    for name in named_otherwise:
-        yield {**signs, name: -signs[name]}
-
-
-def _just_after_start(loop: Loop | None, path: Path) -> int:
-    """Return the sign that the loop's own root has just after the start: the named closure holds there."""
-    if loop is None:
-        return 1
-    pace = Slope(1.0)
-    if isinstance(path, Turn):
-        clock = clocks.turn(JUST_AFTER, pace, exact_angle(path.start))
-    else:
-        clock = clocks.swing_by_phase(JUST_AFTER, pace, path.middle, path.amplitude)
-    return loop.sign(clock)
-
-
-def _is_as_named(assembly: Assembly) -> bool:
-    """Tell whether dyads that are named by another joint's side lie as asked just after the start."""
-    named = [joint for joint in assembly.linkage.joints if isinstance(joint, RRR) and joint.side_of]
-    if not named:
+    def holds(self, angle: float) -> bool:
+        """Tell whether the input comes to an angle."""
         return True
-    graph = Graph()
-    points = assembly.walk(assembly.clock(graph.input("x"), Slope(0.0))).points
-    # Compiled, so that only what the named joints need is worked out: what follows may not close yet.
-    program = batch({"x": True}, [_side(points, joint) for joint in named])
-    with np.errstate(all="ignore"):
-        return bool((program(np.array([JUST_AFTER])) > 0).all())
+
+    def phase_of(self, angle: float, near: float) -> float:
+        """Return the phase nearest to `near` at which the input stands at an angle, whole turns aside."""
+        return near + math.remainder(angle - self.start - near, 2 * math.pi)
+
+    def angles(self, phases: Array) -> Array:
+        """Return the input's angle at phases."""
+        return phases + self.start if self.start else phases
+
+    def phases(self, angles: Array, reached: Reach | None) -> Array:
+        """Return the phase at angles of the input."""
+        return angles - self.start if self.start else angles
+
+    def clock(self, phase: Value, pace: Slope) -> Clock:
+        """Return the input's state at a phase, in plain floats or noted expressions."""
+        return turn(phase, pace, exact_angle(self.start))
+
+    def clock_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], Clock]:
+        """Return the names of the graph's inputs, and the input's state at its angle."""
+        return ("x",), turn(graph.input("x"), pace, Sum(0.0))
+
+    def swinging(self, clock: Clock) -> Swinging | None:
+        """Return None: there is no swing."""
+        return None
+
+    def reach(self, angle: Array) -> Reach | None:
+        """Return None: no angle is out of reach."""
+        return None
 
 
-def _side(points: Mapping[str, MovingPoint], joint: RRR) -> Value:
-    """Return a number that is positive where the joint lies as it is named."""
-    assert joint.side_of is not None
-    b, p, q = (points[name].position for name in joint.side_of)
-    return (q - p).cross(b - p) * float(joint.side)
+@dataclass(frozen=True, slots=True)
+class Swing:
+    """The input swings between two limits; `ends` names the dyad that limits it at each.
+
+    An end without a name is no limit: the input turns back there, and every closure holds.
+    `repeats` is the number of turns of the input after which the linkage would be the same (more
+    than one with gears).
+    """
+
+    low: Sum
+    high: Sum
+    ends: tuple[str, str]
+    repeats: int = 1
+    rounds: int = 1
+
+    full_turn: ClassVar[bool] = False
+
+    @property
+    def periods(self) -> int:
+        """One there-and-back; two where a different dyad changes its closure at each end."""
+        return self.rounds if self.ends[0] == self.ends[1] else 2 * self.rounds
+
+    @property
+    def middle(self) -> Sum:
+        """The angle in the middle of the swing."""
+        return (self.low + self.high).times(0.5)
+
+    @property
+    def amplitude(self) -> float:
+        """Half the angle of the swing."""
+        return float((self.high - self.low).times(0.5))
+
+    @property
+    def limits(self) -> tuple[float, ...]:
+        """The angles at which a dyad stops the input; an end at which it merely turns back is none."""
+        return tuple(float(end) for end, dyad in zip((self.low, self.high), self.ends, strict=True) if dyad)
+
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the input goes."""
+        return float(self.low), float(self.high)
+
+    @property
+    def one_way(self) -> float:
+        """The phase after which the input has been everywhere that it goes."""
+        return math.pi
+
+    def holds(self, angle: float) -> bool:
+        """Tell whether the input comes to an angle, whole turns aside."""
+        return abs(math.remainder(angle - float(self.middle), 2 * math.pi)) <= self.amplitude
+
+    def phase_of(self, angle: float, near: float) -> float:
+        """Return the phase nearest to `near` at which the input stands at an angle, or at its limit."""
+        away = math.remainder(angle - float(self.middle), 2 * math.pi)
+        rising = math.acos(min(max(-away / self.amplitude, -1.0), 1.0))
+        ways = (near + math.remainder(phase - near, 2 * math.pi) for phase in (rising, -rising))
+        return min(ways, key=lambda phase: abs(phase - near))
+
+    def angles(self, phases: Array) -> Array:
+        """Return the input's angle at phases."""
+        angles: Array = float(self.middle) - self.amplitude * np.cos(phases)
+        return angles
+
+    def phases(self, angles: Array, reached: Reach | None) -> Array:
+        """Return the phase at angles of the input, on its way up; NaN for those out of reach."""
+        assert reached is not None
+        phases = 2 * np.arctan2(np.sqrt(reached.v), np.sqrt(reached.u))
+        return np.where(reached.outside, np.nan, phases).reshape(angles.shape)
+
+    def clock(self, phase: Value, pace: Slope) -> Clock:
+        """Return the input's state at a phase, in plain floats or noted expressions."""
+        return swing_by_phase(phase, pace, self.middle, self.amplitude)
+
+    def clock_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], Clock]:
+        """Return the names of the graph's inputs, and the input's state: its angle and half the ways left."""
+        x, u, v = (graph.input(name) for name in "xuv")
+        return ("x", "u", "v"), swing_by_angle(x, u, v, pace, self.middle)
+
+    def swinging(self, clock: Clock) -> Swinging | None:
+        """Return the swing as the clock has it; None for a clock without ends."""
+        return None if clock.ends is None else Swinging(clock.ends, clock.pace, self.low, self.high)
+
+    def reach(self, angle: Array) -> Reach | None:
+        """Return how far angles are from the limits."""
+        return reach(angle, (self.low, self.middle, self.high), self.repeats)
+
+
+Path = Turn | Swing
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A range of the input that one dyad, or several, leave open."""
+
+    low: Sum
+    high: Sum
+    ends: tuple[str, str]
+
+    def shifted(self, turns: int) -> Arc:
+        """Return the same range that many turns on."""
+        way = FULL_TURN.times(float(turns))
+        return Arc(self.low + way, self.high + way, self.ends)
+
+
+def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Arc] | None:
+    """Return the ranges of the input that the loops on its own pin leave open; None for a full turn.
+
+    AssemblyError where a loop cannot be closed at any angle, or the loops leave no common range.
+    """
+    arcs: list[Arc] | None = None
+    for name, loop in loops.items():
+        if loop.pin == linkage.drive.joint:
+            own = _arcs(linkage.joint(name), loop.root)
+            arcs = own if arcs is None else arcs if own is None else list(_common(arcs, own))
+            if arcs == []:
+                raise AssemblyError(f"joint {name}: the bars of the linkage leave its input no common range")
+    return arcs
+
+
+def _arcs(joint: Joint, root: LoopRoot) -> list[Arc] | None:
+    """Return the open ranges of one loop in the crank's own angle."""
+    if min(root.u.most, root.w.most) == 0:
+        raise AssemblyError(
+            f"joint {joint.name}: it can be put together at one angle of the input only, so that nothing "
+            "could move; make one length a little longer or shorter"
+        )
+    if min(root.u.most, root.w.most) < 0:
+        raise AssemblyError(f"joint {joint.name}: {joint.why_apart()}")
+    ends, reference = (joint.name, joint.name), root.reference
+    u_limits, w_limits = root.u.kind is Kind.LIMIT, root.w.kind is Kind.LIMIT
+    if u_limits and w_limits:
+        inner, outer = root.w.short, root.u.reach
+        above = Arc(reference + inner, reference + outer, ends)
+        return [above, Arc(reference - outer, reference - inner, ends)]
+    if u_limits:
+        return [Arc(reference - root.u.reach, reference + root.u.reach, ends)]
+    if w_limits:
+        middle = reference + HALF_TURN
+        return [Arc(middle - root.w.reach, middle + root.w.reach, ends)]
+    return None
+
+
+def _common(first: list[Arc], second: list[Arc]) -> Iterator[Arc]:
+    """Yield the ranges that both lists leave open, the input's angle being the same every turn."""
+    for a in first:
+        for b in second:
+            for turns in (-1, 0, 1):
+                moved = b.shifted(turns)
+                low, low_end = max((a.low, a.ends[0]), (moved.low, moved.ends[0]), key=_size)
+                high, high_end = min((a.high, a.ends[1]), (moved.high, moved.ends[1]), key=_size)
+                if float(high - low) > 0:
+                    yield Arc(low, high, (low_end, high_end))
+
+
+def _size(end: tuple[Sum, str]) -> tuple[float, float]:
+    return end[0].high, end[0].low

@@ -60,18 +60,6 @@ class Moving:
 
 
 @dataclass(frozen=True, slots=True)
-class Turning:
-    """How fast a rigid body turns: angular velocity and angular acceleration."""
-
-    rate: Value = 0.0
-    second: Value = 0.0
-
-    def plus(self, rate: Value, second: Value) -> Turning:
-        """Return the sum with another turning."""
-        return Turning(self.rate + rate, self.second + second)
-
-
-@dataclass(frozen=True, slots=True)
 class MovingPoint:
     """A point with its velocity and acceleration."""
 
@@ -87,19 +75,9 @@ class MovingPoint:
         )
 
 
-def carried(arm: Vec, turning: Turning) -> MovingPoint:
-    """Return the end of an arm that turns about its fixed root: r, iω r, (iα - ω²) r."""
-    square = turning.rate * turning.rate
-    return MovingPoint(
-        arm,
-        arm.left().scaled(turning.rate),
-        arm.left().scaled(turning.second) - arm.scaled(square),
-    )
-
-
 @dataclass(frozen=True, slots=True)
 class Slope:
-    """A number and its first derivative in time, for products and quotients of regular factors."""
+    """A number and its first derivative in time: a regular factor, or how fast a body turns."""
 
     value: Value
     rate: Value = 0.0
@@ -114,3 +92,17 @@ class Slope:
     def scaled(self, factor: float) -> Slope:
         """Return the quantity times a constant."""
         return Slope(self.value * factor, self.rate * factor)
+
+    def plus(self, value: Value, rate: Value) -> Slope:
+        """Return the sum with another number and its derivative."""
+        return Slope(self.value + value, self.rate + rate)
+
+
+def carried(arm: Vec, turning: Slope) -> MovingPoint:
+    """Return the end of an arm that turns (ω, α) about its fixed root: r, iω r, (iα - ω²) r."""
+    square = turning.value * turning.value
+    return MovingPoint(
+        arm,
+        arm.left().scaled(turning.value),
+        arm.left().scaled(turning.rate) - arm.scaled(square),
+    )

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .assembly import Swing
 from .exact import FULL_TURN, Sum, two_product, two_sum
 
 Array = NDArray[np.float64]
@@ -35,21 +34,23 @@ class Reach:
         return (self.u, self.v), (self.v, self.u)
 
 
-def reach(angle: Array, swing: Swing) -> Reach:
-    """Return how far angles are from the limits, reduced by whole turns without rounding.
+def reach(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> Reach:
+    """Return how far angles are from a swing's low end, middle and high end, whole turns aside.
 
+    After `repeats` turns of the input the linkage is the same; they are taken off without rounding.
     The float nearest a limit is the limit as well as a float can say it: it is never outside.
     """
-    turns = swing.repeats * np.rint((angle - float(swing.middle)) / (2 * math.pi * swing.repeats))
+    low_end, middle, high_end = swing
+    turns = repeats * np.rint((angle - float(middle)) / (2 * math.pi * repeats))
     whole, lost = two_product(-turns, FULL_TURN.high)
     high, error = two_sum(angle, whole)
     low = error + lost - turns * FULL_TURN.low
-    v, u = _way(high, low, swing.low, 1.0), _way(high, low, swing.high, -1.0)
+    v, u = _way(high, low, low_end, 1.0), _way(high, low, high_end, -1.0)
     nearest = np.spacing(np.maximum(np.abs(angle), 0.25)) / 2
     at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
     outside = ~((np.minimum(u, v) >= 0) | at_limit)
     return Reach(
-        _way(high, low, swing.middle, 1.0), np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2, outside, at_limit
+        _way(high, low, middle, 1.0), np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2, outside, at_limit
     )
 
 

@@ -17,7 +17,8 @@ import numpy as np
 
 from linkanim.errors import BadInput
 
-from .linkage import Body, Damper, Linkage, Pin, Spring
+from .kinds import Pin
+from .linkage import Body, Damper, Linkage, Spring
 
 _STANDARD = {
     "crank": "2",

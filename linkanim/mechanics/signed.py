@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .clock import Clock, Ends, Half, half_of
+from .clock import Ends, Half, half_of
 from .exact import FULL_TURN, HALF_TURN, Sum
 from .expression import Value, cos, maximum, minimum, select, sin, sqrt
 from .planar import Moving, Slope
@@ -91,11 +91,6 @@ class Swinging:
     pace: Slope
     low: Sum
     high: Sum
-
-
-def swinging(clock: Clock, low: Sum, high: Sum) -> Swinging | None:
-    """Return the swing of a clock between two angles; None where the input turns fully."""
-    return None if clock.ends is None else Swinging(clock.ends, clock.pace, low, high)
 
 
 @dataclass(frozen=True, slots=True)

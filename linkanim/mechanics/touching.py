@@ -13,11 +13,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .assembly import Turn
+from .assembly import JUST_AFTER, Assembly
 from .chain import Touches
 from .exact import Sum, exact_angle
 from .expression import Graph
-from .path import JUST_AFTER, Assembly
+from .path import Turn
 from .planar import Slope
 from .program import Batch, batch
 
@@ -53,7 +53,7 @@ def _named(assembly: Assembly, phases: tuple[float, ...], least: float) -> Touch
         found = Touches(tuple(start + Sum(phase) for phase in phases), path.periods, None, least)
     else:
         found = Touches(tuple(Sum(phase) for phase in phases), path.periods, path.amplitude, least)
-    side = found.side(assembly.clock(JUST_AFTER, Slope(1.0)))
+    side = found.side(path.clock(JUST_AFTER, Slope(1.0)))
     assert isinstance(side, float)
     return replace(found, sign=side)
 
@@ -76,7 +76,7 @@ def _touching_phases(assembly: Assembly, name: str, scale: float) -> Iterator[fl
 
 def _margin_and_rate(assembly: Assembly, name: str) -> Batch:
     graph = Graph()
-    found = assembly.walk(assembly.clock(graph.input("x"), Slope(1.0)))
+    found = assembly.walk_at(graph.input("x"), Slope(1.0))
     return batch({"x": True}, [found.margins[name], found.drivers[name].rate])
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkanim.mechanics.linkage import RPR, Body
+from linkanim.mechanics.kinds import RPR
+from linkanim.mechanics.linkage import Body
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Part, Stamp, glazed, lined

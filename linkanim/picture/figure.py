@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import tau
 
 import numpy as np
 
-from linkanim.mechanics.linkage import RPR, RRP, RRR, Body, Crank, Damper, Joint, Linkage, Pin, Rigid, Spring
+from linkanim.mechanics.kinds import RPR, RRP
+from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.motion import Motion
 from linkanim.picture.raster import Loop
 from linkanim.picture.view import Box, View
@@ -36,16 +36,17 @@ class Figure:
         """The bodies with joints that are named, and a bar for each length that is in none of them."""
         named = [body for body in self.linkage.bodies if len(body.joints) > 1]
         held = [set(body.joints) for body in named]
-        bare = [ends for ends in _lengths(self.linkage) if not any(set(ends) <= joints for joints in held)]
+        spans = [ends for joint in self.linkage.joints for ends in joint.spans]
+        bare = [ends for ends in spans if not any(set(ends) <= joints for joints in held)]
         return (*(Body("", ends) for ends in bare), *named)
 
     @cached_property
     def pins(self) -> tuple[str, ...]:
         """The joints that are pins: those in which bars meet or which something is hung on."""
-        used = {name for joint in self.linkage.joints for name in _pins_of(joint)}
+        used = {name for joint in self.linkage.joints for name in joint.pins}
         hung = {name for strut in self.struts for name in strut.between}
         ends = {name for body in self.bodies for name in body.joints}
-        fixed = {joint.name for joint in self.linkage.joints if isinstance(joint, Pin)}
+        fixed = {pin.name for pin in self.linkage.pins}
         names = used | hung | (ends & fixed)
         return tuple(joint.name for joint in self.linkage.joints if joint.name in names)
 
@@ -57,8 +58,7 @@ class Figure:
     @cached_property
     def fixed(self) -> tuple[str, ...]:
         """The pins that are fixed to the ground."""
-        by_name = self.linkage.by_name
-        return tuple(name for name in self.pins if isinstance(by_name[name], Pin))
+        return tuple(name for name in self.pins if self.linkage.joint(name).fixed)
 
     @cached_property
     def sliders(self) -> tuple[RRP, ...]:
@@ -109,31 +109,3 @@ def figure(scene: Scene) -> Figure:
     """Solve one cycle of the scene, closely enough for a smooth curve at 4K."""
     periods = min(round(scene.period / tau), _MOST_PERIODS)
     return Figure(scene, scene.cycle(SAMPLES * periods))
-
-
-def _lengths(linkage: Linkage) -> Iterator[tuple[str, ...]]:
-    """Yield the joints of every rigid length in the definitions."""
-    for joint in linkage.joints:
-        match joint:
-            case Crank(name=name, pivot=pivot) | RPR(name=name, pivot=pivot):
-                yield pivot, name
-            case RRR(name=name, ends=(one, other)):
-                yield one, name
-                yield other, name
-            case RRP(name=name, end=end):
-                yield end, name
-            case Rigid(name=name, on=(one, other)):
-                yield one, other, name
-
-
-def _pins_of(joint: Joint) -> tuple[str, ...]:
-    match joint:
-        case Crank(name=name, pivot=pivot):
-            return pivot, name
-        case RRR(name=name, ends=ends):
-            return *ends, name
-        case RRP(name=name, end=end):
-            return end, name
-        case RPR(pivot=pivot, through=through):
-            return pivot, through
-    return ()

@@ -9,7 +9,7 @@ from math import ceil, cos, pi, radians
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.mechanics.linkage import Crank
+from linkanim.mechanics.kinds import Crank
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Part
@@ -61,9 +61,9 @@ def pairs(figure: Figure) -> tuple[Pair, ...]:
 
 def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> Pair | None:
     gear = crank.gear
-    if gear is None or gear.driver not in cranks:
+    if gear is None or gear.mate not in cranks:
         return None
-    driver = cranks[gear.driver]
+    driver = cranks[gear.mate]
     apart = figure.start(crank.pivot) - figure.start(driver.pivot)
     ratio = abs(gear.ratio)
     if apart == 0 or ratio == 0:

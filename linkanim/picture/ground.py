@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkanim.mechanics.linkage import RRP
+from linkanim.mechanics.kinds import RRP
 from linkanim.picture.bodies import BLOCK
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge

@@ -10,7 +10,7 @@ from itertools import zip_longest
 import numpy as np
 import pygame
 
-from linkanim.mechanics.linkage import Crank
+from linkanim.mechanics.kinds import Crank
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.chart import Strip, pen_for, strip

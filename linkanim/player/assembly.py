@@ -6,16 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkanim.errors import AssemblyError, LinkanimError
-from linkanim.mechanics.linkage import RRP, RRR
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
-
-_SHORTHANDS = {
-    "four-bar": ("open", "crossed"),
-    "slider-crank": ("forward", "backward"),
-    "six-bar": ("open", "crossed"),
-}
-_SIDES: Mapping[type, tuple[str, str]] = {RRR: ("left", "right"), RRP: ("forward", "backward")}
+from linkanim.scenes.shorthand import SHORTHANDS
 
 
 def other_closure(scene: Scene) -> Scene:
@@ -38,16 +31,15 @@ def ghost_of(scene: Scene) -> Scene | None:
 
 def _switched(scene: Scene) -> dict[str, Any]:
     document = dict(scene.document)
-    for table, options in _SHORTHANDS.items():
+    for table, shorthand in SHORTHANDS.items():
         if table in document:
-            return {**document, table: _toggled(document[table], "assembly", options)}
+            return {**document, table: _toggled(document[table], "assembly", shorthand.assemblies)}
     joints = document.get("joints", {})
-    dyads = (joint for joint in scene.linkage.joints if type(joint) in _SIDES and joint.name in joints)
-    dyad = next(dyads, None)
-    if dyad is None:
+    sides = ((joint.name, joint.sides) for joint in scene.linkage.joints if joint.name in joints)
+    name, options = next(((name, found) for name, found in sides if found), ("", None))
+    if options is None:
         raise AssemblyError(f"{scene.name} has no second closure: no loop of it can be put together two ways")
-    toggled = _toggled(joints[dyad.name], "side", _SIDES[type(dyad)])
-    return {**document, "joints": {**joints, dyad.name: toggled}}
+    return {**document, "joints": {**joints, name: _toggled(joints[name], "side", options)}}
 
 
 def _toggled(table: Mapping[str, Any], key: str, options: tuple[str, str]) -> dict[str, Any]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkanim.errors import LinkanimError
-from linkanim.scenes.edit import Key, dimensions, with_dimension
+from linkanim.scenes.edit import dimensions, with_dimension
+from linkanim.scenes.joints import Key
 from linkanim.scenes.scene import Scene
 
 FRAMES = 12

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from linkanim.mechanics.linkage import Crank
+from linkanim.mechanics.kinds import Crank
 from linkanim.scenes.scene import Scene
 
 

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Self
 from linkanim import units
 from linkanim.document import Section
 from linkanim.errors import BadInput, SceneError, UnitError
-from linkanim.mechanics.linkage import Point
+from linkanim.mechanics.joint import Point
 
 _SMALL = 12
 _STEEP = 100

@@ -9,41 +9,20 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal
+from functools import reduce
+from typing import Any
 
 from linkanim import units
+from linkanim.scenes.joints import DimensionKind, Key, reader_of
 from linkanim.scenes.read import DEFAULT_SPEED, scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS
 
-Kind = Literal["length", "angle", "speed", "offset", "ratio"]
-Key = tuple[str | int, ...]
-
 _BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
 _EXACT = 2**53
 
-_SHORT: Mapping[str, Kind] = {
-    "ground": "length",
-    "crank": "length",
-    "coupler": "length",
-    "rocker": "length",
-    "rod": "length",
-    "lengths": "length",
-    "offset": "offset",
-    "coupler_point": "offset",
-    "coupler_point2": "offset",
-    "ground_angle": "angle",
-    "line_angle": "angle",
-    "link_angle": "angle",
-}
-_PIN: Mapping[str, Kind] = {"length": "length", "angle": "angle"}
-_JOINT: Mapping[str, Kind] = {"length": "length", "at": "offset"}
-_WITHIN: Mapping[str, Mapping[str, Kind]] = {
-    "gear": {"ratio": "ratio", "offset": "angle"},
-    "line": {"angle": "angle", "offset": "offset"},
-    "slot": {"offset": "offset"},
-}
-_DRIVE: Mapping[str, Kind] = {"speed": "speed", "start": "angle"}
+_PIN: Mapping[str, DimensionKind] = {"length": "length", "angle": "angle"}
+_DRIVE: Mapping[str, DimensionKind] = {"speed": "speed", "start": "angle"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +37,7 @@ class Dimension:
     label: str
     value: float
     unit: str
-    kind: Kind
+    kind: DimensionKind
 
 
 def dimensions(scene: Scene) -> tuple[Dimension, ...]:
@@ -85,13 +64,14 @@ def with_dimension(scene: Scene, key: Key, value: float | str) -> Scene:
     return scene_from(document, name=scene.name, where=scene.name)
 
 
-def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, Kind]]:
-    for name in SHORTHANDS:
-        yield from _numbers(document.get(name, {}), (name,), _SHORT)
+def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, DimensionKind]]:
+    for name, shorthand in SHORTHANDS.items():
+        yield from _numbers(document.get(name, {}), (name,), shorthand.numbers)
     for name, joint in document.get("joints", {}).items():
-        yield from _numbers(joint, ("joints", name), _JOINT)
-        for inner, kinds in _WITHIN.items():
-            yield from _numbers(joint.get(inner, {}), ("joints", name, inner), kinds)
+        reader = reader_of(joint)
+        for (*within, last), kind in reader.numbers.items() if reader else ():
+            table = reduce(lambda found, key: found.get(key, {}), within, joint)
+            yield from _numbers(table, ("joints", name, *within), {str(last): kind})
     for name, pin in document.get("ground", {}).items():
         if isinstance(pin, Mapping):
             yield from _numbers(pin, ("ground", name), _PIN)
@@ -100,7 +80,9 @@ def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, Kind]]:
     yield from _numbers({"speed": DEFAULT_SPEED, **document.get("drive", {})}, ("drive",), _DRIVE)
 
 
-def _numbers(table: Mapping[str, Any], path: Key, kinds: Mapping[str, Kind]) -> Iterator[tuple[Key, Kind]]:
+def _numbers(
+    table: Mapping[str, Any], path: Key, kinds: Mapping[str, DimensionKind]
+) -> Iterator[tuple[Key, DimensionKind]]:
     """Iterate the keys of those numbers in a table that have a kind, item by item where they are lists."""
     for name, value in table.items():
         if name in kinds and isinstance(value, list):
@@ -109,7 +91,7 @@ def _numbers(table: Mapping[str, Any], path: Key, kinds: Mapping[str, Kind]) -> 
             yield (*path, name), kinds[name]
 
 
-def _dimension(scene: Scene, key: Key, kind: Kind) -> Dimension:
+def _dimension(scene: Scene, key: Key, kind: DimensionKind) -> Dimension:
     written = _at(scene.document, key)
     if kind in ("length", "offset"):
         value, unit = units.length(written, unit=scene.length_unit), scene.length_unit

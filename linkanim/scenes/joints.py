@@ -1,16 +1,30 @@
-"""The long form of a scene file: fixed pins and joints, each a table of [ground] or [joints]."""
+"""The long form of a scene file: fixed pins and joints, each a table of [ground] or [joints].
+
+`READERS` is the one table of how each kind of joint is written.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from typing import Any, Literal, NamedTuple
 
-from linkanim.mechanics.linkage import RPR, RRP, RRR, Crank, Gear, Joint, Line, Pin, Point, Polar, Rigid
+from linkanim.mechanics.joint import Joint, Point
+from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
 from linkanim.scenes.check import Table
 
+Key = tuple[str | int, ...]
+DimensionKind = Literal["length", "angle", "speed", "offset", "ratio"]
+"""What a number of a scene file measures; an "offset" is a length of either sign."""
+
 OPEN = ("open", "crossed")
-LEFT = ("left", "right")
-FORWARD = ("forward", "backward")
+
+
+class Reader(NamedTuple):
+    """How a kind of joint is read from its table, and which of its numbers can be edited."""
+
+    read: Callable[[str, Table], Joint]
+    numbers: Mapping[Key, DimensionKind]
 
 
 def side(table: Table, key: str, options: tuple[str, str]) -> int:
@@ -45,11 +59,16 @@ def read_pin(name: str, ground: Table) -> Pin:
 
 def read_joint(name: str, table: Table) -> Joint:
     """Read a joint; which kind it is shows in its keys."""
-    for mark, read in _KINDS.items():
-        if mark in table:
-            return read(name, table)
-    table.only(*_KINDS, "length", "side", "gear", "at")
-    raise table.wrong(f"says no way to find the joint; give it one of {', '.join(_KINDS)}")
+    reader = reader_of(table.values)
+    if reader is not None:
+        return reader.read(name, table)
+    table.only(*READERS, "length", "side", "gear", "at")
+    raise table.wrong(f"says no way to find the joint; give it one of {', '.join(READERS)}")
+
+
+def reader_of(values: Mapping[str, Any]) -> Reader | None:
+    """Return how a joint's table is read, by the first key that marks a kind; None where none does."""
+    return next((reader for mark, reader in READERS.items() if mark in values), None)
 
 
 def _crank(name: str, table: Table) -> Crank:
@@ -68,14 +87,14 @@ def _slider(name: str, table: Table) -> RRP:
     line = table.table("line")
     line.only("through", "angle", "offset")
     travel = Line(line.text("through"), line.angle("angle", "0 deg"), line.offset("offset"))
-    return RRP(name, table.text("from"), table.length("length"), travel, side(table, "side", FORWARD))
+    return RRP(name, table.text("from"), table.length("length"), travel, side(table, "side", RRP.sides))
 
 
 def _dyad(name: str, table: Table) -> RRR:
     table.only("from", "length", "side")
     start, end = table.names("from", 2)
     first, second = table.lengths("length", 2)
-    return RRR(name, (start, end), (first, second), side(table, "side", LEFT))
+    return RRR(name, (start, end), (first, second), side(table, "side", RRR.sides))
 
 
 def _slot(name: str, table: Table) -> RPR:
@@ -94,10 +113,13 @@ def _point(name: str, table: Table) -> Rigid:
     return Rigid(name, (first, second), at)
 
 
-_KINDS: Mapping[str, Callable[[str, Table], Joint]] = {
-    "crank": _crank,
-    "line": _slider,
-    "from": _dyad,
-    "slot": _slot,
-    "on": _point,
+_BAR: Mapping[Key, DimensionKind] = {("length",): "length"}
+
+READERS: Mapping[str, Reader] = {
+    "crank": Reader(_crank, {**_BAR, ("gear", "ratio"): "ratio", ("gear", "offset"): "angle"}),
+    "line": Reader(_slider, {**_BAR, ("line", "angle"): "angle", ("line", "offset"): "offset"}),
+    "from": Reader(_dyad, _BAR),
+    "slot": Reader(_slot, {**_BAR, ("slot", "offset"): "offset"}),
+    "on": Reader(_point, {("at",): "offset"}),
 }
+"""How each kind of joint is written, by the key that marks it."""

@@ -9,35 +9,15 @@ from typing import Any
 from linkanim import units
 from linkanim.document import meant
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.mechanics.linkage import (
-    RPR,
-    RRP,
-    RRR,
-    Body,
-    Crank,
-    Damper,
-    Drive,
-    Joint,
-    Linkage,
-    Pin,
-    Rigid,
-    Spring,
-)
+from linkanim.mechanics.frames import coincide, frames_of, holding
+from linkanim.mechanics.joint import Frame, Joint, Need
+from linkanim.mechanics.kinds import RRR, Crank, Pin, Rigid
+from linkanim.mechanics.linkage import Body, Damper, Drive, Linkage, Spring
 from linkanim.scenes.check import Table
 from linkanim.scenes.joints import read_joint, read_pin
+from linkanim.scenes.order import circle, solved_order
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
-from linkanim.scenes.structure import (
-    Frame,
-    Frames,
-    bodies,
-    circle,
-    coincide,
-    fixed,
-    holding,
-    needs,
-    solved_order,
-)
 
 _TOP = (
     "title", "source", "length_unit", "drive", "ground", "joints", "bodies", "springs", "dampers", "trace",
@@ -67,7 +47,7 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str) -> Scene:
     top.only(*_TOP)
     short = expand(top, _origin(top))
     joints = _joints(top, short)
-    rigid = bodies(joints)
+    rigid = frames_of(joints)
     _check_rigid(top, joints, rigid)
     linkage = Linkage(
         joints=joints,
@@ -139,48 +119,49 @@ def _joints(top: Table, short: Expansion) -> tuple[Joint, ...]:
 def _check_needs(top: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
     """Refuse a joint found from one that is not there, from itself, or held by one that is not fixed."""
     table = top.table("joints").table(joint.name)
-    for key, name in needs(joint):
-        if name not in joints:
-            raise SceneError(f"{table.where}: {table.path}.{key}: {_no_joint(name, joints)}")
-        if name == joint.name:
-            raise SceneError(f"{table.where}: {table.path}.{key}: a joint cannot be found from itself")
-    for key, name in fixed(joint):
-        if not isinstance(joints[name], Pin):
-            pins = ", ".join(pin.name for pin in joints.values() if isinstance(pin, Pin))
-            raise SceneError(f"{table.where}: {table.path}.{key}: {name} moves; name a fixed pin ({pins})")
-    _check_moved(table, joint, joints)
-    geared = isinstance(joint, Crank) and joint.gear
-    if geared and not isinstance(joints[geared.driver], Crank):
-        raise SceneError(f"{table.where}: {table.path}.gear.with: {geared.driver} is not a crank")
+    for need in joint.needs:
+        key = f"{table.where}: {table.path}.{need.key}"
+        if need.joint not in joints:
+            raise SceneError(f"{key}: {_no_joint(need.joint, joints)}")
+        if need.joint == joint.name:
+            raise SceneError(f"{key}: a joint cannot be found from itself")
+    for need in joint.needs:
+        if (reason := _unfit(need, joints)) is not None:
+            raise SceneError(f"{table.where}: {table.path}.{need.key}: {reason}")
 
 
-def _check_moved(table: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
-    """Refuse a slider or a slotted bar that nothing moves."""
-    key, name = {RRP: ("from", "end"), RPR: ("slot.through", "through")}.get(type(joint), ("", ""))
-    if key and isinstance(joints[getattr(joint, name)], Pin):
-        reason = f"{getattr(joint, name)} is fixed, so nothing would move; name a joint that moves"
-        raise SceneError(f"{table.where}: {table.path}.{key}: {reason}")
+def _unfit(need: Need, joints: Mapping[str, Joint]) -> str | None:
+    """Say why a joint cannot be what another one needs it to be; None where it can."""
+    found = joints[need.joint]
+    if need.must == "fixed" and not found.fixed:
+        pins = ", ".join(joint.name for joint in joints.values() if joint.fixed)
+        return f"{need.joint} moves; name a fixed pin ({pins})"
+    if need.must == "moving" and found.fixed:
+        return f"{need.joint} is fixed, so nothing would move; name a joint that moves"
+    if need.must == "crank" and not isinstance(found, Crank):
+        return f"{need.joint} is not a crank"
+    return None
 
 
 def _no_joint(name: str, joints: Iterable[str]) -> str:
     return f"no joint is called {units.shown(name)}{meant(name, joints)}; there are {', '.join(joints)}"
 
 
-def _check_rigid(top: Table, joints: tuple[Joint, ...], rigid: Frames) -> None:
+def _check_rigid(top: Table, joints: tuple[Joint, ...], rigid: tuple[Frame, ...]) -> None:
     """Refuse points that are not on one body, and bars on one body that do not meet."""
     for joint in joints:
         if isinstance(joint, Rigid):
             _check_point(top.table("joints").table(joint.name), joint, rigid)
-        elif isinstance(joint, RRR) and (frame := holding(rigid, joint.ends)):
-            _check_brace(top.table("joints").table(joint.name), joint, frame)
+        elif isinstance(joint, RRR) and (n := holding(rigid, joint.ends)) is not None:
+            _check_brace(top.table("joints").table(joint.name), joint, rigid[n])
 
 
-def _check_point(table: Table, joint: Rigid, rigid: Frames) -> None:
+def _check_point(table: Table, joint: Rigid, rigid: tuple[Frame, ...]) -> None:
     first, second = joint.on
-    frame = holding(rigid, joint.on)
-    if frame is None:
+    n = holding(rigid, joint.on)
+    if n is None:
         raise table.wrong(f"{first} and {second} are not on one rigid body; name two joints of one bar")
-    if coincide(frame, first, second):
+    if coincide(rigid[n], first, second):
         raise table.wrong(
             f"{first} and {second} are one point, so no direction leads from {first} to {second}"
         )
@@ -216,7 +197,7 @@ def _drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Drive:
 
 
 def _bodies(
-    top: Table, joints: tuple[Joint, ...], rigid: Frames, usual: tuple[Body, ...]
+    top: Table, joints: tuple[Joint, ...], rigid: tuple[Frame, ...], usual: tuple[Body, ...]
 ) -> tuple[Body, ...]:
     """Return the shorthand's bodies and the file's; the file's takes the place of one of the same name."""
     found = {body.name: body for body in usual}
@@ -231,20 +212,20 @@ def _block(name: str, table: Table, joints: Mapping[str, Joint]) -> Body:
     slider = table.text("slider")
     if slider not in joints:
         raise table.error("slider", _no_joint(slider, joints))
-    if not isinstance(joints[slider], RRP):
+    if not joints[slider].travels:
         raise table.error("slider", "does not travel on a line; name a joint that has one")
     return Body(name, slider=slider)
 
 
-def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: Frames) -> Body:
+def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: tuple[Frame, ...]) -> Body:
     table.only("joints", "com")
     members = _members(table, "joints", joints)
     if len(members) < 2:
         raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
-    frame = holding(rigid, members)
-    if frame is None:
+    n = holding(rigid, members)
+    if n is None:
         raise table.error("joints", f"{', '.join(members)} are not joints of one rigid body")
-    if coincide(frame, members[0], members[1]):
+    if coincide(rigid[n], members[0], members[1]):
         raise table.error(
             "joints", f"{members[0]} and {members[1]} are one point; name another first or second"
         )

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint, Line, Pin, Rigid
+from linkanim.mechanics.joint import Joint
+from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin, Rigid
+from linkanim.mechanics.linkage import Body
 from linkanim.scenes.check import Table
-from linkanim.scenes.joints import FORWARD, OPEN, on_circle, polar_pin, side
+from linkanim.scenes.joints import OPEN, DimensionKind, on_circle, polar_pin, side
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,12 +27,20 @@ class Expansion:
     trace: tuple[str, ...] = ()
 
 
+class Shorthand(NamedTuple):
+    """How a shorthand is expanded, the names of its `assembly`, and which of its numbers can be edited."""
+
+    expand: Callable[[Table, Pin], Expansion]
+    assemblies: tuple[str, str]
+    numbers: Mapping[str, DimensionKind]
+
+
 def expand(document: Table, origin: Pin) -> Expansion:
     """Expand the file's shorthand about the pin `origin` (O2); an empty one where it has none."""
     found = [key for key in SHORTHANDS if key in document]
     if len(found) > 1:
         raise document.wrong(f"has both [{found[0]}] and [{found[1]}]; keep one, write the other as [joints]")
-    return SHORTHANDS[found[0]](document.table(found[0]), origin) if found else Expansion()
+    return SHORTHANDS[found[0]].expand(document.table(found[0]), origin) if found else Expansion()
 
 
 def _four_bar(table: Table, o2: Pin) -> Expansion:
@@ -55,7 +66,7 @@ def _four_bar(table: Table, o2: Pin) -> Expansion:
 def _slider_crank(table: Table, o2: Pin) -> Expansion:
     table.only("crank", "rod", "offset", "line_angle", "assembly", "coupler_point")
     line = Line("O2", table.angle("line_angle", "0 deg"), table.offset("offset"))
-    slider = RRP("B", "A", table.length("rod"), line, side(table, "assembly", FORWARD))
+    slider = RRP("B", "A", table.length("rod"), line, side(table, "assembly", RRP.sides))
     points = _coupler_point(table, "coupler_point", "P", ("A", "B"))
     names = tuple(point.name for point in points)
     bodies = (Body("crank", ("O2", "A")), Body("rod", ("A", "B", *names)), Body("slider", slider="B"))
@@ -100,8 +111,26 @@ def _coupler_point(table: Table, key: str, name: str, on: tuple[str, str]) -> tu
     return (Rigid(name, on, at),)
 
 
-SHORTHANDS: Mapping[str, Callable[[Table, Pin], Expansion]] = {
-    "four-bar": _four_bar,
-    "slider-crank": _slider_crank,
-    "six-bar": _six_bar,
+_FOUR_BAR: Mapping[str, DimensionKind] = {
+    **dict.fromkeys(("ground", "crank", "coupler", "rocker"), "length"),
+    "ground_angle": "angle",
+    "coupler_point": "offset",
 }
+_SLIDER_CRANK: Mapping[str, DimensionKind] = {
+    **dict.fromkeys(("crank", "rod"), "length"),
+    "offset": "offset",
+    "line_angle": "angle",
+    "coupler_point": "offset",
+}
+_SIX_BAR: Mapping[str, DimensionKind] = {
+    "lengths": "length",
+    **dict.fromkeys(("ground_angle", "link_angle"), "angle"),
+    **dict.fromkeys(("coupler_point", "coupler_point2"), "offset"),
+}
+
+SHORTHANDS: Mapping[str, Shorthand] = {
+    "four-bar": Shorthand(_four_bar, OPEN, _FOUR_BAR),
+    "slider-crank": Shorthand(_slider_crank, RRP.sides, _SLIDER_CRANK),
+    "six-bar": Shorthand(_six_bar, OPEN, _SIX_BAR),
+}
+"""The shorthands by the name of their table."""

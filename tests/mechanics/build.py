@@ -5,21 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from linkanim.mechanics.linkage import (
-    RPR,
-    RRP,
-    RRR,
-    Body,
-    Crank,
-    Drive,
-    Joint,
-    Line,
-    Linkage,
-    Pin,
-    Point,
-    Polar,
-    Rigid,
-)
+from linkanim.mechanics.joint import Joint, Point
+from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage import Body, Drive, Linkage
 
 BARS = (Body("crank", ("O2", "A")), Body("coupler", ("A", "B")), Body("rocker", ("O4", "B")))
 

@@ -14,9 +14,9 @@ from mpmath import mp, mpf
 from numpy.typing import NDArray
 from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, meeting, on_line, sign_of, unit
 
-from linkanim.mechanics.assembly import Swing
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.path import Swing
 from linkanim.scenes import load
 
 EPS = 2.0**-52

@@ -11,7 +11,8 @@ import pytest
 from build import four_bar, rocker_driven, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.linkage import RRR, Linkage, Pin
+from linkanim.mechanics.kinds import RRR, Pin
+from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 
 Lengths = tuple[float, float, float, float]

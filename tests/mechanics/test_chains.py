@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from build import six_bar
 
-from linkanim.mechanics.assembly import Swing
 from linkanim.mechanics.mechanism import Mechanism, mechanism
+from linkanim.mechanics.path import Swing
 from linkanim.scenes import load
 from linkanim.scenes.edit import with_dimension
 

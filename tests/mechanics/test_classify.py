@@ -10,7 +10,8 @@ from build import four_bar, six_bar, slider_crank, slotted
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.classify import classify
-from linkanim.mechanics.linkage import RRR, Crank, Drive, Gear, Linkage, Pin
+from linkanim.mechanics.kinds import RRR, Crank, Gear, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import mechanism
 
 # Ground, crank, coupler, rocker -> class, whether the crank turns, circuits.

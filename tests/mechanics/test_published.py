@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from build import BARS, four_bar, slider_crank
 
-from linkanim.mechanics.linkage import RRR, Crank, Drive, Linkage, Pin
+from linkanim.mechanics.kinds import RRR, Crank, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import mechanism
 from linkanim.scenes import load
 

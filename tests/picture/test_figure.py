@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from linkanim.mechanics.linkage import RPR, Crank, Drive, Linkage, Pin
+from linkanim.mechanics.kinds import RPR, Crank, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture.bodies import body_parts, colours_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge

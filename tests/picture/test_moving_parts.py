@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from pictures import pixels
 
-from linkanim.mechanics.linkage import Crank, Drive, Gear, Linkage, Pin
+from linkanim.mechanics.kinds import Crank, Gear, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.gears import Pair, pairs, wheel_layers, wheel_parts, wheels_box
 from linkanim.picture.layout import gauge

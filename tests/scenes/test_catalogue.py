@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.linkage import RPR, RRP, RRR, Crank, Rigid
+from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Rigid
 from linkanim.mechanics.motion import Motion
 from linkanim.scenes import load, names
 from linkanim.scenes.files import titles

@@ -11,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkanim.errors import SceneError, WorkFailed
-from linkanim.mechanics.linkage import Crank
+from linkanim.mechanics.kinds import Crank
 from linkanim.scenes import load, names
-from linkanim.scenes.edit import Key, dimensions, with_dimension
+from linkanim.scenes.edit import dimensions, with_dimension
+from linkanim.scenes.joints import Key
 from linkanim.scenes.read import parse, scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.write import save, text

@@ -10,21 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkanim.mechanics.linkage import (
-    RPR,
-    RRP,
-    RRR,
-    Body,
-    Crank,
-    Damper,
-    Drive,
-    Gear,
-    Line,
-    Pin,
-    Polar,
-    Rigid,
-    Spring,
-)
+from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage import Body, Damper, Drive, Spring
 from linkanim.scenes import load
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene

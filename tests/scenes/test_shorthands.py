@@ -7,7 +7,9 @@ import tomllib
 
 import pytest
 
-from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Drive, Joint, Line, Pin, Point, Polar, Rigid
+from linkanim.mechanics.joint import Joint, Point
+from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage import Body, Drive
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 

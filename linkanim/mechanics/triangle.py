@@ -1,12 +1,8 @@
-"""Closing a dyad: where two constraints from known points put the next joint, and how it moves.
+"""The triangle of a dyad: two points, the bars from them, and what the bars' rates need.
 
-Two bars a (from P) and b (from Q) meet at B = P + D·(p + i q)/(2L²) with D = Q - P, L = |D|,
-p = L² + a² - b² and the signed root q: no arc functions, no √L. The bars turn at
-
-    ω_a = e - ρ (L² + b² - a²)/(2L²)     ω_b = e + ρ (L² + a² - b²)/(2L²)
-
-with e = D × D'/L² and ρ = (L²)'/q, which stays finite through a limit where q and the input's rate
-vanish together (differentiate the closure in the phase; Müller's form of the loop equations).
+With D from the first point P to the second Q, L = |D| and the signed root q the third corner lies at
+P + D·(p + i q)/(2L²), p = L² + a² - b². D turns at e = D × D'/L², and the bars' rates differ from e by
+shares of ρ = (L²)'/q.
 """
 
 from __future__ import annotations
@@ -16,7 +12,7 @@ from fractions import Fraction
 
 from .clock import Half
 from .expression import Value, sqrt
-from .planar import Moving, MovingPoint, Slope, Turning, Vec, carried
+from .planar import Moving, MovingPoint, Slope, Vec
 from .signed import SignedRoot
 
 
@@ -25,46 +21,15 @@ class Triangle:
     """P, Q and the third corner: D, shares of it, and what its rates need.
 
     `near` = p/(2L²) and `far` = 1 - near are the shares of D under each bar; `lift` runs from D to
-    the corner, i D q/(2L²); `turn` is e and, in its second, e' + ρ near'.
+    the corner, i D q/(2L²); `turn` is e and, as its rate, e' + ρ near'.
     """
 
     across: Vec
     near: Value
     far: Value
     lift: Vec
-    turn: Turning
+    turn: Slope
     ratio: Slope
-
-
-@dataclass(frozen=True, slots=True)
-class Meeting:
-    """The joint in which two bars meet: the bars as vectors, and how they turn."""
-
-    arm_a: Vec
-    arm_b: Vec
-    turning_a: Turning
-    turning_b: Turning
-    point: MovingPoint
-
-
-def meet(p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle: Triangle) -> Meeting:
-    """Return where two bars meet, and how they turn.
-
-    The shorter bar carries the joint, since its direction is sharper; the longer one, which turns
-    less, has its rate worked out, and the shorter one's is ρ away.
-    """
-    d, t, rho = triangle.across, triangle, triangle.ratio
-    if lengths[0] < lengths[1]:
-        arm_a = d.scaled(t.near) + t.lift
-        arm_b = arm_a - d
-        turning_b = t.turn.plus(rho.value * t.near, rho.rate * t.near)
-        turning_a = turning_b.plus(-rho.value, -rho.rate)
-        return Meeting(arm_a, arm_b, turning_a, turning_b, p + carried(arm_a, turning_a))
-    arm_b = t.lift - d.scaled(t.far)
-    arm_a = arm_b + d
-    turning_a = t.turn.plus(-(rho.value * t.far), -(rho.rate * t.far))
-    turning_b = turning_a.plus(rho.value, rho.rate)
-    return Meeting(arm_a, arm_b, turning_a, turning_b, q + carried(arm_b, turning_b))
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +66,7 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
     # (L²)'/(4 L⁴): what the shares of D and e both change with.
     change = loop.half.product * w * share * share
     excess, outer = 2.0 * (b - a) * (b + a) / k, 2.0 * (g - r) * (g + r) / k
-    turn = Turning(*(_turn(square, share, (g, r), rate) for rate in (w, wd)))
+    turn = Slope(*(_turn(square, share, (g, r), rate) for rate in (w, wd)))
     across = loop.across()
     return Triangle(
         across=across,
@@ -127,7 +92,7 @@ def _turn(square: Value, share: Value, lengths: tuple[float, float], rate: Value
 def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:
     """Return the triangle of a kite or rhombus, whose pins meet at ψ = 0: the lift is √U/2 along e^{iψ/2}."""
     lift = Vec(loop.half.cosine, loop.half.sine).times(loop.direction).scaled(root.root_u * loop.crank)
-    half_turn = Turning(loop.pace.value * 0.5, loop.pace.rate * 0.5)
+    half_turn = Slope(loop.pace.value * 0.5, loop.pace.rate * 0.5)
     return Triangle(loop.across(), 0.5, 0.5, lift, half_turn, root.ratio)
 
 
@@ -153,7 +118,7 @@ def moving_triangle(
         near=(square - excess) * share,
         far=(square + excess) * share,
         lift=across.left().scaled(signed.q * share),
-        turn=Turning(turn, second + signed.ratio.value * (share * growth * excess)),
+        turn=Slope(turn, second + signed.ratio.value * (share * growth * excess)),
         ratio=signed.ratio,
     )
 
@@ -173,23 +138,3 @@ def moving_factors(square: Value, lengths: tuple[float, float]) -> tuple[Value, 
         ((a + b) - distance) * ((a + b) + distance),
         (distance - abs(a - b)) * (distance + abs(a - b)),
     )
-
-
-def slot_turning(turn: Turning, root: SignedRoot, offset: float) -> Turning:
-    """Return how a slotted bar turns: e, and what the sliding adds where the slot misses the pivot."""
-    inverse = 1.0 / (root.q * root.q + offset * offset)
-    slide = root.ratio.value * (0.5 * offset) * inverse
-    growth = root.ratio.value * root.q * inverse
-    return Turning(
-        turn.rate + slide,
-        turn.second + root.ratio.rate * (0.5 * offset) * inverse - slide * growth,
-    )
-
-
-def slot_direction(across: Vec, s: Value, offset: float) -> Vec:
-    """Return the unit vector u with across = s·u + offset·n."""
-    if offset == 0:
-        return Vec(across.x / s, across.y / s)
-    turned = across.times(Vec(s, -offset))
-    square = s * s + offset * offset
-    return Vec(turned.x / square, turned.y / square)

@@ -1,0 +1,100 @@
+"""What a joint is, whatever its kind: the questions that all kinds answer, one file a kind in `kinds`.
+
+Joints stand in the order in which they can be solved: each one names only joints before it.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple, Self
+
+if TYPE_CHECKING:
+    from .linkage import Linkage
+    from .loop import Gearing, Loop
+    from .walk import Walk
+
+Point = tuple[float, float]
+
+Frame = dict[str, complex]
+"""Where the joints of one rigid body lie in the body's own frame, as x + yi."""
+
+
+class Need(NamedTuple):
+    """A joint that another one is found from: the key that names it in a scene file, and what it must be."""
+
+    key: str
+    joint: str
+    must: Literal["", "fixed", "moving", "crank"] = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Joint(ABC):
+    """A joint: how it is found from joints before it.
+
+    A `dyad` is closed from two constraints, which meet in two points as a rule: `sides` names the two
+    closures, +1 first. One that `travels` moves along a line. `fixed` ones belong to the ground.
+    """
+
+    name: str
+
+    sides: ClassVar[tuple[str, str] | None] = None
+    dyad: ClassVar[bool] = False
+    travels: ClassVar[bool] = False
+    fixed: ClassVar[bool] = False
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """The joints that this one is found from."""
+        return ()
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """The bars that end in this joint: from which joint, and how long."""
+        return ()
+
+    @property
+    def spans(self) -> tuple[tuple[str, ...], ...]:
+        """The joints of every rigid length that the joint's definition states."""
+        return tuple((start, self.name) for start, _ in self.bars)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The joints in which the definition makes bars turn on each other."""
+        return ()
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """All lengths of the definition, of either sign."""
+        return tuple(length for _, length in self.bars)
+
+    @property
+    def named_sign(self) -> int | None:
+        """The sign of the closure's root where the closure named holds; None where there is no root."""
+        return None
+
+    @property
+    def named_from(self) -> tuple[int, str, str, str] | None:
+        """What names the closure, if not its own side: (+1 left or -1, b, p, q) of b beside p -> q."""
+        return None
+
+    @abstractmethod
+    def scaled(self, factor: float) -> Self:
+        """Return the joint with every length times a factor."""
+
+    @abstractmethod
+    def close(self, walk: Walk) -> None:
+        """Add the joint's motion, and its bars', to the walk."""
+
+    def loop(self, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
+        """Return the loop that the joint closes from a crank pin and fixed elements, if it does."""
+        return None
+
+    def placed(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
+        """Return the bodies' frames with the joint in them: a frame of its own for each of its bars."""
+        return (*frames, *({start: 0j, self.name: complex(length)} for start, length in self.bars))
+
+    def why_apart(self) -> str:
+        """Say in words and numbers why it cannot be assembled at any angle of the input."""
+        return "it cannot be assembled"

@@ -1,0 +1,13 @@
+"""The kinds of joints, one file each; this table is the only list of them."""
+
+from .crank import Crank, Gear
+from .pin import Pin, Polar
+from .rigid import Rigid
+from .rpr import RPR
+from .rrp import RRP, Line
+from .rrr import RRR
+
+KINDS = (Pin, Crank, RRR, RRP, RPR, Rigid)
+"""Every kind that a linkage can be made of."""
+
+__all__ = ["KINDS", "RPR", "RRP", "RRR", "Crank", "Gear", "Line", "Pin", "Polar", "Rigid"]

@@ -1,0 +1,60 @@
+"""Cranks: pins that turn about a fixed pin with the input, or geared to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.planar import Vec, carried
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.walk import Walk
+
+
+@dataclass(frozen=True, slots=True)
+class Gear:
+    """A gear pair: angle = ratio × (angle of the crank `mate`) + offset."""
+
+    mate: str
+    ratio: Fraction
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Crank(Joint):
+    """A pin that turns about the fixed pin `pivot`; geared to another crank, or the input."""
+
+    pivot: str
+    length: float
+    gear: Gear | None = None
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """Its pivot, and the crank that it is geared to."""
+        pivot = Need("crank", self.pivot, "fixed")
+        return (pivot, Need("gear.with", self.gear.mate, "crank")) if self.gear else (pivot,)
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """The crank."""
+        return ((self.pivot, self.length),)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """Its two ends."""
+        return self.pivot, self.name
+
+    def scaled(self, factor: float) -> Crank:
+        """Return the crank with its length times a factor."""
+        return replace(self, length=self.length * factor)
+
+    def close(self, walk: Walk) -> None:
+        """Add r e^{iψ}, ψ = ratio × θ + offset, from half angles: r - 2r sin²(ψ/2), 2r sin(ψ/2) cos(ψ/2)."""
+        gearing = walk.assembly.gears[self.name]
+        half, twice = walk.clock.half(-gearing.offset, gearing.ratio), 2.0 * self.length
+        arm = Vec(self.length - half.square * twice, half.product * twice)
+        pace = walk.pace(gearing)
+        walk.points[self.name] = walk.points[self.pivot] + carried(arm, pace)
+        walk.add_piece(pace, (self.pivot, self.name), arm)

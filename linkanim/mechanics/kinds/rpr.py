@@ -1,0 +1,124 @@
+"""A bar that turns about a fixed pin, its slot on another joint: the dyad of inverted slider-cranks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
+
+from linkanim.mechanics.expression import Value
+from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.loop import Loop, ground_between
+from linkanim.mechanics.planar import Slope, Vec, carried
+from linkanim.mechanics.roots import slot_root
+from linkanim.mechanics.signed import SignedRoot
+from linkanim.mechanics.triangle import PinLoop, moving_triangle, pin_triangle
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.linkage import Linkage
+    from linkanim.mechanics.loop import Gearing
+    from linkanim.mechanics.walk import Walk
+
+
+@dataclass(frozen=True, slots=True)
+class RPR(Joint):
+    """A bar that turns about the fixed pin `pivot`, its slot passing through the joint `through`.
+
+    through = pivot + s·u + offset·n with s > 0, u the bar's direction and n to its left;
+    the joint itself is pivot + length·u.
+    """
+
+    pivot: str
+    through: str
+    length: float
+    offset: float = 0.0
+
+    dyad: ClassVar[bool] = True
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """The pivot, and the joint in the slot, which moves."""
+        return Need("slot.pivot", self.pivot, "fixed"), Need("slot.through", self.through, "moving")
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """The slotted bar."""
+        return ((self.pivot, self.length),)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The pivot, and the joint in the slot."""
+        return self.pivot, self.through
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """The bar's length, and the slot's offset."""
+        return self.length, self.offset
+
+    @property
+    def named_sign(self) -> int:
+        """The sign of the root: the joint in the slot is always ahead of the pivot."""
+        return 1
+
+    def scaled(self, factor: float) -> RPR:
+        """Return the dyad with its bar, and its slot's offset, times a factor."""
+        return replace(self, length=self.length * factor, offset=self.offset * factor)
+
+    def loop(self, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
+        """Return the loop of a crank pin in the slot of a bar on a fixed pin."""
+        if self.through not in gears:
+            return None
+        crank = linkage.crank(self.through)
+        ground = ground_between(linkage, crank.pivot, self.pivot)
+        if ground is None:
+            return None
+        root = slot_root(ground.length, crank.length, self.offset, ground.angle)
+        return Loop(self.through, crank, gears[self.through], ground, root)
+
+    def close(self, walk: Walk) -> None:
+        """Add the slotted bar and its end."""
+        pivot, pin = walk.points[self.pivot], walk.points[self.through]
+        loop, sign = walk.assembly.loops.get(self.name), walk.assembly.signs[self.name]
+        if loop is not None:
+            root, ground = walk.pin_loop(loop, sign)
+            turn = pin_triangle(ground, (0.0, 0.0), root).turn
+            direction = _loop_direction(ground, root, self.offset, sign)
+        else:
+            root = walk.slot_root(self.name, (pivot, pin), self.offset).times(sign)
+            turn = moving_triangle(pin, pivot, (0.0, 0.0), root).turn
+            direction = _direction(pin.position - pivot.position, root.q, self.offset)
+        turning = _turning(turn, root, self.offset) if self.offset else turn
+        arm = direction.scaled(self.length)
+        walk.points[self.name] = pivot + carried(arm, turning)
+        walk.add_piece(turning, (self.pivot, self.name), arm)
+
+    def why_apart(self) -> str:
+        """Say that the slot's offset is too large."""
+        return (
+            f"the slot's offset {self.offset:g} is more than the pin {self.through} is ever away "
+            f"from {self.pivot}; make it smaller"
+        )
+
+
+def _turning(turn: Slope, root: SignedRoot, offset: float) -> Slope:
+    """Return how a slotted bar turns: e, and what the sliding adds where the slot misses the pivot."""
+    inverse = 1.0 / (root.q * root.q + offset * offset)
+    slide = root.ratio.value * (0.5 * offset) * inverse
+    growth = root.ratio.value * root.q * inverse
+    return turn.plus(slide, root.ratio.rate * (0.5 * offset) * inverse - slide * growth)
+
+
+def _loop_direction(ground: PinLoop, root: SignedRoot, offset: float, sign: int) -> Vec:
+    """Return the slotted bar's direction; a slot through its own pivot turns at half the crank's angle."""
+    if ground.ground == ground.crank and offset == 0:
+        return Vec(-ground.half.sine, ground.half.cosine).times(ground.direction).scaled(float(sign))
+    return _direction(-ground.across(), root.q, offset)
+
+
+def _direction(across: Vec, s: Value, offset: float) -> Vec:
+    """Return the unit vector u with across = s·u + offset·n."""
+    if offset == 0:
+        return Vec(across.x / s, across.y / s)
+    turned = across.times(Vec(s, -offset))
+    square = s * s + offset * offset
+    return Vec(turned.x / square, turned.y / square)

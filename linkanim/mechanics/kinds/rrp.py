@@ -1,0 +1,120 @@
+"""A bar to a slider on a fixed line: the dyad of slider-cranks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
+
+from linkanim.mechanics.exact import exact_angle, quarter_turns, unit
+from linkanim.mechanics.expression import Value
+from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.loop import Loop
+from linkanim.mechanics.planar import Moving, MovingPoint, Slope, Vec
+from linkanim.mechanics.roots import slider_root
+from linkanim.mechanics.signed import SignedRoot
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.linkage import Linkage
+    from linkanim.mechanics.loop import Gearing
+    from linkanim.mechanics.walk import Walk
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A fixed line of travel: through a fixed pin, at `angle`, shifted by `offset` to its left."""
+
+    through: str
+    angle: float
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class RRP(Joint):
+    """A bar from `end` to a slider on `line`; `side` +1 is the closure further forward, -1 back."""
+
+    end: str
+    length: float
+    line: Line
+    side: int = 1
+
+    sides: ClassVar[tuple[str, str]] = ("forward", "backward")
+    dyad: ClassVar[bool] = True
+    travels: ClassVar[bool] = True
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """The bar's far end, which moves, and the pin that its line runs through."""
+        return Need("from", self.end, "moving"), Need("line.through", self.line.through, "fixed")
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """Its bar."""
+        return ((self.end, self.length),)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The bar's two ends."""
+        return self.end, self.name
+
+    @property
+    def named_sign(self) -> int:
+        """The sign of the root: how far the slider is ahead of the bar's end."""
+        return self.side
+
+    def scaled(self, factor: float) -> RRP:
+        """Return the dyad with its bar, and its line's offset, times a factor."""
+        line = replace(self.line, offset=self.line.offset * factor)
+        return replace(self, length=self.length * factor, line=line)
+
+    def loop(self, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
+        """Return the loop of a crank pin against the line."""
+        if self.end not in gears:
+            return None
+        crank = linkage.crank(self.end)
+        pivot, through = linkage.pin(crank.pivot).position, linkage.pin(self.line.through).position
+        along = unit(self.line.angle)
+        dx, dy = pivot[0] - through[0], pivot[1] - through[1]
+        eccentricity = dy * along[0] - dx * along[1] - self.line.offset
+        reference = exact_angle(self.line.angle) - quarter_turns(1)
+        root = slider_root(crank.length, self.length, eccentricity, reference)
+        return Loop(self.end, crank, gears[self.end], None, root)
+
+    def close(self, walk: Walk) -> None:
+        """Add the slider: its way along the line is that of the bar's end and the root q = ±√(b² - e²).
+
+        With e how far the end lies left of the line and ρ = e'/q the bar turns at -ρ.
+        """
+        point, line = walk.points[self.end], self.line
+        along, base = Vec(*unit(line.angle)), walk.points[line.through]
+        way = point.position - base.position
+        aside, forward = along.cross(way) - line.offset, along.dot(way)
+        root = self._root(walk, aside, along)
+        rho, q = root.ratio, root.q
+        travel = Moving(
+            forward + q,
+            along.dot(point.velocity) - aside * rho.value,
+            along.dot(point.acceleration) - (along.cross(point.velocity) * rho.value + aside * rho.rate),
+        )
+        start = base.position + along.left().scaled(line.offset)
+        walk.points[self.name] = MovingPoint(
+            start + along.scaled(travel.value), along.scaled(travel.rate), along.scaled(travel.second)
+        )
+        walk.travels[self.name] = travel
+        arm = along.scaled(q) - along.left().scaled(aside)
+        walk.add_piece(Slope(-rho.value, -rho.rate), (self.end, self.name), arm)
+
+    def _root(self, walk: Walk, aside: Value, along: Vec) -> SignedRoot:
+        loop, sign = walk.assembly.loops.get(self.name), walk.assembly.signs[self.name]
+        if loop is not None:
+            return walk.loop_root(loop, sign)[0]
+        point, b = walk.points[self.end], self.length
+        eccentric = Moving(aside, along.cross(point.velocity), along.cross(point.acceleration))
+        return walk.margin_root(self.name, (b - aside, b + aside), eccentric).times(sign)
+
+    def why_apart(self) -> str:
+        """Say that the bar is too short for its line."""
+        return (
+            f"the bar of {self.length:g} cannot reach its line of travel from {self.end} "
+            "at any angle of the input; make it longer or the offset smaller"
+        )

@@ -1,0 +1,133 @@
+"""Loops: dyads that close from a crank pin against fixed elements, each with its root in closed form."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from linkanim.errors import AssemblyError
+
+from .clock import Clock, Half
+from .exact import HALF_TURN, Sum, exact_angle, unit
+from .planar import Slope, Vec
+from .roots import Kind, LoopRoot
+from .signed import SignedRoot, sharpened, sign_of_root, signed_root
+
+if TYPE_CHECKING:
+    from .kinds import Crank, Pin
+    from .linkage import Linkage
+    from .path import Path
+
+STRAIGHT = Sum(0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Gearing:
+    """How a crank turns with the input: angle = ratio × θ + offset."""
+
+    ratio: Fraction = Fraction(1)
+    offset: Sum = STRAIGHT
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """The ground link between two fixed pins: length, direction, and the angle of that direction."""
+
+    length: float
+    direction: Vec
+    angle: Sum
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A dyad closed from the crank pin `pin` (of the crank `crank`) and fixed elements.
+
+    `ground` runs from the crank's pivot to the fixed pin; None for a line of travel.
+    `swapped` says that the dyad names the fixed pin first.
+    """
+
+    pin: str
+    crank: Crank
+    gearing: Gearing
+    ground: Ground | None
+    root: LoopRoot
+    swapped: bool = False
+
+    @property
+    def limits(self) -> bool:
+        """Whether the loop keeps its crank from turning fully."""
+        return Kind.LIMIT in (self.root.u.kind, self.root.w.kind)
+
+    def closed(self, clock: Clock, path: Path, pace: Slope) -> tuple[SignedRoot, Half]:
+        """Return the loop's root and ψ/2 at the clock's instant, ψ running at `pace`."""
+        swing = path.swinging(clock)
+        half = sharpened(self.root, self._half(clock), swing)
+        return signed_root(self.root, half, pace, swing), half
+
+    def sign(self, clock: Clock) -> int:
+        """Return the sign of the loop's root at an instant between its limits, in plain floats."""
+        return sign_of_root(self.root, self._half(clock))
+
+    def _half(self, clock: Clock) -> Half:
+        return clock.half(self.root.reference - self.gearing.offset, self.gearing.ratio)
+
+
+def gearings(linkage: Linkage) -> dict[str, Gearing]:
+    """Map each crank's pin to how it turns with the input; AssemblyError where it does not."""
+    found = {linkage.drive.joint: Gearing()}
+    for crank in linkage.cranks:
+        if crank.name in found:
+            continue
+        if crank.gear is None or crank.gear.mate not in found:
+            raise AssemblyError(
+                f"joint {crank.name}: this crank turns with nothing; "
+                f'give it a gear, gear = {{ with = "{linkage.drive.joint}", ratio = -1 }}'
+            )
+        mate = found[crank.gear.mate]
+        offset = mate.offset * crank.gear.ratio + exact_angle(crank.gear.offset)
+        found[crank.name] = Gearing(mate.ratio * crank.gear.ratio, offset)
+    return found
+
+
+def find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop]:
+    """Return the dyads that close from a crank pin against something fixed, by the joint's name.
+
+    A loop that limits a geared crank is left to the general closure.
+    """
+    found = ((joint.name, joint.loop(linkage, gears)) for joint in linkage.joints)
+    own = linkage.drive.joint
+    return {name: loop for name, loop in found if loop and (loop.pin == own or not loop.limits)}
+
+
+def ground_between(linkage: Linkage, start: str, end: str) -> Ground | None:
+    """Return the ground link from one fixed pin to another, as exactly as it was written.
+
+    None where they are one point, and no direction leads from one to the other.
+    """
+    first, second = linkage.pin(start), linkage.pin(end)
+    if _written_from(second, first):
+        return _written(second, turned=False)
+    if _written_from(first, second):
+        return _written(first, turned=True)
+    dx, dy = second.position[0] - first.position[0], second.position[1] - first.position[1]
+    length = math.hypot(dx, dy)
+    return Ground(length, Vec(dx / length, dy / length), exact_angle(math.atan2(dy, dx))) if length else None
+
+
+def _written_from(pin: Pin, base: Pin) -> bool:
+    """Tell whether the pin was written as a length at an angle from the other."""
+    if pin.polar is None:
+        return False
+    return pin.polar.base == base.name or (pin.polar.base is None and base.position == (0.0, 0.0))
+
+
+def _written(pin: Pin, *, turned: bool) -> Ground:
+    assert pin.polar is not None
+    direction = Vec(*unit(pin.polar.angle))
+    angle = exact_angle(pin.polar.angle)
+    if turned:
+        return Ground(pin.polar.length, -direction, angle + HALF_TURN)
+    return Ground(pin.polar.length, direction, angle)

@@ -1,0 +1,185 @@
+"""One walk over a linkage: every joint, body and centre of mass, with first and second derivatives.
+
+Each joint adds itself, closed from the joints before it. What turns as one piece is kept beside its
+frame: a bar, the arms along which its joints are carried, and how fast it turns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from linkanim.errors import AssemblyError
+
+from .chain import Margin, limited_root
+from .clock import Clock, Half, by_angle
+from .expression import Value, sqrt
+from .frames import holding, share_of
+from .joint import Point
+from .linkage import Linkage
+from .loop import Gearing, Loop
+from .planar import Moving, MovingPoint, Slope, Vec, carried
+from .signed import SignedRoot, plain_root
+from .triangle import PinLoop, moving_factors, moving_square
+
+if TYPE_CHECKING:
+    from .assembly import Assembly
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """How one rigid body turns, and the arms between its joints that are known as they were closed."""
+
+    turning: Slope = field(default_factory=lambda: Slope(0.0))
+    arms: dict[tuple[str, str], Vec] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """What the walk finds; positions in the scene's unit."""
+
+    points: Mapping[str, MovingPoint]
+    centres: Mapping[str, MovingPoint]
+    bodies: Mapping[str, Slope]
+    travels: Mapping[str, Moving]
+    margins: Mapping[str, Value]
+    """For each dyad closed from moving points: U·W, negative where it cannot be assembled."""
+    drivers: Mapping[str, Moving]
+    """What closes each of these dyads: L², or how far its end lies from its line."""
+
+
+@dataclass
+class Walk:
+    """What has been found so far; joints add themselves to it in their order.
+
+    `in_angle` has the drivers with their derivatives in the input's angle, where a chain limits the input.
+    `pieces` stand in the order of the linkage's frames.
+    """
+
+    assembly: Assembly
+    clock: Clock
+    in_angle: Mapping[str, Moving]
+    points: dict[str, MovingPoint] = field(default_factory=dict)
+    pieces: list[Piece] = field(default_factory=lambda: [Piece()])
+    travels: dict[str, Moving] = field(default_factory=dict)
+    margins: dict[str, Value] = field(default_factory=dict)
+    drivers: dict[str, Moving] = field(default_factory=dict)
+
+    @property
+    def linkage(self) -> Linkage:
+        """What is walked over."""
+        return self.assembly.linkage
+
+    def pace(self, gearing: Gearing) -> Slope:
+        """Return how fast a geared crank turns, with its derivative."""
+        ratio = float(gearing.ratio)
+        return Slope(self.clock.rate * ratio, self.clock.second * ratio)
+
+    def add_piece(self, turning: Slope, ends: tuple[str, str], arm: Vec) -> None:
+        """Add the bar between two joints, the vector from the first to the second known as `arm`."""
+        self.pieces.append(Piece(turning, {ends: arm}))
+
+    def loop_root(self, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
+        """Return the root of a loop on a crank pin, ψ/2, and ψ' with its derivative."""
+        pace = self.pace(loop.gearing)
+        root, half = loop.closed(self.clock, self.assembly.path, pace)
+        return root.times(sign), half, pace
+
+    def pin_loop(self, loop: Loop, sign: int) -> tuple[SignedRoot, PinLoop]:
+        """Return the root of a loop between a crank pin and a fixed pin, and where the two are."""
+        assert loop.ground is not None
+        root, half, pace = self.loop_root(loop, sign)
+        return root, PinLoop(loop.ground.length, loop.ground.direction, loop.crank.length, half, pace)
+
+    def span_root(
+        self, name: str, ends: tuple[MovingPoint, MovingPoint], lengths: tuple[float, float]
+    ) -> SignedRoot:
+        """Return the root of two bars on points that both move."""
+        square = moving_square(*ends)
+        return self.margin_root(name, moving_factors(square.value, lengths), square)
+
+    def slot_root(self, name: str, ends: tuple[MovingPoint, MovingPoint], offset: float) -> SignedRoot:
+        """Return the root √(L² - o²) of a slot whose pin is carried by a moving point."""
+        square = moving_square(*ends)
+        distance = sqrt(square.value)
+        margin = (distance - offset) * (distance + offset)
+        return self.margin_root(name, (1.0, margin), square, single=True)
+
+    def margin_root(
+        self, name: str, factors: tuple[Value, Value], driver: Moving, *, single: bool = False
+    ) -> SignedRoot:
+        """Return the root of a dyad on moving points, its margin kept; `single` where there is no U."""
+        u, v = factors
+        self.margins[name], self.drivers[name] = u * v, driver
+        half_difference = 0.5 if single else (u - v) * 0.5
+        fits, touches = self.assembly.fits, self.assembly.touches.get(name)
+        if name in fits and name in self.in_angle:
+            margin = Margin(u * v, half_difference, driver, self.in_angle[name])
+            return limited_root(margin, fits[name], self.clock)
+        if touches is not None:
+            return touches.root(u * v, driver, half_difference, self.clock)
+        return plain_root(u, v, driver, half_difference)
+
+    def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
+        """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""
+        n = self._body_of(on, f"joint {name}" if name else "centre of mass")
+        piece, share = self.pieces[n], share_of(self.linkage.frames[n], on, at)
+        arm = self._arm(piece, *on).times(Vec(share.real, share.imag))
+        if name is not None:
+            piece.arms[on[0], name] = arm
+        return self.points[on[0]] + carried(arm, piece.turning)
+
+    def _arm(self, piece: Piece, start: str, end: str) -> Vec:
+        """Return the vector from one joint of a rigid body to another."""
+        if (start, end) in piece.arms:
+            return piece.arms[start, end]
+        if (end, start) in piece.arms:
+            return -piece.arms[end, start]
+        return self.points[end].position - self.points[start].position
+
+    def _body_of(self, names: tuple[str, ...], owner: str) -> int:
+        n = holding(self.linkage.frames, names)
+        if n is None:
+            raise AssemblyError(f"{owner}: {' and '.join(names)} are not joints of one rigid body")
+        return n
+
+    def kinematics(self) -> Kinematics:
+        """Return what was found, with the named bodies and their centres of mass."""
+        bodies = {body.name: body for body in self.linkage.bodies}
+        turning = {name: body for name, body in bodies.items() if body.slider is None}
+        return Kinematics(
+            self.points,
+            {
+                name: self.attached((body.joints[0], body.joints[1]), body.com)
+                for name, body in turning.items()
+                if body.com is not None
+            },
+            {
+                name: self.pieces[self._body_of(body.joints, f"body {name}")].turning
+                for name, body in turning.items()
+            },
+            {name: self.travels[body.slider] for name, body in bodies.items() if body.slider is not None},
+            self.margins,
+            self.drivers,
+        )
+
+
+def walked(assembly: Assembly, clock: Clock) -> Kinematics:
+    """Return the motion of everything in the linkage at the clock's instant."""
+    limited = assembly.fits and clock.ends
+    in_angle = _walked(assembly, _angle_clock(clock), {}).drivers if limited else {}
+    return _walked(assembly, clock, in_angle).kinematics()
+
+
+def _angle_clock(clock: Clock) -> Clock:
+    """Return the same instant with derivatives in the input's angle instead of in time."""
+    assert clock.ends is not None
+    return replace(clock, rate=1.0, second=0.0, pace=Slope(1.0), ends=by_angle(clock.ends, Slope(1.0)))
+
+
+def _walked(assembly: Assembly, clock: Clock, in_angle: Mapping[str, Moving]) -> Walk:
+    walk = Walk(assembly, clock, in_angle)
+    for joint in assembly.linkage.joints:
+        joint.close(walk)
+    return walk
