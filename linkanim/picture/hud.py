@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import degrees, pi, tau
+from math import degrees, floor, log10, pi, tau
 from typing import NamedTuple
 
 import pygame
 
-from linkanim.digits import rpm, stepped, typeset
+from linkanim.digits import stepped
 from linkanim.mechanics.motion import Pose
+from linkanim.picture.driven import driven_name, sign_of, speed_in, speed_unit, speed_words
 from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.raster import Colour
@@ -49,20 +50,37 @@ class Row(NamedTuple):
 def rows(scene: Scene, pose: Pose) -> tuple[Row, ...]:
     """Return the numbers of a pose: the same names in the same order at every pose of a scene.
 
-    `speed` replaces the input speed in words. Forces appear where they are known; lengths are in the
-    scene's unit, forces in newtons, tension positive.
+    The input's speed is the pose's: of an input that swings, how often it does and its angular velocity
+    at this instant. Speeds are in the unit that the scene states its own in; forces appear where they are
+    known; lengths are in the scene's unit, forces in newtons, tension positive.
     """
-    return tuple(_rows(scene, pose))
+    return (*_input_rows(scene, pose), *_strut_rows(scene, pose))
 
 
-def _rows(scene: Scene, pose: Pose) -> Iterator[Row]:
-    info = scene.info
-    yield Row("crank angle", _turned(pose.crank_angle) if info.full_turn else _deg(pose.crank_angle))
-    yield Row("input speed", typeset(rpm(pose.input_speed)))
-    low, high = info.input_range
-    yield Row("input range", "full turn" if info.full_turn else f"{_deg(low)}…{_deg(high)}")
+def _input_rows(scene: Scene, pose: Pose) -> Iterator[Row]:
+    info, name = scene.info, f"{driven_name(scene)} angle"
+    if info.full_turn:
+        yield Row(name, _turned(pose.crank_angle))
+        yield Row("input speed", speed_words(scene, pose.input_speed))
+    else:
+        low, high = info.input_range
+        yield Row(name, _deg(pose.crank_angle))
+        yield Row("input range", f"{_deg(low)}…{_deg(high)}")
+        yield Row("input rate", speed_words(scene, pose.input_speed))
+        yield Row("angular velocity", _live(scene, pose))
     if info.true_period != 1:
         yield Row("true period", f"{info.true_period} turns")
+
+
+def _live(scene: Scene, pose: Pose) -> str:
+    """Return the driven bar's angular velocity in words, always with as many decimals."""
+    unit = speed_unit(scene)
+    largest = abs(speed_in(unit, scene.linkage.drive.speed))
+    step = 10.0 ** (floor(log10(largest)) - 2)
+    return f"{stepped(speed_in(unit, pose.crank_rate), step)} {sign_of(unit)}"
+
+
+def _strut_rows(scene: Scene, pose: Pose) -> Iterator[Row]:
     unit = scene.length_unit
     for name, spring in pose.spring.items():
         yield Row(f"spring {name}", f"{stepped(spring.length, 0.1)} {unit}")

@@ -1,0 +1,65 @@
+"""What the input is called, and the unit in which its speed is told."""
+
+from __future__ import annotations
+
+from math import pi
+
+from linkanim.digits import short, typeset
+from linkanim.errors import UnitError
+from linkanim.mechanics.linkage import Body
+from linkanim.scenes.scene import Scene
+from linkanim.units import SPEED_UNITS, split
+
+_PER_RADIAN = {"rad/s": 1.0, "rpm": 30 / pi, "deg/s": 180 / pi}
+_SIGNS = {"deg/s": "°/s"}
+_SPELT = {"°/s": "deg/s"}
+
+
+def driven_body(scene: Scene) -> Body | None:
+    """Return the body that the drive turns: the one of the crank pin and its pivot; None without a name."""
+    joint = scene.linkage.drive.joint
+    pivot = getattr(scene.linkage.joint(joint), "pivot", None)
+    ends = {joint, pivot}
+    return next((body for body in scene.linkage.bodies if ends <= set(body.joints)), None)
+
+
+def driven_name(scene: Scene) -> str:
+    """Return what the driven bar is called: the scene's name for it, else "crank", or "rocker" if it swings.
+
+    A bar that swings is no crank, whatever its body is called: it is then the rocker, or the input rocker
+    where another body has that name.
+    """
+    body = driven_body(scene)
+    name = body.name if body and not body.name.isdecimal() else "crank"
+    if name != "crank" or scene.info.full_turn:
+        return name
+    return "input rocker" if any(other.name == "rocker" for other in scene.linkage.bodies) else "rocker"
+
+
+def speed_unit(scene: Scene) -> str:
+    """Return the unit in which the scene states its input's speed, rpm where it states none."""
+    stated = str(scene.document.get("drive", {}).get("speed", ""))
+    try:
+        unit = split(stated)[1]
+    except UnitError:
+        return "rpm"
+    unit = _SPELT.get(unit, unit)
+    return unit if unit in SPEED_UNITS else "rpm"
+
+
+def speed_in(unit: str, speed: float) -> float:
+    """Return an angular speed in rad/s in "rpm", "rad/s" or "deg/s"."""
+    return speed * _PER_RADIAN[unit]
+
+
+def sign_of(unit: str) -> str:
+    """Return a unit of speed as it is set: °/s for deg/s."""
+    return _SIGNS.get(unit, unit)
+
+
+def speed_words(scene: Scene, speed: float) -> str:
+    """Return the input's speed (rad/s) in words: "20 rpm", clockwise negative; of a swing "15 swings/min"."""
+    if not scene.info.full_turn:
+        return f"{short(abs(speed) * _PER_RADIAN['rpm'])} swings/min"
+    unit = speed_unit(scene)
+    return f"{typeset(short(speed_in(unit, speed)))} {sign_of(unit)}"
