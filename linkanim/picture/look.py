@@ -19,6 +19,8 @@ class Look:
     `quantities(scene)`, None for no chart. With `background` False what is not drawn stays
     transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in
     fractions of the window's height. `ghost` draws the other closure faintly, where it is given.
+    `names` is 0 for none, 1 for those of joints and links with the ground line and the input's
+    direction of turning, 2 for dimensions and the input's angle as well.
     """
 
     theme: ThemeName = "light"
@@ -30,3 +32,4 @@ class Look:
     zoom: float = 1.0
     pan: tuple[float, float] = (0.0, 0.0)
     ghost: bool = False
+    names: int = 0
