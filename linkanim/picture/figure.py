@@ -8,7 +8,6 @@ from math import tau
 
 import numpy as np
 
-from linkanim.mechanics.kinds import RPR, RRP
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.motion import Motion
 from linkanim.picture.raster import Loop
@@ -61,21 +60,12 @@ class Figure:
         return tuple(name for name in self.pins if self.linkage.joint(name).fixed)
 
     @cached_property
-    def sliders(self) -> tuple[RRP, ...]:
-        """The joints that travel along a line."""
-        return tuple(joint for joint in self.linkage.joints if isinstance(joint, RRP))
-
-    @cached_property
-    def slots(self) -> tuple[RPR, ...]:
-        """The joints of slotted bars."""
-        return tuple(joint for joint in self.linkage.joints if isinstance(joint, RPR))
-
-    @cached_property
     def shown(self) -> tuple[str, ...]:
         """The joints that must be in the picture."""
+        joints = self.linkage.joints
         drawn = {name for body in self.bodies for name in body.joints}
-        names = {*self.pins, *drawn, *self.scene.trace, *(joint.name for joint in self.sliders)}
-        return tuple(joint.name for joint in self.linkage.joints if joint.name in names)
+        names = {*self.pins, *drawn, *self.scene.trace, *(joint.name for joint in joints if joint.travels)}
+        return tuple(joint.name for joint in joints if joint.name in names)
 
     @cached_property
     def box(self) -> Box:

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from linkanim.player.scrub import phase_of_angle, phase_towards
+from linkanim.player.scrub import phase_towards
 from linkanim.scenes import load, names
 
 
@@ -16,28 +16,28 @@ def test_the_crank_goes_where_it_is_dragged(name: str, phase: float) -> None:
     scene = load(name)
     pose = scene.pose(phase, 0)
     near, pin = phase + 0.2, pose.position[scene.linkage.drive.joint]
-    assert phase_of_angle(scene, near, pose.crank_angle) == pytest.approx(phase, abs=1e-6)
+    assert scene.mechanism.assembly.path.phase_of(pose.crank_angle, near=near) == pytest.approx(phase, abs=1e-6)
     assert phase_towards(scene, near, pin) == pytest.approx(phase, abs=1e-6)
 
 
 def test_a_crank_that_turns_is_followed_over_whole_turns() -> None:
     scene = load("crank-rocker")
-    assert phase_of_angle(scene, 20 * math.pi + 0.1, 0.2) == pytest.approx(20 * math.pi + 0.2)
-    assert phase_of_angle(scene, 0.1, -0.1) == pytest.approx(-0.1)
+    assert scene.mechanism.assembly.path.phase_of(0.2, near=20 * math.pi + 0.1) == pytest.approx(20 * math.pi + 0.2)
+    assert scene.mechanism.assembly.path.phase_of(-0.1, near=0.1) == pytest.approx(-0.1)
 
 
 def test_a_swing_stops_at_its_limits() -> None:
     scene = load("double-rocker")
     low, high = scene.info.input_range
-    assert phase_of_angle(scene, 0.3, low - 0.1) == pytest.approx(0.0)
-    assert phase_of_angle(scene, 2.9, high + 0.1) == pytest.approx(math.pi)
+    assert scene.mechanism.assembly.path.phase_of(low - 0.1, near=0.3) == pytest.approx(0.0)
+    assert scene.mechanism.assembly.path.phase_of(high + 0.1, near=2.9) == pytest.approx(math.pi)
 
 
 def test_a_swing_stays_on_the_way_it_is_on() -> None:
     scene = load("double-rocker")
     middle = sum(scene.info.input_range) / 2
-    assert phase_of_angle(scene, 1.0, middle) == pytest.approx(math.pi / 2)
-    assert phase_of_angle(scene, 5.0, middle) == pytest.approx(3 * math.pi / 2)
+    assert scene.mechanism.assembly.path.phase_of(middle, near=1.0) == pytest.approx(math.pi / 2)
+    assert scene.mechanism.assembly.path.phase_of(middle, near=5.0) == pytest.approx(3 * math.pi / 2)
 
 
 def test_the_pivot_itself_changes_nothing() -> None:

@@ -1,0 +1,117 @@
+"""Fittings: what a joint's kind needs beside bars and pins, such as a slider's block and its guide.
+
+`FITTINGS` is the one table of them, by kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkanim.mechanics.joint import Joint
+from linkanim.mechanics.kinds import RPR, RRP
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts import Part, lined
+from linkanim.picture.raster import Layer, Loop
+from linkanim.picture.shapes import box, rounded, segments, unit
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import View
+
+_BLOCK = (4.6, 3.2)
+"""A slider block's length and height in half widths of a bar."""
+
+
+@dataclass(frozen=True)
+class Bench:
+    """What fittings are made with: the scene with its cycle, its scale, thicknesses and colours."""
+
+    figure: Figure
+    view: View
+    gauge: Gauge
+    theme: Theme
+
+
+@dataclass(frozen=True)
+class Fitting:
+    """What a joint adds to the picture: parts behind the bodies and before them, lines of its guide."""
+
+    behind: tuple[Part, ...] = ()
+    before: tuple[Part, ...] = ()
+    guide: tuple[Loop, ...] = ()
+
+
+def fittings(bench: Bench) -> tuple[Fitting, ...]:
+    """Return the fittings of all joints that have some, in the joints' order."""
+    joints = bench.figure.linkage.joints
+    return tuple(FITTINGS[type(joint)](joint, bench) for joint in joints if type(joint) in FITTINGS)
+
+
+def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[Loop]:
+    """Yield a line and its hatching to one side (+1: where the imaginary part grows for a line along 1)."""
+    along = unit(end - begin)
+    length, step = abs(end - begin), 0.62 * gauge.bar
+    count = max(round(length / step), 1)
+    feet = begin + along * length * (np.arange(count) + 0.75) / count
+    yield from segments(begin, end, 1.4 * gauge.line)
+    yield from segments(feet, feet + along * (-0.5 + 0.62j * side) * gauge.bar, 0.8 * gauge.line)
+
+
+def _slider(joint: RRP, bench: Bench) -> Fitting:
+    """Return a block, and the two rails that it runs between."""
+    along = complex(np.exp(-1j * joint.line.angle))
+    block = _block(bench, along)
+    return Fitting(
+        behind=(Part(joint.name, joint.name, joint.name, block, (joint.name,)),),
+        guide=tuple(_rails(joint.name, along, bench)),
+    )
+
+
+def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
+    gauge, theme = bench.gauge, bench.theme
+    length, height = (share * side * gauge.bar for side in _BLOCK)
+    edge, corner = 2 * share * gauge.outline, share * gauge.bar
+    outer, inner = box(length, height, 0.4 * corner), box(length - edge, height - edge, 0.3 * corner)
+    return Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner])
+
+
+def _rails(name: str, along: complex, bench: Bench) -> Iterator[Loop]:
+    """Yield the lines of two rails, as long as the joint's travel needs."""
+    gauge, path = bench.gauge, bench.figure.path(name, bench.view)
+    way = np.real(path * np.conj(along))
+    across = float(np.nanmean(np.imag(path * np.conj(along))))
+    beyond = (_BLOCK[0] / 2 + 0.9) * gauge.bar
+    near, far = float(np.nanmin(way)) - beyond, float(np.nanmax(way)) + beyond
+    rail = (_BLOCK[1] / 2) * gauge.bar + gauge.line
+    for side in (1, -1):
+        level = 1j * (across + side * rail)
+        yield from hatched(along * (near + level), along * (far + level), gauge, side)
+
+
+def _slotted(joint: RPR, bench: Bench) -> Fitting:
+    """Return a bar wide enough for its slot, the slot, and the collar that slides in it and turns with it."""
+    gauge, theme = bench.gauge, bench.theme
+    near, far = _slot_ends(joint, bench)
+    wide = lined([0j, near, far], 1.35 * gauge.bar, gauge.outline, (theme.outline, theme.metal))
+    hollow = Layer(mixed(theme.metal, theme.outline, 0.75), [rounded([near, far], 0.5 * gauge.bar)])
+    bar = (joint.pivot, joint.pivot, joint.name)
+    collar = Part(joint.through, joint.pivot, joint.name, _block(bench, share=0.62), (joint.through,))
+    return Fitting(
+        behind=(Part(*bar, tuple(wide), (joint.pivot,)),),
+        before=(Part(*bar, (hollow,)), collar),
+    )
+
+
+def _slot_ends(joint: RPR, bench: Bench) -> tuple[complex, complex]:
+    """Return the ends of a slot in pixels, the pivot at 0 and the bar along the real axis."""
+    places = bench.figure.cycle.position
+    way = np.sum((places[joint.through] - places[joint.pivot]) ** 2, axis=-1)
+    along = np.sqrt(np.maximum(way - joint.offset**2, 0))
+    side = -1j * joint.offset
+    return bench.view.scale * (np.nanmin(along) + side), bench.view.scale * (np.nanmax(along) + side)
+
+
+FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {RRP: _slider, RPR: _slotted}
+"""How each kind of joint is fitted out; kinds that are bars and pins alone are not in it."""
