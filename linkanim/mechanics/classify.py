@@ -12,12 +12,16 @@ from linkanim.digits import degrees, short, significant
 
 from .exact import HALF_TURN, Sum
 from .kinds import RPR, RRP, RRR, Pin
-from .loop import Loop
+from .loop import Gearing
 from .mechanism import Mechanism
 from .motion import Array, Motion
+from .path import Path
 from .roots import Kind
+from .search import around, sign_changes
+from .transmission import transmission
 
 SAMPLES = 1440
+SAME_ANGLE = 1e-9
 TRIPLE_ROCKERS = {
     "ground": "outward/outward",
     "input": "outward/inward",
@@ -92,11 +96,11 @@ def classify(mechanism: Mechanism, length_unit: str) -> Info:
         input_range=path.input_range,
         full_turn=path.full_turn,
         toggles=path.limits,
-        change_points=tuple(_change_points(mechanism)),
+        change_points=_change_points(mechanism),
         circuits=_circuits(four_bar) if four_bar and len(loops) == 1 else None,
         true_period=mechanism.periods,
         period_seconds=2 * math.pi * mechanism.periods / abs(mechanism.linkage.drive.speed),
-        transmission_angle=_transmission(mechanism),
+        transmission_angle=transmission(mechanism),
         stroke=slider[0] if slider else None,
         time_ratio=slider[1] if slider else None,
         turning_links=tuple(_turning(mechanism)),
@@ -150,7 +154,10 @@ def _rest(mechanism: Mechanism, dyads: int) -> str:
 
 
 def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
-    """Yield the four-bars down the chain: dyads between a fixed pin and one that turns about a fixed pin."""
+    """Yield the four-bars down the chain: dyads between a fixed pin and one that turns about a fixed pin.
+
+    Their sign tells a parallelogram, whose coupler keeps along the ground, from an antiparallelogram.
+    """
     linkage, cycle = mechanism.linkage, _cycle(mechanism, 0)
     pins = [joint.name for joint in linkage.joints if isinstance(joint, Pin)]
     for joint in linkage.joints:
@@ -160,7 +167,10 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
             pivot = next((pin for pin in pins if _keeps_away(cycle, moving, pin)), None)
             if fixed in pins and moving not in pins and pivot is not None:
                 ground, crank = _apart(cycle, pivot, fixed), _apart(cycle, pivot, moving)
-                yield FourBar(ground, crank, a, b, 1, _change_point_count(ground, crank, a, b))
+                along = cycle.position[joint.name] - cycle.position[moving]
+                apart = along - (cycle.position[fixed] - cycle.position[pivot])
+                sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
+                yield FourBar(ground, crank, a, b, sign, _change_point_count(ground, crank, a, b))
                 break
 
 
@@ -238,52 +248,33 @@ def _circuits(bar: FourBar) -> int:
     return 2 if bar.margin > 0 else 1
 
 
-def _change_points(mechanism: Mechanism) -> Iterator[float]:
-    """Yield the input's angles at its change points, within one turn."""
+def _change_points(mechanism: Mechanism) -> tuple[float, ...]:
+    """Return the input's angles at its change points within one turn, each once, the least first."""
+    found: list[float] = []
+    for angle in sorted(math.remainder(angle, 2 * math.pi) % (2 * math.pi) for angle in _touched(mechanism)):
+        known = (math.remainder(angle - other, 2 * math.pi) for other in found)
+        if all(abs(way) > SAME_ANGLE for way in known):
+            found.append(angle)
+    return tuple(found)
+
+
+def _touched(mechanism: Mechanism) -> Iterator[float]:
+    """Yield the input's angles at which a root changes its sign, of loops and of dyads down the chain."""
+    path = mechanism.assembly.path
     for loop in mechanism.assembly.loops.values():
-        if loop.pin != mechanism.linkage.drive.joint:
-            continue
         for factor, extra in ((loop.root.u, HALF_TURN), (loop.root.w, Sum(0.0))):
-            angle = float(loop.root.reference + extra)
-            if factor.kind is Kind.CHANGE_POINT and mechanism.assembly.path.holds(angle):
-                yield angle % (2 * math.pi)
+            if factor.kind is Kind.CHANGE_POINT:
+                yield from _reached(path, loop.gearing, loop.root.reference + extra)
+    for touches in mechanism.assembly.touches.values():
+        places = np.array([float(place) for place in touches.places])
+        yield from (places if path.full_turn else path.angles(places)).tolist()
 
 
-def _transmission(mechanism: Mechanism) -> tuple[float, float] | None:
-    """Return the least and greatest angle between the bars of a dyad (rod and the line's normal)."""
-    ranges = [_loop_transmission(mechanism, name, loop) for name, loop in mechanism.assembly.loops.items()]
-    ranges += [
-        _sampled_transmission(mechanism, joint)
-        for joint in mechanism.linkage.joints
-        if isinstance(joint, RRR) and joint.name not in mechanism.assembly.loops
-    ]
-    known = [pair for pair in ranges if pair is not None]
-    return (min(low for low, _ in known), max(high for _, high in known)) if known else None
-
-
-def _loop_transmission(mechanism: Mechanism, name: str, loop: Loop) -> tuple[float, float] | None:
-    """Return it from U and W at the ends of the input's range: tan²(μ/2) = W/U."""
-    if loop.root.single:
-        return None
-    u, w = loop.root.u, loop.root.w
-    low = 2 * math.atan2(math.sqrt(max(w.least, 0.0)), math.sqrt(u.most))
-    high = 2 * math.atan2(math.sqrt(w.most), math.sqrt(max(u.least, 0.0)))
-    if isinstance(mechanism.linkage.joint(name), RRP):
-        # The rod's lean to the line is |μ - 90°|; its angle to the normal's guide force is what counts.
-        lean = max(abs(low - math.pi / 2), abs(high - math.pi / 2))
-        reaches_zero = low <= math.pi / 2 <= high
-        least = 0.0 if reaches_zero else min(abs(low - math.pi / 2), abs(high - math.pi / 2))
-        return math.pi / 2 - lean, math.pi / 2 - least
-    return low, high
-
-
-def _sampled_transmission(mechanism: Mechanism, joint: RRR) -> tuple[float, float]:
-    motion = _cycle(mechanism, 0)
-    arms = [motion.position[joint.name] - motion.position[end] for end in joint.ends]
-    cross = arms[0][..., 0] * arms[1][..., 1] - arms[0][..., 1] * arms[1][..., 0]
-    dot = (arms[0] * arms[1]).sum(axis=-1)
-    angle = np.arctan2(np.abs(cross), dot)
-    return float(angle.min()), float(angle.max())
+def _reached(path: Path, gearing: Gearing, angle: Sum) -> Iterator[float]:
+    """Yield the input's angles, as far as it reaches them, at which a crank stands at an angle."""
+    p, q = gearing.ratio.as_integer_ratio()
+    first, step = float((angle - gearing.offset) * (1 / gearing.ratio)), 2 * math.pi * q / abs(p)
+    return (here for turn in range(abs(p)) if path.holds(here := first + turn * step, q))
 
 
 def _cycle(mechanism: Mechanism, derivatives: int) -> Motion:
@@ -296,30 +287,17 @@ def _stroke(mechanism: Mechanism) -> tuple[float, float] | None:
     slider = next((body for body in mechanism.linkage.bodies if body.slider is not None), None)
     if slider is None:
         return None
-    motion = _cycle(mechanism, 0)
-    travel = motion.travel[slider.name]
-    span = float(travel.max() - travel.min())
+    name, whole = slider.name, 2 * math.pi * mechanism.periods
+    reversals = sign_changes(
+        lambda phase: mechanism.solve(phase=phase, speed=1.0, derivatives=1).travel_velocity[name],
+        around(mechanism.periods, SAMPLES),
+    )
+    travel = mechanism.solve(phase=reversals, speed=1.0, derivatives=0).travel[name]
+    span = float(np.ptp(travel)) if len(travel) else 0.0
     if span == 0:
         return 0.0, 1.0
-    ends = [_reversal(mechanism, slider.name, int(index)) for index in (travel.argmax(), travel.argmin())]
-    high, low = (mechanism.pose(end, 1.0, 0.0, 0).travel[slider.name] for end in ends)
-    way = (ends[1] - ends[0]) % (2 * math.pi * mechanism.periods)
-    back = 2 * math.pi * mechanism.periods - way
-    return high - low, max(way, back) / min(way, back)
-
-
-def _reversal(mechanism: Mechanism, name: str, index: int) -> float:
-    """Return the phase next to a sample at which the slider's velocity changes sign, by bisection."""
-    step = 2 * math.pi * mechanism.periods / SAMPLES
-    low, high = (index - 1) * step, (index + 1) * step
-    rising = mechanism.pose(low, 1.0, 0.0, 1).travel_velocity[name] > 0
-    for _ in range(60):
-        middle = (low + high) / 2
-        if (mechanism.pose(middle, 1.0, 0.0, 1).travel_velocity[name] > 0) == rising:
-            low = middle
-        else:
-            high = middle
-    return (low + high) / 2
+    way = float(reversals[travel.argmin()] - reversals[travel.argmax()]) % whole
+    return span, max(way, whole - way) / min(way, whole - way)
 
 
 def _turning(mechanism: Mechanism) -> Iterator[str]:

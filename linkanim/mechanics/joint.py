@@ -98,3 +98,7 @@ class Joint(ABC):
     def why_apart(self) -> str:
         """Say in words and numbers why it cannot be assembled at any angle of the input."""
         return "it cannot be assembled"
+
+    def transmission(self, u: float, w: float) -> float | None:
+        """Return a dyad's transmission angle where its root's factors are U and W; None of other joints."""
+        return None

@@ -27,6 +27,7 @@ from .linkage import Linkage
 from .path import Path, Swing, Turn
 from .planar import Slope
 from .program import Batch, batch
+from .search import ends_of
 from .touching import SAMPLES_A_TURN, TOUCHING, through_change_points
 
 if TYPE_CHECKING:
@@ -201,17 +202,12 @@ def _refined(margins: _Margins, places: Array, inside: int, outside: int) -> _En
     """Return the limit between an open place and the shut one beside it, by bisection."""
     if not 0 <= outside < len(places):
         return _End(float(places[inside]), None)
-    low, high = float(places[inside]), float(places[outside])
-    _, whose = margins.lowest(np.array([high]))
+    _, whose = margins.lowest(places[outside : outside + 1])
     name = margins.names[int(whose[0])]
     row = margins.names.index(name)
-    while True:
-        middle = (low + high) / 2
-        if middle in (low, high):
-            return _End(low, name)
-        with np.errstate(all="ignore"):
-            still_open = margins.program(np.array([middle]))[row, 0] >= 0
-        low, high = (middle, high) if still_open else (low, middle)
+    with np.errstate(all="ignore"):
+        last = ends_of(lambda phase: margins.program(phase)[row] >= 0, places[[inside]], places[[outside]])
+    return _End(float(last[0]), name)
 
 
 def _swing(path: Path, ends: tuple[_End, _End]) -> Swing:

@@ -56,7 +56,7 @@ class Turn:
         """The phase after which the input has been everywhere that it goes, on every closure."""
         return 2 * math.pi * self.periods
 
-    def holds(self, angle: float) -> bool:
+    def holds(self, angle: float, turns: int = 1) -> bool:
         """Tell whether the input comes to an angle."""
         return True
 
@@ -136,9 +136,9 @@ class Swing:
         """The phase after which the input has been everywhere that it goes."""
         return math.pi
 
-    def holds(self, angle: float) -> bool:
-        """Tell whether the input comes to an angle, whole turns aside."""
-        return abs(math.remainder(angle - float(self.middle), 2 * math.pi)) <= self.amplitude
+    def holds(self, angle: float, turns: int = 1) -> bool:
+        """Tell whether the input comes to an angle, or to one that many turns away, or twice as many …"""
+        return abs(math.remainder(angle - float(self.middle), 2 * math.pi * turns)) <= self.amplitude
 
     def phase_of(self, angle: float, near: float) -> float:
         """Return the phase nearest to `near` at which the input stands at an angle, or at its limit."""

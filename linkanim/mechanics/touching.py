@@ -6,8 +6,7 @@ for an instant; what drives the dyad is at an extreme there, so the place is a z
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -20,11 +19,11 @@ from .expression import Graph
 from .path import Turn
 from .planar import Slope
 from .program import Batch, batch
+from .search import around, sign_changes
 
 SAMPLES_A_TURN = 2880
-CANDIDATE = 1e-4
 TOUCHING = 1e-12
-"""Shares of a margin's greatest value: sampled minima worth a closer look, and those that touch zero."""
+"""Share of a margin's greatest value below which an extreme of it touches zero."""
 LEAST = 1e-16
 
 Array = NDArray[np.float64]
@@ -34,7 +33,7 @@ def through_change_points(assembly: Assembly, names: Iterable[str], scales: Mapp
     """Return the assembly with the change points of the named dyads passed smoothly."""
     touches = {}
     for name in names:
-        phases = tuple(_touching_phases(assembly, name, scales[name]))
+        phases = tuple(_touching_phases(assembly, name, scales[name]).tolist())
         if phases:
             touches[name] = _named(assembly, phases, scales[name] * LEAST)
     if not touches:
@@ -58,38 +57,17 @@ def _named(assembly: Assembly, phases: tuple[float, ...], least: float) -> Touch
     return replace(found, sign=side)
 
 
-def _touching_phases(assembly: Assembly, name: str, scale: float) -> Iterator[float]:
-    """Yield the phases at which a dyad's margin touches zero, over a true period."""
+def _touching_phases(assembly: Assembly, name: str, scale: float) -> Array:
+    """Return the phases at which a dyad's margin touches zero, over a true period."""
     program = _margin_and_rate(assembly, name)
-    count = SAMPLES_A_TURN * assembly.path.periods
-    places = np.arange(-1, count + 1) * (2 * math.pi / SAMPLES_A_TURN)
+    places = around(assembly.path.periods, SAMPLES_A_TURN)
     with np.errstate(all="ignore"):
-        margin = program(places)[0] / scale
-    lowest = (margin[1:-1] <= margin[:-2]) & (margin[1:-1] < margin[2:]) & (margin[1:-1] < CANDIDATE)
-    for index in np.flatnonzero(lowest) + 1:
-        phase = _zero_of_rate(program, float(places[index - 1]), float(places[index + 1]))
-        with np.errstate(all="ignore"):
-            least = program(np.array([phase]))[0, 0] / scale
-        if abs(least) <= TOUCHING:
-            yield phase
+        extremes = sign_changes(lambda phase: program(phase)[1], places)
+        margins: Array = program(extremes)[0]
+    return extremes[np.abs(margins) <= TOUCHING * scale]
 
 
 def _margin_and_rate(assembly: Assembly, name: str) -> Batch:
     graph = Graph()
     found = assembly.walk_at(graph.input("x"), Slope(1.0))
     return batch({"x": True}, [found.margins[name], found.drivers[name].rate])
-
-
-def _zero_of_rate(program: Batch, low: float, high: float) -> float:
-    """Return where the driver is at its extreme between two phases, by bisection."""
-
-    def rising(phase: float) -> bool:
-        with np.errstate(all="ignore"):
-            return bool(program(np.array([phase]))[1, 0] > 0)
-
-    at_low = rising(low)
-    while True:
-        middle = (low + high) / 2
-        if middle in (low, high):
-            return middle
-        low, high = (middle, high) if rising(middle) == at_low else (low, middle)

@@ -43,10 +43,15 @@ class Kinematics:
     centres: Mapping[str, MovingPoint]
     bodies: Mapping[str, Slope]
     travels: Mapping[str, Moving]
-    margins: Mapping[str, Value]
-    """For each dyad closed from moving points: U·W, negative where it cannot be assembled."""
+    factors: Mapping[str, tuple[Value, Value]]
+    """For each dyad closed from moving points: U (1 where there is none) and W."""
     drivers: Mapping[str, Moving]
     """What closes each of these dyads: L², or how far its end lies from its line."""
+
+    @property
+    def margins(self) -> Mapping[str, Value]:
+        """For each dyad closed from moving points: U·W, negative where it cannot be assembled."""
+        return {name: u * w for name, (u, w) in self.factors.items()}
 
 
 @dataclass
@@ -63,7 +68,7 @@ class Walk:
     points: dict[str, MovingPoint] = field(default_factory=dict)
     pieces: list[Piece] = field(default_factory=lambda: [Piece()])
     travels: dict[str, Moving] = field(default_factory=dict)
-    margins: dict[str, Value] = field(default_factory=dict)
+    factors: dict[str, tuple[Value, Value]] = field(default_factory=dict)
     drivers: dict[str, Moving] = field(default_factory=dict)
 
     @property
@@ -111,7 +116,7 @@ class Walk:
     ) -> SignedRoot:
         """Return the root of a dyad on moving points, its margin kept; `single` where there is no U."""
         u, v = factors
-        self.margins[name], self.drivers[name] = u * v, driver
+        self.factors[name], self.drivers[name] = factors, driver
         half_difference = 0.5 if single else (u - v) * 0.5
         fits, touches = self.assembly.fits, self.assembly.touches.get(name)
         if name in fits and name in self.in_angle:
@@ -160,7 +165,7 @@ class Walk:
                 for name, body in turning.items()
             },
             {name: self.travels[body.slider] for name, body in bodies.items() if body.slider is not None},
-            self.margins,
+            self.factors,
             self.drivers,
         )
 

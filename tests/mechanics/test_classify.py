@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 
 import pytest
-from build import four_bar, six_bar, slider_crank, slotted
+from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.classify import classify
@@ -60,6 +60,61 @@ def test_change_points_are_told_as_crank_angles() -> None:
     assert sorted(both.change_points) == pytest.approx([0.25, 0.25 + math.pi])
     assert classify(mechanism(four_bar((4, 2, 5, 3))), "mm").change_points == pytest.approx((0.0,))
     assert classify(mechanism(four_bar((100, 30, 90, 80))), "mm").change_points == ()
+
+
+def crank_where_rocker_lies(lengths: tuple[float, float, float, float], *, outward: bool) -> float:
+    """The crank's angle, above the ground line, at which the rocker lies along it: the cosine rule."""
+    g, r, a, b = lengths
+    out = g + b if outward else g - b
+    return math.acos((r * r + out * out - a * a) / (2 * r * out))
+
+
+DRAG_LINK, TRIPLE_ROCKER = (30.0, 60.0, 70.0, 80.0), (100.0, 80.0, 60.0, 50.0)
+PARALLELOGRAM = (60.0, 40.0, 60.0, 40.0)
+CHANGE_POINTS_DOWN_THE_CHAIN = [
+    # With B on the far side of O2 the crank's angle counts from there: 180° more.
+    (
+        "an input that turns",
+        six_bar(DRAG_LINK, PARALLELOGRAM),
+        (
+            crank_where_rocker_lies(DRAG_LINK, outward=True),
+            2 * math.pi - crank_where_rocker_lies(DRAG_LINK, outward=False),
+        ),
+    ),
+    (
+        "one that swings, there and back",
+        six_bar(TRIPLE_ROCKER, PARALLELOGRAM),
+        (
+            crank_where_rocker_lies(TRIPLE_ROCKER, outward=False),
+            2 * math.pi - crank_where_rocker_lies(TRIPLE_ROCKER, outward=False),
+        ),
+    ),
+    # 4 2 5 3 is at its change point where its crank lies along the ground: -3/2 θ + 0.3 = 2πk.
+    (
+        "a geared crank's loop",
+        with_joints(
+            four_bar((100, 30, 90, 80)),
+            Pin("O7", (200.0, 0.0)),
+            Pin("O8", (204.0, 0.0)),
+            Crank("D", "O7", 2.0, Gear("A", Fraction(-3, 2), 0.3)),
+            RRR("E", ("D", "O8"), (5.0, 3.0)),
+        ),
+        (0.2, 0.2 + 2 * math.pi / 3, 0.2 + 4 * math.pi / 3),
+    ),
+    ("a rocker that never lies along the ground", six_bar((100, 30, 90, 80), PARALLELOGRAM), ()),
+    ("a change point within a swing", four_bar((5, 4, 3, 2)), (0.0,)),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "linkage", "angles"),
+    CHANGE_POINTS_DOWN_THE_CHAIN,
+    ids=[row[0] for row in CHANGE_POINTS_DOWN_THE_CHAIN],
+)
+def test_change_points_down_the_chain_are_told_as_crank_angles(
+    name: str, linkage: Linkage, angles: tuple[float, ...]
+) -> None:
+    assert classify(mechanism(linkage), "mm").change_points == pytest.approx(angles, abs=1e-12)
 
 
 PERIODS = [
@@ -135,6 +190,7 @@ SECOND_LOOPS = [
     ((120, 60, 100, 90), "six-bar: Grashof crank-rocker, then Grashof crank-rocker"),
     ((120, 60, 70, 80), "six-bar: Grashof crank-rocker, then triple-rocker (outward/outward)"),
     ((60, 40, 60, 40), "six-bar: Grashof crank-rocker, then parallelogram"),
+    ((60, 40, 40, 60), "six-bar: Grashof crank-rocker, then kite (change point)"),
 ]
 
 
@@ -143,3 +199,9 @@ def test_the_second_loop_of_a_six_bar_is_classed_too(
     second: tuple[float, float, float, float], name: str
 ) -> None:
     assert classify(mechanism(six_bar((100, 30, 90, 80), second)), "mm").class_name == name
+
+
+@pytest.mark.parametrize(("side", "name"), [(1, "then parallelogram"), (-1, "then antiparallelogram")])
+def test_a_parallelogram_down_the_chain_is_told_from_the_crossed_one(side: int, name: str) -> None:
+    info = classify(mechanism(six_bar((100, 30, 90, 80), PARALLELOGRAM, side=side)), "mm")
+    assert info.class_name.endswith(name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
@@ -91,6 +92,13 @@ class RPR(Joint):
         arm = direction.scaled(self.length)
         walk.points[self.name] = pivot + carried(arm, turning)
         walk.add_piece(turning, (self.pivot, self.name), arm)
+
+    def transmission(self, u: float, w: float) -> float:
+        """Return the angle from the slot's normal, along which the pin pushes, to the bar's motion there.
+
+        90° of a slot that runs through its pivot: the pin's push then does nothing but turn the bar.
+        """
+        return math.atan2(math.sqrt(w), abs(self.offset))
 
     def why_apart(self) -> str:
         """Say that the slot's offset is too large."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
@@ -111,6 +112,13 @@ class RRP(Joint):
         point, b = walk.points[self.end], self.length
         eccentric = Moving(aside, along.cross(point.velocity), along.cross(point.acceleration))
         return walk.margin_root(self.name, (b - aside, b + aside), eccentric).times(sign)
+
+    def transmission(self, u: float, w: float) -> float:
+        """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.
+
+        The bar leans asin(|e|/b), where U = b - e and W = b + e.
+        """
+        return math.pi / 2 - abs(2 * math.atan2(math.sqrt(w), math.sqrt(u)) - math.pi / 2)
 
     def why_apart(self) -> str:
         """Say that the bar is too short for its line."""

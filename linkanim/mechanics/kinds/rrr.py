@@ -11,6 +11,7 @@ vanish together (differentiate the closure in the phase).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
@@ -104,6 +105,10 @@ class RRR(Joint):
         arms = ((found.turning_a, first, found.arm_a), (found.turning_b, second, found.arm_b))
         for turning, end, arm in reversed(arms) if swapped else arms:
             walk.add_piece(turning, (end, self.name), arm)
+
+    def transmission(self, u: float, w: float) -> float:
+        """Return the angle μ between its bars: tan²(μ/2) = W/U, the cosine rule in its half-angle form."""
+        return 2 * math.atan2(math.sqrt(w), math.sqrt(u))
 
     def why_apart(self) -> str:
         """Say how far apart its pins would have to come."""

@@ -1,0 +1,48 @@
+"""One search for places: where a condition ends, and where a sampled function changes its sign.
+
+Bisection, on many brackets at once: it needs no derivative, cannot leave its bracket, and ends at
+neighbouring floats.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+FINEST = 2.0**-70
+"""Share of the largest place below which a bracket is not halved further: a place may be zero itself."""
+
+
+def around(turns: int, samples_a_turn: int) -> Array:
+    """Return phases once around, half a step off the start, where every rate of a swing vanishes."""
+    step = 2 * math.pi / samples_a_turn
+    return step * (np.arange(turns * samples_a_turn + 1, dtype=np.float64) - 0.5)
+
+
+def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array) -> Array:
+    """Return the last places at which a condition holds, each between one where it does and one where not.
+
+    `holds` is asked of places (N,), one in each of the N brackets, and answers for each.
+    """
+    finest = FINEST * np.maximum(np.abs(inside), np.abs(outside))
+    while True:
+        middle = (inside + outside) / 2
+        if ((middle == inside) | (middle == outside) | (np.abs(outside - inside) <= finest)).all():
+            return inside
+        good = holds(middle)
+        inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
+
+
+def sign_changes(function: Callable[[Array], Array], places: Array) -> Array:
+    """Return where a function changes its sign between neighbouring places; none where it is NaN there."""
+    values = function(places)
+    positive, known = values > 0, ~np.isnan(values)
+    index = np.flatnonzero((positive[:-1] != positive[1:]) & known[:-1] & known[1:])
+    start = positive[index]
+    return ends_of(lambda middle: (function(middle) > 0) == start, places[index], places[index + 1])

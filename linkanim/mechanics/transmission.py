@@ -1,0 +1,94 @@
+"""The transmission angle of every dyad: its least and greatest over the motion, exact at both ends.
+
+It is 90° where the force in a dyad does nothing but drive what follows, and 0 (or 180°, between bars)
+where it drives nothing: see Uicker, Pennock and Shigley, Theory of Machines and Mechanisms. Each kind of
+dyad says what it is for the factors U and W of its root; they are at their extremes where what closes
+the dyad is, and the angle at a slider has one more where the rod lies along its line (U = W).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .expression import Graph
+from .loop import Loop
+from .mechanism import Mechanism
+from .path import Swing, Turn
+from .planar import Slope
+from .program import Batch, batch
+from .search import around, sign_changes
+
+SAMPLES_A_TURN = 1440
+NONE_LEFT = 1e-12
+"""A factor below this share of its greatest value, in a dyad whose bars fall into one line, is none."""
+
+Array = NDArray[np.float64]
+
+
+def transmission(mechanism: Mechanism) -> tuple[float, float] | None:
+    """Return the least and greatest transmission angle over all dyads; None where there is no dyad."""
+    joint = mechanism.assembly.linkage.joint
+    angles = [
+        angle
+        for name, factors in (*_of_loops(mechanism), *_of_chain(mechanism))
+        for u, w in _emptied(factors, at_end=_reaches_its_end(mechanism, name))
+        if (angle := joint(name).transmission(u, w)) is not None
+    ]
+    return (min(angles), max(angles)) if angles else None
+
+
+def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
+    """Yield U and W of each loop where sin²(ψ/2) is least and greatest, and where they are equal."""
+    for name, loop in mechanism.assembly.loops.items():
+        root, path = loop.root, mechanism.assembly.path
+        least, greatest = (0.0, 1.0) if isinstance(path, Turn) else _squares(loop, path)
+        equal = (root.u.most - root.w.least) / (2 * root.spread)
+        spread = np.array([least, min(max(equal, least), greatest), greatest]) * root.spread
+        u = np.ones(3) if root.single else root.u.most - spread
+        yield name, np.column_stack([u, root.w.least + spread])
+
+
+def _squares(loop: Loop, swing: Swing) -> tuple[float, float]:
+    """Return the least and greatest sin²(ψ/2) over a swing."""
+    reference, ratio = loop.root.reference - loop.gearing.offset, loop.gearing.ratio
+    low, high = sorted(float(end * ratio - reference) for end in (swing.low, swing.high))
+    ends = [math.sin(angle / 2) ** 2 for angle in (low, high)]
+    # An angle whole turns from ψ = 0, or from ψ = π, lies between them.
+    passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
+    return 0.0 if passes[0] else min(ends), 1.0 if passes[1] else max(ends)
+
+
+def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
+    """Yield U and W of each dyad on moving points where its driver, or that one's rate, changes its sign."""
+    assembly = mechanism.assembly
+    found = assembly.walk_at(Graph().input("x"), Slope(1.0))
+    places = around(assembly.path.periods, SAMPLES_A_TURN)
+    for name, driver in found.drivers.items():
+        program = batch({"x": True}, [driver.value, driver.rate, *found.factors[name]])
+        with np.errstate(all="ignore"):
+            turning = [sign_changes(partial(_row, program, row), places) for row in (0, 1)]
+            factors = program(np.concatenate([places[:1], *turning]))[2:]
+        yield name, np.asarray(factors, dtype=np.float64).T
+
+
+def _row(program: Batch, row: int, places: Array) -> Array:
+    values: Array = program(places)[row]
+    return values
+
+
+def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:
+    """Tell whether a dyad's bars fall into one line: at a limit of its own, or at a change point."""
+    assembly = mechanism.assembly
+    return name in assembly.touches or (isinstance(assembly.path, Swing) and name in assembly.path.ends)
+
+
+def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:
+    """Return the factors without what rounding leaves of one that vanishes."""
+    least = factors.max(axis=0) * (NONE_LEFT if at_end else 0.0)
+    found: list[list[float]] = np.where(factors > least, factors, 0.0).tolist()
+    return found
