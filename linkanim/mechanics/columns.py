@@ -81,3 +81,23 @@ class Columns(Mapping[str, Array]):
 
     def __len__(self) -> int:
         return len(self._places)
+
+
+class Scaled(Mapping[str, Array]):
+    """The same columns, each times a factor."""
+
+    __slots__ = ("_columns", "_factor")
+
+    def __init__(self, columns: Mapping[str, Array], factor: float) -> None:
+        self._columns, self._factor = columns, factor
+
+    def __getitem__(self, name: str) -> Array:
+        scaled: Array = self._columns[name] * self._factor
+        scaled.flags.writeable = False
+        return scaled
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .columns import Scaled
 from .linkage import Body, Damper, Linkage, Spring
 from .loop import Gearing
-from .register import parts
+from .register import DERIVATIVE_OF, parts
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -199,6 +200,23 @@ class Motion(Derived):
     travel: Mapping[str, Array]
     travel_velocity: Mapping[str, Array]
     travel_acceleration: Mapping[str, Array]
+
+    def paced(self, factor: float) -> Motion:
+        """Return the same motion run so many times as fast; backwards where the factor is negative.
+
+        Nothing is solved: first derivatives in time grow with the factor, second ones with its square.
+        """
+        scaled: dict[str, Any] = {
+            name: Scaled(getattr(self, name), factor**order) for name, order in DERIVATIVE_OF.items() if order
+        }
+        return replace(
+            self,
+            input_speed=self.input_speed * factor,
+            input_acceleration=self.input_acceleration * factor**2,
+            crank_rate=self.crank_rate * factor,
+            crank_second=self.crank_second * factor**2,
+            **scaled,
+        )
 
     def _principal(self, name: str, dy: Any, dx: Any) -> Array:
         principal: Array = np.arctan2(dy, dx)

@@ -1,8 +1,8 @@
 """The register of quantities: what can be told of a linkage, in which symbol, words and unit.
 
 Motion's attributes, charts, the tables of `solve`, JSON, CSV and refusals all read from here. Symbols are
-those of the textbooks on mechanisms (ω, α, v, a; h and f for first kinematic coefficients); what follows
-an underscore is set as a subscript.
+those of the textbooks on mechanisms (ω, α, v, a; h and f for first kinematic coefficients); subscripts are
+Unicode's digits (ω₃) or stand in braces (v_{B}).
 """
 
 from __future__ import annotations
@@ -142,7 +142,7 @@ DERIVATIVE_OF = {measure.name: measure.order for measure in (*POINT, *CENTRE, *T
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity of one linkage: `rocker.angular_velocity`, ω_4, "Rocker: angular velocity", rad/s.
+    """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
 
     `read` takes a Motion (arrays) or a Pose (floats) and gives radians and the scene's unit of length:
     one value an instant, or one in each of `columns`. `unit` and `order` are as in `Measure`.
@@ -165,16 +165,16 @@ class Quantity:
         """Return the unit that goes with `shown`."""
         return "°" if self.unit == "rad" else self.unit.format(length_unit)
 
-    @property
-    def title(self) -> str:
-        """The words with the symbol, as far as plain text can set it: "Rocker: angular velocity ω₄"."""
-        return f"{self.words} {plain(self.symbol)}"
+
+def indexed(symbol: str, index: str) -> str:
+    """Return a symbol with its subscript: ω₄, v_{B}."""
+    lowered = index.isdecimal() and index.isascii()
+    return symbol + (index.translate(_SUBSCRIPTS) if lowered else f"_{{{index}}}")
 
 
 def plain(symbol: str) -> str:
-    """Return a symbol as one line of text: ω₄ for ω_4, but v_B as it is."""
-    base, _, index = symbol.partition("_")
-    return base + index.translate(_SUBSCRIPTS) if index.isdecimal() and index.isascii() else symbol
+    """Return a symbol for plain text: v_B for v_{B}."""
+    return symbol.replace("{", "").replace("}", "")
 
 
 def plain_unit(unit: str, length_unit: str) -> str:
@@ -240,7 +240,7 @@ def called(body: Body) -> str:
 def _of_body(body: Body, label: str) -> Iterator[Quantity]:
     own, slopes = measures_of(body)
     for measure in (*own, *slopes):
-        yield _bound(measure, body.name, f"{measure.symbol}_{label}", called(body))
+        yield _bound(measure, body.name, indexed(measure.symbol, label), called(body))
 
 
 def _bound(measure: Measure, part: str, symbol: str, words: str) -> Quantity:
@@ -257,13 +257,13 @@ def _of_point(measure: Measure, part: str, label: str, words: str) -> Iterator[Q
     def vector(motion: Any) -> Any:
         return measure.read(motion, part)
 
-    whole = (f"{measure.symbol}_{label}", said, measure.unit, measure.order)
+    whole = (indexed(measure.symbol, label), said, measure.unit, measure.order)
     if measure.order:
         yield Quantity(token, *whole, lambda motion: _size(vector(motion)))
     else:
         yield Quantity(token, *whole, vector, ("x", "y"))
     for index, axis in enumerate("xy"):
-        symbol = f"{measure.symbol}_{label}{axis}" if measure.order else f"{axis}_{label}"
+        symbol = indexed(measure.symbol, f"{label}{axis}") if measure.order else indexed(axis, label)
         yield Quantity(
             f"{token}.{axis}",
             symbol,
@@ -292,5 +292,5 @@ def _of_strut(strut: Spring | Damper) -> Iterator[Quantity]:
     kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
     for measure in measures:
         if measure.name != "force" or strut.forceful:
-            symbol = f"{measure.symbol}_{strut.name}"
+            symbol = indexed(measure.symbol, strut.name)
             yield _bound(measure, strut.name, symbol, f"{kind.capitalize()} {strut.name}")

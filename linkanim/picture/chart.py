@@ -1,25 +1,24 @@
-"""Charts: a frame with axes, curves and points; and the strip under the scene with its cursor."""
+"""Charts: a frame with axes, curves and points."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from math import degrees
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pygame
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.digits import stepped
-from linkanim.picture.axis import Axis, around, linear
-from linkanim.picture.figure import Figure
+from linkanim.picture.axis import Axis
 from linkanim.picture.layout import Layout
-from linkanim.picture.quantities import Series, quantity, series_of
 from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import disc, segments, stroke
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
+
+_FOOT = 1.6
+"""From the plot down to the title of the horizontal axis, in heights of small text."""
 
 
 @dataclass(frozen=True)
@@ -55,11 +54,11 @@ def pen_for(layout: Layout, type_: Type, theme: Theme) -> Pen:
     return Pen(type_, theme, layout.small_size, layout.text_size, 1.8 * layout.unit)
 
 
-def plot_area(rect: Rect, y: Axis, pen: Pen, *, title: bool = True) -> Rect:
-    """Return what of a rectangle is left for curves beside tick labels and a title."""
+def plot_area(rect: Rect, y: Axis, pen: Pen, *, title: bool = True, foot: bool = False) -> Rect:
+    """Return what of a rectangle is left for curves beside tick labels, a title above and one at the foot."""
     labels = max((pen.type.width(label, pen.small) for _, label in y.ticks), default=0)
     left, top = labels + 0.6 * pen.small, (1.5 * pen.text if title else 0.6 * pen.small)
-    right, low = 1.4 * pen.small, 1.6 * pen.small
+    right, low = 1.4 * pen.small, (_FOOT + 1.2 if foot else 1.6) * pen.small
     return Rect(
         rect.x + left, rect.y + top, max(rect.width - left - right, 1), max(rect.height - top - low, 1)
     )
@@ -78,6 +77,53 @@ def draw_axes(surface: pygame.Surface, plot: Plot, pen: Pen) -> None:
     for foot, (_, label) in zip(rows, plot.y.ticks, strict=True):
         at = (area.x - 0.5 * pen.small, foot.imag - 0.5 * pen.small)
         pen.type.draw(surface, label, at, size=pen.small, colour=theme.dim, anchor="right")
+
+
+def draw_x_title(surface: pygame.Surface, plot: Plot, title: str, pen: Pen, *, foot: bool) -> Axis:
+    """Draw the horizontal axis' title and return the axis with the ticks that may have labels.
+
+    It stands below them where the plot has a `foot`, else at the end of their line, in their place.
+    """
+    area, wide = plot.area, pen.type.width(title, pen.small)
+    y = area.bottom + (_FOOT if foot else 0.4) * pen.small
+    pen.type.draw(surface, title, (area.right, y), size=pen.small, colour=pen.theme.dim, anchor="right")
+    if foot:
+        return plot.x
+    free = area.right - wide - 0.6 * pen.small
+    ticks = (
+        (value, label if _right_end(plot, value, label, pen) <= free else "") for value, label in plot.x.ticks
+    )
+    return replace(plot.x, ticks=tuple(ticks))
+
+
+def _right_end(plot: Plot, value: float, label: str, pen: Pen) -> float:
+    return complex(plot.place(value, plot.y.low)).real + 0.5 * pen.type.width(label, pen.small)
+
+
+def draw_marks(
+    surface: pygame.Surface,
+    plot: Plot,
+    marks: Sequence[tuple[float, str]],
+    values: NDArray[np.float64],
+    pen: Pen,
+) -> None:
+    """Draw a dashed line at each mark, its label at the end that is further from the curve's value there."""
+    area = plot.area
+    for (x, label), value in zip(marks, values, strict=True):
+        foot, wide = complex(plot.place(x, plot.y.low)), pen.type.width(label, pen.small)
+        paint(surface, [Layer(pen.theme.dim, list(_dashes(foot, area.height, pen)))])
+        low = float(plot.y.share(value)) > 0.5
+        left = foot.real + 0.3 * pen.small
+        left = left if left + wide <= area.right else foot.real - 0.3 * pen.small - wide
+        at = (left, area.bottom - 1.2 * pen.small if low else area.y + 0.1 * pen.small)
+        pen.type.draw(surface, label, at, size=pen.small, colour=pen.theme.dim)
+
+
+def _dashes(foot: complex, height: float, pen: Pen) -> Iterator[Loop]:
+    """Yield a dashed line that rises from a point."""
+    for start in np.arange(0.0, height, 6 * pen.line):
+        top = foot - 1j * min(start + 3 * pen.line, height)
+        yield from segments(foot - 1j * start, top, 0.7 * pen.line)
 
 
 def _lines(feet: Loop, reach: complex, pen: Pen) -> list[Loop]:
@@ -102,93 +148,3 @@ def _runs(pixels: Loop) -> Iterator[Loop]:
     for run in np.split(held, np.flatnonzero(np.diff(held) > 1) + 1):
         if run.size:
             yield pixels[run]
-
-
-@dataclass(frozen=True)
-class Strip:
-    """The chart under the scene: one quantity over one true period."""
-
-    name: str
-    series: Series
-    plot: Plot
-    pen: Pen
-    period: float
-
-    def draw(self, surface: pygame.Surface) -> None:
-        """Draw all that stands still: axes, name, and the curves."""
-        draw_axes(surface, self.plot, self.pen)
-        area, pen = self.plot.area, self.pen
-        top = area.y - 1.35 * pen.text
-        pen.type.draw(surface, self.name, (area.x, top), size=pen.text, colour=pen.theme.ink)
-        turns = np.degrees(np.append(self.series.phases, self.period))
-        for n, column in enumerate(self.series.values.T):
-            whole = np.append(column, column[0] + self._gain(n))
-            paint(surface, [curve_layer(self.plot, turns, whole, self.colour(n), 1.3 * pen.line)])
-
-    def _gain(self, n: int) -> float:
-        """Return by how much a quantity grows in a period: whole turns for an angle, else nothing."""
-        values = self.series.values[:, n]
-        if self.series.unit != "°" or len(values) < 2:
-            return 0.0
-        step = values[-1] - values[-2]
-        return float(360.0 * np.round((values[-1] + step - values[0]) / 360.0))
-
-    def colour(self, n: int) -> Colour:
-        """Return the colour of a column."""
-        return (self.pen.theme.velocity, self.pen.theme.acceleration)[n % 2]
-
-    def values_at(self, phase: float) -> NDArray[np.float64]:
-        """Return the values at a phase, between the nearest two that were solved."""
-        count = len(self.series.phases)
-        at = (phase / self.period) % 1.0 * count
-        index, part = int(at) % count, at - int(at)
-        gain = np.array([self._gain(n) for n in range(self.series.values.shape[1])])
-        after = self.series.values[(index + 1) % count] + (gain if index + 1 == count else 0.0)
-        here = self.series.values[index]
-        mean: NDArray[np.float64] = here * (1 - part) + after * part
-        return np.where(np.isfinite(mean), mean, here)
-
-    def cursor(self, phase: float) -> list[Layer]:
-        """Return the line at a phase and the dots where it meets the curves."""
-        turn = degrees(phase % self.period)
-        foot = complex(self.plot.place(turn, self.plot.y.low))
-        head = foot - 1j * self.plot.area.height
-        layers = [Layer(self.pen.theme.ink, segments(foot, head, 0.8 * self.pen.line))]
-        for n, value in enumerate(self.values_at(phase)):
-            if np.isfinite(value):
-                layers += point_layers(self.plot, [(turn, float(value))], self.colour(n), self.pen)
-        return layers
-
-    def reading(self, phase: float) -> str:
-        """Return the values under the cursor in words."""
-        span, gap = self.plot.y.high - self.plot.y.low, "" if self.series.unit == "°" else " "
-        return "   ".join(
-            f"{label} {stepped(float(value), span / 500)}{gap}{self.series.unit}".strip()
-            for label, value in zip(self.series.labels, self.values_at(phase), strict=True)
-        )
-
-    def draw_reading(self, surface: pygame.Surface, phase: float) -> None:
-        """Draw the values under the cursor at the right of the name."""
-        area, pen = self.plot.area, self.pen
-        at = (area.right, area.y - 1.35 * pen.text)
-        words, ink = self.reading(phase), pen.theme.ink
-        pen.type.draw(surface, words, at, size=pen.text, colour=ink, anchor="right")
-
-    def phase_at(self, px: float, py: float) -> float | None:
-        """Return the phase under a pixel, None outside the chart; a little beside the ends counts."""
-        area = self.plot.area
-        near = Rect(area.x - 12, area.y, area.width + 24, area.height + 2 * self.pen.small)
-        if not near.holds(px, py):
-            return None
-        return min(max((px - area.x) / area.width, 0.0), 1.0) * self.period
-
-
-def strip(figure: Figure, name: str, layout: Layout, pen: Pen) -> Strip:
-    """Return the chart of a quantity for a window; BadInput where the scene has no such quantity."""
-    found = series_of(figure.scene, quantity(figure.scene, name), figure.cycle)
-    rect = layout.chart or Rect(0, 0, *layout.size)
-    most = max(min(round(rect.height / (2.1 * pen.small)), 6), 2)
-    values = around(found.values, most=most, unit="°" if found.unit == "°" else "")
-    period = figure.scene.period
-    turns = linear(0.0, degrees(period), most=8, unit="°")
-    return Strip(name, found, Plot(plot_area(rect, values, pen), turns, values), pen, period)

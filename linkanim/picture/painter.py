@@ -13,7 +13,7 @@ import pygame
 from linkanim.mechanics.kinds import Crank
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
-from linkanim.picture.chart import Strip, pen_for, strip
+from linkanim.picture.chart import pen_for
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
 from linkanim.picture.ground import ground_layers
@@ -25,6 +25,7 @@ from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
 from linkanim.picture.raster import Layer, paint, paints
+from linkanim.picture.strip import Strip, strip
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed, theme_of
@@ -84,7 +85,8 @@ class Painter:
         self._panels: Panels = self._laid_over(before)
         self._cast = self._casting()
         self._legend = legend_for(self._cast.arrows, self._layout, self._type, self._theme)
-        self._still = self._drawn_once()
+        self._bare = self._drawn_once()
+        self._still = self._charted()
 
     def paint(
         self,
@@ -100,10 +102,11 @@ class Painter:
         large as the painter's size is painted from its top left corner.
         """
         canvas = self._canvas(surface)
+        self._run_at(pose.input_speed)
         self._wipe(canvas)
         paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
         if self._strip:
-            self._strip.draw_reading(canvas, pose.phase)
+            self._strip.draw_reading(canvas, pose)
         if self._hud:
             canvas.blit(self._hud.sheet, self._hud.sheet.get_offset())
             self._hud.draw_values(canvas, pose, overlay)
@@ -172,18 +175,30 @@ class Painter:
         )
 
     def _drawn_once(self) -> pygame.Surface:
-        """Return the layer that stands still: background, ground, curves, chart, names."""
+        """Return the layer that stands still but for the chart: background, ground, curves, key."""
         flags = 0 if self.look.background else pygame.SRCALPHA
         still = pygame.Surface(self.size, flags, 32)
         still.fill((*self._theme.background, 255 if self.look.background else 0))
         known = (self._figure, self.view, self._gauge, self._theme)
         scene = [*wheel_layers(*known), *ground_layers(*known)]
         paint(still, self._on_stage(scene + self._curves(still=True)))
-        if self._strip:
-            self._strip.draw(still)
         if self._legend:
             self._legend.draw(still)
         return still
+
+    def _charted(self) -> pygame.Surface:
+        """Return the layer that stands still with the chart on it."""
+        if not self._strip:
+            return self._bare
+        still = self._bare.copy()
+        self._strip.draw(still)
+        return still
+
+    def _run_at(self, speed: float) -> None:
+        """Draw the chart anew where the motion runs at another speed: both are one motion."""
+        if self._strip and self._strip.speed != speed:
+            self._strip = self._strip.at(speed)
+            self._still = self._charted()
 
     def _canvas(self, surface: pygame.Surface) -> pygame.Surface:
         """Return the surface itself where it can be written to directly, else one like the static layer."""
@@ -209,7 +224,7 @@ class Painter:
         """Return all that moves, back to front, the chart's cursor last."""
         layers = [*placed(self._cast.wheels, self._places(pose)), *(self._ghost(ghost) if ghost else ())]
         layers += [*self._curves(still=False), *self._above(pose)]
-        return self._on_stage(layers) + (self._strip.cursor(pose.phase) if self._strip else [])
+        return self._on_stage(layers) + (self._strip.cursor(pose) if self._strip else [])
 
     def _curves(self, *, still: bool) -> list[Layer]:
         """Return the whole curves; they are part of what stands still where nothing moves behind them."""

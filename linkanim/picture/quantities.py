@@ -50,12 +50,13 @@ def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
     """Return a quantity of a cycle that is already solved."""
     values = np.asarray(quantity.shown(cycle), float)
     columns = values if values.ndim == 2 else values[:, None]
-    columns = np.where(np.abs(columns) <= _rounding(quantity, cycle), 0.0, columns)
+    columns = rounded(columns, quantity, cycle)
     return Series(cycle.phase, columns, quantity.shown_unit(scene.length_unit), quantity.columns)
 
 
-def _rounding(quantity: Quantity, cycle: Motion) -> float:
-    """Return how large rounding errors of a quantity may be, from the extent and the input's speed."""
+def rounded(values: NDArray[np.float64], quantity: Quantity, cycle: Motion) -> NDArray[np.float64]:
+    """Return values with 0 for what is nothing but rounding errors at a cycle's extent and input speed."""
     length = max(float(np.abs(places).max()) for places in cycle.position.values())
     extent = length if "{}" in quantity.unit else 1.0
-    return _ROUNDING * extent * float(np.abs(cycle.input_speed)) ** quantity.order
+    least = _ROUNDING * extent * abs(float(cycle.input_speed)) ** quantity.order
+    return np.where(np.abs(values) <= least, 0.0, values)

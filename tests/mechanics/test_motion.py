@@ -10,6 +10,7 @@ from build import four_bar, slider_crank
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.register import register
 from linkanim.scenes import load
 
 STEP = 1e-4
@@ -128,3 +129,17 @@ def test_messages_name_the_lengths_as_they_were_given() -> None:
         mechanism(four_bar((100e90, 3e90, 9e90, 2e90)))
     with pytest.raises(AssemblyError, match="5e-90"):
         mechanism(slider_crank(1e-88, 5e-90, 3e-88))
+
+
+@pytest.mark.parametrize("factor", [2.0, -1.0, 0.1, -3.7])
+@pytest.mark.parametrize("name", ["press", "double-rocker", "slider-crank"])
+def test_a_motion_at_another_pace_is_the_one_solved_at_that_speed(name: str, factor: float) -> None:
+    scene = load(name)
+    phases = np.linspace(0.1, 6.0, 40)
+    paced = scene.solve(phase=phases, speed=2.0, acceleration=0.5).paced(factor)
+    solved = scene.solve(phase=phases, speed=2.0 * factor, acceleration=0.5 * factor**2)
+    assert paced.input_speed == solved.input_speed
+    for quantity in register(scene.linkage).values():
+        assert quantity.read(paced) == pytest.approx(quantity.read(solved), rel=1e-11, abs=1e-9)
+    with pytest.raises(ValueError, match="read-only"):
+        paced.velocity["A"][0] = 1.0

@@ -103,7 +103,6 @@ def test_people_read_degrees_and_the_scenes_unit() -> None:
     assert known["3.angle"].shown_unit("mm") == "°"
     assert known["B.velocity"].shown_unit("mm") == "mm/s"
     assert known["B.velocity"].shown(pose) == known["B.velocity"].read(pose)
-    assert known["3.angular_velocity"].title == "Link 3: angular velocity ω₃"
 
 
 def test_a_wrong_token_is_answered_with_the_nearest_and_the_list() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -221,8 +222,10 @@ def test_the_chart_tells_the_phase_under_a_pixel() -> None:
     low, high = (painter.chart_phase_at(px, 320) for px in (45, 625))
     assert low is not None
     assert high is not None
-    assert 0 <= low < 0.2
-    assert scene.period - 0.3 < high <= scene.period
+    # from the crank's angle 0 through two turns; the drive starts at 60°
+    for phase, turned in ((low, 0.0), (high, 2 * math.tau)):
+        away = math.remainder(scene.linkage.drive.start + phase - turned, scene.period)
+        assert away == pytest.approx(0.0, abs=0.3)
     assert Painter(scene, (640, 360), Look()).chart_phase_at(320, 320) is None
 
 

@@ -1,0 +1,182 @@
+"""The chart beside the scene: one quantity over one true period of the motion as it runs, and its cursor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from linkanim.digits import stepped
+from linkanim.mechanics.motion import Motion, Pose
+from linkanim.mechanics.register import Quantity
+from linkanim.picture.axis import around
+from linkanim.picture.chart import (
+    Pen,
+    Plot,
+    curve_layer,
+    draw_axes,
+    draw_marks,
+    draw_x_title,
+    plot_area,
+    point_layers,
+)
+from linkanim.picture.course import Course, Floats, course
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Layout
+from linkanim.picture.quantities import Series, quantity, rounded, series_of
+from linkanim.picture.raster import Colour, Layer, paint
+from linkanim.picture.shapes import segments
+from linkanim.picture.view import Rect
+
+_TITLE = 1.35
+"""From the plot up to the line above it, in heights of its text."""
+_GAP = 1.2
+"""Between two things in that line, in heights of its text."""
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back)."""
+
+    figure: Figure
+    quantity: Quantity
+    rect: Rect
+    pen: Pen
+    speed: float
+
+    def at(self, speed: float) -> Strip:
+        """Return the chart of the same motion at another speed; nothing is solved for it."""
+        return self if speed == self.speed else replace(self, speed=speed)
+
+    @cached_property
+    def course(self) -> Course:
+        """What the values are shown over."""
+        return course(self.figure.scene, self.speed)
+
+    @cached_property
+    def series(self) -> Series:
+        """The quantity over one true period."""
+        return series_of(self.figure.scene, self.quantity, self._cycle)
+
+    @cached_property
+    def _cycle(self) -> Motion:
+        return self.figure.cycle.paced(self.speed / self.figure.linkage.drive.speed)
+
+    @cached_property
+    def curves(self) -> tuple[Floats, Floats]:
+        """The places along the course and the values there, a column for each curve."""
+        return self.course.laid(self.series)
+
+    @cached_property
+    def plot(self) -> Plot:
+        """Where the curves are drawn."""
+        small = self.pen.small
+        most = max(min(round(self.rect.height / (2.1 * small)), 6), 2)
+        y = around(self.curves[1], most=most, unit="°" if self.series.unit == "°" else "")
+        area = plot_area(self.rect, y, self.pen, foot=self._has_foot)
+        return Plot(area, self.course.axis(max(min(round(self.rect.width / (5 * small)), 8), 2)), y)
+
+    @property
+    def _has_foot(self) -> bool:
+        """Whether there is room for a line below the tick labels."""
+        return self.rect.height >= 9 * self.pen.small
+
+    def draw(self, surface: pygame.Surface) -> None:
+        """Draw all that stands still: axes and their titles, the limits of a swing, the curves."""
+        kept = draw_x_title(surface, self.plot, self.course.title, self.pen, foot=self._has_foot)
+        draw_axes(surface, replace(self.plot, x=kept), self.pen)
+        x, values = self.curves
+        heights = np.interp([place for place, _ in self.course.marks], x, values[:, 0])
+        draw_marks(surface, self.plot, self.course.marks, heights, self.pen)
+        self._draw_title(surface)
+        for n, column in enumerate(values.T):
+            paint(surface, [curve_layer(self.plot, x, column, self.colour(n), 1.3 * self.pen.line)])
+
+    def _draw_title(self, surface: pygame.Surface) -> None:
+        """Draw the vertical axis' title: words, symbol and unit, as much as leaves room for the reading."""
+        pen, area = self.pen, self.plot.area
+        room = area.width - self._widest_reading - _GAP * pen.text
+        short = f"{self.quantity.symbol} ({self.series.unit})"
+        full = f"{self.quantity.words} {short}"
+        words = full if pen.type.width(full, pen.text) <= room else short
+        at = (area.x, area.y - _TITLE * pen.text)
+        pen.type.draw(surface, words, at, size=pen.text, colour=pen.theme.ink)
+
+    @cached_property
+    def _widest_reading(self) -> float:
+        ends = (np.full(self.curves[1].shape[1], end) for end in (self.plot.y.low, self.plot.y.high))
+        return max(sum(self._widths(self.reading(values))) for values in ends)
+
+    def colour(self, n: int) -> Colour:
+        """Return the colour of a column."""
+        return (self.pen.theme.velocity, self.pen.theme.acceleration)[n % 2]
+
+    def values_at(self, pose: Pose) -> Floats:
+        """Return the pose's own values; of an angle the turn in which the curve stands there."""
+        found = rounded(np.atleast_1d(self.quantity.shown(pose)), self.quantity, self._cycle)
+        if self.series.unit != "°":
+            return found
+        x, values = self.curves
+        near = np.array([np.interp(self.course.x_of(pose.phase), x, column) for column in values.T])
+        return found + 360.0 * np.nan_to_num(np.rint((near - found) / 360.0))
+
+    def cursor(self, pose: Pose) -> list[Layer]:
+        """Return the line at a pose and the dots where it meets the curves."""
+        x = float(self.course.x_of(pose.phase))
+        foot = complex(self.plot.place(x, self.plot.y.low))
+        head = foot - 1j * self.plot.area.height
+        layers = [Layer(self.pen.theme.ink, segments(foot, head, 0.8 * self.pen.line))]
+        for n, value in enumerate(self.values_at(pose)):
+            if np.isfinite(value):
+                layers += point_layers(self.plot, [(x, float(value))], self.colour(n), self.pen)
+        return layers
+
+    def reading(self, values: NDArray[np.float64]) -> tuple[str, ...]:
+        """Return values in words, one for each curve."""
+        span, gap = self.plot.y.high - self.plot.y.low, "" if self.series.unit == "°" else " "
+        return tuple(
+            f"{label} {stepped(float(value), span / 500)}{gap}{self.series.unit}".strip()
+            for label, value in zip(self.series.labels, values, strict=True)
+        )
+
+    def draw_reading(self, surface: pygame.Surface, pose: Pose) -> None:
+        """Draw the pose's values at the right above the plot, of several curves each with its colour."""
+        pen, words = self.pen, self.reading(self.values_at(pose))
+        y, x = self.plot.area.y - _TITLE * pen.text, self.plot.area.right - sum(self._widths(words))
+        for n, (text, width) in enumerate(zip(words, self._widths(words), strict=True)):
+            left = x + width - pen.type.width(text, pen.text)
+            pen.type.draw(surface, text, (left, y), size=pen.text, colour=pen.theme.ink)
+            if len(words) > 1:
+                end = complex(left - 0.4 * pen.text, y + 0.5 * pen.text)
+                paint(surface, [Layer(self.colour(n), segments(end - self._swatch, end, 1.6 * pen.line))])
+            x += width
+
+    @property
+    def _swatch(self) -> float:
+        return 1.1 * self.pen.text
+
+    def _widths(self, words: tuple[str, ...]) -> list[float]:
+        """Return how much of the line each value takes, with its colour where there are several."""
+        colours = self._swatch + (0.4 + _GAP) * self.pen.text if len(words) > 1 else 0.0
+        return [self.pen.type.width(text, self.pen.text) + colours for text in words]
+
+    def phase_at(self, px: float, py: float) -> float | None:
+        """Return the phase under a pixel, None outside the chart; a little beside the ends counts."""
+        area = self.plot.area
+        near = Rect(area.x - 12, area.y, area.width + 24, area.height + 2 * self.pen.small)
+        if not near.holds(px, py):
+            return None
+        share = min(max((px - area.x) / area.width, 0.0), 1.0)
+        return float(self.course.phase_of(share * self.course.span)) % self.course.period
+
+
+def strip(figure: Figure, token: str, layout: Layout, pen: Pen) -> Strip:
+    """Return the chart of a quantity for a window, at the scene's own speed.
+
+    BadInput where the scene has no such quantity.
+    """
+    rect = layout.chart or Rect(0, 0, *layout.size)
+    return Strip(figure, quantity(figure.scene, token), rect, pen, figure.linkage.drive.speed)

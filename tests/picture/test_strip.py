@@ -1,0 +1,212 @@
+"""The chart of a scene: the same motion as the picture, over the angle or the time that it says."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pygame
+import pytest
+from pictures import pixels
+
+from linkanim.bench.fidelity import Pixels
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.chart import pen_for
+from linkanim.picture.course import input_symbol
+from linkanim.picture.figure import figure
+from linkanim.picture.layout import Layout, layout
+from linkanim.picture.look import Look
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.painter import Painter
+from linkanim.picture.strip import Strip, strip
+from linkanim.picture.text import Type
+from linkanim.picture.theme import LIGHT
+from linkanim.scenes import load, names
+
+WINDOW: Layout = layout((640, 360), Look(chart="x"))
+
+
+def _strip(scene: str, token: str, speed: float | None = None) -> Strip:
+    drawn = strip(figure(load(scene)), token, WINDOW, pen_for(WINDOW, Type(), LIGHT))
+    return drawn if speed is None else drawn.at(speed)
+
+
+def _pose(chart: Strip, phase: float) -> Pose:
+    return chart.figure.scene.pose(phase, speed=chart.speed)
+
+
+def _share(chart: Strip, phase: float) -> float:
+    """Return how far along the chart the cursor stands."""
+    line = chart.cursor(_pose(chart, phase))[0].loops[0]
+    return float((line.real.mean() - chart.plot.area.x) / chart.plot.area.width)
+
+
+# scene, phase, the crank angle there, how many degrees the axis has: the kite needs two turns
+TURNING = [
+    ("slider-crank", 0.0, 60.0, 360.0),
+    ("slider-crank", 1.0, 60.0 + math.degrees(1.0), 360.0),
+    ("antiparallelogram", math.pi, 240.0, 360.0),
+    ("crank-rocker", -math.pi / 2, 270.0, 360.0),
+    ("kite", 0.0, 60.0, 720.0),
+    ("kite", math.tau, 420.0, 720.0),
+    ("kite", 1.9 * math.tau, 60.0 + 1.9 * 360.0 - 720.0, 720.0),
+]
+
+
+@pytest.mark.parametrize(("name", "phase", "angle", "span"), TURNING)
+def test_an_input_that_turns_is_charted_over_its_own_angle(
+    name: str, phase: float, angle: float, span: float
+) -> None:
+    chart = _strip(name, "P.velocity")
+    assert chart.course.title == "crank angle θ₂ (°)"
+    assert chart.course.span == pytest.approx(span)
+    assert _share(chart, phase) == pytest.approx(angle / span, abs=1e-6)
+    shown = math.degrees(_pose(chart, phase).crank_angle) % 360
+    assert _share(chart, phase) * span % 360 == pytest.approx(shown, abs=1e-3)
+
+
+# speed, share of the period after a tenth of a turn of phase
+SWINGING = [(1.0, 0.1), (2.5, 0.1), (-1.0, 0.9), (-0.3, 0.9)]
+
+
+@pytest.mark.parametrize(("speed", "share"), SWINGING)
+def test_an_input_that_swings_is_charted_over_time(speed: float, share: float) -> None:
+    chart = _strip("double-rocker", "rocker.angular_velocity", speed)
+    assert chart.course.title == "time (s)"
+    assert chart.course.span == pytest.approx(math.tau / abs(speed))
+    assert _share(chart, 0.1 * math.tau) == pytest.approx(share, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "symbol"), [("crank-rocker", "θ₂"), ("press", "θ₂"), ("rocker-driven", "θ₄"), ("six-bar", "θ₂")]
+)
+def test_the_driven_bar_has_its_symbol(name: str, symbol: str) -> None:
+    assert input_symbol(load(name)) == symbol
+
+
+def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:
+    chart = _strip("double-rocker", "rocker.angle", -2.0)
+    marks = [(0.0, "13.8°"), (math.pi / 2, "108.4°"), (math.pi, "13.8°")]
+    assert [label for _, label in chart.course.marks] == [label for _, label in marks]
+    assert [place for place, _ in chart.course.marks] == pytest.approx([place for place, _ in marks])
+    for place, label in marks:
+        pose = _pose(chart, float(chart.course.phase_of(place)))
+        assert f"{math.degrees(pose.crank_angle):.1f}°" == label
+    assert _strip("crank-rocker", "rocker.angle").course.marks == ()
+
+
+@pytest.mark.parametrize("speed", [0.5, -0.5, 4.0, -9.0])
+@pytest.mark.parametrize(
+    ("name", "token"),
+    [
+        ("press", "cushion.force"),
+        ("press", "5.travel_velocity"),
+        ("double-rocker", "P.acceleration.x"),
+        ("kite", "rocker.angle"),
+        ("slider-crank", "rod.angular_acceleration"),
+    ],
+)
+def test_the_curve_is_that_of_the_running_motion(name: str, token: str, speed: float) -> None:
+    chart = _strip(name, token, speed)
+    x, values = chart.curves
+    for phase in np.linspace(-4.0, 9.0, 23):
+        pose = _pose(chart, float(phase))
+        on_curve = np.interp(chart.course.x_of(phase), x, values[:, 0])
+        assert chart.values_at(pose)[0] == pytest.approx(on_curve, abs=2e-3 * np.ptp(values))
+        exact = chart.quantity.shown(pose)
+        away = chart.values_at(pose)[0] - exact
+        assert away == 0.0 or (token.endswith("angle") and away % 360 == pytest.approx(0.0))
+
+
+@pytest.mark.parametrize("name", names())
+def test_another_speed_costs_no_solving(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    chart = _strip(name, "A.acceleration" if name != "rocker-driven" else "B.acceleration")
+    before = chart.curves[1]
+    monkeypatch.setattr(
+        "linkanim.mechanics.mechanism.Mechanism.solve", lambda *_, **__: pytest.fail("solved")
+    )
+    after = chart.at(-2 * chart.speed).curves[1]
+    assert np.nanmax(after) == pytest.approx(4 * np.nanmax(before), rel=1e-9)
+
+
+def test_an_angle_that_grows_by_a_turn_runs_from_end_to_end() -> None:
+    x, values = _strip("drag-link", "rocker.angle").curves
+    assert x[0] == 0.0
+    assert x[-1] == pytest.approx(360.0)
+    assert values[-1, 0] - values[0, 0] == pytest.approx(360.0)
+    assert np.abs(np.diff(values[:, 0])).max() < 5.0
+
+
+def test_the_driven_bar_s_own_angle_is_the_axis() -> None:
+    for name in ("slider-crank", "kite"):
+        x, values = _strip(name, "crank.angle").curves
+        assert values[:, 0] == pytest.approx(x, abs=1e-9)
+
+
+def test_the_reading_tells_value_and_unit() -> None:
+    chart = _strip("crank-rocker", "crank.angular_velocity")
+    assert chart.reading(chart.values_at(_pose(chart, 1.0))) == ("2.094 rad/s",)
+    chart = _strip("crank-rocker", "P.position")
+    first, second = chart.reading(chart.values_at(_pose(chart, 1.0)))
+    assert first.startswith("x ")
+    assert second.startswith("y ")
+    chart = _strip("crank-rocker", "crank.angle")
+    assert chart.reading(chart.values_at(_pose(chart, 0.5 * math.pi))) == ("90.0°",)
+
+
+@pytest.mark.parametrize(("px", "share"), [(None, 0.5), (-8.0, 0.0), (8.0, 1.0)])
+@pytest.mark.parametrize(
+    ("name", "speed"), [("crank-rocker", 1.0), ("slider-crank", -1.0), ("double-rocker", -2.0), ("kite", 1.0)]
+)
+def test_a_pixel_of_the_chart_is_a_phase_also_just_beside_its_ends(
+    name: str, speed: float, px: float | None, share: float
+) -> None:
+    chart = _strip(name, "P.velocity", speed)
+    area = chart.plot.area
+    x = area.x + area.width / 2 if px is None else (area.x + px if px < 0 else area.right + px)
+    phase = chart.phase_at(x, area.y + 5)
+    assert phase is not None
+    assert 0 <= phase <= chart.course.period
+    assert math.remainder(_share(chart, phase) - share, 1.0) == pytest.approx(0.0, abs=1e-6)
+    assert chart.phase_at(x, area.y - 20) is None
+
+
+def test_a_constant_quantity_is_a_level_line_not_noise() -> None:
+    chart = _strip("parallelogram", "coupler.angular_velocity")
+    surface = offscreen((640, 360))
+    chart.draw(surface)
+    values = chart.plot.place(np.zeros(722), chart.curves[1][:, 0]).imag
+    assert np.ptp(values) < 0.01
+
+
+def test_the_painter_s_chart_follows_the_running_speed_and_direction() -> None:
+    scene, size = load("press"), (640, 360)
+    painter, surface = Painter(scene, size, Look(chart="cushion.force")), offscreen(size)
+    pictures: dict[float, Pixels] = {}
+    for speed in (2.0, -2.0, 4.0, 2.0):
+        painter.paint(surface, scene.pose(1.0, speed=speed))
+        again = pictures.setdefault(speed, pixels(surface))
+        assert (again == pixels(surface)).all()
+        fresh = offscreen(size)
+        Painter(scene, size, Look(chart="cushion.force")).paint(fresh, scene.pose(1.0, speed=speed))
+        assert (pixels(fresh) == pixels(surface)).all()
+    assert (pictures[2.0] != pictures[-2.0]).any()
+    assert (pictures[2.0] != pictures[4.0]).any()
+    painter.paint(surface, scene.pose(1.0, speed=0.0))
+
+
+# window, quantity: titles are there, and in the smallest windows, too
+@pytest.mark.parametrize("size", [(1280, 720), (480, 270), (320, 180)])
+def test_the_axes_are_titled(size: tuple[int, int], monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[str] = []
+    draw = Type.draw
+
+    def noting(self: Type, surface: pygame.Surface, text: str, *rest: Any, **more: Any) -> int:
+        drawn.append(text)
+        return draw(self, surface, text, *rest, **more)
+
+    monkeypatch.setattr(Type, "draw", noting)
+    Painter(load("crank-rocker"), size, Look(chart="rocker.angular_velocity"))
+    assert "crank angle θ₂ (°)" in drawn
+    assert any(text.endswith("ω₄ (rad/s)") for text in drawn)
