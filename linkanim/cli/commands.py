@@ -149,6 +149,9 @@ def _look(parser: Parser) -> None:
     )
     parser.add_argument("--hud", action=BooleanOptionalAction, default=True, help="the lines of text")
     parser.add_argument(
+        "--noted", action="store_true", help="say in them where a limit or a change point is near"
+    )
+    parser.add_argument(
         "--vectors",
         type=valued(values.vectors),
         default=frozenset(),

@@ -28,6 +28,7 @@ _OF_A_SCENE = (
     "reverse",
     "trace",
     "hud",
+    "noted",
     "vectors",
     "chart",
     "theme",
@@ -63,6 +64,7 @@ def _of_scene(options: Namespace) -> Callable[..., Recording]:
         seconds=options.seconds,
         reverse=options.reverse,
         look=look_of(options),
+        noted=options.noted,
     )
 
 

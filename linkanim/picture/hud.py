@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import degrees, floor, log10, pi, tau
+from math import degrees, floor, inf, log10, pi, tau
 from typing import NamedTuple
 
 import pygame
@@ -14,16 +14,19 @@ from linkanim.digits import stepped
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.driven import driven_name, sign_of, speed_in, speed_unit, speed_words
 from linkanim.picture.layout import Layout
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.raster import Colour
 from linkanim.picture.text import Type
-from linkanim.picture.theme import Theme
+from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 
 _NEAR_LIMIT = 0.06 * pi
 """How near to a limit, in phase, the HUD says so: there the input has 1 % of its swing left."""
 _NEAR_CHANGE = pi / 45
+_HELD, _EASED = 0.2, 0.5
+"""How long a note stands before and after the instant it is about, and how long it comes and goes, in s."""
+_READ = 0.36
+"""A note is not read where the next follows in this time (s), and well where it does in twice of it."""
 _STEP = 1.42
 """From row to row, in heights of their text."""
 _TRIED = 24
@@ -92,19 +95,46 @@ def _strut_rows(scene: Scene, pose: Pose) -> Iterator[Row]:
             yield Row("damper force", f"{stepped(damper.force, 0.1)} N")
 
 
-def note(scene: Scene, pose: Pose) -> str | None:
-    """Return what is special here: a limit of the input or a change point that is near; else None."""
-    return next((words for away, words in _special(scene, pose) if away < 1.0), None)
+class Note(NamedTuple):
+    """What is special about a pose, and how clearly it is said, in eighths: 0 is not at all."""
+
+    words: str
+    eighths: int
 
 
-def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, str]]:
-    """Yield the input's limits and change points in words; below 1 away from a pose they are near."""
+def note(scene: Scene, pose: Pose) -> Note:
+    """Return what is special here: the nearest limit of the input or change point.
+
+    It is eased in before and out after, in time as in angle, and gives way where another is as near.
+    Where they follow each other too fast to be read, none is said.
+    """
+    known = [(_nearness(pose, away, near), words) for away, near, words in _special(scene, pose)]
+    (most, words), (next_most, _), *_ = (*sorted(known, reverse=True), (0.0, ""), (0.0, ""))
+    pause = tau / max(len(known), 1) / abs(pose.input_speed) if pose.input_speed else inf
+    return Note(words, round(8 * (most - next_most) * eased(pause / _READ - 1.0)))
+
+
+def _nearness(pose: Pose, away: float, near: float) -> float:
+    """Return 1 at a special phase, 0 far `away` (rad of phase), eased between, at the speed it runs by."""
+    by_angle = eased(2.0 - 2.0 * away / near)
+    seconds = away / abs(pose.input_speed) if pose.input_speed else inf
+    return max(by_angle, eased(1.0 + (_HELD - seconds) / _EASED))
+
+
+def eased(share: float) -> float:
+    """Return 0 up to 0, 1 from 1 on, and a smooth step between."""
+    share = min(max(share, 0.0), 1.0)
+    return share * share * (3.0 - 2.0 * share)
+
+
+def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
+    """Yield the input's limits and change points: how far away, how far is near (rad of phase), in words."""
     info = scene.info
     if not info.full_turn:
         for limit, at in zip(info.input_range, (0.0, pi), strict=True):
-            yield _apart(pose.phase, at) / _NEAR_LIMIT, f"near the limit {_deg(limit)}"
+            yield _apart(pose.phase, at), _NEAR_LIMIT, f"near the limit {_deg(limit)}"
     for point in info.change_points:
-        yield _apart(pose.crank_angle, point) / _NEAR_CHANGE, f"near the change point {_turned(point)}"
+        yield _apart(pose.crank_angle, point), _NEAR_CHANGE, f"near the change point {_turned(point)}"
 
 
 def _deg(angle: float) -> str:
@@ -148,24 +178,22 @@ class Hud:
             self.type.draw(sheet, row.label, self._place(n), size=self.size, colour=self.theme.dim)
         return sheet.subsurface(sheet.get_bounding_rect())
 
-    def draw_values(self, surface: pygame.Surface, pose: Pose, overlay: Overlay) -> None:
-        """Draw the values of a pose, and what is special there."""
-        values = rows(self.scene, pose)
+    def draw_values(self, surface: pygame.Surface, pose: Pose, *, noted: bool) -> None:
+        """Draw the values of a pose, and where it is to be `noted`, what is special there."""
+        values, ink = rows(self.scene, pose), self.theme.ink
         for n, row in enumerate(values):
             at = (self.column.right, self._place(n)[1])
-            ink = self.theme.ink
             self.type.draw(surface, row.value, at, size=self.size, colour=ink, anchor="right", strong=True)
-        special = self._wrapped(note(self.scene, pose) or "")
-        lines = [(line, self.theme.warning) for line in special]
-        lines += [(line, self.theme.ink) for line in overlay.notes]
-        for n, (line, colour) in enumerate(lines, start=len(values)):
+        words, eighths = note(self.scene, pose) if noted else ("", 0)
+        colour = mixed(self.theme.background, self.theme.dim, eighths / 8)
+        for n, line in enumerate(self._wrapped(words) if eighths else (), start=len(values)):
             self.type.draw(surface, line, self._place(n + 0.4), size=self.size, colour=colour)
 
     @property
     def holds(self) -> bool:
         """Whether all that it says is no wider than the column, and the last row and the note stand in it."""
         pose = self.scene.pose(0.0)
-        notes = max((len(self._wrapped(words)) for _, words in _special(self.scene, pose)), default=0)
+        notes = max((len(self._wrapped(words)) for *_, words in _special(self.scene, pose)), default=0)
         last = len(rows(self.scene, pose)) + (notes - 0.6 if notes else -1.0)
         low = self._place(last)[1] + self.size
         wide = max(self.type.width(line, self.size, strong=True) for line in self.said)

@@ -29,7 +29,8 @@ class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
     `help` holds (key, what it does).
-    `notes` are further lines under the HUD.
+    With `noted` the HUD
+    says where a limit or a change point is near.
     """
 
     paused: bool = False
@@ -37,4 +38,4 @@ class Overlay:
     recording: str | None = None
     help: tuple[tuple[str, str], ...] | None = None
     panel: Panel | None = None
-    notes: tuple[str, ...] = ()
+    noted: bool = False

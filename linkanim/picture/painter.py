@@ -109,7 +109,7 @@ class Painter:
             self._strip.draw_reading(canvas, pose)
         if self._hud:
             canvas.blit(self._hud.sheet, self._hud.sheet.get_offset())
-            self._hud.draw_values(canvas, pose, overlay)
+            self._hud.draw_values(canvas, pose, noted=overlay.noted)
         if self._legend:
             self._legend.draw_values(canvas, pose.input_speed)
         self._panels.draw(canvas, overlay)

@@ -20,6 +20,7 @@ def overlay(state: State) -> Overlay:
     """Return all that the window shows beside the scene at this state."""
     return Overlay(
         paused=state.clock.paused,
+        noted=True,
         toast=state.toast.text if state.toast else None,
         recording=_recording(state),
         help=help_rows(editing=state.editing.open) if state.help else None,

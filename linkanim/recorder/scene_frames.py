@@ -21,19 +21,22 @@ if TYPE_CHECKING:
 
 
 class SceneFrames:
-    """Pictures of a scene at the phases of a plan."""
+    """Pictures of a scene at the phases of a plan; `noted` as in the overlay."""
 
-    def __init__(self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look) -> None:
+    def __init__(
+        self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look, *, noted: bool = False
+    ) -> None:
         self.size = size
         self.alpha = not look.background
         self.colours = theme_colours(look.theme)
         self._plan = plan
+        self._over = Overlay(noted=noted)
         self._setting = Setting(scene, size, look)
         self._surface = offscreen(size, alpha=self.alpha)
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame."""
-        self._setting.paint(self._surface, self._plan.phase(frame), self._plan.speed, Overlay())
+        self._setting.paint(self._surface, self._plan.phase(frame), self._plan.speed, self._over)
         return pixel_bytes(self._surface)
 
 
@@ -49,21 +52,22 @@ def record(
     reverse: bool = False,
     start: float = 0.0,
     look: Look = Look(),  # noqa: B008 -- frozen
+    noted: bool = False,
     progress: Progress | None = None,
 ) -> Recording:
     """Record whole periods of a scene's motion as a GIF, MP4 or numbered PNG, by the path's ending.
 
     `size` in pixels; `speed` is dφ/dt in rad/s, the scene's own where None; `seconds` sets the length
     instead of `periods` (true periods), and the clip need not close then; `start` is the first frame's
-    phase. `progress` is called with (frames done, frames in all). The file appears when it is whole, or not
-    at all. `BadInput` for what cannot be recorded, before any work; `RecordingFailed` where disk or
-    encoder give up.
+    phase. With `noted` the HUD says where a limit or a change point is near. `progress` is called with
+    (frames done, frames in all). The file appears when it is whole, or not at all. `BadInput` for what
+    cannot be recorded, before any work; `RecordingFailed` where disk or encoder give up.
     """
     _, form = checked_path(path)
     refuse_size(size)
     rate = scene.linkage.drive.speed if speed is None else speed
     plan = make_plan(Clip(rate, scene.period, fps, periods, seconds, reverse, start), form)
-    return write(SceneFrames(scene, plan, size, look), plan, path, progress)
+    return write(SceneFrames(scene, plan, size, look, noted=noted), plan, path, progress)
 
 
 def theme_colours(theme: str) -> tuple[Colour, ...]:

@@ -91,7 +91,7 @@ def test_names_and_values_never_touch_nor_reach_the_key_to_the_arrows(
         for row in rows(scene, pose):
             words = type_.width(row.label, hud.size) + type_.width(row.value, hud.size, strong=True)
             assert words < hud.column.width - 2
-        told = type_.wrapped(note(scene, pose) or "", hud.size, hud.column.width)
+        told = type_.wrapped(note(scene, pose).words, hud.size, hud.column.width)
         lines = len(rows(scene, pose)) + (len(told) + 0.4 if told else 0)
         assert hud.first + 1.42 * hud.size * (lines - 1) + hud.size <= parts.legend.y
 
@@ -176,4 +176,25 @@ def test_limits_and_change_points_are_told_where_they_are_near(
     name: str, phase: float, told: str | None
 ) -> None:
     scene = load(name)
-    assert note(scene, scene.pose(phase)) == told
+    words, eighths = note(scene, scene.pose(phase, speed=0.5))
+    assert (words if eighths == 8 else None) == told
+    assert eighths in (0, 8)
+
+
+@pytest.mark.parametrize("speed", [1.0, 0.1, 10.0, -1.0])
+@pytest.mark.parametrize("name", ["kite", "antiparallelogram", "double-rocker", "triple-rocker-in-in"])
+def test_a_note_comes_and_goes_calmly(name: str, speed: float) -> None:
+    """At 60 frames a second it never jumps, not even from one point to the next."""
+    scene = load(name)
+    rate = speed * scene.linkage.drive.speed
+    frames = range(round(60 * scene.period / abs(rate)))
+    told = [note(scene, scene.pose(rate * frame / 60, speed=rate)) for frame in frames]
+    for one, after in zip(told, told[1:] + told[:1], strict=True):
+        assert abs(after.eighths - one.eighths) <= 1
+        assert one.words == after.words or one.eighths + after.eighths <= 1
+    assert {one.eighths for one in told} == ({0} if abs(speed) > 1 else set(range(9)))
+
+
+def test_a_paused_note_stands_still_at_the_speed_that_is_set() -> None:
+    scene = load("kite")
+    assert note(scene, scene.pose(0.3, speed=0.0)).eighths in range(9)

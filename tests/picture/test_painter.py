@@ -264,7 +264,6 @@ def test_what_stands_beside_the_scene_fits_into_the_view_too() -> None:
         Overlay(toast="saved crank-rocker.gif"),
         Overlay(help=(("Space", "play / pause"), ("← →", "step"))),
         Overlay(panel=Panel((EditRow("crank", "40 mm", chosen=True),), error="too long", hint="Esc closes")),
-        Overlay(notes=("a note",)),
     ],
 )
 def test_each_part_of_an_overlay_shows_and_goes(overlay: Overlay) -> None:

@@ -17,6 +17,9 @@ from linkanim.errors import BadInput
 from linkanim.picture.figure import figure
 from linkanim.picture.gears import teeth_a_second
 from linkanim.picture.look import Look
+from linkanim.picture.offscreen import offscreen, pixel_bytes
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.painter import Painter
 from linkanim.picture.theme import theme_of
 from linkanim.player import tape_file
 from linkanim.player.action import Action
@@ -24,8 +27,8 @@ from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.recorder import gallery, measure
 from linkanim.recorder.gallery import make_gallery
-from linkanim.recorder.plan import Format
-from linkanim.recorder.scene_frames import record
+from linkanim.recorder.plan import Clip, Format, make_plan
+from linkanim.recorder.scene_frames import SceneFrames, record
 from linkanim.recorder.tape_frames import TapeFrames, record_tape
 from linkanim.scenes import load, names
 
@@ -73,6 +76,16 @@ def test_reverse_shows_the_same_pictures_backwards(tmp_path: Path) -> None:
     )
     expected = [forth[0], *reversed(forth[1:])]
     assert all(np.abs(a - b).max() <= 1 for a, b in zip(expected, back_again, strict=True))
+
+
+def test_a_recording_warns_of_no_limit_unless_it_is_asked_to() -> None:
+    scene, size = load("double-rocker"), (640, 360)
+    plan = make_plan(Clip(scene.linkage.drive.speed, scene.period), "gif")
+    plain, noted = (SceneFrames(scene, plan, size, Look(), noted=noted).draw(0) for noted in (False, True))
+    assert plain != noted
+    surface = offscreen(size)
+    Painter(scene, size, Look()).paint(surface, scene.pose(plan.phase(0), speed=plan.speed), Overlay())
+    assert plain == pixel_bytes(surface)
 
 
 def test_two_periods_show_one_twice(tmp_path: Path) -> None:
