@@ -11,10 +11,11 @@ import numpy as np
 from linkanim.digits import degrees, short, significant
 
 from .exact import HALF_TURN, Sum
-from .kinds import RPR, RRP, RRR, Pin
+from .kinds import RRR
+from .linkage import Linkage
 from .loop import Gearing
 from .mechanism import Mechanism
-from .motion import Array, Motion
+from .motion import Motion
 from .path import Path
 from .roots import Kind
 from .search import around, sign_changes
@@ -124,20 +125,16 @@ def _four_bar(mechanism: Mechanism) -> FourBar | None:
 
 def _class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
     linkage = mechanism.linkage
-    kinds = [type(joint) for joint in linkage.joints]
-    dyads = sum(kind in (RRR, RRP, RPR) for kind in kinds)
+    dyads = [joint for joint in linkage.joints if joint.dyad]
     geared = any(crank.gear for crank in linkage.cranks)
-    slider = " with slider" if RRP in kinds else ""
-    if geared and RRR in kinds:
+    slider = " with slider" if any(joint.travels for joint in dyads) else ""
+    if geared and any(isinstance(joint, RRR) for joint in dyads):
         return f"geared five-bar{slider}"
     if four_bar is not None:
         name = _four_bar_name(four_bar)
-        return name if dyads == 1 else f"{_bars(dyads)}: {name}{_rest(mechanism, dyads)}"
-    if dyads == 1 and RRP in kinds:
-        return _slider_name(mechanism)
-    if dyads == 1 and RPR in kinds:
-        return _slot_name(mechanism)
-    return f"{_bars(dyads)} linkage{slider}"
+        return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"
+    own = dyads[0].linkage_name(mechanism.assembly) if len(dyads) == 1 else None
+    return own or f"{_bars(len(dyads))} linkage{slider}"
 
 
 def _bars(dyads: int) -> str:
@@ -159,14 +156,14 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
     Their sign tells a parallelogram, whose coupler keeps along the ground, from an antiparallelogram.
     """
     linkage, cycle = mechanism.linkage, _cycle(mechanism, 0)
-    pins = [joint.name for joint in linkage.joints if isinstance(joint, Pin)]
+    pins = {pin.name: complex(*pin.position) for pin in linkage.pins}
     for joint in linkage.joints:
         if not isinstance(joint, RRR) or joint.name in mechanism.assembly.loops:
             continue
         for (moving, fixed), (a, b) in ((joint.ends, joint.lengths), (joint.ends[::-1], joint.lengths[::-1])):
-            pivot = next((pin for pin in pins if _keeps_away(cycle, moving, pin)), None)
-            if fixed in pins and moving not in pins and pivot is not None:
-                ground, crank = _apart(cycle, pivot, fixed), _apart(cycle, pivot, moving)
+            pivot, crank = _turns_about(linkage, moving)
+            if fixed in pins and pivot is not None:
+                ground = abs(pins[fixed] - pins[pivot])
                 along = cycle.position[joint.name] - cycle.position[moving]
                 apart = along - (cycle.position[fixed] - cycle.position[pivot])
                 sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
@@ -174,23 +171,18 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
                 break
 
 
-def _distances(cycle: Motion, a: str, b: str) -> Array:
-    way = cycle.position[a] - cycle.position[b]
-    return np.hypot(way[:, 0], way[:, 1])
-
-
-def _keeps_away(cycle: Motion, moving: str, pin: str) -> bool:
-    """Tell whether a joint keeps its distance from a fixed pin: then it turns about it."""
-    distances = _distances(cycle, moving, pin)
-    return bool(np.ptp(distances) <= 1e-9 * distances.max())
-
-
-def _apart(cycle: Motion, a: str, b: str) -> float:
-    return float(np.median(_distances(cycle, a, b)))
+def _turns_about(linkage: Linkage, moving: str) -> tuple[str | None, float]:
+    """Return the fixed pin that a joint turns about, and how far from it; None where there is none."""
+    for frame in linkage.frames[1:]:
+        pivot = next((pin.name for pin in linkage.pins if pin.name in frame), None)
+        if moving in frame and pivot not in (None, moving):
+            assert pivot is not None
+            return pivot, abs(frame[moving] - frame[pivot])
+    return None, 0.0
 
 
 def _change_point_count(g: float, r: float, a: float, b: float) -> int:
-    """Return how many change points the lengths have, read from positions: to 1e-12 of the perimeter."""
+    """Return how many change points the lengths have, each of them rounded: to 1e-12 of the perimeter."""
     least = 1e-12 * (g + r + a + b)
     return int(abs(a + b - g - r) <= least) + int(min(abs(g - r - a + b), abs(g - r + a - b)) <= least)
 
@@ -217,23 +209,6 @@ def _change_point_name(bar: FourBar) -> str:
     if any(same(a, b, rel_tol=1e-15) and same(c, d, rel_tol=1e-15) for a, b, c, d in pairs):
         return "kite (change point)"
     return "change-point " + GRASHOF[_part(bar, min)]
-
-
-def _slider_name(mechanism: Mechanism) -> str:
-    loop = next(iter(mechanism.assembly.loops.values()), None)
-    if loop is None:
-        return "slider linkage"
-    eccentric = loop.root.u.least != loop.root.w.least
-    turns = mechanism.assembly.path.full_turn
-    return ("offset " if eccentric else "in-line ") + ("slider-crank" if turns else "slider-rocker")
-
-
-def _slot_name(mechanism: Mechanism) -> str:
-    loop = next(iter(mechanism.assembly.loops.values()), None)
-    if loop is None or loop.ground is None:
-        return "inverted slider-crank"
-    kind = "rotating" if loop.ground.length < loop.crank.length else "swinging"
-    return f"inverted slider-crank, {kind} slotted bar"
 
 
 def _grashof(bar: FourBar) -> str:

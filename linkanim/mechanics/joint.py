@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple, Self
 
 if TYPE_CHECKING:
+    from .assembly import Assembly
     from .linkage import Linkage
     from .loop import Gearing, Loop
     from .walk import Walk
@@ -94,6 +95,10 @@ class Joint(ABC):
     def placed(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
         """Return the bodies' frames with the joint in them: a frame of its own for each of its bars."""
         return (*frames, *({start: 0j, self.name: complex(length)} for start, length in self.bars))
+
+    def linkage_name(self, assembly: Assembly) -> str | None:
+        """Return the class of a linkage whose only dyad this is; None where the kind has no name for it."""
+        return None
 
     def why_apart(self) -> str:
         """Say in words and numbers why it cannot be assembled at any angle of the input."""

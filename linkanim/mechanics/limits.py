@@ -21,10 +21,9 @@ from linkanim.errors import AssemblyError
 from .assembly import Assembly, resigned
 from .chain import LimitFit, NearEnd
 from .clock import swing_by_angle
-from .exact import Sum, exact_angle
 from .expression import Graph, Value
 from .linkage import Linkage
-from .path import Path, Swing, Turn
+from .path import Path, Swing
 from .planar import Slope
 from .program import Batch, batch
 from .search import ends_of
@@ -89,16 +88,16 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
         return assembly
     if margins.all_open(_around(assembly.path)):
         return through_change_points(assembly, margins.names, margins.scales)
-    places = _places(assembly.path)
+    places = assembly.path.sampled(SAMPLES_A_TURN)
     values, whose = margins.lowest(places)
     if (values < 0).all():
         name = margins.names[int(whose[values.argmax()])]
         raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart()}")
-    found = _swing(assembly.path, _open_interval(assembly, places, values, margins))
-    for path in _smooth_paths(found):
+    found = _open_interval(assembly, places, values, margins)
+    for path in _smooth_paths(assembly.path.cut(*found)):
         limited = resigned(replace(assembly, path=path))
-        limited = replace(limited, fits=_fits(limited, margins.names))
-        if _runs_through(limited):
+        limited = replace(limited, fits=_fits(limited, path, margins.names))
+        if _runs_through(limited, path):
             others = (name for name in margins.names if name not in limited.fits)
             return through_change_points(limited, others, margins.scales)
     raise AssemblyError("the input has no range on which every dyad can be closed")
@@ -120,10 +119,10 @@ def _smooth_paths(swing: Swing) -> Iterator[Swing]:
         )
 
 
-def _runs_through(assembly: Assembly) -> bool:
+def _runs_through(assembly: Assembly, path: Swing) -> bool:
     """Tell whether every dyad closes all the way, and those that limit the input do so at each visit."""
-    margins, path = _margins(assembly), assembly.path
-    if margins is None or not isinstance(path, Swing):
+    margins = _margins(assembly)
+    if margins is None:
         return True
     visits = np.arange(path.periods, dtype=np.float64) * (2 * math.pi)
     ends = zip(path.ends, (visits, visits + math.pi), strict=True)
@@ -140,16 +139,9 @@ def _margins(assembly: Assembly) -> _Margins | None:
         return None
     program = batch({"x": True}, [found[name] for name in names])
     with np.errstate(all="ignore"):
-        values = program(_places(assembly.path))
+        values = program(assembly.path.sampled(SAMPLES_A_TURN))
     scale = np.nanmax(np.abs(values), axis=1, initial=0.0)
     return _Margins(names, program, np.where(scale > 0, scale, 1.0))
-
-
-def _places(path: Path) -> Array:
-    """Return the phases at which margins are sampled: a period, or one way of a swing."""
-    if isinstance(path, Turn):
-        return np.linspace(0.0, 2 * math.pi * path.periods, SAMPLES_A_TURN * path.periods + 1)
-    return np.linspace(0.0, math.pi, SAMPLES_A_TURN)
 
 
 def _around(path: Path) -> Array:
@@ -158,34 +150,19 @@ def _around(path: Path) -> Array:
     return np.linspace(0.0, 2 * math.pi * path.periods, count, endpoint=False)
 
 
-@dataclass(frozen=True)
-class _End:
-    """An end of the open interval: the phase, and the dyad that limits there (None: the path's own end)."""
+def _open_interval(
+    assembly: Assembly, places: Array, values: Array, margins: _Margins
+) -> tuple[tuple[float, str | None], tuple[float, str | None]]:
+    """Return the ends of the interval around the start, or of the widest one where the start is shut.
 
-    phase: float
-    dyad: str | None
-
-
-def _open_interval(assembly: Assembly, places: Array, values: Array, margins: _Margins) -> tuple[_End, _End]:
-    """Return the ends of the interval around the start, or of the widest one where the start is shut."""
-    if isinstance(assembly.path, Turn):
-        # The samples come round: the interval may reach back over the start.
-        count = len(places) - 1
-        period = places[-1]
-        places = np.concatenate([places[:count] - period, places[:count], places[:count] + period])
-        values = np.tile(values[:count], 3)
-        home = count
-    else:
-        home = int(np.abs(_angles(assembly.path, places) - assembly.linkage.drive.start).argmin())
+    Each is its phase and the dyad that limits the input there, None where the path itself ends.
+    """
+    places, values, home = assembly.path.beside(assembly.linkage.drive.start, places, values)
     first, last = _run_around(values >= 0, home)
     return (
         _refined(margins, places, first, first - 1),
         _refined(margins, places, last, last + 1),
     )
-
-
-def _angles(path: Swing, phases: Array) -> Array:
-    return float(path.middle) - path.amplitude * np.cos(phases)
 
 
 def _run_around(is_open: NDArray[np.bool_], home: int) -> tuple[int, int]:
@@ -198,55 +175,34 @@ def _run_around(is_open: NDArray[np.bool_], home: int) -> tuple[int, int]:
     return max(runs, key=lambda run: run[1] - run[0])
 
 
-def _refined(margins: _Margins, places: Array, inside: int, outside: int) -> _End:
+def _refined(margins: _Margins, places: Array, inside: int, outside: int) -> tuple[float, str | None]:
     """Return the limit between an open place and the shut one beside it, by bisection."""
     if not 0 <= outside < len(places):
-        return _End(float(places[inside]), None)
+        return float(places[inside]), None
     _, whose = margins.lowest(places[outside : outside + 1])
     name = margins.names[int(whose[0])]
     row = margins.names.index(name)
     with np.errstate(all="ignore"):
         last = ends_of(lambda phase: margins.program(phase)[row] >= 0, places[[inside]], places[[outside]])
-    return _End(float(last[0]), name)
+    return float(last[0]), name
 
 
-def _swing(path: Path, ends: tuple[_End, _End]) -> Swing:
-    """Return the swing between two phases of a path."""
-    low, high = ends
-    if isinstance(path, Turn):
-        start = exact_angle(path.start)
-        assert low.dyad is not None
-        assert high.dyad is not None
-        names = (low.dyad, high.dyad)
-        return Swing(start + Sum(low.phase), start + Sum(high.phase), names, path.periods)
-    angles = [
-        own if end.dyad is None else path.middle + Sum(-path.amplitude * math.cos(end.phase))
-        for end, own in zip(ends, (path.low, path.high), strict=True)
-    ]
-    names = (low.dyad or path.ends[0], high.dyad or path.ends[1])
-    return Swing(angles[0], angles[1], names, path.repeats)
-
-
-def _fits(assembly: Assembly, names: tuple[str, ...]) -> Mapping[str, LimitFit]:
+def _fits(assembly: Assembly, path: Swing, names: tuple[str, ...]) -> Mapping[str, LimitFit]:
     """Return, for each dyad that limits the swing, its margin's smooth part next to its limits."""
-    path = assembly.path
-    assert isinstance(path, Swing)
     return {
         name: LimitFit(
-            _near_end(assembly, name, upper=True) if path.ends[1] == name else None,
-            _near_end(assembly, name, upper=False) if path.ends[0] == name else None,
+            _near_end(assembly, path, name, upper=True) if path.ends[1] == name else None,
+            _near_end(assembly, path, name, upper=False) if path.ends[0] == name else None,
         )
         for name in names
         if name in path.ends
     }
 
 
-def _near_end(assembly: Assembly, name: str, *, upper: bool) -> NearEnd:
+def _near_end(assembly: Assembly, path: Swing, name: str, *, upper: bool) -> NearEnd:
     """Fit the margin over the way to the limit, on the widest stretch where a polynomial holds it."""
-    path = assembly.path
-    assert isinstance(path, Swing)
     both = path.ends == (name, name)
-    margin = _margin_by_way(assembly, name, upper=upper)
+    margin = _margin_by_way(assembly, path, name, upper=upper)
     noise = GOOD_FIT * np.nanmax(np.abs(margin(np.linspace(0, path.amplitude, FIT_POINTS))))
     width = path.amplitude / 8
     while True:
@@ -273,10 +229,8 @@ def _weighted_fit(x: Array, values: Array, weights: Array) -> Polynomial:
     return found
 
 
-def _margin_by_way(assembly: Assembly, name: str, *, upper: bool) -> Callable[[Array], Array]:
+def _margin_by_way(assembly: Assembly, path: Swing, name: str, *, upper: bool) -> Callable[[Array], Array]:
     """Return the margin as a function of half the way to a limit."""
-    path = assembly.path
-    assert isinstance(path, Swing)
     graph = Graph()
     u, v = graph.input("u"), graph.input("v")
     value: Value = assembly.walk(swing_by_angle(v - u, u, v, Slope(0.0), path.middle)).margins[name]

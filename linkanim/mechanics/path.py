@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
@@ -38,6 +39,8 @@ class Turn:
     rounds: int = 1
 
     full_turn: ClassVar[bool] = True
+    ends: ClassVar[tuple[str, ...]] = ()
+    amplitude: ClassVar[None] = None
     limits: ClassVar[tuple[float, ...]] = ()
     """The angles at which a dyad stops the input."""
 
@@ -50,11 +53,6 @@ class Turn:
     def input_range(self) -> tuple[float, float]:
         """How far the input goes: one turn from 0."""
         return 0.0, 2 * math.pi
-
-    @property
-    def one_way(self) -> float:
-        """The phase after which the input has been everywhere that it goes, on every closure."""
-        return 2 * math.pi * self.periods
 
     def holds(self, angle: float, turns: int = 1) -> bool:
         """Tell whether the input comes to an angle."""
@@ -71,6 +69,29 @@ class Turn:
     def phases(self, angles: Array, reached: Reach | None) -> Array:
         """Return the phase at angles of the input."""
         return angles - self.start if self.start else angles
+
+    def sampled(self, count: int) -> Array:
+        """Return phases with so many steps a turn, over the true period, both ends among them."""
+        return np.linspace(0.0, 2 * math.pi * self.periods, count * self.periods + 1)
+
+    def beside(self, start: float, places: Array, values: Array) -> tuple[Array, Array, int]:
+        """Return sampled phases and their values as they come round on both sides, and the start's index."""
+        count, period = len(places) - 1, places[-1]
+        once = places[:count]
+        return np.concatenate([once - period, once, once + period]), np.tile(values[:count], 3), count
+
+    def cut(self, low: tuple[float, str | None], high: tuple[float, str | None]) -> Swing:
+        """Return the swing between two phases, at each of which a dyad limits the input."""
+        names = tuple(dyad for _, dyad in (low, high) if dyad is not None)
+        return Swing(self.place(low[0]), self.place(high[0]), (names[0], names[1]), self.periods)
+
+    def place(self, phase: float) -> Sum:
+        """Return the angle at a phase, by which a place on this path is known."""
+        return exact_angle(self.start) + Sum(phase)
+
+    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
+        """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
+        return 0.0, 1.0
 
     def clock(self, phase: Value, pace: Slope) -> Clock:
         """Return the input's state at a phase, in plain floats or noted expressions."""
@@ -131,11 +152,6 @@ class Swing:
         """How far the input goes."""
         return float(self.low), float(self.high)
 
-    @property
-    def one_way(self) -> float:
-        """The phase after which the input has been everywhere that it goes."""
-        return math.pi
-
     def holds(self, angle: float, turns: int = 1) -> bool:
         """Tell whether the input comes to an angle, or to one that many turns away, or twice as many …"""
         return abs(math.remainder(angle - float(self.middle), 2 * math.pi * turns)) <= self.amplitude
@@ -157,6 +173,34 @@ class Swing:
         assert reached is not None
         phases = 2 * np.arctan2(np.sqrt(reached.v), np.sqrt(reached.u))
         return np.where(reached.outside, np.nan, phases).reshape(angles.shape)
+
+    def sampled(self, count: int) -> Array:
+        """Return so many phases from the lower limit to the upper one, both among them."""
+        return np.linspace(0.0, math.pi, count)
+
+    def beside(self, start: float, places: Array, values: Array) -> tuple[Array, Array, int]:
+        """Return sampled phases and their values, and the index of the one nearest to the start."""
+        return places, values, int(np.abs(self.angles(places) - start).argmin())
+
+    def cut(self, low: tuple[float, str | None], high: tuple[float, str | None]) -> Swing:
+        """Return the swing between two phases; at one without a dyad the input goes to its own limit."""
+        angles = [
+            own if dyad is None else self.middle + Sum(-self.amplitude * math.cos(phase))
+            for (phase, dyad), own in zip((low, high), (self.low, self.high), strict=True)
+        ]
+        return Swing(angles[0], angles[1], (low[1] or self.ends[0], high[1] or self.ends[1]), self.repeats)
+
+    def place(self, phase: float) -> Sum:
+        """Return the phase: of an angle's two ways through it, each is a place of its own."""
+        return Sum(phase)
+
+    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
+        """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
+        low, high = sorted(float(end * ratio - reference) for end in (self.low, self.high))
+        ends = [math.sin(angle / 2) ** 2 for angle in (low, high)]
+        # An angle whole turns from ψ = 0, or from ψ = π, lies between them.
+        passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
+        return 0.0 if passes[0] else min(ends), 1.0 if passes[1] else max(ends)
 
     def clock(self, phase: Value, pace: Slope) -> Clock:
         """Return the input's state at a phase, in plain floats or noted expressions."""

@@ -14,9 +14,7 @@ from numpy.typing import NDArray
 
 from .assembly import JUST_AFTER, Assembly
 from .chain import Touches
-from .exact import Sum, exact_angle
 from .expression import Graph
-from .path import Turn
 from .planar import Slope
 from .program import Batch, batch
 from .search import around, sign_changes
@@ -47,11 +45,7 @@ def through_change_points(assembly: Assembly, names: Iterable[str], scales: Mapp
 def _named(assembly: Assembly, phases: tuple[float, ...], least: float) -> Touches:
     """Return the touches with the sign under which the named closure holds just after the start."""
     path = assembly.path
-    if isinstance(path, Turn):
-        start = exact_angle(path.start)
-        found = Touches(tuple(start + Sum(phase) for phase in phases), path.periods, None, least)
-    else:
-        found = Touches(tuple(Sum(phase) for phase in phases), path.periods, path.amplitude, least)
+    found = Touches(tuple(map(path.place, phases)), path.periods, path.amplitude, least)
     side = found.side(path.clock(JUST_AFTER, Slope(1.0)))
     assert isinstance(side, float)
     return replace(found, sign=side)

@@ -8,7 +8,6 @@ the dyad is, and the angle at a slider has one more where the rod lies along its
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from functools import partial
 
@@ -16,9 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .expression import Graph
-from .loop import Loop
 from .mechanism import Mechanism
-from .path import Swing, Turn
 from .planar import Slope
 from .program import Batch, batch
 from .search import around, sign_changes
@@ -46,21 +43,12 @@ def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
     """Yield U and W of each loop where sin²(ψ/2) is least and greatest, and where they are equal."""
     for name, loop in mechanism.assembly.loops.items():
         root, path = loop.root, mechanism.assembly.path
-        least, greatest = (0.0, 1.0) if isinstance(path, Turn) else _squares(loop, path)
+        reference, ratio = root.reference - loop.gearing.offset, loop.gearing.ratio
+        least, greatest = path.half_squares(reference, ratio)
         equal = (root.u.most - root.w.least) / (2 * root.spread)
         spread = np.array([least, min(max(equal, least), greatest), greatest]) * root.spread
         u = np.ones(3) if root.single else root.u.most - spread
         yield name, np.column_stack([u, root.w.least + spread])
-
-
-def _squares(loop: Loop, swing: Swing) -> tuple[float, float]:
-    """Return the least and greatest sin²(ψ/2) over a swing."""
-    reference, ratio = loop.root.reference - loop.gearing.offset, loop.gearing.ratio
-    low, high = sorted(float(end * ratio - reference) for end in (swing.low, swing.high))
-    ends = [math.sin(angle / 2) ** 2 for angle in (low, high)]
-    # An angle whole turns from ψ = 0, or from ψ = π, lies between them.
-    passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
-    return 0.0 if passes[0] else min(ends), 1.0 if passes[1] else max(ends)
 
 
 def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
@@ -84,7 +72,7 @@ def _row(program: Batch, row: int, places: Array) -> Array:
 def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:
     """Tell whether a dyad's bars fall into one line: at a limit of its own, or at a change point."""
     assembly = mechanism.assembly
-    return name in assembly.touches or (isinstance(assembly.path, Swing) and name in assembly.path.ends)
+    return name in assembly.touches or name in assembly.path.ends
 
 
 def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:

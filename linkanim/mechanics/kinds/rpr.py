@@ -16,6 +16,7 @@ from linkanim.mechanics.signed import SignedRoot
 from linkanim.mechanics.triangle import PinLoop, moving_triangle, pin_triangle
 
 if TYPE_CHECKING:
+    from linkanim.mechanics.assembly import Assembly
     from linkanim.mechanics.linkage import Linkage
     from linkanim.mechanics.loop import Gearing
     from linkanim.mechanics.walk import Walk
@@ -99,6 +100,14 @@ class RPR(Joint):
         90° of a slot that runs through its pivot: the pin's push then does nothing but turn the bar.
         """
         return math.atan2(math.sqrt(w), abs(self.offset))
+
+    def linkage_name(self, assembly: Assembly) -> str:
+        """Return inverted slider-crank, and how its slotted bar moves."""
+        loop = assembly.loops.get(self.name)
+        if loop is None or loop.ground is None:
+            return "inverted slider-crank"
+        kind = "rotating" if loop.ground.length < loop.crank.length else "swinging"
+        return f"inverted slider-crank, {kind} slotted bar"
 
     def why_apart(self) -> str:
         """Say that the slot's offset is too large."""

@@ -16,6 +16,7 @@ from linkanim.mechanics.roots import slider_root
 from linkanim.mechanics.signed import SignedRoot
 
 if TYPE_CHECKING:
+    from linkanim.mechanics.assembly import Assembly
     from linkanim.mechanics.linkage import Linkage
     from linkanim.mechanics.loop import Gearing
     from linkanim.mechanics.walk import Walk
@@ -119,6 +120,15 @@ class RRP(Joint):
         The bar leans asin(|e|/b), where U = b - e and W = b + e.
         """
         return math.pi / 2 - abs(2 * math.atan2(math.sqrt(w), math.sqrt(u)) - math.pi / 2)
+
+    def linkage_name(self, assembly: Assembly) -> str:
+        """Return slider-crank or slider-rocker, and whether the line runs past the pivot."""
+        loop = assembly.loops.get(self.name)
+        if loop is None:
+            return "slider linkage"
+        eccentric = loop.root.u.least != loop.root.w.least
+        turns = "slider-crank" if assembly.path.full_turn else "slider-rocker"
+        return f"{'offset' if eccentric else 'in-line'} {turns}"
 
     def why_apart(self) -> str:
         """Say that the bar is too short for its line."""
