@@ -7,19 +7,28 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class EditRow:
-    """One dimension in the edit list: its name, its value as written, and whether it is chosen."""
+    """One dimension in the edit list: its name, its value as written, and whether it is chosen.
+
+    A `draft` is a value that was typed and is not judged yet.
+    """
 
     label: str
     value: str
     chosen: bool = False
+    draft: bool = False
 
 
 @dataclass(frozen=True)
 class Panel:
-    """The edit list; `error` is the reason, in words, why the chosen value is refused."""
+    """The edit list; `error` is the reason, in words, why the chosen value is refused.
+
+    `facts` are what the lengths make of the linkage; they stand out while `flash` (0 to 1) is above 0.
+    """
 
     rows: tuple[EditRow, ...]
     title: str = "Edit dimensions"
+    facts: tuple[str, ...] = ()
+    flash: float = 0.0
     error: str | None = None
     hint: str = ""
 

@@ -68,6 +68,7 @@ ACTIONS: Mapping[str, Rule] = {
     "fit": Rule(_nothing, looks.fit),
     "edit": Rule(_nothing, edits.edit),
     "choose": Rule(_whole, edits.choose),
+    "pass_on": Rule(_whole, edits.pass_on),
     "nudge": Rule(_whole, edits.nudge),
     "type": Rule(_text, edits.write),
     "erase": Rule(_nothing, edits.erase),

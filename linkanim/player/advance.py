@@ -14,7 +14,7 @@ from linkanim.player.actions import ACTIONS
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.fault import refused
 from linkanim.player.glide import followed
-from linkanim.player.state import State
+from linkanim.player.state import FLASH_FRAMES, State
 
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND
@@ -36,6 +36,8 @@ def aged(state: State) -> State:
     state = replace(state, frame=state.frame + 1, effects=())
     if state.toast and state.frame >= state.toast.until:
         state = replace(state, toast=None)
+    if state.turned is not None and state.frame >= state.turned + FLASH_FRAMES:
+        state = replace(state, turned=None)
     return _followed(state) if state.glide else state
 
 

@@ -6,13 +6,15 @@ Every change gives a new scene or a refusal; the last good scene always runs on.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from linkanim.digits import degrees, typeset
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.classify import Info
-from linkanim.scenes.edit import Dimension, dimensions, with_dimension
+from linkanim.scenes.edit import Dimension, dimensions, with_dimensions
+from linkanim.scenes.joints import Key
 from linkanim.scenes.scene import Scene
 
 _KEY = re.compile(r"^[\w.\[\]-]+( =|:) ")
@@ -29,13 +31,15 @@ _NUDGE = {
 class Editing:
     """Where the editing stands; `past` and `future` are the scenes that undo and redo go to.
 
-    `typed` is a value begun and not taken, `refusal` the reason why it was not. With `warned` the
-    value can be taken all the same, by asking once more.
+    `typed` is a value begun in the chosen row and not taken, `drafts` those begun in rows that were passed
+    on from, `refusal` the reason why they were not taken. With `warned` they can be taken all the same, by
+    asking once more.
     """
 
     open: bool = False
     chosen: int = 0
     typed: str = ""
+    drafts: tuple[tuple[Key, str], ...] = ()
     refusal: str | None = None
     warned: bool = False
     past: tuple[Scene, ...] = ()
@@ -45,6 +49,11 @@ class Editing:
     def changed(self) -> bool:
         """Whether the scene is no longer as it was loaded."""
         return bool(self.past)
+
+    @property
+    def begun(self) -> bool:
+        """Whether a value, here or in another row, waits to be taken."""
+        return bool(self.typed or self.drafts)
 
 
 def chosen(editing: Editing, scene: Scene) -> Dimension | None:
@@ -59,19 +68,33 @@ def choose(editing: Editing, scene: Scene, further: int) -> Editing:
     return _clear(editing, chosen=(editing.chosen + further) % count if count else 0)
 
 
+def pass_on(editing: Editing, scene: Scene, further: int) -> Editing:
+    """Return the list so many rows further, a value begun kept as a draft, to be judged with the others."""
+    return choose(replace(editing, drafts=_drafts(editing, scene)), scene, further)
+
+
 def write(editing: Editing, text: str) -> Editing:
     """Return the editing with text added to the value being typed."""
     return _clear(editing, typed=(editing.typed + text)[:_LONGEST])
 
 
-def erase(editing: Editing) -> Editing:
-    """Return the editing with the last typed character gone."""
-    return _clear(editing, typed=editing.typed[:-1])
+def erase(editing: Editing, scene: Scene) -> Editing:
+    """Return the editing with the last typed character gone; that of the row's draft, where none is typed."""
+    item = chosen(editing, scene)
+    draft = dict(editing.drafts).get(item.key, "") if item else ""
+    kept = tuple(pair for pair in editing.drafts if not item or pair[0] != item.key)
+    return _clear(editing, typed=(editing.typed or draft)[:-1], drafts=kept)
+
+
+def let_go(editing: Editing) -> Editing:
+    """Return the editing with nothing begun: the value typed here first, then all drafts."""
+    return _clear(editing) if editing.typed else _clear(editing, drafts=())
 
 
 def take(editing: Editing, scene: Scene) -> tuple[Editing, Scene]:
-    """Return the scene with the typed value in place, or the same scene and the refusal."""
-    return (editing, scene) if not editing.typed else _tried(editing, scene, editing.typed)
+    """Return the scene with all values begun in place at once, or the same scene and the refusal."""
+    values = dict(_drafts(editing, scene))
+    return _tried(editing, scene, values, editing.typed) if values else (editing, scene)
 
 
 def nudge(editing: Editing, scene: Scene, steps: int) -> tuple[Editing, Scene]:
@@ -83,13 +106,14 @@ def nudge(editing: Editing, scene: Scene, steps: int) -> tuple[Editing, Scene]:
     if item is None:
         return editing, scene
     value = Decimal(repr(item.value)) + steps * Decimal(_NUDGE.get(item.unit, "1"))
-    return _tried(_clear(editing), scene, f"{value.normalize():f}")
+    text = f"{value.normalize():f}"
+    return _tried(_clear(editing), scene, {item.key: text}, text)
 
 
 def undo(editing: Editing, scene: Scene) -> tuple[Editing, Scene]:
     """Return the scene before the last change; a value begun or refused is let go of first."""
-    if editing.typed:
-        return _clear(editing), scene
+    if editing.begun:
+        return let_go(editing), scene
     if not editing.past:
         return editing, scene
     *earlier, last = editing.past
@@ -109,22 +133,29 @@ def changed(editing: Editing, scene: Scene) -> Editing:
     return _clear(editing, past=(*editing.past, scene)[-_KEPT:], future=())
 
 
-def _tried(editing: Editing, scene: Scene, text: str) -> tuple[Editing, Scene]:
-    """Put a value where the list stands; a refused one stays typed, to be mended.
-
-    One that ends the crank's full turn is refused once, with the way to take it all the same.
-    """
+def _drafts(editing: Editing, scene: Scene) -> tuple[tuple[Key, str], ...]:
+    """Return all values begun, that of the chosen row the last."""
     item = chosen(editing, scene)
-    if item is None:
-        return editing, scene
+    if item is None or not editing.typed:
+        return editing.drafts
+    return (*(pair for pair in editing.drafts if pair[0] != item.key), (item.key, editing.typed))
+
+
+def _tried(editing: Editing, scene: Scene, values: Mapping[Key, str], typed: str) -> tuple[Editing, Scene]:
+    """Put values where they belong, all at once; refused ones stay begun, to be mended.
+
+    Values that end the crank's full turn are refused once, with the way to take them all the same.
+    """
     try:
-        after = with_dimension(scene, item.key, text)
+        after = with_dimensions(scene, values)
         loss = None if editing.warned else _loss(scene.info, after.info)
     except LinkanimError as error:
-        return replace(editing, typed=text, refusal=_reason(str(error), scene), warned=False), scene
+        reason = str(error).removeprefix(f"{scene.name}: ")
+        return replace(editing, typed=typed, refusal=_reason(reason, values, scene), warned=False), scene
     if loss:
-        return replace(editing, typed=text, refusal=loss, warned=True), scene
-    return changed(editing, scene), after
+        return replace(editing, typed=typed, refusal=loss, warned=True), scene
+    drafts = tuple(pair for pair in editing.drafts if pair[0] not in values)
+    return changed(replace(editing, drafts=drafts), scene), after
 
 
 def _loss(before: Info, after: Info) -> str | None:
@@ -136,9 +167,13 @@ def _loss(before: Info, after: Info) -> str | None:
     return f"{cause}the crank cannot turn fully; it swings {low}…{high} (Enter takes it all the same)"
 
 
-def _reason(message: str, scene: Scene) -> str:
-    """Leave out the scene's name and the key: the reason stands beside the value."""
-    return _KEY.sub("", message.removeprefix(f"{scene.name}: "))
+def _reason(message: str, values: Mapping[Key, str], scene: Scene) -> str:
+    """Leave out the key of a single value, beside which the reason stands; of several say it in words."""
+    if len(values) == 1:
+        return _KEY.sub("", message)
+    words = {".".join(map(str, item.key)): item.label for item in dimensions(scene) if item.key in values}
+    key, _, reason = message.partition(": ")
+    return f"{words[key]}: {reason}" if key in words else message
 
 
 def _clear(editing: Editing, **changes: object) -> Editing:

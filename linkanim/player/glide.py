@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkanim.errors import LinkanimError
-from linkanim.scenes.edit import dimensions, with_dimension
+from linkanim.scenes.edit import dimensions, with_dimensions
 from linkanim.scenes.joints import Key
 from linkanim.scenes.scene import Scene
 
@@ -43,10 +43,8 @@ def followed(way: Glide, after: Scene, frame: int) -> Glide | None:
     if part >= 1.0:
         return None
     eased = part * part * (3.0 - 2.0 * part)
-    scene = after
     try:
-        for key, start, end in way.ways:
-            scene = with_dimension(scene, key, start + (end - start) * eased)
+        scene = with_dimensions(after, {key: start + (end - start) * eased for key, start, end in way.ways})
     except LinkanimError:
         return way
     return Glide(scene, way.since, way.ways)

@@ -105,8 +105,13 @@ EDIT_KEYS: tuple[Row, ...] = (
         ),
     ),
     Row(
+        "Tab, Shift+Tab",
+        "on with the value typed, to be judged with the others",
+        (_on("tab", "pass_on", 1), _on("shift+tab", "pass_on", -1)),
+    ),
+    Row(
         "digits, Enter",
-        "type a value, with or without a unit, and take it",
+        "type a value, with or without a unit; take all that is typed",
         (*_every("return kp_enter", "take"), Bind("backspace", Action("erase"), repeats=True)),
     ),
     Row(
@@ -148,7 +153,7 @@ def bind_of(press: Press, *, editing: bool = False, typing: bool = False) -> Bin
     return next(found, None)
 
 
-_ALWAYS = EDIT_KEYS[3:]  # undo, redo and save need no open list
+_ALWAYS = EDIT_KEYS[-2:]  # undo, redo and save need no open list
 
 
 def _is_typed(press: Press, typing: bool) -> bool:

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
-from linkanim.digits import significant
+from linkanim.digits import significant, typeset
 from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.editing import Editing, chosen
+from linkanim.player.editing import chosen
 from linkanim.player.keys import help_rows
-from linkanim.player.state import State
-from linkanim.scenes.edit import dimensions
-from linkanim.scenes.scene import Scene
+from linkanim.player.state import FLASH_FRAMES, State
+from linkanim.scenes.edit import Dimension, dimensions
 
-_HINT = "↑ ↓ choose   ← → nudge   digits type   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
+_HINT = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
+_NAME = re.compile(r"\b[^\W\d_]\w*")
+_STEPS = 12
+"""So many shades of a flash: each is drawn once."""
 
 
 def overlay(state: State) -> Overlay:
@@ -24,7 +28,7 @@ def overlay(state: State) -> Overlay:
         toast=state.toast.text if state.toast else None,
         recording=_recording(state),
         help=help_rows(editing=state.editing.open) if state.help else None,
-        panel=panel(state.editing, state.scene) if state.editing.open else None,
+        panel=panel(state) if state.editing.open else None,
     )
 
 
@@ -35,13 +39,30 @@ def _recording(state: State) -> str | None:
     return f"REC {state.recording.format.upper()} {seconds // 60}:{seconds % 60:02d}"
 
 
-def panel(editing: Editing, scene: Scene) -> Panel:
-    """Return the list of dimensions, the value being typed in its place."""
-    at = chosen(editing, scene)
-    rows = tuple(
-        EditRow(item.label, f"{significant(item.value, 10)} {item.unit}".strip(), chosen=item == at)
-        for item in dimensions(scene)
+def panel(state: State) -> Panel:
+    """Return the list of dimensions, the values begun in their places."""
+    editing, info = state.editing, state.scene.info
+    at, begun = chosen(editing, state.scene), dict(editing.drafts)
+    rows = (_row(item, begun.get(item.key), chosen=item == at) for item in dimensions(state.scene))
+    typed = f"{editing.typed}_" if editing.typed else None
+    return Panel(
+        tuple(replace(row, value=typed, draft=True) if typed and row.chosen else row for row in rows),
+        facts=tuple(fact for fact in (info.class_name, info.grashof) if fact),
+        flash=_flash(state),
+        error=editing.refusal,
+        hint=_HINT,
     )
-    if editing.typed:
-        rows = tuple(replace(row, value=f"{editing.typed}_") if row.chosen else row for row in rows)
-    return Panel(rows, error=editing.refusal, hint=_HINT)
+
+
+def _row(item: Dimension, draft: str | None, *, chosen: bool) -> EditRow:
+    label = _NAME.sub(lambda name: subscripted(name[0]), item.label)
+    value = typeset(f"{significant(item.value, 10)} {item.unit}".strip())
+    return EditRow(label, draft or value, chosen=chosen, draft=draft is not None)
+
+
+def _flash(state: State) -> float:
+    """Return how bright the facts are, from 1 as they change down to 0, in a few steps."""
+    if state.turned is None:
+        return 0.0
+    part = (state.frame - state.turned) / FLASH_FRAMES
+    return round(_STEPS * (1.0 - part) ** 2) / _STEPS

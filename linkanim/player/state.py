@@ -19,6 +19,7 @@ from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 
 TOAST_FRAMES = 3 * FRAMES_PER_SECOND
+FLASH_FRAMES = FRAMES_PER_SECOND
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,8 @@ class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
-    `place` the one that is on. `touched` is the frame of the last action. `effects` is what the last
+    `place` the one that is on. `touched` is the frame of the last action, `turned` that at
+    which an edit made another class of the linkage, while the list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "fullscreen",
     "save", "quit", and "report" (with the text of a fault's report).
     """
@@ -56,6 +58,7 @@ class State:
     help: bool = False
     editing: Editing = field(default_factory=Editing)
     glide: Glide | None = None
+    turned: int | None = None
     toast: Toast | None = None
     recording: Take | None = None
     attract: bool = False

@@ -14,14 +14,23 @@ from typing import Any
 
 from linkanim import units
 from linkanim.scenes.joints import DimensionKind, Key, reader_of
+from linkanim.scenes.labels import label
 from linkanim.scenes.read import DEFAULT_SPEED, scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS
 
 _BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
 _EXACT = 2**53
+_WITH_UNIT = ("speed", "angle", "stiffness", "damping")
+"""Kinds that a document writes with their unit, and never as a bare number."""
 
 _PIN: Mapping[str, DimensionKind] = {"length": "length", "angle": "angle"}
+_BODY: Mapping[str, DimensionKind] = {"com": "offset"}
+_STRUT: Mapping[str, DimensionKind] = {
+    "stiffness": "stiffness",
+    "free_length": "length",
+    "coefficient": "damping",
+}
 _DRIVE: Mapping[str, DimensionKind] = {"speed": "speed", "start": "angle"}
 
 
@@ -29,8 +38,9 @@ _DRIVE: Mapping[str, DimensionKind] = {"speed": "speed", "start": "angle"}
 class Dimension:
     """One number of a scene that can be edited.
 
-    `key` is its path into the document. `value` is in `unit`: the scene's for lengths, the one it is
-    written with for angles and speeds, "" for a gear ratio. An "offset" is a length of either sign.
+    `key` is its path into the document, `label` what it is called. `value` is in `unit`: the scene's for
+    lengths, the one it is written with for angles, speeds, stiffness and damping, "" for a gear ratio. An
+    "offset" is a length of either sign.
     """
 
     key: Key
@@ -41,8 +51,10 @@ class Dimension:
 
 
 def dimensions(scene: Scene) -> tuple[Dimension, ...]:
-    """Return what can be edited, in this order: the shorthand's, the joints', the pins', the drive's.
+    """Return what can be edited.
 
+    In this order: the shorthand's, the joints', the pins', the bodies', the springs', the dampers', the
+    drive's.
     Only what the file says is there, and always the drive's speed. None for a scene without a document.
     """
     if not scene.document:
@@ -51,16 +63,20 @@ def dimensions(scene: Scene) -> tuple[Dimension, ...]:
 
 
 def with_dimension(scene: Scene, key: Key, value: float | str) -> Scene:
-    """Return the scene with one dimension changed; `scene` itself stays as it is.
+    """Return the scene with one dimension changed; see `with_dimensions`."""
+    return with_dimensions(scene, {tuple(key): value})
+
+
+def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
+    """Return the scene with some dimensions changed at once; `scene` itself stays as it is.
 
     A number, or a text without a unit, is taken in the dimension's unit; a text may name another
     ("3 cm", "1 rad", "90 deg/s"), and a ratio may be a fraction ("1/3"). KeyError for a key that is
     not one of the scene's dimensions; SceneError and AssemblyError as reading a file raises them.
     """
-    found = next((item for item in dimensions(scene) if item.key == tuple(key)), None)
-    if found is None:
-        raise KeyError(key)
-    document = _replaced(scene.document, found.key, _written(value, found))
+    known, document = {item.key: item for item in dimensions(scene)}, scene.document
+    for key, value in values.items():
+        document = _replaced(document, key, _written(value, known[key]))
     return scene_from(document, name=scene.name, where=scene.name)
 
 
@@ -77,6 +93,9 @@ def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, DimensionKind]]:
             yield from _numbers(pin, ("ground", name), _PIN)
         else:
             yield from _numbers({name: pin}, ("ground",), {name: "offset"})
+    for section, kinds in (("bodies", _BODY), ("springs", _STRUT), ("dampers", _STRUT)):
+        for name, table in document.get(section, {}).items():
+            yield from _numbers(table, (section, name), kinds)
     yield from _numbers({"speed": DEFAULT_SPEED, **document.get("drive", {})}, ("drive",), _DRIVE)
 
 
@@ -99,22 +118,14 @@ def _dimension(scene: Scene, key: Key, kind: DimensionKind) -> Dimension:
         value, unit = float(Fraction(written)), ""
     else:
         value, unit = units.split(written)
-    return Dimension(key, _label(key), value, unit, kind)
-
-
-def _label(key: Key) -> str:
-    """Return "crank" for a shorthand's key, "r3" for a six-bar's, "joints.B.length[0]" for others."""
-    if key[:2] == ("six-bar", "lengths"):
-        return f"r{int(key[2]) + 1}"
-    path = key[1:] if key[0] in SHORTHANDS else key
-    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
+    return Dimension(key, label(key, scene.document, scene.linkage), value, unit, kind)
 
 
 def _written(value: float | str, dimension: Dimension) -> object:
     """Return a new value as the document writes it: a number, or a text with its unit."""
     text = value.strip() if isinstance(value, str) else repr(value)
     bare = _BARE.fullmatch(text) is not None
-    if dimension.kind in ("speed", "angle"):
+    if dimension.kind in _WITH_UNIT:
         return f"{text} {dimension.unit}" if bare else text
     if not bare:
         return text

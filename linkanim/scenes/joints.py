@@ -14,7 +14,7 @@ from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin, Pola
 from linkanim.scenes.check import Table
 
 Key = tuple[str | int, ...]
-DimensionKind = Literal["length", "angle", "speed", "offset", "ratio"]
+DimensionKind = Literal["length", "angle", "speed", "offset", "ratio", "stiffness", "damping"]
 """What a number of a scene file measures; an "offset" is a length of either sign."""
 
 OPEN = ("open", "crossed")

@@ -9,7 +9,8 @@ import pytest
 from linkanim.player.action import Action
 from linkanim.player.advance import advance
 from linkanim.player.glide import FRAMES
-from linkanim.player.state import State, begin
+from linkanim.player.show import overlay
+from linkanim.player.state import FLASH_FRAMES, State, begin
 from linkanim.scenes import load
 from linkanim.scenes.edit import dimensions
 
@@ -47,7 +48,7 @@ TAKEN = {
 @pytest.mark.parametrize(("text", "expected"), TAKEN.values(), ids=TAKEN)
 def test_a_typed_value_is_taken(crank: State, text: str, expected: float) -> None:
     state = typed(crank, text)
-    assert value(state, "crank") == expected
+    assert value(state, "Crank 2") == expected
     assert (state.editing.typed, state.editing.refusal) == ("", None)
 
 
@@ -65,7 +66,7 @@ def test_a_refusal_says_why_and_the_last_good_linkage_runs_on(crank: State, text
     state = typed(crank, text)
     assert state.scene is crank.scene
     assert reason in str(state.editing.refusal)
-    assert "crank" not in str(state.editing.refusal)
+    assert "four-bar" not in str(state.editing.refusal)
     assert state.editing.typed == text
 
 
@@ -85,7 +86,7 @@ def test_the_end_of_full_turns_is_refused_once(crank: State, ask: tuple[str, str
     )
     assert warned.editing.typed == "70"
     taken = after(warned, "take")
-    assert value(taken, "crank") == 70.0
+    assert value(taken, "Crank 2") == 70.0
     assert taken.editing.refusal is None
 
 
@@ -103,7 +104,7 @@ def test_a_swing_may_change_without_a_warning() -> None:
 
 def test_a_refused_value_can_be_mended(crank: State) -> None:
     mended = typed(after(typed(crank, "-4"), "erase", "erase"), "41")
-    assert (value(mended, "crank"), mended.editing.refusal) == (41.0, None)
+    assert (value(mended, "Crank 2"), mended.editing.refusal) == (41.0, None)
 
 
 def test_a_speed_is_typed_in_any_of_its_units(crank: State) -> None:
@@ -115,13 +116,13 @@ def test_a_speed_is_typed_in_any_of_its_units(crank: State) -> None:
 
 def test_as_many_nudges_back_end_on_the_same_value(crank: State) -> None:
     there = after(crank, *[Action("nudge", 1)] * 3, Action("nudge", -10))
-    assert value(there, "crank") == 43.0
+    assert value(there, "Crank 2") == 43.0
     assert after(there, Action("nudge", 10), *[Action("nudge", -1)] * 3).scene == crank.scene
 
 
 def test_undo_and_redo_walk_the_changes(crank: State) -> None:
     changed = after(crank, Action("nudge", 1), Action("nudge", 1))
-    assert value(after(changed, "undo"), "crank") == 51.0
+    assert value(after(changed, "undo"), "Crank 2") == 51.0
     assert after(changed, "undo", "undo").scene == crank.scene
     assert after(changed, "undo", "undo", "undo").scene == crank.scene
     assert after(changed, "undo", "undo", "redo", "redo", "redo").scene == changed.scene
@@ -130,13 +131,13 @@ def test_undo_and_redo_walk_the_changes(crank: State) -> None:
 def test_undo_lets_go_of_a_refused_value_first(crank: State) -> None:
     refused = typed(after(crank, Action("nudge", 1)), "-3")
     once = after(refused, "undo")
-    assert (value(once, "crank"), once.editing.typed, once.editing.refusal) == (51.0, "", None)
-    assert value(after(once, "undo"), "crank") == 50.0
+    assert (value(once, "Crank 2"), once.editing.typed, once.editing.refusal) == (51.0, "", None)
+    assert value(after(once, "undo"), "Crank 2") == 50.0
 
 
 def test_a_change_after_undo_ends_the_redo(crank: State) -> None:
     state = after(crank, Action("nudge", 1), "undo", Action("nudge", -1), "redo")
-    assert value(state, "crank") == 49.0
+    assert value(state, "Crank 2") == 49.0
 
 
 def test_the_other_closure_is_undone_too(crank: State) -> None:
@@ -150,6 +151,102 @@ def test_the_list_goes_round(crank: State) -> None:
 
 def test_choosing_lets_go_of_what_was_begun(crank: State) -> None:
     assert after(crank, Action("type", "7"), Action("choose", 1)).editing.typed == ""
+
+
+# A whole new set, twice the size: none of its lengths could be taken alone.
+DOUBLED = {"Ground 1": "200", "Crank 2": "100", "Coupler 3": "17 cm", "Rocker 4": "160"}
+
+
+@pytest.mark.parametrize("order", [1, -1], ids=["downwards", "upwards"])
+def test_values_passed_on_from_are_judged_together(crank: State, order: int) -> None:
+    state = after(crank, Action("choose", -1 if order == 1 else 2))
+    values = list(DOUBLED.items())[::order]
+    for n, (_, text) in enumerate(values):
+        state = after(state, *(Action("type", letter) for letter in text))
+        state = after(state, Action("pass_on", order) if n < 3 else Action("take"))
+        assert state.editing.refusal is None
+        assert (state.scene is crank.scene) == (n < 3)
+    assert [value(state, label) for label in DOUBLED] == [200.0, 100.0, 170.0, 160.0]
+    assert not state.editing.begun
+    assert after(state, "undo").scene == crank.scene
+
+
+def test_none_of_several_values_is_taken_where_one_is_wrong(crank: State) -> None:
+    state = after(crank, Action("type", "4"), Action("type", "9"), Action("pass_on", 1))
+    refused = typed(state, "x")
+    assert refused.scene is crank.scene
+    assert str(refused.editing.refusal).startswith('Coupler 3: "x" is not a length')
+    assert refused.editing.begun
+    mended = typed(after(refused, "erase"), "86")
+    assert (value(mended, "Crank 2"), value(mended, "Coupler 3")) == (49.0, 86.0)
+
+
+def test_a_draft_is_mended_where_it_stands(crank: State) -> None:
+    state = after(
+        crank, Action("type", "4"), Action("type", "9"), Action("pass_on", 1), Action("pass_on", -1)
+    )
+    again = after(state, "erase", Action("type", "8"), "take")
+    assert value(again, "Crank 2") == 48.0
+
+
+def test_a_new_value_takes_the_place_of_a_draft(crank: State) -> None:
+    state = after(crank, Action("type", "9"), Action("pass_on", 1), Action("pass_on", -1))
+    assert value(typed(state, "47"), "Crank 2") == 47.0
+
+
+@pytest.mark.parametrize("key", ["back", "undo"])
+def test_values_begun_are_let_go_of_one_after_the_other(crank: State, key: str) -> None:
+    state = after(crank, Action("type", "9"), Action("pass_on", 1), Action("type", "8"), key)
+    assert (state.editing.typed, len(state.editing.drafts), state.editing.open) == ("", 1, True)
+    state = after(state, key)
+    assert (state.editing.begun, state.editing.open) == (False, True)
+
+
+def test_passing_on_without_a_value_only_chooses(crank: State) -> None:
+    state = after(crank, Action("pass_on", 1))
+    assert (state.editing.chosen, state.editing.begun) == (2, False)
+
+
+def test_a_closed_list_keeps_no_drafts(crank: State) -> None:
+    assert not after(crank, Action("type", "9"), Action("pass_on", 1), "edit", "edit").editing.begun
+
+
+def test_the_list_says_what_the_lengths_make_of_the_linkage(crank: State) -> None:
+    shown = overlay(crank).panel
+    assert shown is not None
+    assert shown.facts == ("Grashof crank-rocker", "s + l = 150 < p + q = 165")
+    assert shown.flash == 0.0
+
+
+def test_the_facts_light_up_when_the_class_changes_and_fade(crank: State) -> None:
+    state = after(typed(crank, "66"), "take")
+    flashes = []
+    for _ in range(FLASH_FRAMES + 1):
+        shown = overlay(state).panel
+        assert shown is not None
+        flashes.append(shown.flash)
+        state = advance(state)
+    assert flashes[0] == 1.0
+    assert flashes == sorted(flashes, reverse=True)
+    assert flashes[-1] == 0.0
+    assert state.turned is None
+
+
+def test_the_same_class_does_not_light_up(crank: State) -> None:
+    assert after(crank, Action("nudge", 1)).turned is None
+
+
+def test_a_list_shows_what_is_typed_and_what_waits(crank: State) -> None:
+    state = after(crank, Action("type", "9"), Action("pass_on", 1), Action("type", "8"))
+    shown = overlay(state).panel
+    assert shown is not None
+    assert [(row.value, row.draft) for row in shown.rows[:4]] == [
+        ("100 mm", False),
+        ("9", True),
+        ("8_", True),
+        ("80 mm", False),
+    ]
+    assert [row.chosen for row in shown.rows[:3]] == [False, False, True]
 
 
 def test_escape_closes_what_lies_on_top_first(crank: State) -> None:
@@ -168,7 +265,7 @@ def test_another_mechanism_begins_unedited(crank: State) -> None:
 
 
 def shown_crank(state: State) -> float:
-    return next(item.value for item in dimensions(state.shown) if item.label == "crank")
+    return next(item.value for item in dimensions(state.shown) if item.label == "Crank 2")
 
 
 def test_a_length_is_followed_smoothly(crank: State) -> None:
@@ -201,7 +298,7 @@ def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
     for _ in range(52):
         state = after(state, Action("nudge", 1), Action("nudge", -1))
     state = after(state, *[Action("nudge", -1)] * 3)
-    assert value(after(state, *["undo"] * 3), "crank") == 50.0
+    assert value(after(state, *["undo"] * 3), "Crank 2") == 50.0
     assert len(state.editing.past) == 100
     assert after(state, *["undo"] * 100).editing.past == ()
 
@@ -209,5 +306,5 @@ def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
 def test_a_second_change_starts_from_what_is_shown(crank: State) -> None:
     halfway = after(typed(crank, "40"), *[Action("note", "")] * (FRAMES // 2), Action("type", "60"))
     again = after(halfway, "take")
-    assert value(again, "crank") == 60.0
+    assert value(again, "Crank 2") == 60.0
     assert shown_crank(again) == pytest.approx(shown_crank(halfway), abs=2.0)

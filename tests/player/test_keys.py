@@ -110,7 +110,8 @@ EDITING = {
     "enter takes": (Press("return", "\r"), True, Action("take")),
     "backspace erases": (Press("backspace", "\x08"), True, Action("erase")),
     "escape goes back": (Press("escape", "\x1b"), True, Action("back")),
-    "tab is not text": (Press("tab", "\t"), True, Action("mechanism", 1)),
+    "tab passes on": (Press("tab", "\t"), True, Action("pass_on", 1)),
+    "shift+tab passes back": (Press("tab", "\t", shift=True), False, Action("pass_on", -1)),
     "ctrl+s saves": (Press("s", "s", ctrl=True), True, Action("save")),
     "ctrl+shift+z is redo": (Press("z", "", shift=True, ctrl=True), False, Action("redo")),
 }

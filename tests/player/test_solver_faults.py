@@ -63,7 +63,7 @@ def crank() -> State:
 def test_a_value_at_which_the_solver_fails_is_refused_in_a_sentence(
     crank: State, error: Exception, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("linkanim.player.editing.with_dimension", raising(error))
+    monkeypatch.setattr("linkanim.player.editing.with_dimensions", raising(error))
     state = advance(advance(crank, [Action("type", "47")]), [Action("take")])
     assert state.scene is crank.scene
     assert type(error).__name__ in str(state.editing.refusal)
@@ -105,7 +105,7 @@ def test_a_scene_that_fails_is_not_put_on(
 
 def test_a_way_that_fails_is_left_out(crank: State, monkeypatch: pytest.MonkeyPatch) -> None:
     state = advance(crank, [Action("nudge", 1)])
-    monkeypatch.setattr("linkanim.player.glide.with_dimension", raising(HOLES[0]))
+    monkeypatch.setattr("linkanim.player.glide.with_dimensions", raising(HOLES[0]))
     after = advance(state)
     assert (after.glide, after.shown) == (None, state.scene)
     assert [effect.name for effect in after.effects] == ["report"]
@@ -130,7 +130,7 @@ def test_a_report_holds_what_is_needed_to_find_the_hole(
     player.press(ord("e"), 0, "e")
     player.press(pygame.K_DOWN)
     player.type("47")
-    monkeypatch.setattr("linkanim.player.editing.with_dimension", raising(HOLES[0]))
+    monkeypatch.setattr("linkanim.player.editing.with_dimensions", raising(HOLES[0]))
     assert player.press(pygame.K_RETURN)
     assert player.tick()
     found = report_of(here)

@@ -292,7 +292,7 @@ def test_a_value_is_typed_with_its_unit(player: Player) -> None:
     player.press(*bare(pygame.K_DOWN))
     player.type("4.5 cm")
     player.press(*bare(pygame.K_RETURN))
-    assert {item.label: item.value for item in dimensions(player.state.scene)}["crank"] == 45.0
+    assert {item.label: item.value for item in dimensions(player.state.scene)}["Crank 2"] == 45.0
     player.tick(20)
     player.press(pygame.K_z, CTRL, "\x1a")
     assert player.state.scene == load("crank-rocker")

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from linkanim.errors import SceneError, WorkFailed
 from linkanim.mechanics.kinds import Crank
 from linkanim.scenes import load, names
-from linkanim.scenes.edit import dimensions, with_dimension
+from linkanim.scenes.edit import dimensions, with_dimension, with_dimensions
 from linkanim.scenes.joints import Key
 from linkanim.scenes.read import parse, scene_from
 from linkanim.scenes.scene import Scene
@@ -30,34 +30,75 @@ def labels(scene: Scene) -> list[str]:
     return [dimension.label for dimension in dimensions(scene)]
 
 
-def test_a_four_bars_dimensions_are_its_keys() -> None:
+def test_a_four_bars_dimensions_are_called_as_in_class() -> None:
     assert labels(load("crank-rocker")) == [
-        "ground",
-        "crank",
-        "coupler",
-        "rocker",
-        "coupler_point[0]",
-        "coupler_point[1]",
-        "drive.speed",
-        "drive.start",
+        "Ground 1",
+        "Crank 2",
+        "Coupler 3",
+        "Rocker 4",
+        "Coupler point, along",
+        "Coupler point, to the left",
+        "Input speed",
+        "Start angle",
     ]
 
 
-def test_a_six_bars_lengths_are_r1_to_r8() -> None:
-    assert labels(load("six-bar"))[:8] == ["r1", "r2", "r3", "r4", "r5", "r6", "r7", "r8"]
+def test_a_six_bars_links_are_numbered() -> None:
+    assert labels(load("six-bar"))[:10] == [
+        "Ground 1",
+        "Crank 2",
+        "Coupler 3",
+        "Rocker 4",
+        "Ground 5",
+        "Arm 6",
+        "Coupler 7",
+        "Rocker 8",
+        "Angle of arm 6 on rocker 4",
+        "Coupler point, along",
+    ]
 
 
-def test_the_long_forms_dimensions_are_told_by_their_path() -> None:
+def test_the_long_forms_dimensions_are_called_by_their_links_and_joints() -> None:
     found = {item.label: (item.value, item.unit, item.kind) for item in dimensions(load("press"))}
-    assert found["joints.B.length[0]"] == (283.0, "mm", "length")
-    assert found["joints.D.gear.ratio"] == (-1.0, "", "ratio")
-    assert found["joints.D.gear.offset"] == (-72.55, "deg", "angle")
-    assert found["joints.C.line.angle"] == (90.0, "deg", "angle")
-    assert found["joints.C.line.offset"] == (0.0, "mm", "offset")
-    assert found["joints.H.at[1]"] == (45.0, "mm", "offset")
-    assert found["ground.O7.length"] == (330.0, "mm", "length")
-    assert found["ground.G[1]"] == (-800.0, "mm", "offset")
-    assert found["drive.speed"] == (20.0, "rpm", "speed")
+    assert found["Crank 2"] == (55.0, "mm", "length")
+    assert found["Bar 3, A–B"] == (283.0, "mm", "length")
+    assert found["Bar 6, D–B"] == (165.0, "mm", "length")
+    assert found["D, gear ratio"] == (-1.0, "", "ratio")
+    assert found["D, gear offset"] == (-72.55, "deg", "angle")
+    assert found["C, direction of its line"] == (90.0, "deg", "angle")
+    assert found["C, offset of its line"] == (0.0, "mm", "offset")
+    assert found["H on A–B, to the left"] == (45.0, "mm", "offset")
+    assert found["Pin O7, distance"] == (330.0, "mm", "length")
+    assert found["Pin G, y"] == (-800.0, "mm", "offset")
+    assert found["Input speed"] == (20.0, "rpm", "speed")
+
+
+def test_what_a_scene_states_of_masses_springs_and_dampers_can_be_edited() -> None:
+    press = load("press")
+    found = {item.label: (item.value, item.unit, item.kind) for item in dimensions(press)}
+    assert found["Link 3 centre of mass, to the left"] == (15.0, "mm", "offset")
+    assert found["Return, stiffness"] == (4000.0, "N/m", "stiffness")
+    assert found["Return, free length"] == (280.0, "mm", "length")
+    assert found["Cushion, damping"] == (200.0, "N s/m", "damping")
+    keys = {item.label: item.key for item in dimensions(press)}
+    other = with_dimensions(
+        press,
+        {
+            keys["Link 3 centre of mass, to the left"]: "2 cm",
+            keys["Return, stiffness"]: "5 N/mm",
+            keys["Return, free length"]: 300,
+            keys["Cushion, damping"]: 150,
+        },
+    ).linkage
+    assert next(body.com for body in other.bodies if body.name == "3") == (141.5, 20.0)
+    assert (other.springs[0].stiffness, other.springs[0].free_length) == (5000.0, 300.0)
+    assert other.dampers[0].coefficient == 150.0
+
+
+def test_a_bar_of_no_body_is_called_by_its_joints() -> None:
+    document = load("press").document
+    bare = scene_from({**document, "bodies": {"arm": {"joints": ["A", "B"]}}}, name="bare", where="bare")
+    assert {"Crank O2–A", "Arm A–B", "Bar D–B"} <= set(labels(bare))
 
 
 def test_the_speed_can_be_edited_where_the_file_leaves_it_out() -> None:
@@ -66,7 +107,7 @@ def test_the_speed_can_be_edited_where_the_file_leaves_it_out() -> None:
         name="bare",
         where="bare",
     )
-    assert labels(bare)[-1] == "drive.speed"
+    assert labels(bare)[-1] == "Input speed"
     faster = with_dimension(bare, ("drive", "speed"), 40)
     assert faster.linkage.drive.speed == 2 * bare.linkage.drive.speed
 

@@ -17,8 +17,8 @@ Handler = Callable[[State, Any], State]
 
 
 def edit(state: State, _: None) -> State:
-    """Open or close the list; what is undone and redone stays."""
-    editing = edit_.choose(state.editing, state.scene, 0)
+    """Open or close the list; values begun are let go of, undo and redo stay."""
+    editing = edit_.choose(replace(state.editing, drafts=()), state.scene, 0)
     return replace(state, editing=replace(editing, open=not editing.open))
 
 
@@ -41,8 +41,9 @@ def _remade(work: Callable[[Editing, Scene, Any], tuple[Editing, Scene]]) -> Han
 
 
 choose = _listed(edit_.choose)
+pass_on = _listed(edit_.pass_on)
 write = _listed(lambda editing, _, text: edit_.write(editing, text))
-erase = _listed(lambda editing, *_: edit_.erase(editing))
+erase = _listed(lambda editing, scene, _: edit_.erase(editing, scene))
 nudge = _remade(edit_.nudge)
 take = _remade(lambda editing, scene, _: edit_.take(editing, scene))
 undo = _remade(lambda editing, scene, _: edit_.undo(editing, scene))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from linkanim.errors import LinkanimError
+from linkanim.mechanics.classify import Info
 from linkanim.picture.quantities import quantities
 from linkanim.player import editing as edit
 from linkanim.player.assembly import other_closure
@@ -42,7 +43,14 @@ def exchanged(state: State, scene: Scene) -> State:
     clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed)
     proved(scene, clock.at(state.frame))
     look = replace(state.look, chart=_kept_chart(state, scene))
-    return replace(state, scene=scene, clock=clock, look=look)
+    turned = state.turned if _verdict(scene.info) == _verdict(state.scene.info) else state.frame
+    return replace(state, scene=scene, clock=clock, look=look, turned=turned)
+
+
+def _verdict(info: Info) -> tuple[str, bool, bool]:
+    """Return the class, and on which side of Grashof's rule the lengths are."""
+    rule = info.grashof or ""
+    return info.class_name, "<" in rule, ">" in rule
 
 
 def _put_on(state: State, place: int) -> State:
@@ -52,7 +60,9 @@ def _put_on(state: State, place: int) -> State:
     clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
     editing = Editing(open=state.editing.open)
-    return replace(state, scene=scene, place=place, clock=clock, look=look, editing=editing, glide=None)
+    return replace(
+        state, scene=scene, place=place, clock=clock, look=look, editing=editing, glide=None, turned=None
+    )
 
 
 def _kept_chart(state: State, scene: Scene) -> str | None:

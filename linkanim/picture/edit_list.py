@@ -1,0 +1,101 @@
+"""The list of dimensions: what the linkage is, the values, and why one is refused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pygame
+
+from linkanim.picture.board import STEP, Board, around
+from linkanim.picture.overlay import EditRow, Panel
+from linkanim.picture.raster import Colour
+from linkanim.picture.theme import ORANGE, mixed
+
+_FRAME = 2.7
+"""How many lines high the list is without its rows and what stands above and below them."""
+_FEWEST = 4
+"""As many rows are shown before hints and facts give way."""
+_FLASH = 0.45
+"""How much of the flash's colour is in the bar behind the facts at its brightest."""
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """How the list is divided: its text's size and width, the lines above and below the rows, the rows."""
+
+    size: int
+    wide: float
+    facts: list[str]
+    foot: list[tuple[str, Colour]]
+    rows: range
+
+    @property
+    def lines(self) -> float:
+        """The height of the whole in lines."""
+        return len(self.facts) + len(self.rows) + len(self.foot) + _FRAME
+
+
+def edit_list(board: Board, panel: Panel) -> pygame.Surface:
+    """Return the list; where it would not fit at a size that reads, the rows around the chosen one."""
+    plan = _planned(board, panel)
+    size = plan.size
+    sheet = board.sheet(plan.wide, STEP * size * plan.lines)
+    _head(board, sheet, panel, plan)
+    top = 0.9 + STEP * (1 + len(plan.facts)) + (0.25 if plan.facts else 0.0)
+    for n, row in enumerate(panel.rows[plan.rows.start : plan.rows.stop]):
+        _row(board, sheet, row, (top + STEP * n) * size, size)
+    for n, (line, colour) in enumerate(plan.foot, start=len(plan.rows)):
+        board.write(sheet, line, (1.2 * size, (top + 0.3 + STEP * n) * size), size=size, colour=colour)
+    return sheet
+
+
+def _planned(board: Board, panel: Panel) -> _Plan:
+    """Return the largest text at which all fits; else the smallest, without the hint, then the facts."""
+    sizes = range(board.layout.text_size, board.layout.small_size - 1, -1)
+    for size in sizes:
+        plan = _divided(board, panel, size, (panel.facts, panel.hint))
+        if len(plan.rows) == len(panel.rows):
+            return plan
+    for more in ((panel.facts, panel.hint), (panel.facts, ""), ((), "")):
+        plan = _divided(board, panel, sizes[-1], more)
+        if len(plan.rows) >= min(_FEWEST, len(panel.rows)):
+            break
+    return plan
+
+
+def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...], str]) -> _Plan:
+    facts, hint = more
+    covered = board.layout.hud.right if board.layout.hud else 0.0
+    columns = zip(*((row.label, row.value) for row in panel.rows), strict=True)
+    needed = sum(board.widest(column, size, strong=True) for column in columns) + 5.5 * size
+    wide = min(max(needed, 19.0 * size, covered), board.layout.size[0] - 2.0 * board.margin)
+    room = wide - 2.4 * size
+    said = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
+    foot = [(line, board.theme.warning) for line in board.type.wrapped(panel.error or "", size, room)]
+    foot += [(line, board.theme.dim) for line in board.type.wrapped(hint, size, room, gap="   ")]
+    height = (board.layout.size[1] - 2 * board.margin) / STEP / size
+    chosen = next((n for n, row in enumerate(panel.rows) if row.chosen), 0)
+    left = int(height - len(foot) - len(said) - _FRAME)
+    return _Plan(size, wide, said, foot, around(len(panel.rows), chosen, left))
+
+
+def _head(board: Board, sheet: pygame.Surface, panel: Panel, plan: _Plan) -> None:
+    """Draw the title, which of the rows is the chosen one, and the facts, lit up while they flash."""
+    size, left, right = plan.size, 1.2 * plan.size, sheet.get_width() - 1.2 * plan.size
+    board.write(sheet, panel.title, (left, 0.7 * size), size=size, strong=True)
+    chosen = [f"{n} of {len(panel.rows)}" for n, row in enumerate(panel.rows, start=1) if row.chosen]
+    at = (right, 0.7 * size)
+    board.write(sheet, "".join(chosen), at, size=size, colour=board.theme.dim, anchor="right")
+    if panel.flash > 0.0 and plan.facts:
+        lit = mixed(board.theme.panel, ORANGE, _FLASH * panel.flash)
+        board.bar(sheet, (0.8 + STEP) * size, size, lit, lines=len(plan.facts))
+    for n, line in enumerate(plan.facts, start=1):
+        board.write(sheet, line, (left, (0.8 + STEP * n) * size), size=size)
+
+
+def _row(board: Board, sheet: pygame.Surface, row: EditRow, y: float, size: int) -> None:
+    if row.chosen:
+        board.bar(sheet, y, size, board.theme.chosen)
+    board.write(sheet, row.label, (1.2 * size, y), size=size, colour=board.theme.dim)
+    at, colour = (sheet.get_width() - 1.2 * size, y), board.theme.velocity if row.draft else board.theme.ink
+    board.write(sheet, row.value, at, size=size, colour=colour, anchor="right", strong=True)
