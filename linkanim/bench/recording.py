@@ -1,4 +1,4 @@
-"""What a recording costs: the recorder's own measurements of the press, as a table."""
+"""What a recording costs: the press measured, as a table."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from linkanim.bench.cost import FRAMES, Cost, cost
 from linkanim.bench.machine import Machine, this_machine
 from linkanim.bench.report import columns
-from linkanim.recorder.measure import FRAMES, Cost, cost
 from linkanim.recorder.plan import Format
 
 SCENE = "press"

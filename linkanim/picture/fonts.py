@@ -27,6 +27,7 @@ _WIDE = (
 )
 """Families with many characters, as pygame names them; looked through in this order."""
 
+
 class Fonts:
     """The bundled face in its two weights, and those of the system's fonts that were needed, by size."""
 

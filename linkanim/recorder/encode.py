@@ -12,18 +12,17 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import asdict, dataclass
 from fractions import Fraction
 from pathlib import Path
 
-import numpy as np
 from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim.errors import RecordingFailed
 from linkanim.recorder.gif import Job
-from linkanim.recorder.palette import Bytes, Colour
+from linkanim.recorder.palette import Colour
 from linkanim.recorder.plan import Format
 from linkanim.recorder.process import Frame, not_started, running
 
@@ -65,7 +64,7 @@ def count_frames(part: Path, form: Format) -> int:
     """Read back how many frames a file (for PNG: a folder) holds; 0 where it cannot be read."""
     if form == "png":
         return sum(1 for _ in part.glob("*.png"))
-    asking = [_ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", "-map", "0:v:0", "-c", "copy"]
+    asking = [ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", "-map", "0:v:0", "-c", "copy"]
     try:
         told = subprocess.run(
             [*asking, *["-f", "null", "-progress", "-", "-"]], capture_output=True, check=False
@@ -76,17 +75,8 @@ def count_frames(part: Path, form: Format) -> int:
     return int(counts[-1]) if counts and told.returncode == 0 else 0
 
 
-def decoded(path: Path, size: tuple[int, int]) -> Iterator[Bytes]:
-    """Yield a GIF's or MP4's pictures (height, width, 3) of red, green, blue, as ffmpeg shows them."""
-    width, height = size
-    raw = ["-fps_mode", "passthrough", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
-    command = [_ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{path}", *raw]
-    with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
-        while process.stdout and len(data := process.stdout.read(3 * width * height)) == 3 * width * height:
-            yield np.frombuffer(data, np.uint8).reshape(height, width, 3)
-
-
-def _ffmpeg() -> str:
+def ffmpeg() -> str:
+    """Return the path of the encoder; `RecordingFailed` where there is none."""
     try:
         return str(get_ffmpeg_exe())
     except RuntimeError as error:
@@ -111,7 +101,7 @@ def _ffmpeg_to(stream: Stream, form: Format, part: Path) -> list[str]:
     raw = f"-f rawvideo -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
     into = [*_png(stream), _numbered(part)] if form == "png" else [*_mp4(stream), f"file:{part}"]
     quiet = ["-hide_banner", "-loglevel", "error", "-y"]
-    return [_ffmpeg(), *quiet, *raw.split(), *_EXACT, *_TELLING, *into]
+    return [ffmpeg(), *quiet, *raw.split(), *_EXACT, *_TELLING, *into]
 
 
 def _numbered(folder: Path) -> str:

@@ -11,10 +11,10 @@ from made_result import result
 
 from linkanim.bench import command, drawing, extra, recording, window
 from linkanim.bench import result as results
+from linkanim.bench.cost import Cost, Memory
 from linkanim.bench.machine import this_machine
 from linkanim.cli import main
 from linkanim.errors import BadInput
-from linkanim.recorder.measure import Cost, Memory
 
 
 def options(*words: str) -> Namespace:

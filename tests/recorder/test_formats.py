@@ -2,45 +2,19 @@
 
 from __future__ import annotations
 
-import re
-import subprocess
 import tracemalloc
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from imageio_ffmpeg import get_ffmpeg_exe
 from moving_disc import BACKGROUND, DISC, TURN, TWO_SECONDS, MovingDisc, disc
 from numpy.typing import NDArray
 from PIL import Image
+from reading import Pixels, about, durations, frames_of, loops_for_ever, video
 
 from linkanim.errors import BadInput
 from linkanim.recorder.plan import Clip, Format
 from linkanim.recorder.recording import write
-
-Pixels = NDArray[np.uint8]
-
-
-def decoded(path: Path, mode: str = "RGB") -> list[Pixels]:
-    """Return a GIF's frames as Pillow shows them."""
-    with Image.open(path) as image:
-        return [np.asarray(frame.convert(mode)) for frame in _seeking(image)]
-
-
-def _seeking(image: Image.Image) -> Iterator[Image.Image]:
-    for frame in range(getattr(image, "n_frames", 1)):
-        image.seek(frame)
-        yield image
-
-
-def video(path: Path) -> list[Pixels]:
-    """Return an MP4's frames as ffmpeg decodes them."""
-    width, height = map(int, re.findall(r" ([1-9]\d+)x(\d+)", about(path))[0])
-    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
-    command = [get_ffmpeg_exe(), "-v", "error", "-i", str(path), *raw]
-    told = subprocess.run(command, capture_output=True, check=True)
-    return [*np.frombuffer(told.stdout, np.uint8).reshape(-1, height, width, 3)]
 
 
 def decibels(shown: list[Pixels], drawn: list[Pixels]) -> float:
@@ -55,43 +29,32 @@ def steps(shown: list[Pixels]) -> NDArray[np.float64]:
     )
 
 
-def about(path: Path) -> str:
-    """Return what ffmpeg says of a file."""
-    told = subprocess.run(
-        [get_ffmpeg_exe(), "-hide_banner", "-i", str(path)], capture_output=True, check=False
-    )
-    return told.stderr.decode()
-
-
 @pytest.mark.parametrize("fps", [10, 25, 30, 50])
 def test_a_gif_loops_for_ever_and_every_frame_stands_as_long_as_planned(tmp_path: Path, fps: float) -> None:
     frames = disc("gif", TWO_SECONDS._replace(fps=fps))
     write(frames, frames.plan, tmp_path / "disc.gif")
-    with Image.open(tmp_path / "disc.gif") as image:
-        assert image.info["loop"] == 0
-        durations = [frame.info["duration"] for frame in _seeking(image)]
-        assert image.size == (64, 48)
-    assert durations == [10 * frames.plan.delay_cs] * frames.plan.frames
-    assert sum(durations) == 2000
+    assert loops_for_ever(tmp_path / "disc.gif")
+    times = durations(tmp_path / "disc.gif")
+    assert times == [10 * frames.plan.delay_cs] * frames.plan.frames
+    assert sum(times) == 2000
 
 
 def test_a_gif_keeps_frames_that_do_not_differ(tmp_path: Path) -> None:
     frames = disc("gif", Clip(speed=1e-12, period=TURN, seconds=1.0))
     write(frames, frames.plan, tmp_path / "still.gif")
-    with Image.open(tmp_path / "still.gif") as image:
-        assert [frame.info["duration"] for frame in _seeking(image)] == [40] * 25
+    assert durations(tmp_path / "still.gif") == [40] * 25
 
 
 def test_a_gif_of_one_frame_is_a_picture(tmp_path: Path) -> None:
     frames = disc("gif", Clip(speed=1.0, period=TURN, seconds=0.04))
     write(frames, frames.plan, tmp_path / "one.gif")
-    assert len(decoded(tmp_path / "one.gif")) == 1
+    assert len(frames_of(tmp_path / "one.gif")) == 1
 
 
 def test_a_gif_shows_what_was_drawn_and_flat_colours_exactly(tmp_path: Path) -> None:
     frames = disc("gif", size=(320, 180))
     write(frames, frames.plan, tmp_path / "disc.gif")
-    shown = decoded(tmp_path / "disc.gif")
+    shown = frames_of(tmp_path / "disc.gif")
     drawn = [frames.rgb(k) for k in range(frames.plan.frames)]
     assert decibels(shown, drawn) >= 50
     for colour in (BACKGROUND, DISC):
@@ -104,7 +67,7 @@ def test_the_seam_is_a_step_like_the_others(tmp_path: Path, form: Format) -> Non
     frames = disc(form)
     path = tmp_path / f"disc.{form}"
     write(frames, frames.plan, path)
-    shown = decoded(path) if form == "gif" else video(path)
+    shown = frames_of(path) if form == "gif" else video(path)
     seam, *others = steps(shown)
     assert 0.5 * min(others) < seam <= 1.25 * max(others)  # zero were a last frame like the first
 
@@ -112,7 +75,7 @@ def test_the_seam_is_a_step_like_the_others(tmp_path: Path, form: Format) -> Non
 def test_a_transparent_gif_shows_only_the_disc_in_every_frame(tmp_path: Path) -> None:
     frames = disc("gif", alpha=True)
     write(frames, frames.plan, tmp_path / "disc.gif")
-    for k, shown in enumerate(decoded(tmp_path / "disc.gif", "RGBA")):
+    for k, shown in enumerate(frames_of(tmp_path / "disc.gif", "RGBA")):
         opaque = frames.pixels(k)[..., 3] >= 128
         assert ((shown[..., 3] == 255) == opaque).all()
         assert (shown[frames.pixels(k)[..., 3] == 255][:, :3] == DISC).all()

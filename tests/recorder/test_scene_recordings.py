@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from PIL import Image
+from reading import durations, frames_of, loops_for_ever
 
 from linkanim.errors import BadInput
 from linkanim.picture.figure import figure
@@ -25,7 +24,7 @@ from linkanim.player import tape_file
 from linkanim.player.action import Action
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
-from linkanim.recorder import gallery, measure
+from linkanim.recorder import gallery
 from linkanim.recorder.gallery import make_gallery
 from linkanim.recorder.plan import Clip, Format, make_plan
 from linkanim.recorder.scene_frames import SceneFrames, record
@@ -34,29 +33,17 @@ from linkanim.scenes import load, names
 
 SIZE = (96, 54)
 BARE = Look(hud=False, trace=False)
-Pixels = NDArray[np.uint8]
-
-
-def shown(path: Path, mode: str = "RGB") -> list[Pixels]:
-    with Image.open(path) as image:
-        return [np.asarray(frame.convert(mode)) for frame in _seeking(image)]
-
-
-def _seeking(image: Image.Image) -> Iterator[Image.Image]:
-    for frame in range(getattr(image, "n_frames", 1)):
-        image.seek(frame)
-        yield image
 
 
 @pytest.mark.parametrize("name", names())
 def test_every_scene_loops_over_its_true_period_without_a_seam(tmp_path: Path, name: str) -> None:
     scene = load(name)
     made = record(scene, tmp_path / "out.gif", size=SIZE, fps=20, look=BARE)
-    with Image.open(made.path) as image:
-        assert image.info["loop"] == 0
-        durations = [frame.info["duration"] for frame in _seeking(image)]
-    assert sum(durations) == pytest.approx(1000 * scene.period / abs(scene.linkage.drive.speed), abs=25)
-    pictures = [picture.astype(float) for picture in shown(made.path)]
+    assert loops_for_ever(made.path)
+    assert sum(durations(made.path)) == pytest.approx(
+        1000 * scene.period / abs(scene.linkage.drive.speed), abs=25
+    )
+    pictures = [picture.astype(float) for picture in frames_of(made.path)]
     seam, *steps = (np.abs(b - a).mean() for a, b in zip([pictures[-1], *pictures], pictures, strict=False))
     assert 0 < seam <= 1.2 * max(steps)
 
@@ -71,7 +58,7 @@ def test_reverse_shows_the_same_pictures_backwards(tmp_path: Path) -> None:
     for name, back in (("forth", False), ("back", True)):
         record(load("crank-rocker"), tmp_path / f"{name}.png", size=SIZE, fps=10, look=BARE, reverse=back)
     forth, back_again = (
-        [shown(path)[0].astype(int) for path in sorted(tmp_path.glob(f"{name}-*"))]
+        [frames_of(path)[0].astype(int) for path in sorted(tmp_path.glob(f"{name}-*"))]
         for name in ("forth", "back")
     )
     expected = [forth[0], *reversed(forth[1:])]
@@ -115,7 +102,7 @@ def test_gif_and_png_are_exactly_as_large_as_asked(tmp_path: Path, size: tuple[i
 def test_flat_colours_of_the_theme_come_out_exactly(tmp_path: Path, theme: str) -> None:
     look = Look(theme="dark" if theme == "dark" else "light")
     made = record(load("crank-rocker"), tmp_path / "out.gif", size=(320, 180), seconds=0.4, look=look)
-    for picture in shown(made.path):
+    for picture in frames_of(made.path):
         assert tuple(picture[0, -1]) == theme_of(theme).background
         assert (picture == theme_of(theme).bodies[0]).all(axis=2).sum() > 20
 
@@ -124,7 +111,7 @@ def test_flat_colours_of_the_theme_come_out_exactly(tmp_path: Path, theme: str) 
 def test_a_transparent_recording_has_no_background(tmp_path: Path, form: str) -> None:
     look = Look(background=False)
     record(load("crank-rocker"), tmp_path / f"out.{form}", size=(192, 108), seconds=0.4, look=look)
-    pictures = [shot for path in sorted(tmp_path.iterdir()) for shot in shown(path, "RGBA")]
+    pictures = [shot for path in sorted(tmp_path.iterdir()) for shot in frames_of(path, "RGBA")]
     assert len(pictures) == 10
     for picture in pictures:
         assert not picture[[0, -1], -1, 3].any()
@@ -177,7 +164,7 @@ def test_a_loop_starts_where_its_tape_does(tmp_path: Path) -> None:
 def test_what_is_done_during_a_tape_shows_in_the_recording(tmp_path: Path) -> None:
     done = tape((12, Action("theme")), (36, Action("mechanism", 1)))
     made = record_tape(kept(done, tmp_path), tmp_path / "tape.gif", size=SIZE, fps=10)
-    pictures = shown(made.path)
+    pictures = frames_of(made.path)
     assert (made.frames, made.seconds) == (10, 1.0)
     dark = [tuple(picture[0, -1]) == theme_of("dark").background for picture in pictures]
     light = [tuple(picture[0, -1]) == theme_of("light").background for picture in pictures]
@@ -244,17 +231,6 @@ def test_a_gallery_in_a_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(BadInput, match="is a file"):
         make_gallery(tmp_path / "file", ["press"])
-
-
-@pytest.mark.parametrize(("form", "least"), [("gif", 50.0), ("mp4", 35.0)])
-def test_the_cost_of_a_recording_is_measured(form: Format, least: float) -> None:
-    found = measure.cost("slider-crank", form, frames=8)
-    assert (found.form, found.frames) == (form, 8)
-    assert least < found.decibels < 100
-    assert 0.001 < found.megabytes < 1
-    assert found.seconds > 0
-    assert found.encode_seconds > 0
-    assert all(20 < megabytes < 1000 for megabytes in found.memory if not math.isnan(megabytes))
 
 
 # what a notebook finds in the page

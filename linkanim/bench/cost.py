@@ -18,8 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.picture.look import Look
-from linkanim.recorder.encode import Stream, decoded, encoding
-from linkanim.recorder.palette import Bytes
+from linkanim.recorder.encode import Stream, encoding, ffmpeg
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan
 from linkanim.recorder.recording import palette_of, write
 from linkanim.recorder.scene_frames import SceneFrames
@@ -73,7 +72,7 @@ def cost(name: str, form: Format, *, frames: int = FRAMES) -> Cost:
         encode_seconds = _timed(lambda: _encode(stored, scene, plan, target))
         seconds = _timed(lambda: write(SceneFrames(scene, plan, SIZE, LOOK), plan, target))
         megabytes = target.stat().st_size / 1e6
-        decibels = _decibels(decoded(target, SIZE), stored)
+        decibels = _decibels(_decoded(target), stored)
     return Cost(form, plan.frames, seconds, encode_seconds, megabytes, decibels, memory)
 
 
@@ -127,11 +126,21 @@ def _timed(work: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-def _decibels(shown: Iterator[Bytes], stored: NDArray[np.uint8]) -> float:
+def _decoded(path: Path) -> Iterator[NDArray[np.uint8]]:
+    """Yield a GIF's or MP4's pictures (height, width, 3) of red, green, blue, as ffmpeg shows them."""
+    width, height = SIZE
+    raw = ["-fps_mode", "passthrough", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    command = [ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{path}", *raw]
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
+        while process.stdout and len(data := process.stdout.read(3 * width * height)) == 3 * width * height:
+            yield np.frombuffer(data, np.uint8).reshape(height, width, 3)
+
+
+def _decibels(shown: Iterator[NDArray[np.uint8]], stored: NDArray[np.uint8]) -> float:
     """Return the peak signal-to-noise ratio of (height, width, 3) pictures to stored frames."""
+    pairs = zip(shown, (frame.reshape(-1, 4)[:, 2::-1] for frame in stored), strict=True)
     errors = [
-        float(np.mean(np.square(picture.reshape(-1, 3).astype(np.int32) - frame.reshape(-1, 4)[:, 2::-1])))
-        for picture, frame in zip(shown, stored, strict=True)
+        float(np.mean(np.square(picture.reshape(-1, 3).astype(int) - drawn))) for picture, drawn in pairs
     ]
     mean = float(np.mean(errors))
     return 10.0 * math.log10(255.0**2 / mean) if mean else math.inf
