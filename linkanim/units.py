@@ -18,32 +18,32 @@ _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|[+-]?(?:nan|in
 _PI = Fraction(math.pi)
 
 
-class Kind(NamedTuple):
-    """A kind of quantity: what it is called, its units as factors to the base unit, other spellings."""
+class Units(NamedTuple):
+    """What is measured: its name, its units as factors to the base unit, and their other spellings."""
 
     noun: str
     factors: dict[str, Fraction]
     aliases: dict[str, str]
 
 
-_ANGLE = Kind("an angle", {"deg": _PI / 180, "rad": Fraction(1)}, {"°": "deg"})
-_SPEED = Kind(
+_ANGLE = Units("an angle", {"deg": _PI / 180, "rad": Fraction(1)}, {"°": "deg"})
+_SPEED = Units(
     "an angular speed",
     {"rpm": _PI / 30, "rad/s": Fraction(1), "deg/s": _PI / 180},
     {"°/s": "deg/s"},
 )
-_ACCELERATION = Kind(
+_ACCELERATION = Units(
     "an angular acceleration",
     {"rad/s^2": Fraction(1), "deg/s^2": _PI / 180},
     {"rad/s²": "rad/s^2", "rad/s2": "rad/s^2", "deg/s²": "deg/s^2", "deg/s2": "deg/s^2", "°/s²": "deg/s^2"},
 )
-_LENGTH = Kind(
+_LENGTH = Units(
     "a length",
     {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1), "in": Fraction(254, 10000)},
     {},
 )
-_STIFFNESS = Kind("a stiffness", {"N/m": Fraction(1), "N/mm": Fraction(1000), "kN/m": Fraction(1000)}, {})
-_DAMPING = Kind(
+_STIFFNESS = Units("a stiffness", {"N/m": Fraction(1), "N/mm": Fraction(1000), "kN/m": Fraction(1000)}, {})
+_DAMPING = Units(
     "a damping coefficient",
     {"N s/m": Fraction(1), "N s/mm": Fraction(1000), "kN s/m": Fraction(1000)},
     {},
@@ -122,59 +122,61 @@ def shown(value: object) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _with_unit(value: object, kind: Kind) -> float:
-    number, unit = _split(value, kind)
+def _with_unit(value: object, units: Units) -> float:
+    number, unit = _split(value, units)
     if not unit and math.isfinite(float(number)):
-        raise UnitError(f"{shown(value)} has no unit; write {kind.noun} as {_examples(value, kind)}")
-    return _rounded(number, kind.factors.get(unit, Fraction(1)), value, kind)
+        raise UnitError(f"{shown(value)} has no unit; write {units.noun} as {_examples(value, units)}")
+    return _rounded(number, units.factors.get(unit, Fraction(1)), value, units)
 
 
-def _split(value: object, kind: Kind) -> tuple[str, str]:
+def _split(value: object, units: Units) -> tuple[str, str]:
     """Part a value into its number as text and its unit's name, "" where there is none."""
     if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise UnitError(f"{shown(value)} is not {kind.noun}; write {_examples(1, kind)}")
+        raise UnitError(f"{shown(value)} is not {units.noun}; write {_examples(1, units)}")
     if not isinstance(value, str):
-        return _digits(value, kind), ""
+        return _digits(value, units), ""
     match = _NUMBER.match(value)
     if match is None:
-        raise UnitError(f"{shown(value)} is not {kind.noun}; write {_examples(1, kind)}")
+        raise UnitError(f"{shown(value)} is not {units.noun}; write {_examples(1, units)}")
     written = value[match.end() :].strip()
-    return match[1], _named(written, value, kind) if written else ""
+    return match[1], _named(written, value, units) if written else ""
 
 
-def _digits(value: float, kind: Kind) -> str:
+def _digits(value: float, units: Units) -> str:
     """Return a number's shortest decimal, which is what its writer meant."""
     try:
         return repr(float(value))
     except OverflowError:
-        raise UnitError(f"{shown(value)} is too large for {kind.noun}; write {_examples(1, kind)}") from None
+        raise UnitError(
+            f"{shown(value)} is too large for {units.noun}; write {_examples(1, units)}"
+        ) from None
 
 
-def _named(written: str, value: object, kind: Kind) -> str:
+def _named(written: str, value: object, units: Units) -> str:
     folded = _folded(written)
-    for name in kind.factors:
+    for name in units.factors:
         if _folded(name) == folded:
             return name
-    if folded in kind.aliases:
-        return kind.aliases[folded]
-    units = ", ".join(kind.factors)
-    raise UnitError(f"{shown(value)} is not {kind.noun}: {shown(written)} is not one of its units, {units}")
+    if folded in units.aliases:
+        return units.aliases[folded]
+    known = ", ".join(units.factors)
+    raise UnitError(f"{shown(value)} is not {units.noun}: {shown(written)} is not one of its units, {known}")
 
 
 def _folded(unit: str) -> str:
     return re.sub(r"[\s*·⋅.]", "", unit).lower()
 
 
-def _rounded(number: str, factor: Fraction, value: object, kind: Kind) -> float:
+def _rounded(number: str, factor: Fraction, value: object, units: Units) -> float:
     nearest = float(number)
     if not math.isfinite(nearest):
-        raise UnitError(f"{shown(value)} is not a finite number; write {kind.noun} as {_examples(1, kind)}")
+        raise UnitError(f"{shown(value)} is not a finite number; write {units.noun} as {_examples(1, units)}")
     if nearest == 0.0:
         return 0.0
     try:
         return float(Fraction(Decimal(number)) * factor)
     except OverflowError:
-        raise UnitError(f"{shown(value)} is too large for {kind.noun}; write a smaller number") from None
+        raise UnitError(f"{shown(value)} is too large for {units.noun}; write a smaller number") from None
 
 
 def _length_unit(unit: str) -> str:
@@ -183,6 +185,6 @@ def _length_unit(unit: str) -> str:
     return unit
 
 
-def _examples(value: object, kind: Kind) -> str:
+def _examples(value: object, units: Units) -> str:
     number = str(value).strip() if isinstance(value, str | int | float) else "1"
-    return " or ".join(f'"{number[:24]} {unit}"' for unit in kind.factors)
+    return " or ".join(f'"{number[:24]} {unit}"' for unit in units.factors)

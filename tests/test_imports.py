@@ -117,6 +117,7 @@ NO_WINDOW = ("pygame", "PIL", "imageio", "imageio_ffmpeg")
         pytest.param("main(['--version'])", HEAVY, id="--version"),
         pytest.param("main(['scenes'])", NO_WINDOW, id="scenes"),
         pytest.param("main(['info', 'press'])", NO_WINDOW, id="info"),
+        pytest.param("from linkanim import record", ("linkanim.player", "linkanim.cli"), id="record"),
         pytest.param("main(['solve', 'press', '--angle', '87 deg'])", NO_WINDOW, id="solve"),
     ],
 )

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkanim.bench.accuracy import Score
-from linkanim.bench.result import Result, Row
+from linkanim.bench.result import Measured, Result
 from linkanim.picture.offscreen import offscreen, png_bytes
 from linkanim.picture.scatter import Names, Point, scatter
 from linkanim.whole import checked_target, replacing
@@ -21,7 +21,7 @@ ACROSS = "ns a pose, positions"
 UP = "worst error in longest links"
 
 
-class Panel(NamedTuple):
+class Picture(NamedTuple):
     """One picture: what it shows, and its points."""
 
     title: str
@@ -43,19 +43,19 @@ def draw(result: Result, path: Path) -> Path:
     return target
 
 
-def panels(result: Result) -> Iterator[Panel]:
+def panels(result: Result) -> Iterator[Picture]:
     """Yield the two pictures; beside a name, the share of hard poses on the wrong closure or NaN.
 
     A million poses at once would lie on top of ten thousand.
     """
     rows = [row for row in result.rows if "many" not in row.key]
-    yield Panel("Speed against error on an easy cycle", [_point(row, row.easy) for row in rows])
+    yield Picture("Speed against error on an easy cycle", [_point(row, row.easy) for row in rows])
     right = [row for row in rows if not math.isnan(row.hard.error)]
     title = "On the hard cases (in brackets: poses on the wrong closure, or NaN)"
-    yield Panel(title, [_point(row, row.hard) for row in right])
+    yield Picture(title, [_point(row, row.hard) for row in right])
 
 
-def _point(row: Row, score: Score) -> Point:
+def _point(row: Measured, score: Score) -> Point:
     lost = 100 * (score.wrong + score.missing) / score.poses
     name = f"{row.name} ({lost:.0f} %)" if lost else row.name
     return Point(name, row.position_ns, max(score.error, LEAST), row.key in OWN)

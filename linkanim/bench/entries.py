@@ -131,12 +131,12 @@ def _tables() -> Iterator[Entry]:
 
 
 def _reading(
-    read: Callable[[methods.Table, Question], Points], table: methods.Table, question: Question
+    read: Callable[[methods.Samples, Question], Points], table: methods.Samples, question: Question
 ) -> Timed:
     return Timed(lambda: read(table, question), FEW)
 
 
-def _looked_up(read: Callable[[methods.Table, Question], Points]) -> Solve:
+def _looked_up(read: Callable[[methods.Samples, Question], Points]) -> Solve:
     return lambda question: read(methods.table_of(question), question)
 
 

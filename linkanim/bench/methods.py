@@ -197,7 +197,7 @@ def _velocity(bars: Bars, angle: float, state: _Angles) -> _Angles:
     )
 
 
-class Table(NamedTuple):
+class Samples(NamedTuple):
     """Poses of one period at equal steps of the phase, B and P, with their slopes."""
 
     first: float
@@ -213,7 +213,7 @@ class Table(NamedTuple):
         return interval, steps - interval
 
 
-def table_of(question: Question) -> Table:
+def table_of(question: Question) -> Samples:
     """Return the table of a question: this project's own poses, half a step off whole degrees."""
     step, count = TURN / INTERVALS, INTERVALS * question.periods
     phases = (np.arange(count + 1) - 0.5) * step
@@ -221,16 +221,16 @@ def table_of(question: Question) -> Table:
     values, slopes = (
         Points(joined(part["B"]), joined(part["P"])) for part in (motion.position, motion.velocity)
     )
-    return Table(float(phases[0]), step, count * step, values, slopes)
+    return Samples(float(phases[0]), step, count * step, values, slopes)
 
 
-def linear(table: Table, question: Question) -> Points:
+def linear(table: Samples, question: Question) -> Points:
     """Read the table with straight lines between its entries."""
     at, s = table.place(question.phases)
     return Points(*((1 - s) * values[at] + s * values[at + 1] for values in table.values))
 
 
-def cubic(table: Table, question: Question) -> Points:
+def cubic(table: Samples, question: Question) -> Points:
     """Read the table with Hermite's cubics through its entries and slopes."""
     at, s = table.place(question.phases)
     u, h = 1 - s, table.step

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from linkanim.bench.accuracy import Score
-from linkanim.bench.result import Result, Row, Target
+from linkanim.bench.result import Measured, Result, Target
 
 TITLES = ("method", "ns a pose", "with derivatives", "worst error, easy", "hard", "wrong closure", "NaN")
 NOTE = (
@@ -45,7 +45,7 @@ def lines(result: Result) -> list[Sequence[str]]:
     return [TITLES, *(_line(row) for row in result.rows)]
 
 
-def _line(row: Row) -> Sequence[str]:
+def _line(row: Measured) -> Sequence[str]:
     times = (_time(row.position_ns), "" if row.derivatives_ns is None else _time(row.derivatives_ns))
     errors = (_error(row.easy.error), _error(row.hard.error))
     return (row.name, *times, *errors, f"{row.hard.wrong:,}", f"{row.hard.missing:,}")
@@ -102,7 +102,7 @@ def as_json(result: Result) -> str:
     return json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False)
 
 
-def _row(row: Row) -> dict[str, Any]:
+def _row(row: Measured) -> dict[str, Any]:
     return {
         "key": row.key,
         "method": row.name,

@@ -20,7 +20,7 @@ BUDGET = 70.0
 
 
 @dataclass(frozen=True)
-class Row:
+class Measured:
     """One method: times in ns a pose (None where it gives no derivatives), and its scores."""
 
     key: str
@@ -54,7 +54,7 @@ class Result:
     """Everything one run found."""
 
     machine: Machine
-    rows: tuple[Row, ...]
+    rows: tuple[Measured, ...]
     targets: tuple[Target, ...]
 
 
@@ -81,13 +81,13 @@ def _scores(methods: Sequence[Entry]) -> dict[Solve, dict[str, Score]]:
     return {solve: {name: score(solve, asked) for name, asked in answers.items()} for solve in solves}
 
 
-def _row(entry: Entry, times: Mapping[tuple[str, int], float], scores: Mapping[str, Score]) -> Row:
+def _row(entry: Entry, times: Mapping[tuple[str, int], float], scores: Mapping[str, Score]) -> Measured:
     hard = together([scores[case.name] for case in HARD])
     nanos = (times[entry.key, 0], times.get((entry.key, 2)))
-    return Row(entry.key, entry.name, entry.source, *nanos, scores[EASY.name], hard, scores)
+    return Measured(entry.key, entry.name, entry.source, *nanos, scores[EASY.name], hard, scores)
 
 
-def targets(rows: Mapping[str, Row], press_ns: float) -> tuple[Target, ...]:
+def targets(rows: Mapping[str, Measured], press_ns: float) -> tuple[Target, ...]:
     """Return the targets with what a run measured: times, and ratios to pylinkage in the same run."""
     few, many, one = rows["batch"], rows["batch, many"], rows["single"]
     their_few, their_many, their_one = rows["pylinkage"], rows["pylinkage, many"], rows["pylinkage step"]

@@ -59,7 +59,7 @@ main(["play", "press"])
 
 
 @dataclass(frozen=True)
-class Frames:
+class FrameTimes:
     """Draw and flip at one size, ms: median, the 95th of a hundred, and the processor's time for it.
 
     On a machine that does nothing else the first and the last are the same.
@@ -85,7 +85,7 @@ class Drawing:
     """
 
     machine: Machine
-    frames: tuple[Frames, ...]
+    frames: tuple[FrameTimes, ...]
     first: float
     decibels: float
     jitter: float
@@ -99,7 +99,7 @@ def run() -> Drawing:
         return Drawing(this_machine(), frames, first_frame(), *true)
 
 
-def measured(size: tuple[int, int], *, frames: int = FRAMES) -> Frames:
+def measured(size: tuple[int, int], *, frames: int = FRAMES) -> FrameTimes:
     """Play the press in a window of that size and time each frame's draw and flip."""
     state = begin(load(SCENE), look=LOOK)
     walls, used = [], []
@@ -113,7 +113,7 @@ def measured(size: tuple[int, int], *, frames: int = FRAMES) -> Frames:
             walls.append(1e3 * (time.perf_counter() - start))
             used.append(1e3 * (time.process_time() - before))
     walls.sort()
-    return Frames(size, median(walls), walls[int(0.95 * (frames - 1))], median(used))
+    return FrameTimes(size, median(walls), walls[int(0.95 * (frames - 1))], median(used))
 
 
 def first_frame(*, starts: int = STARTS) -> float:

@@ -2,43 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import pygame
 
-from linkanim.mechanics.motion import Pose
-from linkanim.picture.look import Look
+from linkanim.picture.canvas import Canvas
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
 from linkanim.player import display
-from linkanim.player.assembly import ghost_of
 from linkanim.player.state import State
 from linkanim.scenes.scene import Scene
 
 _SMALLEST = 32
-
-
-class Setting:
-    """A painter with the scene of its ghost, made for one scene, size and look; it follows `before`."""
-
-    def __init__(
-        self, scene: Scene, size: tuple[int, int], look: Look, before: Setting | None = None
-    ) -> None:
-        self.made_for = (id(scene), size, look)
-        self._scene, self._look = scene, look
-        last: Painter | None = before.painter if before else None
-        self.painter: Painter = Painter(scene, size, look, beside=self._ghost, before=last)
-
-    def paint(self, surface: pygame.Surface, phase: float, speed: float, over: Overlay) -> Pose:
-        """Paint a phase, the other closure behind it where the look asks; return its pose."""
-        pose = self._scene.pose(phase, speed=speed)
-        ghost = self._ghost.pose(phase, 0) if self._ghost else None
-        self.painter.paint(surface, pose, over, ghost=ghost)
-        return pose
-
-    @cached_property
-    def _ghost(self) -> Scene | None:
-        return ghost_of(self._scene) if self._look.ghost else None
 
 
 class Easel:
@@ -48,7 +21,7 @@ class Easel:
     """
 
     def __init__(self, state: State) -> None:
-        self._setting: Setting | None = None
+        self._canvas: Canvas | None = None
         self._shown: object = None
         self._state = state
         self._titled: str | None = None
@@ -60,10 +33,10 @@ class Easel:
             return
         self._state = state
         self._name(state.scene.title)
-        setting = self._fitting(state, surface.get_size())
-        picture = (setting, state.phase, state.clock.speed, over)
+        canvas = self._fitting(state, surface.get_size())
+        picture = (canvas, state.phase, state.clock.speed, over)
         if picture != self._shown:
-            setting.paint(surface, state.phase, state.clock.speed, over)
+            canvas.paint(surface, state.phase, state.clock.speed, over)
             pygame.display.flip()
             self._shown = picture
 
@@ -80,14 +53,14 @@ class Easel:
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
         """Return the state painted on a surface of its own, as large as the window."""
         surface = display.surface().copy()
-        setting = self._fitting(state, surface.get_size())
-        setting.paint(surface, state.phase, state.clock.speed, over)
+        canvas = self._fitting(state, surface.get_size())
+        canvas.paint(surface, state.phase, state.clock.speed, over)
         return surface
 
-    def _fitting(self, state: State, size: tuple[int, int]) -> Setting:
-        if self._setting is None or self._setting.made_for != (id(state.shown), size, state.look):
-            self._setting = Setting(state.shown, size, state.look, self._setting)
-        return self._setting
+    def _fitting(self, state: State, size: tuple[int, int]) -> Canvas:
+        if self._canvas is None or self._canvas.made_for != (id(state.shown), size, state.look):
+            self._canvas = Canvas(state.shown, size, state.look, self._canvas)
+        return self._canvas
 
     @property
     def scene(self) -> Scene:
@@ -122,5 +95,5 @@ class Easel:
 
     @property
     def _painter(self) -> Painter:
-        assert self._setting is not None
-        return self._setting.painter
+        assert self._canvas is not None
+        return self._canvas.painter

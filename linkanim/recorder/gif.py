@@ -55,7 +55,7 @@ class Job:
         return max(2, len(self.palette).bit_length())
 
 
-class Box(NamedTuple):
+class Area(NamedTuple):
     """A rectangle of a frame, in pixels."""
 
     left: int
@@ -107,20 +107,20 @@ def _changing(job: Job, nearest: Nearest, frames: Iterator[Words]) -> Iterator[b
     before = np.zeros((job.height, job.width), np.uint32)
     shown = np.full((job.height, job.width), TRANSPARENT, np.uint8)
     for number, frame in enumerate(frames):
-        box = _around(frame != before) if number else Box(0, 0, job.width, job.height)
-        indices, old = nearest(frame[box.inside]), shown[box.inside]
-        yield _picture(job, box, _thinned(indices, indices == old), _KEEP)
+        area = _around(frame != before) if number else Area(0, 0, job.width, job.height)
+        indices, old = nearest(frame[area.inside]), shown[area.inside]
+        yield _picture(job, area, _thinned(indices, indices == old), _KEEP)
         old[:] = indices
-        before[box.inside] = frame[box.inside]
+        before[area.inside] = frame[area.inside]
 
 
 def _standing_alone(job: Job, nearest: Nearest, frames: Iterator[Words]) -> Iterator[bytes]:
     """Yield frames each of which is drawn on nothing, and gone before the next."""
     for frame in frames:
         opaque = frame >> 24 >= _OPAQUE
-        box = _around(opaque)
-        indices = np.where(opaque[box.inside], nearest(frame[box.inside]), np.uint8(TRANSPARENT))
-        yield _picture(job, box, indices, _CLEAR)
+        area = _around(opaque)
+        indices = np.where(opaque[area.inside], nearest(frame[area.inside]), np.uint8(TRANSPARENT))
+        yield _picture(job, area, indices, _CLEAR)
 
 
 def _head(job: Job) -> bytes:
@@ -130,14 +130,14 @@ def _head(job: Job) -> bytes:
     return b"GIF89a" + sizes + table.tobytes() + _FOR_EVER
 
 
-def _around(marked: NDArray[np.bool_]) -> Box:
-    """Return the smallest box with all that is marked; of a single pixel where nothing is."""
+def _around(marked: NDArray[np.bool_]) -> Area:
+    """Return the smallest area with all that is marked; of a single pixel where nothing is."""
     rows = np.flatnonzero(marked.any(axis=1))
     if not len(rows):
-        return Box(0, 0, 1, 1)
+        return Area(0, 0, 1, 1)
     top, bottom = int(rows[0]), int(rows[-1]) + 1
     columns = np.flatnonzero(marked[top:bottom].any(axis=0))
-    return Box(int(columns[0]), top, int(columns[-1]) + 1, bottom)
+    return Area(int(columns[0]), top, int(columns[-1]) + 1, bottom)
 
 
 def _thinned(indices: Indices, same: NDArray[np.bool_]) -> Indices:
@@ -166,10 +166,10 @@ def _carried(indices: Indices, same: NDArray[np.bool_]) -> tuple[Places, Places]
     return first[kept], (end - first)[kept]
 
 
-def _picture(job: Job, box: Box, indices: Indices, disposal: int) -> bytes:
+def _picture(job: Job, area: Area, indices: Indices, disposal: int) -> bytes:
     control = struct.pack("<BHB", disposal << 2 | 1, job.delay_cs, TRANSPARENT)
-    width, height = box.right - box.left, box.bottom - box.top
-    place = struct.pack("<HHHHB", box.left, box.top, width, height, 0)
+    width, height = area.right - area.left, area.bottom - area.top
+    place = struct.pack("<HHHHB", area.left, area.top, width, height, 0)
     image = Image.frombuffer("P", (width, height), np.ascontiguousarray(indices), "raw", "P", 0, 1)
     code = image.tobytes("gif", "P", job.bits, 0)
     return b"".join((b"!\xf9\x04", control, b"\0,", place, bytes([job.bits]), code, b"\0"))

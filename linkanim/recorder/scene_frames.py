@@ -6,11 +6,11 @@ import os
 from dataclasses import astuple
 from typing import TYPE_CHECKING
 
+from linkanim.picture.canvas import Canvas
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen, pixel_bytes
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.theme import theme_of
-from linkanim.player.easel import Setting
 from linkanim.recorder.plan import Clip, Plan, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write
 
@@ -31,12 +31,12 @@ class SceneFrames:
         self.colours = theme_colours(look.theme)
         self._plan = plan
         self._over = Overlay(noted=noted)
-        self._setting = Setting(scene, size, look)
+        self._canvas = Canvas(scene, size, look)
         self._surface = offscreen(size, alpha=self.alpha)
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame."""
-        self._setting.paint(self._surface, self._plan.phase(frame), self._plan.speed, self._over)
+        self._canvas.paint(self._surface, self._plan.phase(frame), self._plan.speed, self._over)
         return pixel_bytes(self._surface)
 
 

@@ -10,10 +10,10 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkanim.picture.canvas import Canvas
 from linkanim.picture.offscreen import offscreen, pixel_bytes
 from linkanim.picture.overlay import Overlay
 from linkanim.player import tape_file
-from linkanim.player.easel import Setting
 from linkanim.recorder.plan import Clip, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write
 from linkanim.recorder.scene_frames import record, theme_colours
@@ -34,14 +34,14 @@ class TapeFrames:
         self._tape = tape
         self._fps = fps
         self._surface = offscreen(size, alpha=self.alpha)
-        self._setting: Setting | None = None
+        self._canvas: Canvas | None = None
         self._ahead: Iterator[tuple[State, float]] = iter(())
         self._next = 0
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame."""
         state, phase = self._at(frame)
-        self._setting_for(state).paint(self._surface, phase, state.clock.speed, Overlay())
+        self._canvas_for(state).paint(self._surface, phase, state.clock.speed, Overlay())
         return pixel_bytes(self._surface)
 
     def _at(self, frame: int) -> tuple[State, float]:
@@ -50,11 +50,11 @@ class TapeFrames:
         skipped, self._next = frame - self._next, frame + 1
         return next(islice(self._ahead, skipped, None))
 
-    def _setting_for(self, state: State) -> Setting:
+    def _canvas_for(self, state: State) -> Canvas:
         look = (id(state.shown), self.size, state.look)
-        if self._setting is None or self._setting.made_for != look:
-            self._setting = Setting(state.shown, self.size, state.look, self._setting)
-        return self._setting
+        if self._canvas is None or self._canvas.made_for != look:
+            self._canvas = Canvas(state.shown, self.size, state.look, self._canvas)
+        return self._canvas
 
 
 def _themes(tape: Tape) -> tuple[str, ...]:

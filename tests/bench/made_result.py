@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from linkanim.bench.accuracy import Score
 from linkanim.bench.machine import Machine
-from linkanim.bench.result import Result, Row, Target
+from linkanim.bench.result import Measured, Result, Target
 
 EASY = Score(360, 3e-16, 0, 0)
 HARD = Score(5198, 8.5e-16, 0, 0)
 LOST = Score(5198, float("nan"), 5000, 198)
 
 
-def row(key: str, position: float, derivatives: float | None = None, hard: Score = HARD) -> Row:
-    return Row(key, f"{key} by name", "somewhere", position, derivatives, EASY, hard, {"a hard case": hard})
+def row(key: str, position: float, derivatives: float | None = None, hard: Score = HARD) -> Measured:
+    return Measured(
+        key, f"{key} by name", "somewhere", position, derivatives, EASY, hard, {"a hard case": hard}
+    )
 
 
 def result() -> Result:

@@ -43,6 +43,25 @@ def test_each_pose_is_counted_once(asked: Answer) -> None:
     assert found.error == pytest.approx(1e-8)
 
 
+# At most half as far from the other closure's as from its own: between the two the error counts.
+@pytest.mark.parametrize(("share", "wrong"), [(0.0, 4), (0.32, 4), (0.35, 0), (0.9, 0)])
+def test_a_pose_between_the_closures_is_wrong_near_the_other_one(
+    asked: Answer, share: float, wrong: int
+) -> None:
+    def between(question: Question) -> Points:
+        b, p = (1 - share) * asked.other.b + share * asked.b.high, (1 - share) * asked.other.p
+        return Points(b, p + share * asked.p.high)
+
+    assert score(between, asked).wrong == wrong
+
+
+def test_closures_that_are_one_cannot_be_mistaken(asked: Answer) -> None:
+    for apart, wrong in ((0.5e-8, 0), (2e-8, 4)):
+        other = Points(asked.b.high + 100 * apart, asked.p.high + 100 * apart)
+        found = score(lambda question, other=other: other, replace(asked, other=other))  # type: ignore[misc]
+        assert found.wrong == wrong
+
+
 def test_no_right_pose_has_no_error(asked: Answer) -> None:
     found = score(lambda question: asked.other, asked)
     assert math.isnan(found.error)

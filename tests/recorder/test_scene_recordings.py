@@ -26,7 +26,7 @@ from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.recorder import gallery
 from linkanim.recorder.gallery import make_gallery
-from linkanim.recorder.plan import Clip, Format, make_plan
+from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.scene_frames import SceneFrames, record
 from linkanim.recorder.tape_frames import TapeFrames, record_tape
 from linkanim.scenes import load, names
@@ -172,6 +172,30 @@ def test_what_is_done_during_a_tape_shows_in_the_recording(tmp_path: Path) -> No
     assert light == [True] * 2 + [False] * 8
     steps = [np.abs(b.astype(int) - a).mean() for a, b in pairwise(pictures[2:])]
     assert steps.index(max(steps)) == 3  # the next mechanism comes with frame 36, which is picture 6
+
+
+# At its own speed, not the scene's: HUD, arrows and the loop's length tell it.
+def test_a_tape_is_drawn_at_its_own_speed(tmp_path: Path) -> None:
+    done, size = tape((1, Action("speed", 4)), (2, Action("vectors", "v")), frames=60), (480, 270)
+    state, phase = list(done.pictures(10))[5]
+    scene, speed = state.scene, state.clock.speed
+    assert abs(speed) > 1.2 * abs(scene.linkage.drive.speed)
+
+    def drawn(speed: float) -> bytes:
+        plan = make_plan(Clip(speed, scene.period, seconds=1.0, start=phase), "png")
+        return bytes(SceneFrames(scene, plan, size, state.look).draw(0))
+
+    picture = bytes(TapeFrames(done, 10, size).draw(5))
+    assert picture == drawn(speed)
+    assert picture != drawn(scene.linkage.drive.speed)
+
+
+def test_a_loop_runs_at_its_tapes_speed(tmp_path: Path) -> None:
+    still = tape()
+    faster = replace(still, start=replace(still.start, clock=replace(still.start.clock, level=4)))
+    made = record_tape(kept(faster, tmp_path), tmp_path / "tape.mp4", size=SIZE, fps=10)
+    assert made.speed == pytest.approx(faster.start.clock.speed)
+    assert abs(made.speed) > 1.2 * abs(still.start.clock.speed)
 
 
 def test_a_tapes_pictures_do_not_depend_on_the_order_in_which_they_are_drawn() -> None:

@@ -116,6 +116,8 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("zero ratio", LONG + GEARED % 0, "joints.D.gear.ratio", "other than zero"),
     ("zero below", LONG + GEARED % "'1/0'", "joints.D.gear.ratio", "other than zero"),
     ("nan ratio", LONG + GEARED % "nan", "joints.D.gear.ratio", "other than zero"),
+    ("just too steep", LONG + GEARED % 101, "joints.D.gear.ratio = 101", "100"),
+    ("just too steep backwards", LONG + GEARED % "'-1201/12'", "joints.D.gear.ratio", "100"),
     ("very steep", LONG + GEARED % 1e300, "joints.D.gear.ratio", "100"),
     ("very slow", LONG + GEARED % 1e-300, "joints.D.gear.ratio", "1/12"),
     ("true ratio", LONG + GEARED % "true", "joints.D.gear.ratio", "other than zero"),
@@ -266,7 +268,8 @@ def test_the_texts_that_are_spoilt_above_are_good_before(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "ratio", ["1", "-1", "0.5", "'1/3'", "'-5/12'", "0.1", "0.3333333333333333", "' 2 / 6 '", "'0.25'"]
+    "ratio",
+    ["1", "-1", "0.5", "'1/3'", "'-5/12'", "0.1", "0.3333333333333333", "' 2 / 6 '", "'0.25'", "100", "-100"],
 )
 def test_small_fractions_are_gear_ratios(ratio: str) -> None:
     linkage = scene_from(tomllib.loads(LONG + GEARED % ratio), name="my", where="my.toml").linkage

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from linkanim.errors import LinkanimError
 from linkanim.picture.quantities import quantities
-from linkanim.player.assembly import other_closure
 from linkanim.player.framing import panned, zoomed
 from linkanim.player.state import State, told
+from linkanim.scenes.closure import other_closure
 
 
 def chart(state: State, further: int) -> State:

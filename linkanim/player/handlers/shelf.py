@@ -8,11 +8,11 @@ from linkanim.errors import LinkanimError
 from linkanim.mechanics.classify import Info
 from linkanim.picture.quantities import quantities
 from linkanim.player import editing as edit
-from linkanim.player.assembly import other_closure
 from linkanim.player.editing import Editing
 from linkanim.player.fault import proved
 from linkanim.player.state import State, fresh, told
 from linkanim.scenes import load
+from linkanim.scenes.closure import other_closure
 from linkanim.scenes.scene import Scene
 
 
