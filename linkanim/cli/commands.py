@@ -215,7 +215,12 @@ def _info(parser: Parser) -> None:
 
 
 def _scenes(parser: Parser) -> None:
-    """`scenes` has no options."""
+    parser.add_argument(
+        "word",
+        nargs="?",
+        metavar="WORD",
+        help="only those whose title, class or chapter has this in it (default: all)",
+    )
 
 
 def _gallery(parser: Parser) -> None:
@@ -261,7 +266,11 @@ COMMANDS = {
         _info,
         ("linkanim info crank-rocker", "linkanim info my-linkage.toml --json"),
     ),
-    "scenes": Command("list the built-in scenes, name first", _scenes, ("linkanim scenes",)),
+    "scenes": Command(
+        "list the built-in scenes by chapter, name first",
+        _scenes,
+        ("linkanim scenes", "linkanim scenes slider", 'linkanim scenes "six-bars and more"'),
+    ),
     "gallery": Command(
         "record every built-in scene as a small GIF, and draw the chart of bench",
         _gallery,

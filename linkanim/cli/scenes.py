@@ -1,14 +1,42 @@
-"""`linkanim scenes`: the catalogue, a line for each scene."""
+"""`linkanim scenes`: the catalogue by chapters, a line for each scene."""
 
 from __future__ import annotations
 
 from argparse import Namespace
 
-from linkanim.scenes import names, titles
+from linkanim.document import meant
+from linkanim.errors import BadInput
+from linkanim.scenes import chapters, load, names, titles
+from linkanim.units import shown
 
 
 def run(options: Namespace) -> None:
-    """Print each built-in scene's name and title; reads the titles only, and solves nothing."""
-    width = max(map(len, names()))
-    for name, title in titles().items():
-        print(f"{name:<{width}}  {title}")
+    """Print each built-in scene's name and title under its chapter, or those that a word is told of.
+
+    Reads the titles only; scenes are solved where a word is looked for, since their classes are then needed.
+    """
+    found, width = _found(options.word), max(map(len, names()))
+    for chapter, members in chapters().items():
+        lines = [f"{name:<{width}}  {found[name]}" for name in members if name in found]
+        print("".join(f"{line}\n" for line in (f"# {chapter}", *lines) if lines), end="")
+
+
+def _found(word: str | None) -> dict[str, str]:
+    """Return the titles by name of the scenes that a word is told of; all without one."""
+    every = titles()
+    if word is None:
+        return every
+    chapter = {name: chapter for chapter, members in chapters().items() for name in members}
+    found = {
+        name: title
+        for name, title in every.items()
+        if any(word.casefold() in text.casefold() for text in (name, title, chapter[name], _class(name)))
+    }
+    if not found:
+        near = meant(word, (*every, *chapters()))
+        raise BadInput(f"no scene's title, class or chapter has {shown(word)} in it{near}")
+    return found
+
+
+def _class(name: str) -> str:
+    return load(name).info.class_name

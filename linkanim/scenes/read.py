@@ -20,8 +20,8 @@ from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
 
 _TOP = (
-    "title", "source", "length_unit", "drive", "ground", "joints", "bodies", "springs", "dampers", "trace",
-    *SHORTHANDS,
+    "title", "source", "chapter", "look_at", "length_unit",
+    "drive", "ground", "joints", "bodies", "springs", "dampers", "trace", *SHORTHANDS,
 )  # fmt: skip
 DEFAULT_SPEED = "20 rpm"
 
@@ -64,6 +64,8 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str) -> Scene:
         length_unit=top.unit,
         linkage=linkage,
         trace=_trace(top, joints, short.trace),
+        chapter=top.text("chapter", ""),
+        look_at=top.text("look_at", ""),
         document=document,
     )
     _check_assembly(top, scene)

@@ -30,6 +30,10 @@ class Scene:
     length_unit: str
     linkage: Linkage
     trace: tuple[str, ...] = ()
+    chapter: str = ""
+    """Of a collection, the part that it belongs to; the catalogue's are those of `chapters()`."""
+    look_at: str = ""
+    """What to look at, in a sentence."""
     document: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
     """The scene file as it was read, for editing and writing it back."""
 

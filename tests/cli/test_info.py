@@ -9,6 +9,7 @@ import pytest
 
 import linkanim
 from linkanim.cli import main
+from linkanim.scenes import chapter_of, chapters
 
 KEYS = {
     "class",
@@ -69,8 +70,49 @@ def test_the_words_are_a_label_and_a_value_a_line(capsys: pytest.CaptureFixture[
     assert len({len(line) - len(line.split("  ", 1)[1].lstrip()) for line in lines}) == 1
 
 
+def listed(capsys: pytest.CaptureFixture[str], *word: str) -> list[str]:
+    """Return the lines that `linkanim scenes` prints, chapters' headings among them."""
+    assert main(["scenes", *word]) == 0
+    return capsys.readouterr().out.splitlines()
+
+
 def test_scenes_is_a_line_for_each_with_its_name_first(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["scenes"]) == 0
-    lines = capsys.readouterr().out.splitlines()
+    lines = [line for line in listed(capsys) if not line.startswith("# ")]
     assert tuple(line.split()[0] for line in lines) == linkanim.names()
     assert all(len(line.split()) > 1 for line in lines)
+
+
+def test_scenes_stand_under_their_chapters(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = listed(capsys)
+    heads = [line.removeprefix("# ") for line in lines if line.startswith("# ")]
+    assert heads == list(chapters())
+    assert lines[lines.index("# six-bars and more") + 1].split()[0] == chapters()["six-bars and more"][0]
+
+
+def test_listing_all_scenes_solves_none(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr("linkanim.cli.scenes.load")
+    assert len(listed(capsys)) == len(linkanim.names()) + len(chapters())
+
+
+# one that only the title, the name, the class or the chapter has
+@pytest.mark.parametrize(
+    ("word", "name"),
+    [
+        ("punch", "press"),
+        ("in-OUT", "triple-rocker-in-out"),
+        ("geared five-bar with", "press"),
+        ("on purpose", "kite"),
+    ],
+)
+def test_a_word_chooses_scenes(word: str, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = listed(capsys, word)
+    assert name in [line.split()[0] for line in lines]
+    assert f"# {chapter_of(name)}" in lines
+    assert len(lines) < len(linkanim.names())
+
+
+def test_a_word_that_no_scene_has_is_answered_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["scenes", "slidrs"]) == 2
+    assert 'did you mean "sliders"?' in capsys.readouterr().err
