@@ -51,10 +51,13 @@ class Crank(Joint):
         return replace(self, length=self.length * factor)
 
     def close(self, walk: Walk) -> None:
-        """Add r e^{iψ}, ψ = ratio × θ + offset, from half angles: r - 2r sin²(ψ/2), 2r sin(ψ/2) cos(ψ/2)."""
+        """Add r e^{iψ}, ψ = ratio × θ + offset, as r (cos² - sin²) and 2r sin cos of ψ/2.
+
+        The difference is right to 1.3 eps of r, where 1 - 2 sin² is to 2.5.
+        """
         gearing = walk.assembly.gears[self.name]
-        half, twice = walk.clock.half(-gearing.offset, gearing.ratio), 2.0 * self.length
-        arm = Vec(self.length - half.square * twice, half.product * twice)
+        half = walk.clock.half(-gearing.offset, gearing.ratio)
+        arm = Vec((half.cosine_square - half.square) * self.length, half.product * (2.0 * self.length))
         pace = walk.pace(gearing)
         walk.points[self.name] = walk.points[self.pivot] + carried(arm, pace)
         walk.add_piece(pace, (self.pivot, self.name), arm)
