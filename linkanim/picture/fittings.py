@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import RPR, RRP
+from linkanim.mechanics.kinds import RPP, RPR, RRP
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Part, lined
@@ -113,5 +113,25 @@ def _slot_ends(joint: RPR, bench: Bench) -> tuple[complex, complex]:
     return bench.view.scale * (np.nanmin(along) + side), bench.view.scale * (np.nanmax(along) + side)
 
 
-FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {RRP: _slider, RPR: _slotted}
+def _yoke(joint: RPP, bench: Bench) -> Fitting:
+    """Return a block between rails with a slotted bar across it, and the collar that the pin turns in."""
+    gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
+    places = bench.figure.cycle.position
+    along = complex(np.exp(-1j * joint.line.angle))
+    across = along * complex(np.exp(-1j * joint.slot))
+    way = (places[joint.pin] - places[joint.name]) @ np.array([across.real, -across.imag])
+    ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across
+    colours = theme.outline, theme.metal
+    bar = lined([0j, *ends], 1.35 * gauge.bar, gauge.outline, colours)
+    hollow = Layer(mixed(theme.metal, theme.outline, 0.75), [rounded(list(ends), 0.5 * gauge.bar)])
+    still = (joint.name, joint.name, joint.name)
+    collar = Part(joint.pin, joint.pin, joint.pin, _block(bench, across, 0.62), (joint.pin,))
+    return Fitting(
+        behind=(Part(*still, (*_block(bench, along), *bar, hollow)),),
+        before=(collar,),
+        guide=tuple(_rails(joint.name, along, bench)),
+    )
+
+
+FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {RRP: _slider, RPR: _slotted, RPP: _yoke}
 """How each kind of joint is fitted out; kinds that are bars and pins alone are not in it."""

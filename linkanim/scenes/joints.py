@@ -10,12 +10,15 @@ from collections.abc import Callable, Mapping
 from typing import Any, Literal, NamedTuple
 
 from linkanim.mechanics.joint import Joint, Point
-from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
+from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
 from linkanim.scenes.check import Table
 
 Key = tuple[str | int, ...]
 DimensionKind = Literal["length", "angle", "speed", "offset", "ratio", "stiffness", "damping"]
 """What a number of a scene file measures; an "offset" is a length of either sign."""
+
+_LEAST_SLOT = 1e-6
+"""Sine of the least angle between a slot and its line of travel."""
 
 OPEN = ("open", "crossed")
 
@@ -84,10 +87,23 @@ def _gear(table: Table) -> Gear:
 
 def _slider(name: str, table: Table) -> RRP:
     table.only("from", "length", "line", "side")
-    line = table.table("line")
+    line = _line(table.table("line"))
+    return RRP(name, table.text("from"), table.length("length"), line, side(table, "side", RRP.sides))
+
+
+def _line(line: Table) -> Line:
     line.only("through", "angle", "offset")
-    travel = Line(line.text("through"), line.angle("angle", "0 deg"), line.offset("offset"))
-    return RRP(name, table.text("from"), table.length("length"), travel, side(table, "side", RRP.sides))
+    return Line(line.text("through"), line.angle("angle", "0 deg"), line.offset("offset"))
+
+
+def _yoke(name: str, table: Table) -> RPP:
+    table.only("slide")
+    slide = table.table("slide")
+    slide.only("pin", "line", "slot")
+    slot = slide.angle("slot", "90 deg")
+    if abs(math.sin(slot)) < _LEAST_SLOT:
+        raise slide.error("slot", "lies along the line of travel, so it never crosses it; write \"90 deg\"")
+    return RPP(name, slide.text("pin"), _line(slide.table("line")), slot)
 
 
 def _dyad(name: str, table: Table) -> RRR:
@@ -113,6 +129,10 @@ def _point(name: str, table: Table) -> Rigid:
     return Rigid(name, (first, second), at)
 
 
+_LINE_OF_SLIDE: Mapping[Key, DimensionKind] = {
+    ("slide", "line", "angle"): "angle",
+    ("slide", "line", "offset"): "offset",
+}
 _BAR: Mapping[Key, DimensionKind] = {("length",): "length"}
 
 READERS: Mapping[str, Reader] = {
@@ -120,6 +140,7 @@ READERS: Mapping[str, Reader] = {
     "line": Reader(_slider, {**_BAR, ("line", "angle"): "angle", ("line", "offset"): "offset"}),
     "from": Reader(_dyad, _BAR),
     "slot": Reader(_slot, {**_BAR, ("slot", "offset"): "offset"}),
+    "slide": Reader(_yoke, {("slide", "slot"): "angle", **_LINE_OF_SLIDE}),
     "on": Reader(_point, {("at",): "offset"}),
 }
 """How each kind of joint is written, by the key that marks it."""

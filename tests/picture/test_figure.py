@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from linkanim.mechanics.kinds import RPR, Crank, Pin
+from linkanim.mechanics.kinds import RPP, RPR, Crank, Line, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture.bodies import body_parts, colours_of
 from linkanim.picture.figure import figure
@@ -70,6 +70,18 @@ def test_a_slotted_bar_carries_its_slot_and_a_block_on_the_pin_in_it(offset: flo
     assert slot.real.min() == pytest.approx(ends[0] - 0.5 * GAUGE.bar, abs=0.1)
     assert slot.real.max() == pytest.approx(ends[1] + 0.5 * GAUGE.bar, abs=0.1)
     assert slot.imag.mean() == pytest.approx(-offset, abs=0.5)
+
+
+def test_a_yoke_has_a_slot_as_long_as_its_pin_needs_and_a_collar_on_it() -> None:
+    joints = (Pin("O2", (0.0, 0.0)), Crank("A", "O2", 30.0), RPP("Y", "A", Line("O2", 0.0)))
+    scene = Scene("yoke", "Scotch yoke", "", "mm", Linkage(joints, Drive("A", 1.0, 0.0)), ("Y",))
+    parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
+    assert (parts[0].at, parts[-1].at) == ("Y", "A")
+    slot = parts[0].layers[-1].loops[0]
+    assert slot.imag.max() == pytest.approx(30.0 * VIEW.scale + 0.5 * GAUGE.bar, abs=0.1)
+    assert slot.imag.min() == pytest.approx(-30.0 * VIEW.scale - 0.5 * GAUGE.bar, abs=0.1)
+    assert abs(slot.real).max() == pytest.approx(0.5 * GAUGE.bar, abs=0.1)
+    assert len(figure(scene).shown) == 3
 
 
 def test_the_swept_box_holds_the_coupler_curve() -> None:

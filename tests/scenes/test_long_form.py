@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
+from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
 from linkanim.mechanics.linkage import Body, Damper, Drive, Spring
 from linkanim.scenes import load
+from linkanim.scenes.edit import dimensions, with_dimension
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -56,6 +57,22 @@ def test_the_press_is_read_as_it_is_described() -> None:
 def test_a_slotted_bar_turns_about_a_fixed_pin() -> None:
     slot = "[joints.P]\nslot = { pivot = 'O4', through = 'A', offset = -5 }\nlength = 300\n"
     assert read(PINS + JOINTS["A"] + slot).linkage.by_name["P"] == RPR("P", "O4", "A", 300.0, -5.0)
+
+
+def test_a_yoke_slides_along_its_line_and_can_be_edited() -> None:
+    line = "line = { through = 'O2', angle = '30 deg', offset = 4 }"
+    text = PINS + JOINTS["A"] + f"[joints.Y]\nslide = {{ pin = 'A', {line}, slot = '80 deg' }}\n"
+    scene = read(text + "[bodies]\nyoke = { slider = 'Y' }\n")
+    angle, slot = math.radians(30), math.radians(80)
+    assert scene.linkage.by_name["Y"] == RPP("Y", "A", Line("O2", angle, 4.0), slot)
+    assert read(text.replace(", slot = '80 deg'", "")).linkage.by_name["Y"] == RPP(
+        "Y", "A", Line("O2", angle, 4.0), math.pi / 2
+    )
+    keys = [item.key for item in dimensions(scene) if item.key[:2] == ("joints", "Y")]
+    lasts = (("slot",), ("line", "angle"), ("line", "offset"))
+    assert keys == [("joints", "Y", "slide", *last) for last in lasts]
+    moved = with_dimension(scene, ("joints", "Y", "slide", "line", "offset"), 6.0)
+    assert moved.linkage.by_name["Y"].lengths == (6.0,)
 
 
 @given(st.permutations(sorted(JOINTS)))

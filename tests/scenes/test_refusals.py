@@ -175,7 +175,7 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("body of one joint", FOUR_BAR + "[bodies]\nx = { joints = ['A'] }\n", "bodies.x.joints", "two joints"),
     ("slider that turns", FOUR_BAR + "[bodies]\nx = { slider = 'B' }\n", "bodies.x.slider", "travel"),
     ("body of nothing", FOUR_BAR + "[bodies.x]\n", "bodies.x", '"joints" is missing'),
-    ("joint of no kind", LONG + "[joints.C]\nlength = 3\n", "joints.C", "crank, line, from, slot, on"),
+    ("joint of no kind", LONG + "[joints.C]\nlength = 3\n", "joints.C", "crank, line, from, slot, slide, on"),
     # Where two joints are one point no direction leads from one to the other.
     (
         "point on one point twice",
@@ -195,6 +195,18 @@ REFUSED: list[tuple[str, str, str, str]] = [
         LONG + "[joints.C]\nfrom = 'O4'\nlength = 99\nline = { through = 'O2' }\n",
         "joints.C.from",
         "moves",
+    ),
+    (
+        "yoke whose slot lies along its line",
+        LONG + "[joints.C]\nslide = { pin = 'B', line = { through = 'O2' }, slot = '180 deg' }\n",
+        "joints.C.slide.slot",
+        "never crosses it",
+    ),
+    (
+        "yoke on a fixed pin",
+        LONG + "[joints.C]\nslide = { pin = 'O4', line = { through = 'O2' } }\n",
+        "joints.C.slide.pin",
+        "a joint that moves",
     ),
     (
         "slot on a fixed pin",

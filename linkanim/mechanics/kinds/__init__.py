@@ -3,11 +3,12 @@
 from .crank import Crank, Gear
 from .pin import Pin, Polar
 from .rigid import Rigid
+from .rpp import RPP
 from .rpr import RPR
 from .rrp import RRP, Line
 from .rrr import RRR
 
-KINDS = (Pin, Crank, RRR, RRP, RPR, Rigid)
+KINDS = (Pin, Crank, RRR, RRP, RPR, RPP, Rigid)
 """Every kind that a linkage can be made of."""
 
-__all__ = ["KINDS", "RPR", "RRP", "RRR", "Crank", "Gear", "Line", "Pin", "Polar", "Rigid"]
+__all__ = ["KINDS", "RPP", "RPR", "RRP", "RRR", "Crank", "Gear", "Line", "Pin", "Polar", "Rigid"]

@@ -1,0 +1,76 @@
+"""A pin in the slot of a bar that slides on a fixed line: the dyad of the Scotch yoke.
+
+With f and e how far the pin lies forward along the line and to its left, and σ the slot's direction from
+the line's, the slot crosses the line at s = f - e cot σ: linear, so the bar never jams and has one closure.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
+
+from linkanim.mechanics.exact import unit
+from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.kinds.rrp import Line
+from linkanim.mechanics.planar import Moving, MovingPoint, Vec
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.assembly import Assembly
+    from linkanim.mechanics.walk import Walk
+
+
+@dataclass(frozen=True, slots=True)
+class RPP(Joint):
+    """A bar sliding along `line`, the joint `pin` in its slot; the joint is where the slot crosses the line.
+
+    `slot` is the slot's direction from the line's, in radians; it must not lie along the line.
+    """
+
+    pin: str
+    line: Line
+    slot: float = math.pi / 2
+
+    dyad: ClassVar[bool] = True
+    travels: ClassVar[bool] = True
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """The pin in the slot, which moves, and the pin that the line runs through."""
+        return Need("slide.pin", self.pin, "moving"), Need("slide.line.through", self.line.through, "fixed")
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The pin in the slot."""
+        return (self.pin,)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """The line's offset."""
+        return (self.line.offset,)
+
+    def scaled(self, factor: float) -> RPP:
+        """Return the dyad with its line's offset times a factor."""
+        return replace(self, line=replace(self.line, offset=self.line.offset * factor))
+
+    def close(self, walk: Walk) -> None:
+        """Add where the slot crosses the line: s = f - e cot σ, and its derivatives alike."""
+        point, base, line = walk.points[self.pin], walk.points[self.line.through], self.line
+        along = Vec(*unit(line.angle))
+        cosine, sine = unit(self.slot)
+        leaning = along - along.left().scaled(cosine / sine)
+        shift = line.offset * cosine / sine
+        travel = Moving(
+            leaning.dot(point.position - base.position) + shift,
+            leaning.dot(point.velocity),
+            leaning.dot(point.acceleration),
+        )
+        start = base.position + along.left().scaled(line.offset)
+        walk.points[self.name] = MovingPoint(
+            start + along.scaled(travel.value), along.scaled(travel.rate), along.scaled(travel.second)
+        )
+        walk.travels[self.name] = travel
+
+    def linkage_name(self, assembly: Assembly) -> str:
+        """Return Scotch yoke, or that its slot is not square to its line."""
+        return "Scotch yoke" if unit(self.slot)[0] == 0 else "Scotch yoke, oblique slot"
