@@ -6,9 +6,9 @@ Joints stand in the order in which they can be solved: each one names only joint
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self
 
 if TYPE_CHECKING:
     from .assembly import Assembly
@@ -107,3 +107,7 @@ class Joint(ABC):
     def transmission(self, u: float, w: float) -> float | None:
         """Return a dyad's transmission angle where its root's factors are U and W; None of other joints."""
         return None
+
+    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+        """Return a dyad's transmission angle where `place` gives joints as x + yi, floats or arrays."""
+        raise NotImplementedError

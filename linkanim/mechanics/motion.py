@@ -25,11 +25,16 @@ Pair = tuple[float, float]
 
 
 class Strut(NamedTuple):
-    """Length, its rate, and the force (None where it is not known) of a spring or damper."""
+    """Length, its rate, and the force (None where it is not known) of a spring or damper; its direction.
+
+    The direction is that of its first joint to its second, the rate of it in rad/s.
+    """
 
     length: Any
     rate: Any
     force: Any
+    direction: Any
+    direction_rate: Any
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,10 +119,10 @@ class Derived:
         if crank is not None:
             return _crank_angle(self.crank_angle, *crank) + 0.0 * self.phase  # where there is no phase, NaN
         (x0, y0), (x1, y1) = (parts(self.position[joint]) for joint in body.joints[:2])
-        return self._principal(name, y1 - y0, x1 - x0)
+        return self._continuous(y1 - y0, x1 - x0, self.angular_velocity.get(name))
 
-    def _principal(self, name: str, dy: Any, dx: Any) -> Any:
-        """Return a body's angle from the way between two of its joints."""
+    def _continuous(self, dy: Any, dx: Any, rate: Any) -> Any:
+        """Return the angle of a way, which turns at `rate` as far as that is known."""
         raise NotImplementedError
 
     @cached_property
@@ -158,11 +163,13 @@ class Derived:
         (x0, y0), (x1, y1) = (parts(self.position[joint]) for joint in item.between)
         dx, dy = x1 - x0, y1 - y0
         length = (dx * dx + dy * dy) ** 0.5
-        rate = None
+        rate = turning = None
         if self.velocity:
             (u0, v0), (u1, v1) = (parts(self.velocity[joint]) for joint in item.between)
-            rate = (dx * (u1 - u0) + dy * (v1 - v0)) / length
-        return Strut(length, rate, _force(item, self.setting.linkage.metre, length, rate))
+            du, dv = u1 - u0, v1 - v0
+            rate, turning = (dx * du + dy * dv) / length, (dx * dv - dy * du) / (length * length)
+        force = _force(item, self.setting.linkage.metre, length, rate)
+        return Strut(length, rate, force, self._continuous(dy, dx, turning), turning)
 
 
 def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
@@ -218,26 +225,26 @@ class Motion(Derived):
             **scaled,
         )
 
-    def _principal(self, name: str, dy: Any, dx: Any) -> Array:
+    def _continuous(self, dy: Any, dx: Any, rate: Any) -> Array:
         principal: Array = np.arctan2(dy, dx)
-        return principal if principal.ndim == 0 else self._unwrapped(principal, name)
+        return principal if principal.ndim == 0 else self._unwrapped(principal, rate)
 
-    def _unwrapped(self, principal: Array, name: str) -> Array:
+    def _unwrapped(self, principal: Array, rate: Array | None) -> Array:
         """Add whole turns so that steps follow the angular velocity between neighbours."""
         steps = np.diff(principal, axis=0)
-        turns = np.rint((self._steps(name, steps) - steps) / math.tau)
+        turns = np.rint((self._steps(rate, steps) - steps) / math.tau)
         whole = np.zeros_like(principal)
         np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
         return principal + math.tau * (whole - _before_stretch(whole, np.isnan(principal)))
 
-    def _steps(self, name: str, like: Array) -> Array:
-        """Return about how far a body turns from each instant to the next; 0 where that is not known."""
+    def _steps(self, rate: Array | None, like: Array) -> Array:
+        """Return about how far what turns at `rate` gets at each step; 0 where that is not known."""
         # Driven by its angle a swing has no uniform phase, driven by its phase no uniform angle.
         by_angle = np.ndim(self.crank_rate) == 0
         clock, pace = (self.crank_angle, self.crank_rate) if by_angle else (self.phase, self.input_speed)
-        if name not in self.angular_velocity or np.ndim(pace) or not pace:
+        if rate is None or np.ndim(pace) or not pace:
             return np.zeros_like(like)
-        rates = np.nan_to_num(self.angular_velocity[name] / pace, posinf=0.0, neginf=0.0)
+        rates = np.nan_to_num(rate / pace, posinf=0.0, neginf=0.0)
         steps: Array = np.nan_to_num(np.diff(clock, axis=0)) * (rates[1:] + rates[:-1]) / 2
         return steps
 
@@ -290,5 +297,5 @@ class Pose(Derived):
     crank_rate: float
     crank_second: float
 
-    def _principal(self, name: str, dy: float, dx: float) -> float:
+    def _continuous(self, dy: float, dx: float, rate: float | None) -> float:
         return math.atan2(dy, dx)

@@ -11,12 +11,26 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from linkanim.errors import BadInput
 
+from .derived import (
+    curvature_radius,
+    dyads_of,
+    input_rate,
+    input_torque,
+    mechanical_advantage,
+    normal,
+    output_body,
+    pole,
+    tangential,
+    transmission_angle,
+    worst_transmission,
+)
 from .kinds import Pin
 from .linkage import Body, Damper, Linkage, Spring
 
@@ -117,23 +131,59 @@ def measures_of(body: Body) -> tuple[tuple[Measure, ...], tuple[Measure, Measure
     return TRAVELLING, TRAVELLING_COEFFICIENTS
 
 
-def strut_measures(kind: str) -> tuple[Measure, Measure, Measure]:
-    """Return length, rate and force of the struts of one kind, "spring" or "damper"."""
+def _of_kind(kind: str, name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
+    """Return a measure of the struts of one kind, "spring" or "damper"."""
 
-    def part(name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
-        def read(motion: Any, strut: str) -> Any:
-            return getattr(getattr(motion, kind)[strut], name)
+    def read(motion: Any, strut: str) -> Any:
+        return getattr(getattr(motion, kind)[strut], name)
 
-        return Measure(name, name, symbol, words, unit, order, name, read)
+    return Measure(name, name, symbol, words, unit, order, name, read)
 
+
+def _strut_measures(kind: str) -> tuple[Measure, Measure, Measure]:
+    """Return length, rate and force."""
     return (
-        part("length", "L", "length", "{}", 0),
-        part("rate", "v", "rate of length", "{}/s", 1),
-        part("force", "F", "force", "N", int(kind == "damper")),
+        _of_kind(kind, "length", "L", "length", "{}", 0),
+        _of_kind(kind, "rate", "v", "rate of length", "{}/s", 1),
+        _of_kind(kind, "force", "F", "force", "N", int(kind == "damper")),
     )
 
 
-SPRING, DAMPER = strut_measures("spring"), strut_measures("damper")
+def _directions(kind: str) -> tuple[Measure, Measure]:
+    """Return direction and its rate."""
+    return (
+        _of_kind(kind, "direction", "θ", "direction", "rad", 0),
+        _of_kind(kind, "direction_rate", "ω", "rate of direction", "rad/s", 1),
+    )
+
+
+SPRING, DAMPER = _strut_measures("spring"), _strut_measures("damper")
+DIRECTIONS = {"spring": _directions("spring"), "damper": _directions("damper")}
+
+
+def _bent(
+    prefix: str, name: str, symbol: str, words: str, form: tuple[str, int, Callable[..., Any]]
+) -> Measure:
+    """Return a measure of a point's path, from its velocity and acceleration."""
+    unit, order, work = form
+
+    def read(motion: Any, part: str) -> Any:
+        return work(
+            getattr(motion, f"{prefix}velocity")[part], getattr(motion, f"{prefix}acceleration")[part]
+        )
+
+    return Measure(prefix + name, name, symbol, words, unit, order, name, read)
+
+
+def _path_measures(prefix: str) -> tuple[Measure, ...]:
+    return (
+        _bent(prefix, "normal_acceleration", "aⁿ", "normal acceleration", ("{}/s²", 2, normal)),
+        _bent(prefix, "tangential_acceleration", "aᵗ", "tangential acceleration", ("{}/s²", 2, tangential)),
+        _bent(prefix, "curvature_radius", "ρ", "radius of curvature", ("{}", 0, curvature_radius)),
+    )
+
+
+PATH, CENTRE_PATH = _path_measures(""), _path_measures("com_")
 
 VECTORS = tuple(measure.name for measure in (*POINT, *CENTRE))
 NUMBERS = tuple(measure.name for measure in (*TURNING[1:], *TRAVELLING))
@@ -219,15 +269,56 @@ def _quantities(linkage: Linkage) -> Iterator[Quantity]:
         if not isinstance(joint, Pin):
             for measure in POINT:
                 yield from _of_point(measure, joint.name, joint.name, joint.name)
+            for measure in PATH:
+                yield _bound(measure, joint.name, indexed(measure.symbol, joint.name), joint.name)
     for body in linkage.bodies:
         if body.com is not None:
+            label, words = f"G{labels[body.name]}", f"{called(body)}, centre of mass"
             for measure in CENTRE:
-                label, words = f"G{labels[body.name]}", f"{called(body)}, centre of mass"
                 yield from _of_point(measure, body.name, label, words)
+            for measure in CENTRE_PATH:
+                yield _bound(measure, body.name, indexed(measure.symbol, label), words)
     for spring in linkage.springs:
         yield from _of_strut(spring)
     for damper in linkage.dampers:
         yield from _of_strut(damper)
+    for body in linkage.bodies:
+        if body.slider is None and len(body.joints) > 1:
+            yield from _of_pole(body, labels[body.name])
+    yield from _of_whole(linkage)
+
+
+def _of_pole(body: Body, label: str) -> Iterator[Quantity]:
+    """Yield where a body's instant centre to the ground lies, and each coordinate."""
+    token, said, index = f"{body.name}.pole", f"{called(body)}: instant centre to the ground", f"P1{label}"
+
+    def whole(motion: Any) -> Any:
+        found = pole(motion, body)
+        return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
+
+    yield Quantity(token, indexed("r", index), said, "{}", 0, whole, ("x", "y"))
+    for place, axis in enumerate("xy"):
+        symbol = indexed(axis, index)
+        yield Quantity(f"{token}.{axis}", symbol, f"{said}, {axis}", "{}", 0, _component(whole, place))
+
+
+def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield what is told of the linkage as a whole: its input, transmission and advantage."""
+    yield Quantity("input.angular_velocity", "ω_{in}", "Input: angular velocity", "rad/s", 1, input_rate)
+    struts: tuple[Spring | Damper, ...] = (*linkage.springs, *linkage.dampers)
+    if any(strut.forceful for strut in struts):
+        order = int(any(damper.forceful for damper in linkage.dampers))
+        yield Quantity("input.torque", "T_{in}", "Input: torque", "N m", order, input_torque)
+    dyads = dyads_of(linkage)
+    if dyads:
+        read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
+        yield Quantity("transmission_angle", "μ", "Transmission angle", "rad", 0, read)
+    for dyad in dyads if len(dyads) > 1 else ():
+        read, said = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
+        yield Quantity(f"{dyad}.transmission_angle", indexed("μ", dyad), said, "rad", 0, read)
+    if output_body(linkage) is not None:
+        read = mechanical_advantage(linkage)
+        yield Quantity("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
 
 
 def called(body: Body) -> str:
@@ -290,7 +381,7 @@ def _size(vector: Any) -> Any:
 
 def _of_strut(strut: Spring | Damper) -> Iterator[Quantity]:
     kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
-    for measure in measures:
+    for measure in (*measures, *DIRECTIONS[kind]):
         if measure.name != "force" or strut.forceful:
             symbol = indexed(measure.symbol, strut.name)
             yield _bound(measure, strut.name, symbol, f"{kind.capitalize()} {strut.name}")

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.register import Quantity, look_up, register
+from linkanim.mechanics.telling import telling as most_telling
 from linkanim.scenes.scene import Scene
 
 _ROUNDING = 1e-13
@@ -31,6 +32,11 @@ class Series(NamedTuple):
 def quantities(scene: Scene) -> tuple[str, ...]:
     """Return the tokens of all quantities that a chart can show of this scene."""
     return tuple(register(scene.linkage))
+
+
+def telling(scene: Scene) -> tuple[str, ...]:
+    """Return the tokens of the six to ten quantities that say most of a scene, the most telling first."""
+    return most_telling(scene.linkage, scene.trace)
 
 
 def quantity(scene: Scene, token: str) -> Quantity:

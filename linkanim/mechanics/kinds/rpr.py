@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
 
 from linkanim.mechanics.expression import Value
 from linkanim.mechanics.joint import Joint, Need
@@ -108,6 +110,11 @@ class RPR(Joint):
             return "inverted slider-crank"
         kind = "rotating" if loop.ground.length < loop.crank.length else "swinging"
         return f"inverted slider-crank, {kind} slotted bar"
+
+    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+        """Return the angle from the slot's normal to the bar's motion at the pin, as in `transmission`."""
+        arm = abs(place(self.through) - place(self.pivot))
+        return np.arccos(np.minimum(abs(self.offset) / arm, 1.0))
 
     def why_apart(self) -> str:
         """Say that the slot's offset is too large."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
 
 from linkanim.mechanics.exact import exact_angle, quarter_turns, unit
 from linkanim.mechanics.expression import Value
@@ -129,6 +132,11 @@ class RRP(Joint):
         eccentric = loop.root.u.least != loop.root.w.least
         turns = "slider-crank" if assembly.path.full_turn else "slider-rocker"
         return f"{'offset' if eccentric else 'in-line'} {turns}"
+
+    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+        """Return the angle from its bar to the normal of its line, as in `transmission`."""
+        bar = (place(self.name) - place(self.end)) * cmath.rect(1.0, -self.line.angle)
+        return np.arctan2(abs(bar.real), abs(bar.imag))
 
     def why_apart(self) -> str:
         """Say that the bar is too short for its line."""

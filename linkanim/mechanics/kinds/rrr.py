@@ -12,9 +12,11 @@ vanish together (differentiate the closure in the phase).
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
 
 from linkanim.mechanics.joint import Joint, Need
 from linkanim.mechanics.loop import Loop, ground_between
@@ -109,6 +111,11 @@ class RRR(Joint):
     def transmission(self, u: float, w: float) -> float:
         """Return the angle μ between its bars: tan²(μ/2) = W/U, the cosine rule in its half-angle form."""
         return 2 * math.atan2(math.sqrt(w), math.sqrt(u))
+
+    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+        """Return the angle between its bars."""
+        one, other = (place(end) - place(self.name) for end in self.ends)
+        return abs(np.angle(one * other.conjugate()))
 
     def why_apart(self) -> str:
         """Say how far apart its pins would have to come."""

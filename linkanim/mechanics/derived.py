@@ -1,0 +1,133 @@
+"""Quantities that follow from solved ones: paths' normals and curvature, poles, transmission, torque.
+
+Every function takes a Motion, and works on arrays, or a Pose, and works on floats. What has no value at
+an instant (how a path bends where its point rests) is NaN, what is not bounded is infinite.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from .kinds import Crank
+from .linkage import Body, Linkage
+
+_STRAIGHT = 1e-12
+"""Below this share a cross product of velocity and acceleration, or of the input's rate, is rounding."""
+
+
+def as_complex(vector: Any) -> Any:
+    """Return a pair of floats, or an array (..., 2), as x + yi."""
+    return complex(*vector) if isinstance(vector, tuple) else vector[..., 0] + 1j * vector[..., 1]
+
+
+def over(dividend: Any, divisor: Any) -> Any:
+    """Return a quotient, infinite or NaN where the divisor is 0."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return np.true_divide(dividend, divisor)
+
+
+def tangential(velocity: Any, acceleration: Any) -> Any:
+    """Return the acceleration along the way a point moves: negative where it slows down."""
+    v, a = as_complex(velocity), as_complex(acceleration)
+    return over((v.conjugate() * a).real, abs(v))
+
+
+def normal(velocity: Any, acceleration: Any) -> Any:
+    """Return the acceleration towards the centre of curvature of a point's path, not negative; 0 at rest."""
+    speed = abs(as_complex(velocity))
+    return np.where(speed == 0, 0.0, over(_bend(velocity, acceleration), speed))[()]
+
+
+def curvature_radius(velocity: Any, acceleration: Any) -> Any:
+    """Return the radius of curvature of a point's path, ρ = |v|³/|v × a|; infinite where it is straight."""
+    return over(abs(as_complex(velocity)) ** 3, _bend(velocity, acceleration))
+
+
+def _bend(velocity: Any, acceleration: Any) -> Any:
+    """Return |v × a|, 0 where it is nothing but rounding errors."""
+    v, a = as_complex(velocity), as_complex(acceleration)
+    bend = abs((v.conjugate() * a).imag)
+    return np.where(bend <= _STRAIGHT * abs(v) * abs(a), 0.0, bend)[()]
+
+
+def pole(motion: Any, body: Body) -> tuple[Any, Any]:
+    """Return a body's instant centre to the ground, x and y: the point of it that rests, P = A + i·v_A/ω.
+
+    Infinite where the body does not turn.
+    """
+    first = body.joints[0]
+    place, velocity = as_complex(motion.position[first]), as_complex(motion.velocity[first])
+    turning = motion.angular_velocity[body.name]
+    turns = abs(turning) > _STRAIGHT * abs(motion.crank_rate)
+    found = place.real - over(velocity.imag, turning), place.imag + over(velocity.real, turning)
+    return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
+
+
+def transmission_angle(motion: Any, dyad: str) -> Any:
+    """Return a dyad's transmission angle, as its kind of joint defines it."""
+
+    def place(name: str) -> Any:
+        return as_complex(motion.position[name])
+
+    return motion.setting.linkage.joint(dyad).transmission_at(place)
+
+
+def worst_transmission(motion: Any, dyads: tuple[str, ...]) -> Any:
+    """Return the transmission angle of the only dyad; of several how near to 0 or 180° the worst one is."""
+    angles = [transmission_angle(motion, dyad) for dyad in dyads]
+    if len(angles) == 1:
+        return angles[0]
+    return np.min([np.minimum(angle, math.pi - angle) for angle in angles], axis=0)[()]
+
+
+def dyads_of(linkage: Linkage) -> tuple[str, ...]:
+    """Return the joints that close dyads, in the order in which they are solved."""
+    return tuple(joint.name for joint in linkage.joints if joint.dyad)
+
+
+def crank_body(linkage: Linkage, body: Body) -> bool:
+    """Whether a body is the bar of a crank: of the input, or of one geared to it."""
+    ends = set(body.joints[:2])
+    return any(ends == {crank.pivot, crank.name} for crank in linkage.cranks)
+
+
+def output_body(linkage: Linkage) -> Body | None:
+    """Return the body that a linkage is there to move: its first slider, else its last rocker."""
+    slider = next((body for body in linkage.bodies if body.slider is not None), None)
+    fixed = {pin.name for pin in linkage.pins}
+    rockers = [body for body in linkage.bodies if fixed & set(body.joints) and not crank_body(linkage, body)]
+    return slider or (rockers[-1] if rockers else None)
+
+
+def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:
+    """Return how to read the output's torque over the input's; of a slider its force over the crank pin's.
+
+    Without losses both are ratios of speeds (Uicker, Pennock and Shigley, Theory of Machines and
+    Mechanisms); not negative, infinite where the output rests.
+    """
+    output, crank = output_body(linkage), linkage.joint(linkage.drive.joint)
+    assert output is not None
+    if output.slider is None:
+        return lambda motion: abs(over(motion.crank_rate, motion.angular_velocity[output.name]))
+    length = crank.length if isinstance(crank, Crank) else 1.0
+    return lambda motion: abs(over(length * motion.crank_rate, motion.travel_velocity[output.name]))
+
+
+def input_rate(motion: Any) -> Any:
+    """Return the input's own angular velocity, one value an instant: of a swing it is not the phase's."""
+    return motion.crank_rate + 0.0 * motion.crank_angle
+
+
+def input_torque(motion: Any) -> Any:
+    """Return the torque (N m) with which the input drives the scene's springs and dampers, others being free.
+
+    By virtual work: T·ω = Σ F·dL/dt with tension F positive, so that it is positive where it turns the
+    input on counter-clockwise. Unbounded at a limit of the input.
+    """
+    struts = (*motion.spring.values(), *motion.damper.values())
+    power = sum(strut.force * strut.rate for strut in struts if strut.force is not None)
+    return over(power * motion.setting.linkage.metre, motion.crank_rate)

@@ -1,0 +1,51 @@
+"""Which of a linkage's quantities say most of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .derived import crank_body, output_body
+from .kinds import Pin
+from .linkage import Body, Damper, Linkage, Spring
+from .register import TURNING, register
+
+_LEAST, _MOST = 6, 10
+
+
+def telling(linkage: Linkage, traced: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the tokens of six to ten quantities that say most of a linkage, the most telling first.
+
+    What it is there to move, the forces, how its links turn, the torque at its input, the first
+    `traced` joint, how well it transmits.
+    """
+    known = register(linkage)
+    wished = [token for token in _wished(linkage, traced[:1]) if token in known]
+    rest = [token for token in known if token not in wished]
+    return tuple(dict.fromkeys((*wished[:_MOST], *rest[: max(_LEAST - len(wished), 0)])))
+
+
+def _wished(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
+    sliders = [body.name for body in linkage.bodies if body.slider is not None]
+    output = output_body(linkage)
+    for name in sliders:
+        yield from (f"{name}.travel_velocity", f"{name}.travel_acceleration")
+    struts: tuple[Spring | Damper, ...] = (*linkage.springs, *linkage.dampers)
+    for strut in struts:
+        yield f"{strut.name}.{'force' if strut.forceful else 'length'}"
+    if output and not sliders:
+        yield from (f"{output.name}.{measure.name}" for measure in TURNING)
+    for body in _in_chain(linkage):
+        if not crank_body(linkage, body) and not (body is output and not sliders):
+            yield f"{body.name}.angular_velocity"
+    yield "input.torque"
+    for name in traced:
+        yield from (f"{name}.velocity", f"{name}.acceleration")
+    yield from (f"{name}.travel" for name in sliders)
+    yield from ("transmission_angle", "mechanical_advantage")
+
+
+def _in_chain(linkage: Linkage) -> tuple[Body, ...]:
+    """Return the bodies that turn, in the order in which the joints that move them are solved."""
+    moving = [joint.name for joint in linkage.joints if not isinstance(joint, Pin)]
+    found = {body.name: body for name in moving for body in linkage.bodies if name in body.joints}
+    return tuple(found.values())
