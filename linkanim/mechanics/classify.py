@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -67,47 +68,98 @@ class FourBar:
 
 @dataclass(frozen=True)
 class Info:
-    """What is told of a linkage; angles in radians, lengths in the scene's unit."""
+    """What is told of a linkage; angles in radians, lengths in the scene's unit.
 
-    class_name: str
-    grashof: str | None
-    input_range: tuple[float, float]
-    full_turn: bool
-    toggles: tuple[float, ...]
-    change_points: tuple[float, ...]
-    circuits: int | None
-    true_period: int
-    period_seconds: float
-    transmission_angle: tuple[float, float] | None
-    stroke: float | None
-    time_ratio: float | None
-    turning_links: tuple[str, ...]
-    lines: tuple[tuple[str, str], ...]
-    """Label and value of each fact, in words."""
+    Each fact is worked out when it is first asked for: those of a length that is being changed sixty times
+    a second are few.
+    """
+
+    mechanism: Mechanism
+    length_unit: str
+
+    @cached_property
+    def class_name(self) -> str:
+        """The class, in words."""
+        return _class_name(self.mechanism, self._four_bar)
+
+    @cached_property
+    def grashof(self) -> str | None:
+        """Grashof's rule with the four-bar's numbers; None for other linkages."""
+        return _grashof(self._four_bar) if self._four_bar else None
+
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the driven angle goes."""
+        return self.mechanism.assembly.path.input_range
+
+    @property
+    def full_turn(self) -> bool:
+        """Whether the input turns fully."""
+        return self.mechanism.assembly.path.full_turn
+
+    @property
+    def toggles(self) -> tuple[float, ...]:
+        """The input's limits; an end at which it merely turns back is none."""
+        return self.mechanism.assembly.path.limits
+
+    @cached_property
+    def change_points(self) -> tuple[float, ...]:
+        """The input's angles at its change points within one turn, each once, the least first."""
+        return _change_points(self.mechanism)
+
+    @property
+    def circuits(self) -> int | None:
+        """How many separate motions the lengths allow; None for other linkages than a single four-bar."""
+        bar = self._four_bar
+        return _circuits(bar) if bar and len(self.mechanism.assembly.loops) == 1 else None
+
+    @property
+    def true_period(self) -> int:
+        """The drive periods after which every joint is back."""
+        return self.mechanism.periods
+
+    @property
+    def period_seconds(self) -> float:
+        """The true period at the drive's speed, s."""
+        return 2 * math.pi * self.mechanism.periods / abs(self.mechanism.linkage.drive.speed)
+
+    @cached_property
+    def transmission_angle(self) -> tuple[float, float] | None:
+        """The least and the largest transmission angle; None where there is none."""
+        return transmission(self.mechanism)
+
+    @property
+    def stroke(self) -> float | None:
+        """The first slider's stroke; None without one."""
+        return self._slider[0] if self._slider else None
+
+    @property
+    def time_ratio(self) -> float | None:
+        """The first slider's slow way's time over its quick way's; None without one."""
+        return self._slider[1] if self._slider else None
+
+    @cached_property
+    def turning_links(self) -> tuple[str, ...]:
+        """The bodies that turn fully over one true period."""
+        return tuple(_turning(self.mechanism))
+
+    @cached_property
+    def lines(self) -> tuple[tuple[str, str], ...]:
+        """Label and value of each fact, in words."""
+        return tuple(_lines(self, self.length_unit))
+
+    @cached_property
+    def _four_bar(self) -> FourBar | None:
+        return _four_bar(self.mechanism)
+
+    @cached_property
+    def _slider(self) -> tuple[float, float] | None:
+        return _stroke(self.mechanism)
 
 
 def classify(mechanism: Mechanism, length_unit: str) -> Info:
     """Return what is told of a linkage."""
-    loops, path = mechanism.assembly.loops, mechanism.assembly.path
-    four_bar = _four_bar(mechanism)
-    slider = _stroke(mechanism)
-    info = Info(
-        class_name=_class_name(mechanism, four_bar),
-        grashof=_grashof(four_bar) if four_bar else None,
-        input_range=path.input_range,
-        full_turn=path.full_turn,
-        toggles=path.limits,
-        change_points=_change_points(mechanism),
-        circuits=_circuits(four_bar) if four_bar and len(loops) == 1 else None,
-        true_period=mechanism.periods,
-        period_seconds=2 * math.pi * mechanism.periods / abs(mechanism.linkage.drive.speed),
-        transmission_angle=transmission(mechanism),
-        stroke=slider[0] if slider else None,
-        time_ratio=slider[1] if slider else None,
-        turning_links=tuple(_turning(mechanism)),
-        lines=(),
-    )
-    return replace(info, lines=tuple(_lines(info, length_unit)))
+    return Info(mechanism, length_unit)
 
 
 def _four_bar(mechanism: Mechanism) -> FourBar | None:

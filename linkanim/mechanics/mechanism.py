@@ -38,15 +38,25 @@ class Variant:
 
 @dataclass(frozen=True)
 class Mechanism:
-    """A linkage with its loops, path and signs, and the programs that solve it."""
+    """A linkage with its loops, path and signs, and the programs that solve it.
+
+    One that is `passing` is asked for a few instants only: they come from the program over arrays, which
+    its cycle needs anyway, since a program of their own would cost more than it saves.
+    """
 
     linkage: Linkage
     assembly: Assembly
+    passing: bool = False
 
     @property
     def periods(self) -> int:
         """The number of drive periods after which every joint is back."""
         return self.assembly.path.periods
+
+    @property
+    def hindered(self) -> bool:
+        """Whether a dyad down the chain limits the input or touches a change point."""
+        return bool(self.assembly.fits or self.assembly.touches)
 
     @cached_property
     def setting(self) -> Setting:
@@ -64,6 +74,9 @@ class Mechanism:
     def pose(self, phase: float, speed: float, acceleration: float, derivatives: int) -> Pose:
         """Return one instant, solved in plain floats."""
         accelerates = acceleration != 0.0
+        if self.passing:
+            found = self._pose_from_arrays(derivatives, phase, speed, acceleration)
+            return Pose(self.setting, (phase, speed, acceleration), found)
         program = self._poses.get((derivatives, accelerates))
         if program is None:
             program = self._scalar(Variant(True, derivatives, accelerates))
@@ -258,3 +271,11 @@ def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:
 def mechanism(linkage: Linkage) -> Mechanism:
     """Return the linkage made ready; AssemblyError where it cannot be put together."""
     return Mechanism(linkage, restricted(assemble(linkage), linkage))
+
+
+def passing(linkage: Linkage) -> Mechanism:
+    """Return a linkage on the way between two whose dyads down the chain close all along.
+
+    They are not looked at: where one does not close after all, its joints are NaN.
+    """
+    return Mechanism(linkage, assemble(linkage), passing=True)

@@ -52,7 +52,7 @@ def edit_list(board: Board, panel: Panel) -> pygame.Surface:
 def _planned(board: Board, panel: Panel) -> _Plan:
     """Return the largest text at which all fits; else the smallest, without the hint, then the facts."""
     sizes = range(board.layout.text_size, board.layout.small_size - 1, -1)
-    for size in sizes:
+    for size in (size for size in sizes if len(panel.rows) <= _room(board, size)):
         plan = _divided(board, panel, size, (panel.facts, panel.hint))
         if len(plan.rows) == len(panel.rows):
             return plan
@@ -73,10 +73,14 @@ def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...],
     said = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
     foot = [(line, board.theme.warning) for line in board.type.wrapped(panel.error or "", size, room)]
     foot += [(line, board.theme.dim) for line in board.type.wrapped(hint, size, room, gap="   ")]
-    height = (board.layout.size[1] - 2 * board.margin) / STEP / size
     chosen = next((n for n, row in enumerate(panel.rows) if row.chosen), 0)
-    left = int(height - len(foot) - len(said) - _FRAME)
+    left = int(_room(board, size) - len(foot) - len(said))
     return _Plan(size, wide, said, foot, around(len(panel.rows), chosen, left))
+
+
+def _room(board: Board, size: int) -> float:
+    """Return how many lines of text the window holds beside the list's frame."""
+    return (board.layout.size[1] - 2 * board.margin) / STEP / size - _FRAME
 
 
 def _head(board: Board, sheet: pygame.Surface, panel: Panel, plan: _Plan) -> None:

@@ -212,10 +212,12 @@ def hud_for(
     """Return the HUD of a scene in a window, None where the window has no column for it.
 
     Its text is as large as lets all that it ever says stand in the column. `before` is the HUD of the
-    picture before this one: it stays where nothing that it depends on has changed.
+    picture before this one: it stays where nothing that it depends on has changed. Of a scene on the way to
+    another it is the other's already.
     """
     if layout.hud is None:
         return None
+    scene = scene.towards or scene
     known = before is not None and before.scene is scene
     if before and known and (before.layout, before.theme) == (layout, theme):
         return before

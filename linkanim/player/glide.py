@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from linkanim.errors import LinkanimError
-from linkanim.scenes.edit import dimensions, with_dimensions
+from linkanim.scenes.edit import dimensions, passing
 from linkanim.scenes.joints import Key
 from linkanim.scenes.scene import Scene
 
-FRAMES = 12
+FRAMES = 16
+EVERY = 2
+"""A scene on the way stands for so many frames: working one out takes as long as drawing two."""
+_TRIED = 90
 _FOLLOWED = ("length", "offset", "angle")
 
 
@@ -37,14 +42,23 @@ def glide(before: Scene, after: Scene, frame: int) -> Glide | None:
 def followed(way: Glide, after: Scene, frame: int) -> Glide | None:
     """Return the glide at `frame`; None when `after` is reached.
 
-    A scene on the way that cannot be assembled is left out: the last one stays.
+    A scene on the way that cannot be assembled all along is left out: the last one stays.
     """
-    part = (frame - way.since) / FRAMES
-    if part >= 1.0:
+    gone = frame - way.since
+    if gone >= FRAMES:
         return None
+    if gone % EVERY:
+        return way
+    part = gone / FRAMES
     eased = part * part * (3.0 - 2.0 * part)
     try:
-        scene = with_dimensions(after, {key: start + (end - start) * eased for key, start, end in way.ways})
+        scene = passing(after, {key: start + (end - start) * eased for key, start, end in way.ways})
     except LinkanimError:
         return way
-    return Glide(scene, way.since, way.ways)
+    return Glide(scene, way.since, way.ways) if closes(scene) else way
+
+
+def closes(scene: Scene) -> bool:
+    """Tell whether every joint is somewhere at all phases."""
+    places = scene.cycle(_TRIED).position.values()
+    return all(bool(np.isfinite(place).all()) for place in places)

@@ -74,10 +74,22 @@ def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
     ("3 cm", "1 rad", "90 deg/s"), and a ratio may be a fraction ("1/3"). KeyError for a key that is
     not one of the scene's dimensions; SceneError and AssemblyError as reading a file raises them.
     """
+    return scene_from(_with(scene, values), name=scene.name, where=scene.name)
+
+
+def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
+    """Return a scene on the way to `scene`, with these dimensions for an instant; errors as above.
+
+    Where no dyad down the chain limits `scene`, none is looked at: one that does not close gives NaN.
+    """
+    return scene_from(_with(scene, values), name=scene.name, where=scene.name, towards=scene)
+
+
+def _with(scene: Scene, values: Mapping[Key, float | str]) -> Mapping[str, Any]:
     known, document = {item.key: item for item in dimensions(scene)}, scene.document
     for key, value in values.items():
         document = _replaced(document, key, _written(value, known[key]))
-    return scene_from(document, name=scene.name, where=scene.name)
+    return document
 
 
 def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, DimensionKind]]:

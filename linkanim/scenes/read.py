@@ -36,12 +36,13 @@ def parse(text: str, where: str) -> dict[str, Any]:
         raise SceneError(f"{where}: is not TOML: {error}") from None
 
 
-def scene_from(document: Mapping[str, Any], *, name: str, where: str) -> Scene:
+def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
     """Return the scene that a document describes.
 
     `where` names the file in errors. Lengths come out in the document's `length_unit` (mm if it has none),
     angles in radians; joints in the order in which they can be solved. SceneError for whatever is unknown,
-    missing or contradictory; AssemblyError for lengths that cannot be assembled.
+    missing or contradictory; AssemblyError for lengths that cannot be assembled. `towards` is the scene that
+    this one is on the way to, where it is shown for an instant.
     """
     top = Table(where, document, unit=_length_unit(Table(where, document)))
     top.only(*_TOP)
@@ -67,6 +68,7 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str) -> Scene:
         chapter=top.text("chapter", ""),
         look_at=top.text("look_at", ""),
         document=document,
+        towards=towards,
     )
     _check_assembly(top, scene)
     return scene

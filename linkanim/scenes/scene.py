@@ -36,19 +36,24 @@ class Scene:
     """What to look at, in a sentence."""
     document: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
     """The scene file as it was read, for editing and writing it back."""
+    towards: Scene | None = field(default=None, repr=False, compare=False)
+    """The scene that this one, shown for an instant, is on the way to; what is told of that holds for it."""
 
     @cached_property
     def mechanism(self) -> Mechanism:
         """The linkage put together; AssemblyError where it cannot be."""
-        from linkanim.mechanics.mechanism import mechanism
+        from linkanim.mechanics.mechanism import mechanism, passing
 
-        return mechanism(self.linkage)
+        free = self.towards is not None and not self.towards.mechanism.hindered
+        return passing(self.linkage) if free else mechanism(self.linkage)
 
     @cached_property
     def info(self) -> Info:
         """The linkage's class, input range, toggles, change points and what else is told of it."""
         from linkanim.mechanics.classify import classify
 
+        if self.towards is not None:
+            return self.towards.info
         return classify(self.mechanism, self.length_unit)
 
     @property

@@ -8,11 +8,12 @@ import pytest
 
 from linkanim.player.action import Action
 from linkanim.player.advance import advance
-from linkanim.player.glide import FRAMES
+from linkanim.player.glide import EVERY, FRAMES, closes
 from linkanim.player.show import overlay
 from linkanim.player.state import FLASH_FRAMES, State, begin
 from linkanim.scenes import load
-from linkanim.scenes.edit import dimensions
+from linkanim.scenes.edit import dimensions, passing
+from linkanim.scenes.read import scene_from
 
 
 def value(state: State, label: str) -> float:
@@ -287,10 +288,54 @@ def test_a_change_begins_and_ends_gently(crank: State) -> None:
     for _ in range(FRAMES + 1):
         lengths.append(shown_crank(state))
         state = advance(state)
-    steps = [a - b for a, b in pairwise(lengths)]
+    steps = [a - b for a, b in pairwise(lengths[::EVERY])]
     assert max(steps[0], steps[-1]) < max(steps) / 4
     assert lengths[FRAMES // 2] == pytest.approx(45.0)
     assert steps == pytest.approx(steps[::-1])
+
+
+def on_the_way(name: str, choose: int, steps: int) -> State:
+    """Return a scene some frames after its chosen dimension was nudged."""
+    state = after(begin(load(name)), "edit", Action("choose", choose), Action("nudge", steps))
+    for _ in range(FRAMES // 2):
+        state = advance(state)
+    assert state.shown is not state.scene
+    return state
+
+
+# Chains with and without dyads beyond the first loop, and one whose second loop limits its input.
+@pytest.mark.parametrize(("name", "choose"), [("crank-rocker", 1), ("press", 0), ("six-bar", 2)])
+def test_a_scene_on_the_way_is_solved_as_exactly_as_any(name: str, choose: int) -> None:
+    shown = on_the_way(name, choose, 2).shown
+    again = scene_from(shown.document, name=name, where=name)
+    for phase in (0.0, 1.0, 4.0):
+        pose, same = shown.pose(phase), again.pose(phase)
+        for joint, place in same.position.items():
+            assert pose.position[joint] == pytest.approx(place, rel=1e-12, abs=1e-9)
+            assert pose.velocity[joint] == pytest.approx(same.velocity[joint], rel=1e-9, abs=1e-6)
+
+
+def test_nothing_is_classified_on_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    state = on_the_way("press", 0, 1)
+    assert state.shown.info is state.scene.info
+
+    def never(*_: object) -> None:
+        raise AssertionError("classified on the way")
+
+    monkeypatch.setattr("linkanim.mechanics.mechanism.restricted", never)
+    monkeypatch.setattr("linkanim.mechanics.classify.classify", never)
+    seen = set()
+    while state.glide:
+        seen.add(state.shown.linkage)
+        state = advance(state)
+    assert len(seen) > 2
+    assert state.effects == ()
+
+
+def test_a_way_past_lengths_that_do_not_close_leaves_them_out() -> None:
+    press = load("press")
+    assert closes(passing(press, {("joints", "C", "length"): 300}))
+    assert not closes(passing(press, {("joints", "C", "length"): 5}))
 
 
 def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
