@@ -158,6 +158,12 @@ def _look(parser: Parser) -> None:
         metavar="v,a",
         help="velocity, acceleration",
     )
+    parser.add_argument(
+        "--names",
+        action="count",
+        default=0,
+        help="name joints and links; twice: their dimensions and the input's angle, too",
+    )
     parser.add_argument("--chart", metavar="QTY", help="a quantity over the period, such as rocker.angle")
     _theme(parser)
     parser.add_argument("--transparent", action="store_true", help="no background (GIF and PNG)")

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 import numpy as np
 
 from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import Bench, fittings, hatched
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Layer
-from linkanim.picture.shapes import rounded, unit
+from linkanim.picture.shapes import rounded, segments, unit
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
@@ -18,7 +21,7 @@ def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> lis
     lines = [loop for fitting in fittings(Bench(figure, view, gauge, theme)) for loop in fitting.guide]
     layers = [Layer(theme.ground, lines)]
     for name in figure.fixed:
-        layers += _pedestal(_pixel(figure, view, name), _away(figure, name), gauge, theme)
+        layers += _pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)
     return layers
 
 
@@ -27,7 +30,7 @@ def _pixel(figure: Figure, view: View, name: str) -> complex:
     return view.place((place.real, place.imag))
 
 
-def _away(figure: Figure, name: str) -> complex:
+def away(figure: Figure, name: str) -> complex:
     """Return the way a pedestal points: down; away from its pull where it only holds springs and dampers."""
     struts = [strut for strut in figure.struts if name in strut.between]
     jointed = any(name in body.joints for body in figure.bodies)
@@ -38,6 +41,18 @@ def _away(figure: Figure, name: str) -> complex:
     here = figure.start(name)
     pull = unit(complex(float(x) - here.real, here.imag - float(y)))
     return -pull
+
+
+def ground_line(names: Sequence[str], figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the line of the ground from pivot to pivot, in dashes and dots."""
+    loops = []
+    for one, other in pairwise(_pixel(figure, view, name) for name in names):
+        marks = np.arange(0, abs(other - one), 9 * gauge.line)
+        along = unit(other - one)
+        dashes, dots = one + along * marks, one + along * (marks + 6.8 * gauge.line)
+        loops += segments(dashes, dashes + 5 * along * gauge.line, 0.8 * gauge.line)
+        loops += segments(dots, dots + 0.9 * along * gauge.line, 0.8 * gauge.line)
+    return [Layer(theme.ground, loops)]
 
 
 def _pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> list[Layer]:

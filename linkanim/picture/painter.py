@@ -14,13 +14,15 @@ from linkanim.mechanics.kinds import Crank
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.chart import pen_for
+from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
-from linkanim.picture.ground import ground_layers
+from linkanim.picture.ground import ground_layers, ground_line
 from linkanim.picture.hud import Hud, hud_for
 from linkanim.picture.layout import Gauge, Layout, gauge, layout
 from linkanim.picture.legend import legend_for
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
+from linkanim.picture.names import Hand, Names, names_of
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
@@ -30,6 +32,7 @@ from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed, theme_of
 from linkanim.picture.trace import Trace, traces
+from linkanim.picture.turning import Turning, turning_of
 from linkanim.picture.vectors import Arrows, arrows_of
 from linkanim.picture.view import View, fit, joined, moved
 from linkanim.scenes.scene import Scene
@@ -52,6 +55,8 @@ class Cast:
     traces: tuple[Trace, ...]
     marks: Mapping[str, Stamp]
     arrows: tuple[Arrows, ...]
+    turning: Turning | None
+    legs: tuple[Part, ...]
 
 
 class Painter:
@@ -84,6 +89,7 @@ class Painter:
         self._hud: Hud | None = hud_for(scene, self._layout, self._type, self._theme, before=said)
         self._panels: Panels = self._laid_over(before)
         self._cast = self._casting()
+        self._names = self._named()
         self._legend = legend_for(self._cast.arrows, self._layout, self._type, self._theme)
         self._bare = self._drawn_once()
         self._still = self._charted()
@@ -105,6 +111,8 @@ class Painter:
         self._run_at(pose.input_speed)
         self._wipe(canvas)
         paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
+        if self._names:
+            self._names.draw(canvas.subsurface(self._stage), pose, self._places(pose))
         if self._strip:
             self._strip.draw_reading(canvas, pose)
         if self._hud:
@@ -172,7 +180,29 @@ class Painter:
                 for kind in (VELOCITY, ACCELERATION)
                 if kind in self.look.vectors
             ),
+            turning=turning_of(*known) if self.look.names else None,
+            legs=tuple(leg_part(legs, self.view, self._gauge, self._theme.dim) for legs in self._symbols.legs)
+            if self.look.names > 1
+            else (),
         )
+
+    @cached_property
+    def _symbols(self) -> Symbols:
+        return symbols(self._figure)
+
+    def _named(self) -> Names | None:
+        """Return the names of joints and links, and their dimensions, where the look asks for them."""
+        if not self.look.names:
+            return None
+        hand = Hand(self._type, self._layout, self._theme, self._gauge)
+        known = self._symbols if self.look.names > 1 else None
+        return names_of(self._figure, self.view, hand, self._cast.turning, known)
+
+    @cached_property
+    def _stage(self) -> pygame.Rect:
+        """Return the window down to the chart."""
+        chart = self._layout.chart
+        return pygame.Rect(0, 0, self.size[0], int(chart.y) if chart else self.size[1])
 
     def _drawn_once(self) -> pygame.Surface:
         """Return the layer that stands still but for the chart: background, ground, curves, key."""
@@ -227,9 +257,16 @@ class Painter:
         return self._on_stage(layers) + (self._strip.cursor(pose) if self._strip else [])
 
     def _curves(self, *, still: bool) -> list[Layer]:
-        """Return the whole curves; they are part of what stands still where nothing moves behind them."""
+        """Return the ground line and the whole curves.
+
+        They are part of what stands still where nothing moves behind them.
+        """
         moving_behind = bool(self._cast.wheels) or self.look.ghost
-        return [] if still == moving_behind else [trace.whole() for trace in self._cast.traces]
+        if still == moving_behind:
+            return []
+        known = (self._figure, self.view, self._gauge, self._theme)
+        line = ground_line(pivots(self._figure), *known) if self.look.names else []
+        return [*line, *(trace.whole() for trace in self._cast.traces)]
 
     def _above(self, pose: Pose) -> Iterator[Layer]:
         places, cast = self._places(pose), self._cast
@@ -238,9 +275,20 @@ class Painter:
         for strut in cast.struts:
             yield from strut.layers(places)
         yield from self._pinned(places)
+        yield from placed(cast.legs, places)
+        if cast.turning:
+            yield from self._turning(pose, cast.turning, places)
         yield from cast.mass.at([self.view.place(at) for at in pose.com_position.values()])
         for kind in cast.arrows:
             yield from kind.layers(pose, self.view, self.scene.trace)
+
+    def _turning(self, pose: Pose, turning: Turning, places: Places) -> Iterator[Layer]:
+        """Yield the way the input turns, and its angle."""
+        if self.look.names > 1:
+            yield from turning.angle(places)
+        if pose.input_speed:
+            rate = abs(self.scene.linkage.drive.speed / pose.input_speed)
+            yield from turning.direction(pose, places, rate)
 
     def _pinned(self, places: Places) -> Iterator[Layer]:
         """Yield the bodies with their pins, each pin at the depth of its own links."""

@@ -17,7 +17,7 @@ from pictures import BARE, painted
 from test_figure import inverted
 from test_moving_parts import geared
 
-from linkanim.picture.look import Look
+from linkanim.picture.look import Look, ThemeName
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
@@ -62,8 +62,24 @@ def test_a_picture_is_the_golden_one(name: str, phase: float, look: Look, tmp_pa
     assert worst <= LEVELS, f"{worst} levels apart; side by side in {_beside(drawn, wanted, tmp_path)}"
 
 
+@pytest.mark.parametrize("size", [(320, 180), (1280, 720), (720, 1280)])
+@pytest.mark.parametrize(("name", "level", "theme"), [("crank-rocker", 2, "light"), ("press", 1, "dark")])
+def test_names_stand_as_in_the_golden_picture(
+    name: str, level: int, theme: ThemeName, size: tuple[int, int], tmp_path: Path
+) -> None:
+    """Letters may differ by a shade between machines, so a two hundredth of the picture may."""
+    look = Look(theme=theme, names=level, hud=False)
+    drawn = painted(load(name), 1.0, look, size)
+    golden = FOLDER / f"names-{name}-{size[0]}x{size[1]}.png"
+    if os.environ.get("LINKANIM_GOLDENS") == "write":
+        pygame.image.save(drawn, golden)
+    wanted = pygame.image.load(golden)
+    differ = np.abs(_levels(drawn) - _levels(wanted)).max(axis=-1) > LEVELS
+    assert differ.mean() < 0.005, f"side by side in {_beside(drawn, wanted, tmp_path)}"
+
+
 def test_no_golden_is_left_without_its_test() -> None:
-    assert len(list(FOLDER.glob("*.png"))) == 11
+    assert len(list(FOLDER.glob("*.png"))) == 17
 
 
 def _file_name(name: str, look: Look) -> str:

@@ -1,0 +1,78 @@
+"""Words that move: set once in a halo, and put down to a quarter of a pixel, so that they glide."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from linkanim.picture.raster import Colour
+from linkanim.picture.text import Type
+
+_FINE = 4
+"""Words are set so many times larger and averaged, and placed to such a part of a pixel."""
+
+
+class Lettering:
+    """One line of text in a halo of another colour, drawn about its middle."""
+
+    def __init__(self, text: str, kind: Type, size: int, colours: tuple[Colour, Colour], halo: float) -> None:
+        ink, back = colours
+        self.text = text
+        self._large = _haloed(_letters(text, kind, size), round(_FINE * halo), ink, back)
+        self._drawn: dict[tuple[int, int], pygame.Surface] = {}
+        high, wide = self._large.shape[:2]
+        self.size: tuple[float, float] = (wide / _FINE, high / _FINE)
+
+    def draw(self, surface: pygame.Surface, middle: complex, shown: float = 1.0) -> None:
+        """Draw the words about a place in pixels, as strongly as 0 (not at all) to 1 says."""
+        x = round(_FINE * middle.real - self._large.shape[1] / 2)
+        y = round(_FINE * middle.imag - self._large.shape[0] / 2)
+        sprite = self._sprite(x % _FINE, y % _FINE)
+        sprite.set_alpha(round(255 * shown))
+        surface.blit(sprite, (x // _FINE, y // _FINE))
+
+    def _sprite(self, right: int, down: int) -> pygame.Surface:
+        """Return the words so many parts of a pixel further right and down."""
+        if (right, down) not in self._drawn:
+            self._drawn[right, down] = _averaged(self._large, right, down)
+        return self._drawn[right, down]
+
+
+def _letters(text: str, kind: Type, size: int) -> NDArray[np.float32]:
+    """Return how far a large line of text covers (height, width), 0 to 1, without empty rows."""
+    large = _FINE * size
+    sheet = pygame.Surface((kind.width(text, large, strong=True) + _FINE, 2 * large), pygame.SRCALPHA, 32)
+    kind.draw(sheet, text, (_FINE // 2, large // 2), size=large, colour=(255, 255, 255), strong=True)
+    cover = pygame.surfarray.array_alpha(sheet).T.astype(np.float32) / 255
+    rows = np.flatnonzero(cover.any(axis=1))
+    return np.asarray(cover[rows[0] : rows[-1] + 1] if rows.size else cover[:1], np.float32)
+
+
+def _haloed(cover: NDArray[np.float32], halo: int, ink: Colour, back: Colour) -> NDArray[np.float32]:
+    """Return letters in ink on a halo as (height, width, 4), colours times opacity, 0 to 1."""
+    cover = np.pad(cover, halo + 1)
+    around = cover.copy()
+    for turn in np.linspace(0, 2 * np.pi, 24, endpoint=False):
+        shift = round(halo * np.sin(turn)), round(halo * np.cos(turn))
+        np.maximum(around, np.roll(cover, shift, (0, 1)), out=around)
+    opacity = np.maximum(around, cover)[..., None]
+    inks, backs = (np.array(colour, np.float32) / 255 for colour in (ink, back))
+    letters = cover[..., None]
+    colours = letters * inks + np.maximum(opacity - letters, 0) * backs
+    return np.concatenate((colours, opacity), axis=-1)
+
+
+def _averaged(large: NDArray[np.float32], right: int, down: int) -> pygame.Surface:
+    high, wide = (
+        ceil((side + shift) / _FINE) for side, shift in zip(large.shape, (down, right), strict=False)
+    )
+    room = np.zeros((high * _FINE, wide * _FINE, 4), np.float32)
+    room[down : down + large.shape[0], right : right + large.shape[1]] = large
+    small = room.reshape(high, _FINE, wide, _FINE, 4).mean(axis=(1, 3))
+    opacity = np.maximum(small[..., 3:], 1e-6)
+    straight = np.concatenate((small[..., :3] / opacity, small[..., 3:]), axis=-1)
+    levels = (255 * straight + 0.5).astype(np.uint8)
+    return pygame.image.frombuffer(levels.tobytes(), (wide, high), "RGBA")

@@ -1,0 +1,200 @@
+"""Where labels stand over a whole cycle: chosen once, near what they name, off all else, moving smoothly.
+
+Every label has a few places to choose from at each of the cycle's moments. The path through them that
+costs least in all, for lying over things and for moving, is found by dynamic programming (the Viterbi
+algorithm), closed over the cycle and smoothed. What is placed is in the way of the labels after it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.picture.raster import Loop
+from linkanim.picture.view import Rect
+
+_Floats = NDArray[np.float64]
+_Bools = NDArray[np.bool_]
+
+MOMENTS = 72
+"""Of one drive period."""
+_MOVING, _HURRY = 2.0, 60.0
+"""What it costs to move by the label's own height, and the more to do so at once, where lying over a bar
+for a moment costs 1."""
+_MARGIN = 0.08
+"""How far labels are planned to stay off what they must not touch, in their heights: bends are rounded."""
+_FORBIDDEN = 60.0
+_SOFT = 1.5
+"""The smoothing's standard deviation, in moments."""
+_GONE = 4
+"""How many moments before it would lie on something a label is gone."""
+_REACH = 6
+"""How many moments either way the smoothing looks."""
+
+
+class Bars(NamedTuple):
+    """Lines (n moments, m) that labels had better not lie on, each so thick and so much in the way."""
+
+    begin: Loop
+    end: Loop
+    half: _Floats
+    weight: _Floats
+
+
+@dataclass(frozen=True)
+class Clutter:
+    """What labels must stay off: discs (n moments, m), rectangles, all that is not `inside`; and bars."""
+
+    discs: Loop
+    radii: _Floats
+    rects: tuple[Rect, ...]
+    inside: Rect
+    bars: Bars
+
+
+class Wish(NamedTuple):
+    """A label: how large, where it may stand at each of n moments (n, k), and the price of each place.
+
+    `frame` is (origin, direction) of what it belongs to at each moment, in which it had better rest.
+    `own` are the numbers of the bars that it may lie on.
+    """
+
+    size: tuple[float, float]
+    places: Loop
+    price: _Floats
+    frame: tuple[Loop, Loop]
+    own: tuple[int, ...] = ()
+
+
+class Path(NamedTuple):
+    """A label's place in its frame at each moment, smooth over the cycle, and how far it shows (0 to 1)."""
+
+    offset: Loop
+    shown: _Floats
+
+    def at(self, share: float) -> tuple[complex, float]:
+        """Return place and showing at a share of the cycle (1 is the whole)."""
+        count = len(self.offset)
+        middle = share * count
+        near = np.arange(round(middle) - _REACH, round(middle) + _REACH + 1)
+        weight = np.exp(-0.5 * ((near - middle) / _SOFT) ** 2)
+        weight /= weight.sum()
+        return complex(self.offset[near % count] @ weight), float(self.shown[near % count] @ weight)
+
+
+def place(wishes: Sequence[Wish], clutter: Clutter) -> list[Path]:
+    """Return a path for each label; the first have the first choice."""
+    taken: list[tuple[Loop, tuple[float, float]]] = []
+    paths = []
+    for wish in wishes:
+        path = _placed(wish, clutter, taken)
+        if path.shown.any():
+            taken.append((_track(path, wish), wish.size))
+        paths.append(path)
+    return paths
+
+
+def _placed(wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, float]]]) -> Path:
+    margin = 2 * _MARGIN * wish.size[1]
+    planned = wish._replace(size=(wish.size[0] + margin, wish.size[1] + margin))
+    cost = wish.price + _lying(wish, clutter.bars)
+    cost += _FORBIDDEN * _blocked(wish.places, planned, clutter, taken)
+    origin, direction = wish.frame
+    local = (wish.places - origin[:, None]) / direction[:, None]
+    chosen = _cheapest(cost, _moves(local, wish.size[1]))
+    path = Path(np.take_along_axis(local, chosen[:, None], axis=1)[:, 0], np.ones(len(cost)))
+    blocked = _blocked(_track(path, wish)[:, None], wish, clutter, taken)[:, 0]
+    return path._replace(shown=_eased(blocked))
+
+
+def _track(path: Path, wish: Wish) -> Loop:
+    """Return where a label stands at each moment, as it will be drawn."""
+    near = np.arange(-_REACH, _REACH + 1)
+    weight = np.exp(-0.5 * (near / _SOFT) ** 2)
+    smooth = sum(np.roll(path.offset, shift) * share for shift, share in zip(near, weight, strict=True))
+    origin, direction = wish.frame
+    track: Loop = origin + direction * smooth / weight.sum()
+    return track
+
+
+def _moves(local: Loop, height: float) -> _Floats:
+    """Return the cost (k, k) of going from one place to another between two moments."""
+    some = local[::9]
+    apart = np.abs(some[:, :, None] - some[:, None, :]).mean(axis=0) / height
+    return np.asarray(_MOVING * apart + _HURRY * apart**2)
+
+
+def _cheapest(cost: _Floats, moves: _Floats) -> NDArray[np.int64]:
+    """Return which place to take at each moment; the last leads back to the first."""
+    count = len(cost)
+    twice = _walked(np.concatenate((cost, cost)), moves)
+    begin = int(twice[count])
+    closed = np.concatenate((cost, cost[:1]))
+    closed[[0, -1]] = np.inf
+    closed[[0, -1], begin] = cost[0, begin]
+    return _walked(closed, moves)[:count]
+
+
+def _walked(cost: _Floats, moves: _Floats) -> NDArray[np.int64]:
+    """Return the cheapest path from the first moment to the last."""
+    total, came = cost[0], np.empty(cost.shape, np.int64)
+    for n in range(1, len(cost)):
+        ways = total[:, None] + moves
+        came[n] = ways.argmin(axis=0)
+        total = ways.min(axis=0) + cost[n]
+    chosen = np.empty(len(cost), np.int64)
+    chosen[-1] = total.argmin()
+    for n in range(len(cost) - 1, 0, -1):
+        chosen[n - 1] = came[n, chosen[n]]
+    return chosen
+
+
+def _blocked(
+    places: Loop, wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, float]]]
+) -> _Bools:
+    """Return whether the label would lie on a disc, a rectangle or another label, or reach outside."""
+    wide, high = wish.size
+    away = places[:, :, None] - clutter.discs[:, None, :]
+    beside = np.maximum(np.abs(away.real) - wide / 2, 0), np.maximum(np.abs(away.imag) - high / 2, 0)
+    blocked: _Bools = np.asarray((np.hypot(*beside) < clutter.radii).any(axis=2))
+    for rect in clutter.rects:
+        middle = complex(rect.x + rect.width / 2, rect.y + rect.height / 2)
+        blocked |= _over(places - middle, wide + rect.width, high + rect.height)
+    for track, (width, height) in taken:
+        blocked |= _over(places - track[:, None], wide + width + 2, high + height)
+    room = clutter.inside
+    inside = (places.real - wide / 2 >= room.x) & (places.real + wide / 2 <= room.right)
+    inside &= (places.imag - high / 2 >= room.y) & (places.imag + high / 2 <= room.bottom)
+    return blocked | ~inside
+
+
+def _over(away: Loop, width: float, height: float) -> _Bools:
+    return np.asarray((2 * np.abs(away.real) < width) & (2 * np.abs(away.imag) < height))
+
+
+def _lying(wish: Wish, bars: Bars) -> _Floats:
+    """Return how much each place lies over bars: 0 for none, 1 for right on one, more for more."""
+    wide, high = wish.size
+    weight = bars.weight.copy()
+    weight[list(wish.own)] = 0.0
+    reach = max(wide - high, 0.0) / 2
+    points = wish.places[:, :, None, None] + np.array([-reach, 0.0, reach])[:, None]
+    begin, along = bars.begin[:, None, None, :], (bars.end - bars.begin)[:, None, None, :]
+    squared = np.maximum(np.abs(along) ** 2, 1e-9)
+    share = np.clip(((points - begin) * np.conj(along)).real / squared, 0, 1)
+    away = np.abs(points - begin - share * along)
+    over = np.clip((bars.half + high / 2 - away) / high, 0, 1).max(axis=2)
+    lying: _Floats = (over * weight * np.minimum(2 * bars.half / high, 1)).sum(axis=2)
+    return lying
+
+
+def _eased(blocked: _Bools) -> _Floats:
+    """Return how far a label shows that must not at some moments; it is gone in time for each."""
+    hidden = blocked.copy()
+    for shift in range(1, _GONE + 1):
+        hidden |= np.roll(blocked, shift) | np.roll(blocked, -shift)
+    return np.where(hidden, 0.0, 1.0)

@@ -1,0 +1,97 @@
+"""The input's turning: an arrow that bends the way the driven bar turns, and the arc of its angle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tau
+
+import numpy as np
+
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts import Places
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import segments, stroke, unit
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import View
+
+_SWEEP = 1.25
+"""How much of a turn the arrow covers where the input is fastest, in radians."""
+_AHEAD = 0.3
+"""How far ahead of the bar it begins, in radians."""
+
+
+@dataclass(frozen=True)
+class Turning:
+    """What shows how the bar from `pivot` to `pin` turns; radii in pixels, `fastest` in rad/s."""
+
+    pivot: str
+    pin: str
+    arc: float
+    arrow: float
+    fastest: float
+    colours: tuple[Colour, Colour]
+    gauge: Gauge
+
+    def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
+        """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
+        turning = -pose.crank_rate * rate / self.fastest if self.fastest > 0 else 0.0
+        sweep = _SWEEP * min(max(turning, -1.0), 1.0)
+        if not abs(sweep) > 0.02:
+            return []
+        centre, way = self._bar(places)
+        side = 1 if sweep > 0 else -1
+        ink, back = self.colours
+        line, rim = 1.7 * self.gauge.line, 0.9 * self.gauge.line
+        bend, head = self._bend(sweep, side), self._head(abs(sweep))
+        tip = self.arrow * np.exp(1j * (side * _AHEAD + sweep))
+        found = []
+        for colour, wider in ((back, rim), (ink, 0.0)):
+            loops = [centre + way * loop for loop in stroke(bend, line + 2 * wider)]
+            barb = _barb(head + 2 * wider) * np.exp(1j * (side * _AHEAD + sweep)) * 1j * side
+            found.append(Layer(colour, [*loops, centre + way * (tip + barb)]))
+        return found
+
+    def angle(self, places: Places) -> list[Layer]:
+        """Return the arc from the horizontal to the bar, counter-clockwise, and the line it begins at."""
+        centre, way = self._bar(places)
+        turned = float(np.angle(way.conjugate())) % tau
+        path = centre + self.arc * np.exp(-1j * np.linspace(0, turned, max(round(turned * 12), 2)))
+        dashes = np.arange(0, 1.45 * self.arc, 3.5 * self.gauge.line)
+        ends = centre + dashes, centre + dashes + 2.2 * self.gauge.line
+        ink, back = self.colours
+        return [
+            Layer(back, stroke(path, 2.6 * self.gauge.line)),
+            Layer(ink, [*stroke(path, 0.9 * self.gauge.line), *segments(*ends, 0.8 * self.gauge.line)]),
+        ]
+
+    def _bar(self, places: Places) -> tuple[complex, complex]:
+        return places[self.pivot], unit(places[self.pin] - places[self.pivot])
+
+    def _bend(self, sweep: float, side: int) -> Loop:
+        """Return the arrow's bend about the pivot, the bar along the real axis."""
+        angles = side * _AHEAD + sweep * np.linspace(0, 1, 16)
+        return np.asarray(self.arrow * np.exp(1j * angles), np.complex128)
+
+    def _head(self, sweep: float) -> float:
+        """Return the head's length, less where the arrow is short."""
+        return min(6.5 * self.gauge.line, 0.8 * sweep * self.arrow)
+
+
+def _barb(length: float) -> Loop:
+    """Return a triangle along the real axis whose point is a little ahead of 0."""
+    return np.asarray(length * np.array([0.75, -0.35 + 0.5j, -0.35 - 0.5j]), np.complex128)
+
+
+def turning_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | None:
+    """Return the driven bar's turning; None where the input is no crank on a pivot."""
+    pin = figure.linkage.drive.joint
+    pivot = getattr(figure.linkage.joint(pin), "pivot", None)
+    if pivot is None:
+        return None
+    length = view.scale * abs(figure.start(pin) - figure.start(pivot))
+    arc = max(0.36 * length, 2.2 * gauge.bar)
+    arrow = max(min(0.7 * length, 8 * gauge.bar), arc + 1.6 * gauge.bar)
+    fastest = float(np.nanmax(np.abs(figure.cycle.crank_rate)))
+    return Turning(pivot, pin, arc, arrow, fastest, (theme.ink, theme.background), gauge)

@@ -1,0 +1,223 @@
+"""Names stand still or glide, lie on nothing that matters, and say what the scene says."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+from pictures import BARE, painted, pixels
+
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.dimensions import numbered, symbols, written
+from linkanim.picture.figure import figure
+from linkanim.picture.lettering import Lettering
+from linkanim.picture.look import Look
+from linkanim.picture.names import Names
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.painter import Painter
+from linkanim.picture.placing import Bars, Clutter, Wish, place
+from linkanim.picture.text import Type
+from linkanim.picture.view import Rect
+from linkanim.scenes import load, names
+from linkanim.scenes.scene import Scene
+
+SIZES = [(320, 180), (1280, 720), (720, 1280)]
+
+
+def _names(painter: Painter) -> Names:
+    assert painter._names is not None
+    return painter._names
+
+
+def _standing(painter: Painter, pose: Pose) -> Iterator[tuple[str, Rect]]:
+    """Yield what is written and the rectangle it takes, for every label that shows."""
+    names, places = _names(painter), painter._places(pose)
+    for label in names.labels:
+        middle, shown = label.placed(pose.phase / names.period, places)
+        wide, high = label.lettering.size
+        if shown:
+            yield label.lettering.text, Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)
+
+
+def _gap(one: Rect, other: Rect) -> float:
+    """Return how far two rectangles are apart; negative where they overlap."""
+    across = max(one.x - other.right, other.x - one.right)
+    return max(across, one.y - other.bottom, other.y - one.bottom)
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("name", names())
+def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size: tuple[int, int]) -> None:
+    scene = load(name)
+    painter = Painter(scene, size, Look(names=1, chart="A.velocity" if name == "press" else None))
+    gauge, hud, chart = painter._gauge, painter._layout.hud, painter._layout.chart
+    assert hud
+    for phase in np.linspace(0, scene.period, 31):
+        pose = scene.pose(float(phase))
+        labels = list(_standing(painter, pose))
+        pins = [painter._places(pose)[pin] for pin in painter._figure.pins]
+        for (one, box), (other, second) in combinations(labels, 2):
+            assert _gap(box, second) > -1.0, (one, other, phase)
+        for text, box in labels:
+            assert _gap(box, hud) > -1.0, text
+            assert 0 <= box.x < box.right <= size[0], text
+            assert 0 <= box.y < box.bottom <= (chart.y if chart else size[1]), text
+            for pin in pins:
+                x, y = min(max(pin.real, box.x), box.right), min(max(pin.imag, box.y), box.bottom)
+                assert abs(pin - complex(x, y)) > gauge.pin - 1.0, (text, phase)
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "press", "double-rocker", "kite"])
+def test_no_name_jumps_from_frame_to_frame(name: str) -> None:
+    """Beside its joint a name moves by a seventh of its height, and rounding, in a 300th of a turn."""
+    scene = load(name)
+    painter = Painter(scene, (1280, 720), Look(names=2))
+    names = _names(painter)
+    steps = round(300 * scene.period / math.tau)
+    for label in names.labels:
+        way = [label.path.at(step / steps) for step in range(steps + 1)]
+        moved = np.abs(np.diff([offset for offset, _ in way]))
+        changed = np.abs(np.diff([shown for _, shown in way]))
+        assert moved.max() < label.lettering.size[1] / 7 + 2.0, label.lettering.text
+        assert changed.max() < 0.2, label.lettering.text
+        assert way[0] == pytest.approx(way[-1])
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_joint_and_link_is_named_for_most_of_the_cycle(name: str) -> None:
+    scene = load(name)
+    labels = _names(Painter(scene, (1280, 720), Look(names=1))).labels
+    shown = {label.lettering.text: label.path.shown.mean() for label in labels}
+    joints = {joint.replace("2", "₂").replace("4", "₄") for joint in ("O2", "A", "B")}
+    assert joints <= shown.keys()
+    assert {body.name for body in scene.linkage.bodies} <= shown.keys()
+    assert np.mean(list(shown.values())) > 0.8
+
+
+def _table(scene: Scene) -> dict[str, float]:
+    known = symbols(figure(scene))
+    lengths = {length.symbol: length.value for length in known.dimensions}
+    legs = {symbol: at for legs in known.legs for symbol, at in zip(legs.symbols, legs.point.at, strict=True)}
+    return lengths | legs | {known.input: 0.0}
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("crank-rocker", {"r₁": 100, "r₂": 50, "r₃": 85, "r₄": 80, "r₅": 80, "r₆": -70, "θ₂": 0}),
+        # as in its file: r5 from O4 to O6, r6 fixed to the rocker
+        ("six-bar", {"r₁": 100, "r₂": 45, "r₃": 90, "r₄": 80, "r₅": 140, "r₆": 70, "r₇": 120, "r₈": 90}),
+        # links that have numbers keep them; the ground is from pivot to pivot
+        ("press", {"r₁": 330, "r₂": 55, "r₃": 283, "r₄": 322, "r₆": 165, "r₇": 61, "θ₂": 0}),
+        # the driven bar is link 4
+        ("rocker-driven", {"r₁": 130, "r₂": 100, "r₃": 140, "r₄": 140, "θ₄": 0}),
+    ],
+)
+def test_the_symbols_are_the_textbook_s(name: str, wanted: dict[str, float]) -> None:
+    found = _table(load(name))
+    assert {symbol: found[symbol] for symbol in wanted} == pytest.approx(wanted)
+    if name == "press":
+        assert found.keys() == wanted.keys()
+
+
+def test_dimensions_and_the_angle_come_with_the_second_level() -> None:
+    scene = load("crank-rocker")
+    one, two = (_names(Painter(scene, (1280, 720), Look(names=level))).labels for level in (1, 2))
+    words = {label.lettering.text for label in two} - {label.lettering.text for label in one}
+    assert words == {
+        written(f"r{'₀₁₂₃₄₅₆'[n]}", value, "mm") for n, value in enumerate((0, 100, 50, 85, 80, 80, -70)) if n
+    } | {"θ₂"}
+
+
+def test_where_bars_are_short_links_are_called_by_their_numbers() -> None:
+    scene = load("crank-rocker")
+    texts = {label.lettering.text for label in _names(Painter(scene, (320, 180), Look(names=1))).labels}
+    assert {"2", "3", "4"} <= texts
+    assert list(numbered(figure(load("press"))).values()) == ["2", "3", "4", "5", "6", "7"]
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "double-rocker"])
+def test_the_arrow_bends_the_way_the_input_turns_and_turns_over_with_it(name: str) -> None:
+    scene = load(name)
+    painter = Painter(scene, (1280, 720), replace(BARE, names=1))
+    turning, drive = painter._cast.turning, scene.linkage.drive
+    assert turning
+    for phase, speed in ((1.0, drive.speed), (1.0, -drive.speed), (4.0, 3 * drive.speed)):
+        pose = scene.pose(phase, speed=speed)
+        places = painter._places(pose)
+        line = turning.direction(pose, places, abs(drive.speed / speed))[-1]
+        centre, tip = places[turning.pivot], line.loops[-1][0]
+        bar = places[turning.pin] - centre
+        ahead = -np.angle((tip - centre) / bar)
+        assert np.sign(ahead) == np.sign(pose.crank_rate)
+        assert 0.2 < abs(ahead) < 2.2
+
+
+def test_an_input_that_stands_still_has_no_arrow() -> None:
+    scene = load("crank-rocker")
+    painter = Painter(scene, (640, 360), replace(BARE, names=1))
+    painter.paint(offscreen((640, 360)), scene.pose(1.0, speed=0.0))
+    assert painter._cast.turning
+    assert (
+        painter._cast.turning.direction(scene.pose(1.0, speed=0.0), painter._places(scene.pose(1.0)), 1.0)
+        == []
+    )
+
+
+def test_the_ground_line_runs_from_pivot_to_pivot() -> None:
+    scene, size = load("crank-rocker"), (640, 360)
+    view = Painter(scene, size, BARE).view
+    with_line, without = (pixels(painted(scene, 1.0, replace(BARE, names=level), size)) for level in (1, 0))
+    (x0, y), (x1, _) = view.to_pixel(0, 0), view.to_pixel(100, 0)
+    row = slice(round(y) - 1, round(y) + 1)
+    between = np.abs(with_line - without).max(axis=-1)[row, round(x0) + 30 : round(x1) - 30]
+    assert 0.4 < (between > 20).any(axis=0).mean() < 0.95
+
+
+def test_a_label_keeps_still_where_nothing_comes_in_its_way_and_is_gone_where_it_must_be() -> None:
+    """A disc sweeps over the only place of one label, and past one of two places of another."""
+    count = 72
+    none = np.zeros((count, 0), np.complex128)
+    disc = np.full((count, 1), 500 + 500j)
+    disc[30:33] = 100 + 100j
+    bars = Bars(none, none, np.zeros(0), np.zeros(0))
+    clutter = Clutter(disc, np.array([5.0]), (), Rect(0, 0, 400, 400), bars)
+    frame = np.zeros(count, np.complex128), np.ones(count, np.complex128)
+    only = Wish((20.0, 10.0), np.full((count, 1), 100 + 100j), np.zeros(1), frame)
+    free = Wish(
+        (20.0, 10.0),
+        np.stack([disc[:, 0] * 0 + 100 + 100j, disc[:, 0] * 0 + 100 + 120j], 1),
+        np.array([0, 0.1]),
+        frame,
+    )
+    (stuck,) = place([only], clutter)
+    assert stuck.at(31 / count)[1] < 0.05
+    assert stuck.at(60 / count)[1] == 1.0
+    (still,) = place([free], clutter)
+    assert np.all(still.offset == still.offset[0])
+    assert still.offset[0] == 100 + 120j
+    assert still.shown.all()
+    first, second = place(
+        [only, only],
+        replace(clutter, discs=none, radii=np.zeros(0)),
+    )
+    assert first.shown.all()
+    assert not second.shown.any()
+
+
+def test_words_glide_by_quarters_of_a_pixel() -> None:
+    lettering = Lettering("O₂", Type(), 20, ((0, 0, 0), (255, 255, 255)), 2.0)
+    centres = []
+    for step in range(9):
+        surface = offscreen((80, 60))
+        surface.fill((128, 128, 128))
+        lettering.draw(surface, 40.0 + step / 8 + 30j)
+        dark = np.clip(128 - pixels(surface)[..., 0], 0, None)
+        centres.append((np.indices(dark.shape)[1] * dark).sum() / dark.sum())
+    steps = np.diff(centres)
+    assert centres[-1] - centres[0] == pytest.approx(1.0, abs=0.02)
+    assert steps.max() < 0.3
