@@ -17,6 +17,7 @@ from linkanim.player import display
 from linkanim.player.action import Action
 from linkanim.player.advance import carried
 from linkanim.player.clock import STEP
+from linkanim.player.glide import FRAMES
 from linkanim.player.state import TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
@@ -317,7 +318,7 @@ def test_edits_are_followed_and_undone_to_the_same_pixels(player: Player) -> Non
     player.press(*plain("e"))
     player.press(*bare(pygame.K_RIGHT))
     player.press(*plain("e"))
-    on_the_way = {player.pixels for _ in range(10) if player.tick()}
+    on_the_way = {player.pixels for _ in range(FRAMES - 3) if player.tick()}
     assert len(on_the_way) > 5
     player.tick(20)
     assert player.pixels not in {pixels, *on_the_way}
