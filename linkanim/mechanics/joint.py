@@ -27,7 +27,7 @@ class Need(NamedTuple):
 
     key: str
     joint: str
-    must: Literal["", "fixed", "moving", "crank"] = ""
+    must: Literal["", "fixed", "crank"] = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +48,16 @@ class Joint(ABC):
     @property
     def needs(self) -> tuple[Need, ...]:
         """The joints that this one is found from."""
+        return ()
+
+    @property
+    def moved_by(self) -> tuple[Need, ...]:
+        """Those of its needs of which at least one must move, or nothing would."""
+        return ()
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The joints that must be on one rigid body, the first two of them apart: they show its axis."""
         return ()
 
     @property

@@ -135,6 +135,12 @@ class Walk:
             piece.arms[on[0], name] = arm
         return self.points[on[0]] + carried(arm, piece.turning)
 
+    def axis(self, on: tuple[str, str]) -> tuple[Vec, Slope]:
+        """Return the direction from one joint of a body to another, of length 1, and how the body turns."""
+        n = self._body_of(on, "line of travel")
+        start, end = (self.linkage.frames[n][name] for name in on)
+        return self._arm(self.pieces[n], *on).scaled(1.0 / abs(end - start)), self.pieces[n].turning
+
     def _arm(self, piece: Piece, start: str, end: str) -> Vec:
         """Return the vector from one joint of a rigid body to another."""
         if (start, end) in piece.arms:

@@ -16,6 +16,8 @@ from linkanim.scenes.scene import Scene
 
 SAMPLES = 720
 _MOST_PERIODS = 4
+DOWN = np.array([1, -1j])
+"""Times a vector (x, y) with y up: x + yi with y down, as pixels count."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,13 @@ class Figure:
         """Return where a joint stands as the cycle begins, in the scene's unit, y up."""
         x, y = self.cycle.position[name][0]
         return complex(float(x), float(y))
+
+    def path_on(self, name: str, on: tuple[str, str], view: View) -> Loop:
+        """Return the pixels a joint passes through as its body sees it: from on[0], on[1] lying at 0°."""
+        start, end, point = (self.cycle.position[joint] for joint in (*on, name))
+        way, axis = ((to - start) @ DOWN for to in (point, end))
+        path: Loop = view.scale * way * np.conj(axis) / np.abs(axis)
+        return path
 
     def path(self, name: str, view: View) -> Loop:
         """Return the pixels a joint passes through in one cycle, at equal steps of phase."""

@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from linkanim.mechanics.joint import Joint
 from linkanim.mechanics.kinds import RPP, RPR, RRP
-from linkanim.picture.figure import Figure
+from linkanim.mechanics.rail import Line
+from linkanim.picture.figure import DOWN, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Part, lined
 from linkanim.picture.raster import Layer, Loop
@@ -62,11 +63,23 @@ def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[L
 def _slider(joint: RRP, bench: Bench) -> Fitting:
     """Return a block, and the two rails that it runs between."""
     along = complex(np.exp(-1j * joint.line.angle))
-    block = _block(bench, along)
-    return Fitting(
-        behind=(Part(joint.name, joint.name, joint.name, block, (joint.name,)),),
-        guide=tuple(_rails(joint.name, along, bench)),
-    )
+    block = Part(joint.name, *_ways(joint.name, joint.line), _block(bench, along), (joint.name,))
+    return _guided(joint.name, joint.line, along, bench, (block,))
+
+
+def _ways(name: str, line: Line) -> tuple[str, str]:
+    """Return the joints whose direction what lies on a line keeps: its body's, or none on the ground."""
+    return line.on or (name, name)
+
+
+def _guided(name: str, line: Line, along: complex, bench: Bench, parts: tuple[Part, ...]) -> Fitting:
+    """Return parts with their rails, which stand on the ground or go along with the line's body."""
+    if line.on is None:
+        return Fitting(behind=parts, guide=tuple(_rails(bench.figure.path(name, bench.view), along, bench)))
+    tail, head = line.on
+    rails = tuple(_rails(bench.figure.path_on(name, line.on, bench.view), along, bench))
+    carried = Part(tail, tail, head, (Layer(bench.theme.ground, list(rails)),))
+    return Fitting(behind=(carried, *parts))
 
 
 def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
@@ -77,9 +90,9 @@ def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[La
     return Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner])
 
 
-def _rails(name: str, along: complex, bench: Bench) -> Iterator[Loop]:
-    """Yield the lines of two rails, as long as the joint's travel needs."""
-    gauge, path = bench.gauge, bench.figure.path(name, bench.view)
+def _rails(path: Loop, along: complex, bench: Bench) -> Iterator[Loop]:
+    """Yield the lines of two rails, as long as what travels along the path needs."""
+    gauge = bench.gauge
     way = np.real(path * np.conj(along))
     across = float(np.nanmean(np.imag(path * np.conj(along))))
     beyond = (_BLOCK[0] / 2 + 0.9) * gauge.bar
@@ -88,6 +101,16 @@ def _rails(name: str, along: complex, bench: Bench) -> Iterator[Loop]:
     for side in (1, -1):
         level = 1j * (across + side * rail)
         yield from hatched(along * (near + level), along * (far + level), gauge, side)
+
+
+def _facing(line: Line, bench: Bench) -> Loop:
+    """Return the direction of a line's axis over the cycle, y down; 1 of one on the ground."""
+    if line.on is None:
+        return np.ones(1, np.complex128)
+    start, end = (bench.figure.cycle.position[name] for name in line.on)
+    way = (end - start) @ DOWN
+    facing: Loop = way / np.abs(way)
+    return facing
 
 
 def _slotted(joint: RPR, bench: Bench) -> Fitting:
@@ -119,18 +142,16 @@ def _yoke(joint: RPP, bench: Bench) -> Fitting:
     places = bench.figure.cycle.position
     along = complex(np.exp(-1j * joint.line.angle))
     across = along * complex(np.exp(-1j * joint.slot))
-    way = (places[joint.pin] - places[joint.name]) @ np.array([across.real, -across.imag])
+    apart = (places[joint.pin] - places[joint.name]) @ DOWN
+    way = np.real(apart * np.conj(across * _facing(joint.line, bench)))
     ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across
     colours = theme.outline, theme.metal
     bar = lined([0j, *ends], 1.35 * gauge.bar, gauge.outline, colours)
     hollow = Layer(mixed(theme.metal, theme.outline, 0.75), [rounded(list(ends), 0.5 * gauge.bar)])
-    still = (joint.name, joint.name, joint.name)
-    collar = Part(joint.pin, joint.pin, joint.pin, _block(bench, across, 0.62), (joint.pin,))
-    return Fitting(
-        behind=(Part(*still, (*_block(bench, along), *bar, hollow)),),
-        before=(collar,),
-        guide=tuple(_rails(joint.name, along, bench)),
-    )
+    ways = _ways(joint.name, joint.line)
+    slotted = Part(joint.name, *ways, (*_block(bench, along), *bar, hollow))
+    collar = Part(joint.pin, *ways, _block(bench, across, 0.62), (joint.pin,))
+    return replace(_guided(joint.name, joint.line, along, bench, (slotted,)), before=(collar,))
 
 
 FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {RRP: _slider, RPR: _slotted, RPP: _yoke}

@@ -92,8 +92,11 @@ def _slider(name: str, table: Table) -> RRP:
 
 
 def _line(line: Table) -> Line:
-    line.only("through", "angle", "offset")
-    return Line(line.text("through"), line.angle("angle", "0 deg"), line.offset("offset"))
+    line.only("through", "angle", "offset", "on")
+    on = line.names("on", 2) if "on" in line else None
+    through = line.text("through", on[0] if on else None)
+    carried = (on[0], on[1]) if on else None
+    return Line(through, line.angle("angle", "0 deg"), line.offset("offset"), carried)
 
 
 def _yoke(name: str, table: Table) -> RPP:

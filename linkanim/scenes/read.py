@@ -11,7 +11,7 @@ from linkanim.document import meant
 from linkanim.errors import AssemblyError, SceneError
 from linkanim.mechanics.frames import coincide, frames_of, holding
 from linkanim.mechanics.joint import Frame, Joint, Need
-from linkanim.mechanics.kinds import RRR, Crank, Pin, Rigid
+from linkanim.mechanics.kinds import RRR, Crank, Pin
 from linkanim.mechanics.linkage import Body, Damper, Drive, Linkage, Spring
 from linkanim.scenes.check import Table
 from linkanim.scenes.joints import read_joint, read_pin
@@ -132,6 +132,10 @@ def _check_needs(top: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
     for need in joint.needs:
         if (reason := _unfit(need, joints)) is not None:
             raise SceneError(f"{table.where}: {table.path}.{need.key}: {reason}")
+    if joint.moved_by and all(joints[need.joint].fixed for need in joint.moved_by):
+        key, still, _ = joint.moved_by[0]
+        reason = f"{still} is fixed, so nothing would move; name a joint that moves"
+        raise SceneError(f"{table.where}: {table.path}.{key}: {reason}")
 
 
 def _unfit(need: Need, joints: Mapping[str, Joint]) -> str | None:
@@ -140,8 +144,6 @@ def _unfit(need: Need, joints: Mapping[str, Joint]) -> str | None:
     if need.must == "fixed" and not found.fixed:
         pins = ", ".join(joint.name for joint in joints.values() if joint.fixed)
         return f"{need.joint} moves; name a fixed pin ({pins})"
-    if need.must == "moving" and found.fixed:
-        return f"{need.joint} is fixed, so nothing would move; name a joint that moves"
     if need.must == "crank" and not isinstance(found, Crank):
         return f"{need.joint} is not a crank"
     return None
@@ -154,17 +156,18 @@ def _no_joint(name: str, joints: Iterable[str]) -> str:
 def _check_rigid(top: Table, joints: tuple[Joint, ...], rigid: tuple[Frame, ...]) -> None:
     """Refuse points that are not on one body, and bars on one body that do not meet."""
     for joint in joints:
-        if isinstance(joint, Rigid):
-            _check_point(top.table("joints").table(joint.name), joint, rigid)
+        if joint.body:
+            _check_body(top.table("joints").table(joint.name), joint.body, rigid)
         elif isinstance(joint, RRR) and (n := holding(rigid, joint.ends)) is not None:
             _check_brace(top.table("joints").table(joint.name), joint, rigid[n])
 
 
-def _check_point(table: Table, joint: Rigid, rigid: tuple[Frame, ...]) -> None:
-    first, second = joint.on
-    n = holding(rigid, joint.on)
+def _check_body(table: Table, names: tuple[str, ...], rigid: tuple[Frame, ...]) -> None:
+    first, second, *others = names
+    n = holding(rigid, names)
     if n is None:
-        raise table.wrong(f"{first} and {second} are not on one rigid body; name two joints of one bar")
+        listed = f"{', '.join([first, second, *others][:-1])} and {names[-1]}"
+        raise table.wrong(f"{listed} are not on one rigid body; name joints of one bar")
     if coincide(rigid[n], first, second):
         raise table.wrong(
             f"{first} and {second} are one point, so no direction leads from {first} to {second}"

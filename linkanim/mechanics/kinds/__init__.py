@@ -1,11 +1,13 @@
 """The kinds of joints, one file each; this table is the only list of them."""
 
+from linkanim.mechanics.rail import Line
+
 from .crank import Crank, Gear
 from .pin import Pin, Polar
 from .rigid import Rigid
 from .rpp import RPP
 from .rpr import RPR
-from .rrp import RRP, Line
+from .rrp import RRP
 from .rrr import RRR
 
 KINDS = (Pin, Crank, RRR, RRP, RPR, RPP, Rigid)

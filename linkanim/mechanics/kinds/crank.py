@@ -1,4 +1,4 @@
-"""Cranks: pins that turn about a fixed pin with the input, or geared to it."""
+"""Cranks: pins that turn about a fixed pin with the input, or geared to it about any joint."""
 
 from __future__ import annotations
 
@@ -24,7 +24,10 @@ class Gear:
 
 @dataclass(frozen=True, slots=True)
 class Crank(Joint):
-    """A pin that turns about the fixed pin `pivot`; geared to another crank, or the input."""
+    """A pin that turns about the fixed pin `pivot`: the input; or about any joint, geared to another crank.
+
+    The angle of a geared crank is absolute, also of one whose pivot moves: a planet.
+    """
 
     pivot: str
     length: float
@@ -33,8 +36,9 @@ class Crank(Joint):
     @property
     def needs(self) -> tuple[Need, ...]:
         """Its pivot, and the crank that it is geared to."""
-        pivot = Need("crank", self.pivot, "fixed")
-        return (pivot, Need("gear.with", self.gear.mate, "crank")) if self.gear else (pivot,)
+        if self.gear is None:
+            return (Need("crank", self.pivot, "fixed"),)
+        return Need("crank", self.pivot), Need("gear.with", self.gear.mate, "crank")
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:

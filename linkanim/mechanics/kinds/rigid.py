@@ -25,6 +25,11 @@ class Rigid(Joint):
         return Need("on", self.on[0]), Need("on", self.on[1])
 
     @property
+    def body(self) -> tuple[str, ...]:
+        """The two joints that its body is known by."""
+        return self.on
+
+    @property
     def spans(self) -> tuple[tuple[str, ...], ...]:
         """The plate of the three joints."""
         return ((*self.on, self.name),)

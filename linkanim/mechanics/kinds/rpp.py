@@ -1,4 +1,4 @@
-"""A pin in the slot of a bar that slides on a fixed line: the dyad of the Scotch yoke.
+"""A pin in the slot of a bar that slides on a line: the dyad of the Scotch yoke.
 
 With f and e how far the pin lies forward along the line and to its left, and σ the slot's direction from
 the line's, the slot crosses the line at s = f - e cot σ: linear, so the bar never jams and has one closure.
@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from linkanim.mechanics.exact import unit
 from linkanim.mechanics.joint import Joint, Need
-from linkanim.mechanics.kinds.rrp import Line
-from linkanim.mechanics.planar import Moving, MovingPoint, Vec
+from linkanim.mechanics.planar import Moving
+from linkanim.mechanics.rail import Line
 
 if TYPE_CHECKING:
     from linkanim.mechanics.assembly import Assembly
@@ -36,8 +36,18 @@ class RPP(Joint):
 
     @property
     def needs(self) -> tuple[Need, ...]:
-        """The pin in the slot, which moves, and the pin that the line runs through."""
-        return Need("slide.pin", self.pin, "moving"), Need("slide.line.through", self.line.through, "fixed")
+        """The pin in the slot, and the joints of the line."""
+        return Need("slide.pin", self.pin), *self.line.needs("slide.line")
+
+    @property
+    def moved_by(self) -> tuple[Need, ...]:
+        """The pin in the slot, or a line that is carried."""
+        return self.needs
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The joints of the body that carries its line."""
+        return self.line.body
 
     @property
     def pins(self) -> tuple[str, ...]:
@@ -51,24 +61,19 @@ class RPP(Joint):
 
     def scaled(self, factor: float) -> RPP:
         """Return the dyad with its line's offset times a factor."""
-        return replace(self, line=replace(self.line, offset=self.line.offset * factor))
+        return replace(self, line=self.line.scaled(factor))
 
     def close(self, walk: Walk) -> None:
         """Add where the slot crosses the line: s = f - e cot σ, and its derivatives alike."""
-        point, base, line = walk.points[self.pin], walk.points[self.line.through], self.line
-        along = Vec(*unit(line.angle))
+        rail, point = self.line.laid(walk), walk.points[self.pin]
         cosine, sine = unit(self.slot)
-        leaning = along - along.left().scaled(cosine / sine)
-        shift = line.offset * cosine / sine
+        forward, aside, lean = rail.forward(point), rail.aside(point), cosine / sine
         travel = Moving(
-            leaning.dot(point.position - base.position) + shift,
-            leaning.dot(point.velocity),
-            leaning.dot(point.acceleration),
+            forward.value - aside.value * lean,
+            forward.rate - aside.rate * lean,
+            forward.second - aside.second * lean,
         )
-        start = base.position + along.left().scaled(line.offset)
-        walk.points[self.name] = MovingPoint(
-            start + along.scaled(travel.value), along.scaled(travel.rate), along.scaled(travel.second)
-        )
+        walk.points[self.name] = rail.place(travel)
         walk.travels[self.name] = travel
 
     def linkage_name(self, assembly: Assembly) -> str:

@@ -1,4 +1,4 @@
-"""A bar that turns about a fixed pin, its slot on another joint: the dyad of inverted slider-cranks."""
+"""A bar that turns on one joint and slides on another: the dyad of inverted slider-cranks."""
 
 from __future__ import annotations
 
@@ -6,8 +6,6 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
-
-import numpy as np
 
 from linkanim.mechanics.expression import Value
 from linkanim.mechanics.joint import Joint, Need
@@ -26,7 +24,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class RPR(Joint):
-    """A bar that turns about the fixed pin `pivot`, its slot passing through the joint `through`.
+    """A bar that turns about the joint `pivot`, its slot passing through the joint `through`.
+
+    One of the two may be fixed: a lever whose slot a crank pin drives, or a rod sliding through a swivel.
 
     through = pivot + s·u + offset·n with s > 0, u the bar's direction and n to its left;
     the joint itself is pivot + length·u.
@@ -41,8 +41,13 @@ class RPR(Joint):
 
     @property
     def needs(self) -> tuple[Need, ...]:
-        """The pivot, and the joint in the slot, which moves."""
-        return Need("slot.pivot", self.pivot, "fixed"), Need("slot.through", self.through, "moving")
+        """The pivot, and the joint in the slot."""
+        return Need("slot.pivot", self.pivot), Need("slot.through", self.through)
+
+    @property
+    def moved_by(self) -> tuple[Need, ...]:
+        """The joint in the slot, or the pivot."""
+        return self.needs[::-1]
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
@@ -69,15 +74,16 @@ class RPR(Joint):
         return replace(self, length=self.length * factor, offset=self.offset * factor)
 
     def loop(self, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
-        """Return the loop of a crank pin in the slot of a bar on a fixed pin."""
-        if self.through not in gears:
-            return None
-        crank = linkage.crank(self.through)
-        ground = ground_between(linkage, crank.pivot, self.pivot)
-        if ground is None:
-            return None
-        root = slot_root(ground.length, crank.length, self.offset, ground.angle)
-        return Loop(self.through, crank, gears[self.through], ground, root)
+        """Return the loop of a crank pin and a fixed pin, one in the slot and one the pivot."""
+        for swapped, (moving, fixed) in enumerate(((self.through, self.pivot), (self.pivot, self.through))):
+            crank = linkage.crank(moving) if moving in gears else None
+            if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
+                ground = ground_between(linkage, crank.pivot, fixed)
+                if ground is None:
+                    return None
+                root = slot_root(ground.length, crank.length, self.offset, ground.angle)
+                return Loop(moving, crank, gears[moving], ground, root, bool(swapped))
+        return None
 
     def close(self, walk: Walk) -> None:
         """Add the slotted bar and its end."""
@@ -86,7 +92,7 @@ class RPR(Joint):
         if loop is not None:
             root, ground = walk.pin_loop(loop, sign)
             turn = pin_triangle(ground, (0.0, 0.0), root).turn
-            direction = _loop_direction(ground, root, self.offset, sign)
+            direction = _loop_direction(ground, root, (self.offset, sign), swapped=loop.swapped)
         else:
             root = walk.slot_root(self.name, (pivot, pin), self.offset).times(sign)
             turn = moving_triangle(pin, pivot, (0.0, 0.0), root).turn
@@ -113,6 +119,9 @@ class RPR(Joint):
 
     def transmission_at(self, place: Callable[[str], Any]) -> Any:
         """Return the angle from the slot's normal to the bar's motion at the pin, as in `transmission`."""
+        # Here, so that reading a scene file loads no arrays.
+        import numpy as np
+
         arm = abs(place(self.through) - place(self.pivot))
         return np.arccos(np.minimum(abs(self.offset) / arm, 1.0))
 
@@ -132,11 +141,18 @@ def _turning(turn: Slope, root: SignedRoot, offset: float) -> Slope:
     return turn.plus(slide, root.ratio.rate * (0.5 * offset) * inverse - slide * growth)
 
 
-def _loop_direction(ground: PinLoop, root: SignedRoot, offset: float, sign: int) -> Vec:
-    """Return the slotted bar's direction; a slot through its own pivot turns at half the crank's angle."""
+def _loop_direction(
+    ground: PinLoop, root: SignedRoot, bar: tuple[float, int], *, swapped: bool
+) -> Vec:
+    """Return the slotted bar's direction; a slot through its own pivot turns at half the crank's angle.
+
+    `bar` is the slot's offset and the closure's sign; `swapped` where the bar turns about the crank's pin.
+    """
+    offset, sign = bar
+    way = -1.0 if swapped else 1.0
     if ground.ground == ground.crank and offset == 0:
-        return Vec(-ground.half.sine, ground.half.cosine).times(ground.direction).scaled(float(sign))
-    return _direction(-ground.across(), root.q, offset)
+        return Vec(-ground.half.sine, ground.half.cosine).times(ground.direction).scaled(way * sign)
+    return _direction(ground.across().scaled(-way), root.q, offset)
 
 
 def _direction(across: Vec, s: Value, offset: float) -> Vec:

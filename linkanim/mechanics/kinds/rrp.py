@@ -1,4 +1,4 @@
-"""A bar to a slider on a fixed line: the dyad of slider-cranks."""
+"""A bar to a slider on a line: the dyad of slider-cranks, and of rams on guides that move themselves."""
 
 from __future__ import annotations
 
@@ -8,13 +8,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from linkanim.mechanics.exact import exact_angle, quarter_turns, unit
-from linkanim.mechanics.expression import Value
 from linkanim.mechanics.joint import Joint, Need
 from linkanim.mechanics.loop import Loop
-from linkanim.mechanics.planar import Moving, MovingPoint, Slope, Vec
+from linkanim.mechanics.planar import Moving
+from linkanim.mechanics.rail import Line
 from linkanim.mechanics.roots import slider_root
 from linkanim.mechanics.signed import SignedRoot
 
@@ -23,15 +21,6 @@ if TYPE_CHECKING:
     from linkanim.mechanics.linkage import Linkage
     from linkanim.mechanics.loop import Gearing
     from linkanim.mechanics.walk import Walk
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """A fixed line of travel: through a fixed pin, at `angle`, shifted by `offset` to its left."""
-
-    through: str
-    angle: float
-    offset: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,8 +38,18 @@ class RRP(Joint):
 
     @property
     def needs(self) -> tuple[Need, ...]:
-        """The bar's far end, which moves, and the pin that its line runs through."""
-        return Need("from", self.end, "moving"), Need("line.through", self.line.through, "fixed")
+        """The bar's far end, and the joints of its line."""
+        return Need("from", self.end), *self.line.needs("line")
+
+    @property
+    def moved_by(self) -> tuple[Need, ...]:
+        """The bar's far end, or a line that is carried."""
+        return self.needs
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The joints of the body that carries its line."""
+        return self.line.body
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
@@ -69,14 +68,13 @@ class RRP(Joint):
 
     def scaled(self, factor: float) -> RRP:
         """Return the dyad with its bar, and its line's offset, times a factor."""
-        line = replace(self.line, offset=self.line.offset * factor)
-        return replace(self, length=self.length * factor, line=line)
+        return replace(self, length=self.length * factor, line=self.line.scaled(factor))
 
     def loop(self, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
-        """Return the loop of a crank pin against the line."""
-        if self.end not in gears:
+        """Return the loop of a crank pin against the line, where both stand on the ground."""
+        crank = linkage.crank(self.end) if self.end in gears else None
+        if crank is None or self.line.on or not linkage.joint(crank.pivot).fixed:
             return None
-        crank = linkage.crank(self.end)
         pivot, through = linkage.pin(crank.pivot).position, linkage.pin(self.line.through).position
         along = unit(self.line.angle)
         dx, dy = pivot[0] - through[0], pivot[1] - through[1]
@@ -88,34 +86,28 @@ class RRP(Joint):
     def close(self, walk: Walk) -> None:
         """Add the slider: its way along the line is that of the bar's end and the root q = ±√(b² - e²).
 
-        With e how far the end lies left of the line and ρ = e'/q the bar turns at -ρ.
+        With e how far the end lies left of the line and ρ = e'/q the bar turns at -ρ, seen from the line.
         """
-        point, line = walk.points[self.end], self.line
-        along, base = Vec(*unit(line.angle)), walk.points[line.through]
-        way = point.position - base.position
-        aside, forward = along.cross(way) - line.offset, along.dot(way)
-        root = self._root(walk, aside, along)
+        rail, point = self.line.laid(walk), walk.points[self.end]
+        forward, aside = rail.forward(point), rail.aside(point)
+        root = self._root(walk, aside)
         rho, q = root.ratio, root.q
         travel = Moving(
-            forward + q,
-            along.dot(point.velocity) - aside * rho.value,
-            along.dot(point.acceleration) - (along.cross(point.velocity) * rho.value + aside * rho.rate),
+            forward.value + q,
+            forward.rate - aside.value * rho.value,
+            forward.second - (aside.rate * rho.value + aside.value * rho.rate),
         )
-        start = base.position + along.left().scaled(line.offset)
-        walk.points[self.name] = MovingPoint(
-            start + along.scaled(travel.value), along.scaled(travel.rate), along.scaled(travel.second)
-        )
+        walk.points[self.name] = rail.place(travel)
         walk.travels[self.name] = travel
-        arm = along.scaled(q) - along.left().scaled(aside)
-        walk.add_piece(Slope(-rho.value, -rho.rate), (self.end, self.name), arm)
+        arm = rail.along.scaled(q) - rail.along.left().scaled(aside.value)
+        walk.add_piece(rail.turning.plus(-rho.value, -rho.rate), (self.end, self.name), arm)
 
-    def _root(self, walk: Walk, aside: Value, along: Vec) -> SignedRoot:
+    def _root(self, walk: Walk, aside: Moving) -> SignedRoot:
         loop, sign = walk.assembly.loops.get(self.name), walk.assembly.signs[self.name]
         if loop is not None:
             return walk.loop_root(loop, sign)[0]
-        point, b = walk.points[self.end], self.length
-        eccentric = Moving(aside, along.cross(point.velocity), along.cross(point.acceleration))
-        return walk.margin_root(self.name, (b - aside, b + aside), eccentric).times(sign)
+        factors = self.length - aside.value, self.length + aside.value
+        return walk.margin_root(self.name, factors, aside).times(sign)
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.
@@ -135,7 +127,13 @@ class RRP(Joint):
 
     def transmission_at(self, place: Callable[[str], Any]) -> Any:
         """Return the angle from its bar to the normal of its line, as in `transmission`."""
+        # Here, so that reading a scene file loads no arrays.
+        import numpy as np
+
         bar = (place(self.name) - place(self.end)) * cmath.rect(1.0, -self.line.angle)
+        if self.line.on:
+            axis = place(self.line.on[1]) - place(self.line.on[0])
+            bar = bar * axis.conjugate()
         return np.arctan2(abs(bar.real), abs(bar.imag))
 
     def why_apart(self) -> str:

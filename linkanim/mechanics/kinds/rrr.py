@@ -16,8 +16,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-import numpy as np
-
 from linkanim.mechanics.joint import Joint, Need
 from linkanim.mechanics.loop import Loop, ground_between
 from linkanim.mechanics.planar import MovingPoint, Slope, Vec, carried
@@ -80,8 +78,8 @@ class RRR(Joint):
         """Return the loop of a crank pin against a fixed pin."""
         for swapped in (False, True):
             (moving, fixed), bars = _turned(self, swapped)
-            if moving in gears and linkage.joint(fixed).fixed:
-                crank = linkage.crank(moving)
+            crank = linkage.crank(moving) if moving in gears else None
+            if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
                 ground = ground_between(linkage, crank.pivot, fixed)
                 if ground is None:
                     return None
@@ -114,6 +112,9 @@ class RRR(Joint):
 
     def transmission_at(self, place: Callable[[str], Any]) -> Any:
         """Return the angle between its bars."""
+        # Here, so that reading a scene file loads no arrays.
+        import numpy as np
+
         one, other = (place(end) - place(self.name) for end in self.ends)
         return abs(np.angle(one * other.conjugate()))
 
