@@ -22,7 +22,7 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("digits", "document", "units", "whole"),
+            ("digits", "document", "intake", "units", "whole"),
             ("mechanics",),
             ("scenes",),
             ("picture",),
@@ -40,6 +40,7 @@ THIRD_PARTIES = {
     "errors": set(),
     "digits": set(),
     "document": set(),
+    "intake": set(),
     "units": set(),
     "whole": set(),
     "mechanics": {"numpy"},

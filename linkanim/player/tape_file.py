@@ -10,9 +10,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-from linkanim import whole
+from linkanim import intake, whole
 from linkanim.document import Section
 from linkanim.errors import BadInput
+from linkanim.intake import Intake
 from linkanim.picture.look import Look
 from linkanim.player.action import Action
 from linkanim.player.actions import is_taped
@@ -27,9 +28,10 @@ from linkanim.units import shown
 
 VERSION = 1
 SUFFIX = ".tape.json"
+TAPE_FILE = Intake("a tape", most_bytes=20_000_000, most_values=1_000_000)
+MOST_ACTIONS = 100_000
 
 _MARK = "linkanim_tape"
-_LARGEST = 50_000_000
 _MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
 _LARGEST_SIDE = 16_384
 
@@ -42,15 +44,11 @@ def write(tape: Tape, path: Path) -> None:
 
 def read(path: Path) -> Tape:
     """Read a tape; BadInput, naming the place, for what is none, or of another version."""
-    where = str(path)
+    where = intake.named(path)
+    text = TAPE_FILE.read(path, where)
     try:
-        with path.open("rb") as file:
-            data = file.read(_LARGEST + 1)
-        if len(data) > _LARGEST:
-            raise BadInput(f"{where}: is larger than {_LARGEST // 1_000_000} MB; that is no tape of ours")
-        document = json.loads(data, parse_constant=_no_constant)
-    except OSError as error:
-        raise BadInput(f"{where}: cannot be read: {error.strerror or error}") from None
+        TAPE_FILE.refuse_heavy(text, where)
+        document = json.loads(text, parse_constant=_no_constant)
     except (ValueError, RecursionError):
         raise BadInput(f"{where}: is not JSON; a tape is a file that G or M wrote in the window") from None
     return from_document(document, where)
@@ -193,6 +191,10 @@ def _editing(part: Section) -> Editing:
 
 def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
     entries = top.listed("actions")
+    if len(entries.values) > MOST_ACTIONS:
+        raise top.error(
+            "actions", f"are {len(entries.values):,}, more than {MOST_ACTIONS:,}; record a shorter one"
+        )
     found: list[tuple[int, Action]] = []
     for key, entry in entries.values.items():
         try:

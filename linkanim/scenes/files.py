@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-import stat
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 
+from linkanim import intake
 from linkanim.document import meant
-from linkanim.errors import BadInput, SceneError
-from linkanim.scenes.read import parse, scene_from
+from linkanim.errors import BadInput
+from linkanim.scenes.read import SCENE_FILE, parse, scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 
@@ -29,7 +29,6 @@ _CHAPTERS: Mapping[str, tuple[str, ...]] = {
         "triple-rocker-in-out",
     ),
 }
-_LARGEST = 1_000_000
 
 
 def chapters() -> dict[str, tuple[str, ...]]:
@@ -69,8 +68,10 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
             near = meant(asked, names())
             raise BadInput(f"no scene is called {shown(asked)}{near}; `linkanim scenes` lists them")
         return scene_from(parse(_catalogue_text(asked), asked), name=asked, where=asked)
-    where = "".join(c if c.isprintable() else "?" for c in asked)
-    return scene_from(parse(_file_text(asked, where), where), name=Path(asked).stem, where=where)
+    path, where = Path(asked), intake.named(asked)
+    missing = f"{meant(path.stem, names())}; `linkanim scenes` lists the built-in ones"
+    document = parse(SCENE_FILE.read(path, where, missing=missing), where)
+    return scene_from(document, name=path.stem, where=where)
 
 
 def _is_path(asked: str) -> bool:
@@ -80,28 +81,3 @@ def _is_path(asked: str) -> bool:
 def _catalogue_text(name: str) -> str:
     folder = (chapter_of(name) or "").replace(" ", "-")
     return (files("linkanim.scenes") / "catalogue" / folder / f"{name}.toml").read_text(encoding="utf-8")
-
-
-def _file_text(path: str, where: str) -> str:
-    """Return a scene file's text; SceneError for what cannot be one."""
-    try:
-        mode = Path(path).stat().st_mode
-        if stat.S_ISDIR(mode):
-            raise SceneError(f"{where}: is a folder; name a .toml file in it")
-        if not stat.S_ISREG(mode):
-            raise SceneError(f"{where}: is not a file with text in it; name a .toml file")
-        with Path(path).open("rb") as file:
-            data = file.read(_LARGEST + 1)
-    except FileNotFoundError:
-        near = meant(Path(path).stem, names())
-        raise SceneError(f"{where}: no such file{near}; `linkanim scenes` lists the built-in ones") from None
-    except (OSError, ValueError) as error:
-        reason = (error.strerror or "") if isinstance(error, OSError) else str(error)
-        raise SceneError(f"{where}: cannot be read: {reason.lower() or 'the system refuses'}") from None
-    if len(data) > _LARGEST:
-        raise SceneError(f"{where}: is larger than 1 MB; a scene file is a few lines of text")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = data[: error.start].count(b"\n") + 1
-        raise SceneError(f"{where}: is not UTF-8 text (line {line}); save it as UTF-8") from None

@@ -105,7 +105,7 @@ def _yoke(name: str, table: Table) -> RPP:
     slide.only("pin", "line", "slot")
     slot = slide.angle("slot", "90 deg")
     if abs(math.sin(slot)) < _LEAST_SLOT:
-        raise slide.error("slot", "lies along the line of travel, so it never crosses it; write \"90 deg\"")
+        raise slide.error("slot", 'lies along the line of travel, so it never crosses it; write "90 deg"')
     return RPP(name, slide.text("pin"), _line(slide.table("line")), slot)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from linkanim import units
 from linkanim.document import meant
 from linkanim.errors import AssemblyError, SceneError
+from linkanim.intake import Intake
 from linkanim.mechanics.frames import coincide, frames_of, holding
 from linkanim.mechanics.joint import Frame, Joint, Need
 from linkanim.mechanics.kinds import RRR, Crank, Pin
@@ -26,12 +27,14 @@ _TOP = (
 DEFAULT_SPEED = "20 rpm"
 
 
+SCENE_FILE = Intake("a scene file", most_bytes=1_000_000, most_values=50_000, refusal=SceneError)
+
+
 def parse(text: str, where: str) -> dict[str, Any]:
     """Return the document in a scene file's text; SceneError with the line where it is not TOML."""
+    SCENE_FILE.refuse_heavy(text, where)
     try:
         return tomllib.loads(text)
-    except RecursionError:
-        raise SceneError(f"{where}: is not a scene file: its brackets are nested too deeply") from None
     except ValueError as error:
         raise SceneError(f"{where}: is not TOML: {error}") from None
 

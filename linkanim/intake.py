@@ -1,0 +1,104 @@
+"""Files from outside: read whole or refused, and weighed before a parser is let loose on them.
+
+Parsers of TOML and JSON take a time that grows with the square of a key's depth, and a memory many
+times the text's size where it is all brackets. A look at the marks outside of texts and comments tells.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+from dataclasses import dataclass
+from pathlib import Path
+
+from linkanim.errors import BadInput
+
+DEEPEST = 16
+"""Keys within keys, or brackets within brackets; a scene needs four."""
+
+_TEXTS = re.compile(
+    r'"""(?:[^"\\]++|\\.|"(?!""))*+(?:"{3,5}|\Z)'
+    r"|'''(?:[^']++|'(?!''))*+(?:'{3,5}|\Z)"
+    r'|"(?:[^"\\\n]++|\\.)*+"?'
+    r"|'[^'\n]*+'?"
+    r"|\#[^\n]*+",
+    re.DOTALL,
+)
+_DOTTED = re.compile(rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{DEEPEST}}}")
+_BRACKETS = re.compile(r"[\[\]{}]")
+_MARKS = "=,:[{"
+
+
+@dataclass(frozen=True)
+class Intake:
+    """A kind of file that is read: what it is called, its bytes and values at the most, and its refusal."""
+
+    noun: str
+    most_bytes: int
+    most_values: int
+    refusal: type[BadInput] = BadInput
+
+    def read(self, path: Path, where: str, *, missing: str = "") -> str:
+        """Return a file's text; `missing` is added to what is said of one that is not there.
+
+        What is no file with text in it is refused without waiting for it: a folder, a pipe, a device.
+        """
+        try:
+            data = self._bytes(path, where)
+        except FileNotFoundError:
+            raise self.refusal(f"{where}: no such file{missing}") from None
+        except (OSError, ValueError) as error:
+            reason = (error.strerror or "") if isinstance(error, OSError) else str(error)
+            raise self.refusal(f"{where}: cannot be read: {reason.lower() or 'the system refuses'}") from None
+        try:
+            return data.decode("utf-8-sig")
+        except UnicodeDecodeError as error:
+            line = data[: error.start].count(b"\n") + 1
+            raise self.refusal(f"{where}: is not UTF-8 text (line {line}); save it as UTF-8") from None
+
+    def _bytes(self, path: Path, where: str) -> bytes:
+        if path.is_dir():  # Windows cannot open one to be asked
+            raise self.refusal(f"{where}: is a folder; name {self.noun} in it")
+        # a pipe that nobody writes to would keep us waiting
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+        with open(descriptor, "rb") as file:
+            before = os.fstat(descriptor)
+            if not stat.S_ISREG(before.st_mode):
+                raise self.refusal(f"{where}: is not a file with text in it; name {self.noun}")
+            data = file.read(self.most_bytes + 1)
+            after = os.fstat(descriptor)
+        if len(data) > self.most_bytes:
+            raise self.refusal(
+                f"{where}: is larger than {self.most_bytes // 1_000_000} MB; it is not {self.noun}"
+            )
+        if (before.st_size, before.st_mtime_ns) != (after.st_size, after.st_mtime_ns):
+            raise self.refusal(f"{where}: changed while it was read; try again when it is written")
+        return data
+
+    def refuse_heavy(self, text: str, where: str) -> None:
+        """Refuse a document of more values than this kind has, or nested deeper than `DEEPEST`.
+
+        Texts in quotes and comments weigh nothing; the time it takes grows with the length alone.
+        """
+        bare = _TEXTS.sub("s", text)
+        if sum(map(bare.count, _MARKS)) > self.most_values:
+            raise self.refusal(f"{where}: has more than {self.most_values:,} values; it is not {self.noun}")
+        if _DOTTED.search(bare) or _depth(bare) > DEEPEST:
+            raise self.refusal(f"{where}: is nested deeper than {DEEPEST} levels; {self.noun} needs but four")
+
+
+def named(path: str | os.PathLike[str]) -> str:
+    """Return a path as messages show it, on one line."""
+    return "".join(c if c.isprintable() else "?" for c in os.fspath(path))
+
+
+def _depth(bare: str) -> int:
+    """Return how deeply brackets stand in brackets, or one more than is allowed."""
+    depth = deepest = 0
+    for bracket in _BRACKETS.findall(bare):
+        depth = depth + 1 if bracket in "[{" else max(depth - 1, 0)
+        deepest = max(deepest, depth)
+        if deepest > DEEPEST:
+            break
+    return deepest
