@@ -17,6 +17,7 @@ from linkanim.units import shown
 
 Option = TypeVar("Option", bound=str)
 
+_FEW = 12
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?")
 
 
@@ -127,6 +128,13 @@ def meant(name: str, known: Iterable[str]) -> str:
     """Return ' (did you mean "crank"?)' for a name close to a known one, else an empty text."""
     near = get_close_matches(name, list(known), n=1, cutoff=0.6)
     return f" (did you mean {shown(near[0])}?)" if near else ""
+
+
+def few(names: Iterable[str]) -> str:
+    """Return names as a message lists them: a dozen, and how many more there are."""
+    listed = list(names)
+    more = len(listed) - _FEW
+    return ", ".join(listed[:_FEW]) + (f" and {more} more" if more > 0 else "")
 
 
 def _is_finite(value: float) -> bool:

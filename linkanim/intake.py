@@ -62,16 +62,15 @@ class Intake:
             raise self.refusal(f"{where}: is a folder; name {self.noun} in it")
         # a pipe that nobody writes to would keep us waiting
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-        with open(descriptor, "rb") as file:
+        with os.fdopen(descriptor, "rb") as file:
             before = os.fstat(descriptor)
             if not stat.S_ISREG(before.st_mode):
                 raise self.refusal(f"{where}: is not a file with text in it; name {self.noun}")
             data = file.read(self.most_bytes + 1)
             after = os.fstat(descriptor)
         if len(data) > self.most_bytes:
-            raise self.refusal(
-                f"{where}: is larger than {self.most_bytes // 1_000_000} MB; it is not {self.noun}"
-            )
+            megabytes = self.most_bytes // 1_000_000
+            raise self.refusal(f"{where}: is larger than {megabytes} MB; it is not {self.noun}")
         if (before.st_size, before.st_mtime_ns) != (after.st_size, after.st_mtime_ns):
             raise self.refusal(f"{where}: changed while it was read; try again when it is written")
         return data

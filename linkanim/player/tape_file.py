@@ -192,9 +192,8 @@ def _editing(part: Section) -> Editing:
 def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
     entries = top.listed("actions")
     if len(entries.values) > MOST_ACTIONS:
-        raise top.error(
-            "actions", f"are {len(entries.values):,}, more than {MOST_ACTIONS:,}; record a shorter one"
-        )
+        count = len(entries.values)
+        raise top.error("actions", f"are {count:,}, more than {MOST_ACTIONS:,}; record a shorter tape")
     found: list[tuple[int, Action]] = []
     for key, entry in entries.values.items():
         try:

@@ -14,6 +14,9 @@ from linkanim.document import Section
 from linkanim.errors import BadInput, SceneError, UnitError
 from linkanim.mechanics.joint import Point
 
+MOST_NAMES = 500
+"""Joints, pins, bodies, springs or dampers of a scene, each."""
+
 _SMALL = 12
 _STEEP = 100
 _LARGEST = 1e100
@@ -43,6 +46,8 @@ class Table(Section):
 
     def names_given(self) -> tuple[str, ...]:
         """Return the names that are this table's keys, each fit to be shown and to be part of a key."""
+        if len(self.values) > MOST_NAMES:
+            raise self.wrong(f"has {len(self.values):,} entries; {MOST_NAMES} are the most that are read")
         for name in self.values:
             if not 1 <= len(name) <= 32 or not name.isprintable() or "." in name or name != name.strip():
                 raise self.error(name, "a name has 1 to 32 printable characters, no dot, no outer spaces")

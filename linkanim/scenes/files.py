@@ -10,8 +10,8 @@ from pathlib import Path
 from linkanim import intake
 from linkanim.document import meant
 from linkanim.errors import BadInput
-from linkanim.scenes.read import SCENE_FILE, parse, scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import SCENE_FILE, parse
 from linkanim.units import shown
 
 _CHAPTERS: Mapping[str, tuple[str, ...]] = {
@@ -62,6 +62,8 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     A path is anything with a folder in it or the suffix .toml. BadInput for an unknown name, SceneError
     for a file that is not a scene, AssemblyError for lengths that cannot be assembled.
     """
+    from linkanim.scenes.read import scene_from
+
     asked = os.fspath(name_or_path)
     if isinstance(name_or_path, str) and not _is_path(asked):
         if chapter_of(asked) is None:

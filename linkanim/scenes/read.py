@@ -1,15 +1,13 @@
-"""A scene file's text, or the document in it, to a checked `Scene`."""
+"""The document in a scene file to a checked `Scene`."""
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from linkanim import units
-from linkanim.document import meant
+from linkanim.document import few, meant
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.intake import Intake
 from linkanim.mechanics.frames import coincide, frames_of, holding
 from linkanim.mechanics.joint import Frame, Joint, Need
 from linkanim.mechanics.kinds import RRR, Crank, Pin
@@ -25,18 +23,6 @@ _TOP = (
     "drive", "ground", "joints", "bodies", "springs", "dampers", "trace", *SHORTHANDS,
 )  # fmt: skip
 DEFAULT_SPEED = "20 rpm"
-
-
-SCENE_FILE = Intake("a scene file", most_bytes=1_000_000, most_values=50_000, refusal=SceneError)
-
-
-def parse(text: str, where: str) -> dict[str, Any]:
-    """Return the document in a scene file's text; SceneError with the line where it is not TOML."""
-    SCENE_FILE.refuse_heavy(text, where)
-    try:
-        return tomllib.loads(text)
-    except ValueError as error:
-        raise SceneError(f"{where}: is not TOML: {error}") from None
 
 
 def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
@@ -153,7 +139,7 @@ def _unfit(need: Need, joints: Mapping[str, Joint]) -> str | None:
 
 
 def _no_joint(name: str, joints: Iterable[str]) -> str:
-    return f"no joint is called {units.shown(name)}{meant(name, joints)}; there are {', '.join(joints)}"
+    return f"no joint is called {units.shown(name)}{meant(name, joints)}; there are {few(joints)}"
 
 
 def _check_rigid(top: Table, joints: tuple[Joint, ...], rigid: tuple[Frame, ...]) -> None:

@@ -10,12 +10,12 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.linkage import Linkage
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from linkanim.mechanics.classify import Info
+    from linkanim.mechanics.linkage import Linkage
     from linkanim.mechanics.mechanism import Mechanism
     from linkanim.mechanics.motion import Motion, Pose
 

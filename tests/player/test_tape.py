@@ -15,7 +15,7 @@ from linkanim.player.action import Action
 from linkanim.player.advance import advance
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape, starting, taped
-from linkanim.player.tape_file import from_document, read, to_document, write
+from linkanim.player.tape_file import MOST_ACTIONS, from_document, read, to_document, write
 from linkanim.scenes import load
 
 SESSION = (
@@ -164,11 +164,25 @@ def test_a_spoilt_tape_is_refused_in_one_line(tape: Tape, spoil: Spoil, reason: 
     assert "\n" not in str(refusal.value)
 
 
+def test_a_tape_nested_deeply_is_refused_before_it_is_parsed(tmp_path: Path) -> None:
+    (tmp_path / "x.tape.json").write_text("[" * 100_000)
+    with pytest.raises(BadInput, match="nested deeper than 16 levels"):
+        read(tmp_path / "x.tape.json")
+
+
+def test_a_tape_of_too_many_actions_is_refused(tape: Tape) -> None:
+    document = json.loads(json.dumps(to_document(replace(tape, actions=()))))
+    document["actions"] = [[1, "trace"]] * (MOST_ACTIONS + 1)
+    with pytest.raises(BadInput, match="actions: are 100,001, more than 100,000"):
+        from_document(document, "mine.tape.json")
+    document["actions"].pop()
+    assert len(from_document(document, "mine.tape.json").actions) == MOST_ACTIONS
+
+
 NO_JSON = {
     "text": "hello",
     "empty": "",
     "NaN": '{"linkanim_tape": NaN}',
-    "deep": "[" * 100_000,
     "binary": "\0\1",
 }
 
@@ -181,7 +195,7 @@ def test_a_file_that_is_not_json_is_refused(tmp_path: Path, text: str) -> None:
         read(path)
 
 
-@pytest.mark.parametrize("name", ["missing.json", "."], ids=["missing", "a folder"])
-def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path, name: str) -> None:
-    with pytest.raises(BadInput, match="cannot be read"):
+@pytest.mark.parametrize(("name", "said"), [("missing.json", "no such file"), (".", "is a folder")])
+def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path, name: str, said: str) -> None:
+    with pytest.raises(BadInput, match=said):
         read(tmp_path / name)

@@ -15,8 +15,9 @@ from linkanim.mechanics.kinds import Crank
 from linkanim.scenes import load, names
 from linkanim.scenes.edit import dimensions, with_dimension, with_dimensions
 from linkanim.scenes.joints import Key
-from linkanim.scenes.read import parse, scene_from
+from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
 from linkanim.scenes.write import save, text
 
 COUPLER: Key = ("four-bar", "coupler")

@@ -88,11 +88,11 @@ def test_joints_that_can_stand_as_written_do() -> None:
     assert order(PINS + "".join(JOINTS[name] for name in "ABHKC")) == ["O2", "O4", *"ABHKC"]
 
 
-def test_a_chain_of_ten_thousand_joints_written_backwards_is_read() -> None:
+def test_a_chain_of_as_many_joints_as_there_can_be_is_read_when_written_backwards() -> None:
     points = [
-        f"[joints.p{i}]\non = ['A', '{f'p{i - 1}' if i else 'B'}']\nat = [1, 2]\n" for i in range(10_000)
+        f"[joints.p{i}]\non = ['A', '{f'p{i - 1}' if i else 'B'}']\nat = [1, 2]\n" for i in range(498)
     ]
-    assert order(PINS + "".join(reversed(points)) + JOINTS["B"] + JOINTS["A"])[-1] == "p9999"
+    assert order(PINS + "".join(reversed(points)) + JOINTS["B"] + JOINTS["A"])[-1] == "p497"
 
 
 @pytest.mark.parametrize(

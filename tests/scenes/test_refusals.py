@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.scenes import load
-from linkanim.scenes.read import parse, scene_from
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.toml import parse
 
 FOUR_BAR = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
 LONG = """
@@ -256,7 +257,7 @@ REFUSED: list[tuple[str, str, str, str]] = [
     # Not TOML at all.
     ("not TOML", FOUR_BAR + "crank 30\n", "is not TOML", "line 6"),
     ("a key twice", FOUR_BAR + "crank = 30\n", "is not TOML", "line 6"),
-    ("deep brackets", "x = " + "[" * 5000, "", "brackets"),
+    ("deep brackets", "x = " + "[" * 5000, "nested deeper than 16 levels", ""),
     ("endless integer", FOUR_BAR.replace("30", "3" * 5000), "is not TOML", ""),
 ]
 
@@ -375,3 +376,26 @@ def test_a_scene_spoilt_anywhere_is_refused_or_read_but_never_fails(data: st.Dat
         said = str(error)
     assert said.startswith("my.toml: ")
     assert "\n" not in said
+
+
+def test_a_heavy_file_is_refused_before_it_is_parsed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tomllib, "loads", lambda text: pytest.fail("parsed"))
+    with pytest.raises(SceneError, match=r"my\.toml: is nested deeper than 16 levels"):
+        parse("a" + ".a" * 20_000 + " = 1", "my.toml")
+    with pytest.raises(SceneError, match=r"my\.toml: has more than 50,000 values"):
+        parse("[bodies]\n" * 60_000, "my.toml")
+
+
+@pytest.mark.parametrize("section", ["joints", "ground", "bodies", "springs", "dampers"])
+def test_more_entries_than_are_drawn_are_refused(section: str) -> None:
+    entry = "[0, 0]" if section == "ground" else "{}"
+    many = "\n".join(f"x{k} = {entry}" for k in range(501))
+    with pytest.raises(SceneError, match=rf"my\.toml: {section}: has 501 entries; 500 are the most"):
+        scene_from(parse(f"{FOUR_BAR}\n[{section}]\n{many}", "my.toml"), name="my", where="my.toml")
+
+
+def test_a_list_of_names_to_choose_from_stays_short() -> None:
+    pins = "\n".join(f"x{k} = [0, {k}]" for k in range(100))
+    text = f"{FOUR_BAR}\n[ground]\n{pins}\n[trace]\njoints = ['Q']"
+    with pytest.raises(SceneError, match=r"x\d+ and \d+ more$"):
+        scene_from(parse(text, "my.toml"), name="my", where="my.toml")
