@@ -26,6 +26,7 @@ RANK = {
             ("mechanics",),
             ("scenes",),
             ("picture",),
+            ("paper",),
             ("player",),
             ("recorder",),
             ("bench",),
@@ -46,6 +47,7 @@ THIRD_PARTIES = {
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},
     "picture": {"numpy", "pygame"},
+    "paper": {"numpy", "pygame"},
     "player": {"numpy", "pygame"},
     "recorder": {"numpy", "imageio", "imageio_ffmpeg", "PIL"},
     "bench": {"numpy", "mpmath", "pylinkage", "scipy"},
@@ -100,7 +102,7 @@ def test_a_third_party_stays_in_its_rooms(path: Path) -> None:
 def test_every_room_is_read() -> None:
     rooms = {room_of(path) for path in SOURCES}
     assert rooms <= set(RANK)
-    assert {"mechanics", "scenes", "picture", "player", "recorder", "cli"} <= rooms
+    assert {"mechanics", "scenes", "picture", "paper", "player", "recorder", "cli"} <= rooms
 
 
 HEAVY = ("numpy", "pygame", "PIL", "imageio", "imageio_ffmpeg", "tqdm")
@@ -120,6 +122,7 @@ NO_WINDOW = ("pygame", "PIL", "imageio", "imageio_ffmpeg")
         pytest.param("main(['info', 'press'])", NO_WINDOW, id="info"),
         pytest.param("from linkanim import record", ("linkanim.player", "linkanim.cli"), id="record"),
         pytest.param("main(['solve', 'press', '--angle', '87 deg'])", NO_WINDOW, id="solve"),
+        pytest.param("import linkanim.paper.write", ("linkanim.player", "linkanim.recorder"), id="paper"),
     ],
 )
 def test_a_start_loads_no_more_than_it_needs(start: str, absent: tuple[str, ...]) -> None:

@@ -229,6 +229,41 @@ def _scenes(parser: Parser) -> None:
     )
 
 
+def _chart(parser: Parser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument(
+        "--quantity",
+        required=True,
+        metavar="Q[,Q...]",
+        help="such as rocker.angular_velocity or B.velocity.x; a wrong one is answered with the list",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="OUT",
+        help="OUT.png, OUT.svg or OUT.csv (default: SCENE.png here)",
+    )
+    parser.add_argument(
+        "--over",
+        choices=("angle", "time", "phase"),
+        help="default: the driven bar's angle, of an input that swings the time",
+    )
+    parser.add_argument(
+        "--speeds",
+        metavar="SPEED[,SPEED...]",
+        help='a curve for each, such as "5 rad/s,10 rad/s" (default: the scene\'s)',
+    )
+    parser.add_argument(
+        "--data", type=Path, metavar="OTHER.csv", help="lay a table over it: angle in degrees, value"
+    )
+    parser.add_argument(
+        "--label", metavar="TEXT", help="what that table is called (default: its file's name)"
+    )
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    _theme(parser)
+
+
 def _gallery(parser: Parser) -> None:
     parser.add_argument(
         "--into",
@@ -265,6 +300,15 @@ COMMANDS = {
             'linkanim solve press --angle "87 deg" --speed "10 rad/s" --json',
             "linkanim solve slider-crank --sweep 0:360:1 --csv slider.csv",
             "linkanim solve double-rocker --sweep 0:360:5 --phase",
+        ),
+    ),
+    "chart": Command(
+        "draw quantities over one true period as PNG or SVG, or write them as CSV",
+        _chart,
+        (
+            "linkanim chart press --quantity 5.travel_velocity -o ram.svg",
+            'linkanim chart press --quantity 3.angular_velocity --speeds "5 rad/s,10 rad/s,20 rad/s"',
+            "linkanim chart double-rocker --quantity rocker.angle --over angle -o rocker.csv",
         ),
     ),
     "info": Command(

@@ -85,8 +85,8 @@ def worst_transmission(motion: Any, dyads: tuple[str, ...]) -> Any:
 
 
 def dyads_of(linkage: Linkage) -> tuple[str, ...]:
-    """Return the joints that close dyads, in the order in which they are solved."""
-    return tuple(joint.name for joint in linkage.joints if joint.dyad)
+    """Return the joints of the dyads that have a transmission angle, in the order of solving."""
+    return tuple(joint.name for joint in linkage.joints if joint.transmission(1.0, 1.0) is not None)
 
 
 def crank_body(linkage: Linkage, body: Body) -> bool:

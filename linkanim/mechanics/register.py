@@ -215,6 +215,11 @@ class Quantity:
         """Return the unit that goes with `shown`."""
         return "°" if self.unit == "rad" else self.unit.format(length_unit)
 
+    def title(self, length_unit: str) -> str:
+        """Return what an axis is titled: "Rocker: angular velocity ω₄ (rad/s)"."""
+        unit = self.shown_unit(length_unit)
+        return f"{self.words} {self.symbol}" + (f" ({unit})" if unit else "")
+
 
 def indexed(symbol: str, index: str) -> str:
     """Return a symbol with its subscript: ω₄, v_{B}."""

@@ -13,6 +13,8 @@ from linkanim.digits import power_of_ten, stepped
 
 _WILD = 8.0
 """A peak this many times the span of the middle nine tenths is cut off, or all else would be a line."""
+_LITTLE = 0.06
+"""Of the span of the values, left free at either end."""
 
 
 @dataclass(frozen=True)
@@ -56,15 +58,15 @@ def decades(low: float, high: float, *, most: int = 8) -> Axis:
     return Axis(10.0**first, 10.0**last, ticks, log=True)
 
 
-def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "") -> Axis:
+def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "", room: float = _LITTLE) -> Axis:
     """Return a linear axis that holds the finite values, with a little room; wild peaks run out of it."""
     finite = values[np.isfinite(values)]
     low, high = _span(finite) if finite.size else (0.0, 1.0)
     size = max(abs(low), abs(high))
     if high - low <= 1e-9 * size or high == low:
         low, high = (low - 0.5 * size, high + 0.5 * size) if size else (-1.0, 1.0)
-    room = 0.06 * (high - low)
-    return linear(low - room, high + room, most=most, unit=unit)
+    beyond = room * (high - low)
+    return linear(low - beyond, high + beyond, most=most, unit=unit)
 
 
 def _span(finite: NDArray[np.float64]) -> tuple[float, float]:

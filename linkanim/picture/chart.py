@@ -6,12 +6,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import pygame
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.picture.axis import Axis
+from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import Layout
-from linkanim.picture.raster import Colour, Layer, Loop, paint
+from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import disc, segments, stroke
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
@@ -64,59 +64,62 @@ def plot_area(rect: Rect, y: Axis, pen: Pen, *, title: bool = True, foot: bool =
     )
 
 
-def draw_axes(surface: pygame.Surface, plot: Plot, pen: Pen) -> None:
-    """Draw grid lines and tick labels."""
+def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
+    """Yield grid lines and tick labels."""
     area, theme = plot.area, pen.theme
     columns = [complex(plot.place(value, plot.y.low)) for value, _ in plot.x.ticks]
     rows = [complex(plot.place(plot.x.low, value)) for value, _ in plot.y.ticks]
     grid = [*_lines(np.array(columns), -1j * area.height, pen), *_lines(np.array(rows), area.width, pen)]
-    paint(surface, [Layer(theme.rule, grid)])
+    yield Layer(theme.rule, grid)
     for foot, (_, label) in zip(columns, plot.x.ticks, strict=True):
         at = (foot.real, area.bottom + 0.4 * pen.small)
-        pen.type.draw(surface, label, at, size=pen.small, colour=theme.dim, anchor="centre")
+        yield Caption(label, at, pen.small, theme.dim, "centre")
     for foot, (_, label) in zip(rows, plot.y.ticks, strict=True):
         at = (area.x - 0.5 * pen.small, foot.imag - 0.5 * pen.small)
-        pen.type.draw(surface, label, at, size=pen.small, colour=theme.dim, anchor="right")
+        yield Caption(label, at, pen.small, theme.dim, "right")
 
 
-def draw_x_title(surface: pygame.Surface, plot: Plot, title: str, pen: Pen, *, foot: bool) -> Axis:
-    """Draw the horizontal axis' title and return the axis with the ticks that may have labels.
+def right_axis(plot: Plot, pen: Pen) -> Iterator[Item]:
+    """Yield the ticks of a second vertical axis, at the right."""
+    for value, label in plot.y.ticks:
+        foot = complex(plot.place(plot.x.high, value))
+        yield Layer(pen.theme.dim, segments(foot - 0.3 * pen.small, foot, 0.6 * pen.line))
+        at = (foot.real + 0.4 * pen.small, foot.imag - 0.5 * pen.small)
+        yield Caption(label, at, pen.small, pen.theme.dim)
 
-    It stands below them where the plot has a `foot`, else at the end of their line, in their place.
-    """
-    area, wide = plot.area, pen.type.width(title, pen.small)
-    y = area.bottom + (_FOOT if foot else 0.4) * pen.small
-    pen.type.draw(surface, title, (area.right, y), size=pen.small, colour=pen.theme.dim, anchor="right")
-    if foot:
-        return plot.x
-    free = area.right - wide - 0.6 * pen.small
+
+def x_title(plot: Plot, title: str, pen: Pen, *, foot: bool = True) -> Caption:
+    """Return the horizontal axis' title: below the tick labels on a plot with a `foot`, else beside them."""
+    y = plot.area.bottom + (_FOOT if foot else 0.4) * pen.small
+    return Caption(title, (plot.area.right, y), pen.small, pen.theme.dim, "right")
+
+
+def beside_title(plot: Plot, title: str, pen: Pen) -> Plot:
+    """Return a plot without the labels of the ticks that its title would stand on, which it stands beside."""
+    free = plot.area.right - pen.type.width(title, pen.small) - 0.6 * pen.small
     ticks = (
         (value, label if _right_end(plot, value, label, pen) <= free else "") for value, label in plot.x.ticks
     )
-    return replace(plot.x, ticks=tuple(ticks))
+    return replace(plot, x=replace(plot.x, ticks=tuple(ticks)))
 
 
 def _right_end(plot: Plot, value: float, label: str, pen: Pen) -> float:
     return complex(plot.place(value, plot.y.low)).real + 0.5 * pen.type.width(label, pen.small)
 
 
-def draw_marks(
-    surface: pygame.Surface,
-    plot: Plot,
-    marks: Sequence[tuple[float, str]],
-    values: NDArray[np.float64],
-    pen: Pen,
-) -> None:
-    """Draw a dashed line at each mark, its label at the end that is further from the curve's value there."""
+def marked(
+    plot: Plot, marks: Sequence[tuple[float, str]], values: NDArray[np.float64], pen: Pen
+) -> Iterator[Item]:
+    """Yield a dashed line at each mark, its label at the end that is further from the curve's value there."""
     area = plot.area
     for (x, label), value in zip(marks, values, strict=True):
         foot, wide = complex(plot.place(x, plot.y.low)), pen.type.width(label, pen.small)
-        paint(surface, [Layer(pen.theme.dim, list(_dashes(foot, area.height, pen)))])
+        yield Layer(pen.theme.dim, list(_dashes(foot, area.height, pen)))
         low = float(plot.y.share(value)) > 0.5
         left = foot.real + 0.3 * pen.small
         left = left if left + wide <= area.right else foot.real - 0.3 * pen.small - wide
         at = (left, area.bottom - 1.2 * pen.small if low else area.y + 0.1 * pen.small)
-        pen.type.draw(surface, label, at, size=pen.small, colour=pen.theme.dim)
+        yield Caption(label, at, pen.small, pen.theme.dim)
 
 
 def _dashes(foot: complex, height: float, pen: Pen) -> Iterator[Loop]:

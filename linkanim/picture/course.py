@@ -52,7 +52,7 @@ class Course:
 
     def laid(self, series: Series) -> tuple[Floats, Floats]:
         """Return a series along the course, both ends with it: x (n + 2,) rising, values (n + 2, k)."""
-        gain = _gain(series)
+        gain = gain_of(series)
         x = self.x_of(series.phases)
         turns = np.rint((self.phase_of(x) - series.phases) / self.period)
         order = np.argsort(x)
@@ -65,7 +65,7 @@ class Course:
         return np.r_[0.0, x, self.span], np.vstack([start, values, start + step])
 
 
-def _gain(series: Series) -> Floats:
+def gain_of(series: Series) -> Floats:
     """Return by how much each column grows in a period: whole turns for an angle, else nothing."""
     values = series.values
     if series.unit != "°" or len(values) < 2:
@@ -88,10 +88,15 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
         pace = speed or scene.linkage.drive.speed
         limits = () if turns else tuple(_limits(scene, pace))
         return Course("time (s)", "", period / abs(pace), period, 0.0, pace, limits)
-    title, origin = f"{driven_name(scene)} angle {input_symbol(scene)} (°)", -scene.linkage.drive.start
+    title, origin = input_title(scene), -scene.linkage.drive.start
     if chosen == "phase":
         title, origin = "phase φ (°)", 0.0
     return Course(title, "°", degrees(period), period, origin, radians(1.0))
+
+
+def input_title(scene: Scene) -> str:
+    """Return what an axis of the driven bar's angle is titled: "crank angle θ₂ (°)"."""
+    return f"{driven_name(scene)} angle {input_symbol(scene)} (°)"
 
 
 def input_symbol(scene: Scene) -> str:

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import pygame
 
 from linkanim.picture.axis import decades
-from linkanim.picture.chart import Pen, Plot, draw_axes, pen_for, plot_area, point_layers
+from linkanim.picture.chart import Pen, Plot, axes, pen_for, plot_area, point_layers
+from linkanim.picture.items import draw
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
 from linkanim.picture.raster import Colour, paint
@@ -49,7 +50,7 @@ def scatter(
     surface.fill(colours.background)
     pen = pen_for(layout(size, Look()), Type(), colours)
     plot = _plot(points, size, pen)
-    draw_axes(surface, plot, pen)
+    draw(surface, axes(plot, pen), pen.type)
     _draw_names(surface, plot, names, pen)
     for ours, colour in ((False, colours.velocity), (True, colours.acceleration)):
         paint(surface, point_layers(plot, [(p.x, p.y) for p in points if p.ours is ours], colour, pen))

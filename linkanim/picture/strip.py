@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,15 +17,17 @@ from linkanim.picture.axis import around
 from linkanim.picture.chart import (
     Pen,
     Plot,
+    axes,
+    beside_title,
     curve_layer,
-    draw_axes,
-    draw_marks,
-    draw_x_title,
+    marked,
     plot_area,
     point_layers,
+    x_title,
 )
 from linkanim.picture.course import Course, Floats, course
 from linkanim.picture.figure import Figure
+from linkanim.picture.items import Caption, Item, draw
 from linkanim.picture.layout import Layout
 from linkanim.picture.quantities import Series, quantity, rounded, series_of
 from linkanim.picture.raster import Colour, Layer, paint
@@ -86,24 +89,28 @@ class Strip:
 
     def draw(self, surface: pygame.Surface) -> None:
         """Draw all that stands still: axes and their titles, the limits of a swing, the curves."""
-        kept = draw_x_title(surface, self.plot, self.course.title, self.pen, foot=self._has_foot)
-        draw_axes(surface, replace(self.plot, x=kept), self.pen)
+        draw(surface, self.items(), self.pen.type)
+
+    def items(self) -> Iterator[Item]:
+        """Yield what stands still, back to front."""
+        title, pen = self.course.title, self.pen
+        yield from axes(self.plot if self._has_foot else beside_title(self.plot, title, pen), pen)
+        yield x_title(self.plot, title, pen, foot=self._has_foot)
         x, values = self.curves
         heights = np.interp([place for place, _ in self.course.marks], x, values[:, 0])
-        draw_marks(surface, self.plot, self.course.marks, heights, self.pen)
-        self._draw_title(surface)
+        yield from marked(self.plot, self.course.marks, heights, pen)
+        yield self._y_title()
         for n, column in enumerate(values.T):
-            paint(surface, [curve_layer(self.plot, x, column, self.colour(n), 1.3 * self.pen.line)])
+            yield curve_layer(self.plot, x, column, self.colour(n), 1.3 * pen.line)
 
-    def _draw_title(self, surface: pygame.Surface) -> None:
-        """Draw the vertical axis' title: words, symbol and unit, as much as leaves room for the reading."""
+    def _y_title(self) -> Caption:
+        """Return the vertical axis' title: words, symbol and unit, as much as leaves room for the reading."""
         pen, area = self.pen, self.plot.area
         room = area.width - self._widest_reading - _GAP * pen.text
-        short = f"{self.quantity.symbol} ({self.series.unit})"
-        full = f"{self.quantity.words} {short}"
+        full = self.quantity.title(self.figure.scene.length_unit)
+        short = full.removeprefix(f"{self.quantity.words} ")
         words = full if pen.type.width(full, pen.text) <= room else short
-        at = (area.x, area.y - _TITLE * pen.text)
-        pen.type.draw(surface, words, at, size=pen.text, colour=pen.theme.ink)
+        return Caption(words, (area.x, area.y - _TITLE * pen.text), pen.text, pen.theme.ink)
 
     @cached_property
     def _widest_reading(self) -> float:

@@ -47,6 +47,23 @@ def runs(text: str) -> tuple[Run, ...]:
     return tuple(run for run in _runs(normalize("NFC", text)) if run.text)
 
 
+class Typesetting(NamedTuple):
+    """How a line of a height is set elsewhere: the face's size and a subscript's in pixels, and shifts."""
+
+    em: float
+    small: float
+    baseline: float
+    """How far below the line's top."""
+    lower: float
+    """How far a subscript stands below the baseline."""
+
+
+def typesetting(size: int) -> Typesetting:
+    """Return how lines of a height are set, for what draws with fonts of its own."""
+    small = max(round(_SUB * size), min(size, _LEAST))
+    return Typesetting(_em(size) / _FINE, _em(small) / _FINE, round(_BASE * size), round(_LOWER * size))
+
+
 def subscripted(name: str) -> str:
     """Return a name with the number it ends in as a subscript: O2 as O₂; another name as it is."""
     return _INDEX.sub(lambda found: found[1].translate(_LOWERED), name)

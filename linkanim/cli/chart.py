@@ -1,0 +1,64 @@
+"""`linkanim chart`: quantities over one true period, as a picture or a table."""
+
+from __future__ import annotations
+
+import sys
+from argparse import Namespace
+from pathlib import Path
+
+from linkanim import units
+from linkanim.digits import stepped
+from linkanim.errors import BadInput
+from linkanim.paper.chart import Page
+from linkanim.paper.curves import Curves, Pace, Wanted, curves_of
+from linkanim.paper.measured import Measured, beside, read_table
+from linkanim.paper.write import SUFFIXES, write
+from linkanim.recorder.plan import refuse_size
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+from linkanim.whole import checked_target
+
+_SIZE = (1280, 720)
+
+
+def run(options: Namespace) -> None:
+    """Write the chart that was asked for; print its path, and of a table beside it the largest difference."""
+    target = checked_target(options.output or f"{Path(options.scene).stem}.png", SUFFIXES)
+    size = options.size or _SIZE
+    refuse_size(size)
+    scene = load(options.scene)
+    tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
+    curves = curves_of(scene, Wanted(tokens, _paces(scene, options.speeds), options.over))
+    measured = _measured(curves, options)
+    write(Page(curves, size, options.theme, measured), target)
+    if measured:
+        print(_difference(curves, measured), file=sys.stderr)
+    print(target)
+
+
+def _paces(scene: Scene, text: str | None) -> tuple[Pace, ...]:
+    """Return the speeds asked for, the scene's own where none is; `BadInput` for one that moves nothing."""
+    if text is None:
+        return (Pace(scene.linkage.drive.speed, "the scene's speed"),)
+    words = [" ".join(part.split()) for part in text.split(",") if part.strip()]
+    paces = tuple(dict.fromkeys(Pace(units.angular_speed(part), part) for part in words))
+    if not paces or any(pace.speed == 0 for pace in paces):
+        raise BadInput(f'--speeds {text!r}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
+    return paces
+
+
+def _measured(curves: Curves, options: Namespace) -> Measured | None:
+    if options.data is None:
+        if options.label is not None:
+            raise BadInput("--label names the table of --data; add --data OTHER.csv")
+        return None
+    return beside(curves, read_table(options.data), options.label or options.data.stem)
+
+
+def _difference(curves: Curves, measured: Measured) -> str:
+    unit = measured.curve.quantity.shown_unit(curves.scene.length_unit)
+    return (
+        f"largest difference of {measured.label} from {measured.curve.quantity.token}: "
+        f"{measured.largest:.6g} {unit}".rstrip()
+        + f" at {stepped(measured.angle, 0.01)} deg"
+    )

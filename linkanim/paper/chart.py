@@ -1,0 +1,266 @@
+"""A chart on a page: curves with their legend, extremes marked, one axis a unit or a column of strips."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+
+from linkanim.digits import stepped
+from linkanim.paper.curves import Curve, Curves, Peak, extremes
+from linkanim.paper.measured import Measured
+from linkanim.picture.axis import Axis, around
+from linkanim.picture.chart import (
+    Pen,
+    Plot,
+    axes,
+    curve_layer,
+    marked,
+    pen_for,
+    point_layers,
+    right_axis,
+    x_title,
+)
+from linkanim.picture.items import Caption, Item, draw
+from linkanim.picture.layout import layout
+from linkanim.picture.look import Look, ThemeName
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.shapes import box as rounded_box
+from linkanim.picture.shapes import disc, segments
+from linkanim.picture.text import Type
+from linkanim.picture.theme import theme_of
+from linkanim.picture.view import Rect
+
+_TOGETHER = 2
+"""So many units share one plot, with an axis at either side; of more each has a strip of its own."""
+_ROOM = 0.13
+"""Of a curve's span, above and below it, where its extremes are told."""
+_BELOW = 0.8
+"""Below each plot, in heights of tick labels."""
+_LINE = 1.5
+"""From line to line, in heights of their text."""
+
+
+@dataclass(frozen=True)
+class Page:
+    """A chart of so many pixels."""
+
+    curves: Curves
+    size: tuple[int, int]
+    theme: ThemeName = "light"
+    measured: Measured | None = None
+
+    @cached_property
+    def pen(self) -> Pen:
+        """What it is drawn with."""
+        return pen_for(layout(self.size, Look()), Type(), theme_of(self.theme))
+
+    @property
+    def background(self) -> Colour:
+        """The colour under everything."""
+        return self.pen.theme.background
+
+    @property
+    def about(self) -> str:
+        """What it shows, in words."""
+        return ", ".join(dict.fromkeys(curve.quantity.words for curve in self.curves.curves))
+
+    def surface(self) -> pygame.Surface:
+        """Return the chart drawn."""
+        surface = offscreen(self.size)
+        surface.fill(self.background)
+        draw(surface, self.items(), self.pen.type)
+        return surface
+
+    def items(self) -> Iterator[Item]:
+        """Yield everything on the page, back to front."""
+        pen, whole = self.pen, Rect(0, 0, *self.size).inset(20 * self.pen.line / 1.8)
+        title = self.curves.scene.title
+        yield Caption(title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
+        entries = self._legend()
+        rows = list(_rows(entries, whole.width, pen)) if len(entries) > 1 else []
+        top = whole.y + _LINE * pen.text
+        for n, row in enumerate(rows):
+            yield from _legend_row(row, whole.x, top + n * _LINE * pen.small, pen)
+        below = top + len(rows) * _LINE * pen.small
+        yield from self._plots(whole._replace(y=below, height=whole.bottom - below))
+
+    def _legend(self) -> list[_Entry]:
+        entries = [_Entry(self.curves.words(curve), self.colour(curve)) for curve in self.curves.curves]
+        return entries + (
+            [_Entry(self.measured.label, self.pen.theme.ink, dotted=True)] if self.measured else []
+        )
+
+    def colour(self, curve: Curve) -> Colour:
+        """Return the colour of a curve: after the theme's they repeat."""
+        theme = self.pen.theme
+        palette = tuple(
+            dict.fromkeys((theme.velocity, theme.acceleration, *theme.traces[1::-1], *theme.bodies[3:]))
+        )
+        return palette[self.curves.curves.index(curve) % len(palette)]
+
+    def _plots(self, rect: Rect) -> Iterator[Item]:
+        """Yield the plots one below the other over one common axis."""
+        pen, groups = self.pen, _by_unit(self.curves)
+        columns = [groups] if len(groups) <= _TOGETHER else [[group] for group in groups]
+        foot = (2 * _LINE - _BELOW) * pen.small
+        high = (rect.height - foot) / len(columns)
+        edges = [max(edge) for edge in zip(*(self._margins(sides, high) for sides in columns), strict=True)]
+        x = self.curves.axis(max(min(round(rect.width / (5 * pen.small)), 12), 2))
+        for n, sides in enumerate(columns):
+            last = n == len(columns) - 1
+            top = rect.y + n * high + _LINE * pen.small
+            tall = high - (_LINE + _BELOW) * pen.small
+            area = Rect(rect.x + edges[0], top, max(rect.width - sum(edges), 1), max(tall, 1))
+            yield from self._plot(area, x if last else _unlabelled(x), sides)
+            if last:
+                yield x_title(Plot(area, x, self._axis(sides[0], high)), self.curves.title, pen)
+
+    def _margins(self, sides: list[list[Curve]], high: float) -> tuple[float, float]:
+        """Return how much room the tick labels at either side take."""
+        pen = self.pen
+        wide = [
+            max((pen.type.width(label, pen.small) for _, label in self._axis(side, high).ticks), default=0)
+            for side in sides
+        ]
+        return wide[0] + 0.6 * pen.small, (wide[1] if len(wide) > 1 else 0) + 1.4 * pen.small
+
+    def _axis(self, side: Sequence[Curve], high: float) -> Axis:
+        """Return the vertical axis of curves of one unit."""
+        values = np.concatenate([curve.values for curve in side])
+        unit = side[0].quantity.shown_unit(self.curves.scene.length_unit)
+        most = max(min(round(high / (2.8 * self.pen.small)), 8), 2)
+        return around(values, most=most, unit="°" if unit == "°" else "", room=_ROOM)
+
+    def _plot(self, area: Rect, x: Axis, sides: list[list[Curve]]) -> Iterator[Item]:
+        pen = self.pen
+        plots = [Plot(area, x, self._axis(side, area.height)) for side in sides]
+        yield from axes(plots[0], pen)
+        yield from self._y_titles(area, sides)
+        if len(plots) > 1:
+            yield from right_axis(plots[1], pen)
+        yield from _zero(plots[0], pen)
+        first = sides[0][0]
+        heights = np.interp([place for place, _ in self.curves.marks], first.x, first.values)
+        yield from marked(plots[0], self.curves.marks, heights, pen)
+        for plot, side in zip(plots, sides, strict=True):
+            for curve in side:
+                yield curve_layer(plot, curve.x, curve.values, self.colour(curve), 1.2 * pen.line)
+        if self.measured and self.measured.curve in sides[0]:
+            yield from point_layers(plots[0], self.measured.points, pen.theme.ink, _finer(pen))
+        yield from self._peaks(plots, sides)
+
+    def _y_titles(self, area: Rect, sides: list[list[Curve]]) -> Iterator[Item]:
+        pen, top = self.pen, area.y - 1.3 * self.pen.small
+        ends = (("left", area.x), ("right", area.right))
+        for side, (anchor, x) in zip(sides, ends, strict=False):
+            words = self._y_title(side)
+            yield Caption(words, (x, top), pen.small, pen.theme.ink, "right" if anchor == "right" else "left")
+
+    def _y_title(self, side: Sequence[Curve]) -> str:
+        """Return what a vertical axis is titled: in words where it has one quantity, else in symbols."""
+        known = list(dict.fromkeys(curve.quantity for curve in side))
+        unit = self.curves.scene.length_unit
+        if len(known) == 1:
+            return known[0].title(unit)
+        shown = known[0].shown_unit(unit)
+        return ", ".join(one.symbol for one in known) + (f" ({shown})" if shown else "")
+
+    def _peaks(self, plots: list[Plot], sides: list[list[Curve]]) -> Iterator[Item]:
+        """Yield a dot at each extreme, and its value and angle where there is room to say them."""
+        taken: list[pygame.Rect] = []
+        for plot, side in zip(plots, sides, strict=True):
+            for curve in side:
+                for n, peak in enumerate(extremes(self.curves.scene, curve)):
+                    dot, words = [(peak.x, peak.value)], _said(plot, peak, self.curves, curve)
+                    yield from point_layers(plot, dot, self.colour(curve), _finer(self.pen))
+                    yield from _told(plot, peak, words, self.pen, taken, high=n == 0)
+
+
+def _said(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
+    unit = "°" if curve.quantity.shown_unit(curves.scene.length_unit) == "°" else ""
+    return f"{stepped(peak.value, (plot.y.high - plot.y.low) / 500)}{unit} at {stepped(peak.angle, 0.1)}°"
+
+
+def _told(
+    plot: Plot, peak: Peak, words: str, pen: Pen, taken: list[pygame.Rect], *, high: bool
+) -> Iterator[Item]:
+    """Yield an extreme in words by its dot, clear of the others; nothing where there is no room.
+
+    A `high` one has them above its dot where it can.
+    """
+    place = complex(plot.place(peak.x, peak.value))
+    wide, tall = pen.type.width(words, pen.small), round(1.15 * pen.small)
+    area = pygame.Rect(*(round(side) for side in plot.area))
+    rows = (place.imag - 1.6 * pen.small, place.imag + 0.5 * pen.small)
+    columns = (place.real - wide / 2, place.real + 0.6 * pen.small, place.real - wide - 0.6 * pen.small)
+    boxes = [pygame.Rect(round(x), round(y), wide, tall) for y in rows[:: 1 if high else -1] for x in columns]
+    box = next((box for box in boxes if area.contains(box) and box.collidelist(taken) < 0), None)
+    if box is not None:
+        taken.append(box)
+        yield Layer(pen.theme.background, [complex(*box.center) + rounded_box(wide + 4, tall, 3)], 0.7)
+        yield Caption(words, box.topleft, pen.small, pen.theme.ink)
+
+
+def _zero(plot: Plot, pen: Pen) -> Iterator[Layer]:
+    """Yield the line of zero where it lies in the plot."""
+    if plot.y.low < 0 < plot.y.high:
+        foot = complex(plot.place(plot.x.low, 0.0))
+        yield Layer(pen.theme.dim, segments(foot, foot + plot.area.width, 0.6 * pen.line))
+
+
+def _finer(pen: Pen) -> Pen:
+    return replace(pen, line=0.6 * pen.line)
+
+
+def _unlabelled(axis: Axis) -> Axis:
+    return replace(axis, ticks=tuple((value, "") for value, _ in axis.ticks))
+
+
+def _by_unit(curves: Curves) -> list[list[Curve]]:
+    """Return the curves in groups of one unit, in their order."""
+    groups: dict[str, list[Curve]] = {}
+    for curve in curves.curves:
+        groups.setdefault(curve.quantity.unit, []).append(curve)
+    return list(groups.values())
+
+
+class _Entry(NamedTuple):
+    """A line or a dot of a legend, and what it stands for."""
+
+    words: str
+    colour: Colour
+    dotted: bool = False
+
+
+def _swatch(pen: Pen) -> float:
+    return 1.4 * pen.small
+
+
+def _wide(entry: _Entry, pen: Pen) -> float:
+    return _swatch(pen) + 0.5 * pen.small + pen.type.width(entry.words, pen.small) + 1.6 * pen.small
+
+
+def _rows(entries: list[_Entry], width: float, pen: Pen) -> Iterator[list[_Entry]]:
+    """Yield a legend's entries in lines no wider than the page."""
+    row: list[_Entry] = []
+    for entry in entries:
+        if row and sum(_wide(other, pen) for other in (*row, entry)) > width:
+            yield row
+            row = []
+        row.append(entry)
+    yield row
+
+
+def _legend_row(row: list[_Entry], x: float, y: float, pen: Pen) -> Iterator[Item]:
+    for entry in row:
+        start = complex(x, y + 0.5 * pen.small)
+        line = segments(start, start + _swatch(pen), 1.4 * pen.line)
+        yield Layer(entry.colour, [start + _swatch(pen) / 2 + disc(1.8 * pen.line)] if entry.dotted else line)
+        yield Caption(entry.words, (x + _swatch(pen) + 0.5 * pen.small, y), pen.small, pen.theme.ink)
+        x += _wide(entry, pen)

@@ -1,0 +1,69 @@
+"""Items as SVG: filled paths and text in a named face with a generic fallback, nothing embedded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+
+from linkanim.picture.items import Caption, Item
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.text import runs, typesetting
+
+_FACES = "'Source Sans Pro', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
+_ANCHORS = {"left": "start", "centre": "middle", "right": "end"}
+_SEMIBOLD = 600
+
+
+def svg(size: tuple[int, int], background: Colour | None, items: Iterable[Item], *, title: str) -> str:
+    """Return a picture of so many pixels as an SVG document; None leaves the background open."""
+    width, height = size
+    body = [f"<title>{escape(title)}</title>"]
+    if background is not None:
+        body.append(f'<rect width="{width}" height="{height}" fill="{_hex(background)}"/>')
+    body += [_path(item) if isinstance(item, Layer) else _text(item) for item in items if _shows(item)]
+    head = f'width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family={quoteattr(_FACES)}'
+    lines = "\n".join(body)
+    return f'<svg xmlns="http://www.w3.org/2000/svg" {head}>\n{lines}\n</svg>\n'
+
+
+def _shows(item: Item) -> bool:
+    return bool(item.loops) if isinstance(item, Layer) else bool(item.text)
+
+
+def _path(layer: Layer) -> str:
+    opacity = f' fill-opacity="{layer.alpha:.3g}"' if layer.alpha < 1 else ""
+    return f'<path fill="{_hex(layer.colour)}"{opacity} d="{"".join(map(_closed, layer.loops))}"/>'
+
+
+def _closed(loop: Loop) -> str:
+    """Return a closed loop as path data, to hundredths of a pixel, without points that coincide there."""
+    points = np.round(loop, 2)
+    points = points[np.r_[True, np.diff(points) != 0]]
+    return "M" + "L".join(f"{point.real:g} {point.imag:g}" for point in points.tolist()) + "Z"
+
+
+def _text(line: Caption) -> str:
+    how = typesetting(line.size)
+    weight = f' font-weight="{_SEMIBOLD}"' if line.strong else ""
+    at = f'x="{line.at[0]:.2f}" y="{line.at[1] + how.baseline:.2f}" font-size="{how.em:.2f}"'
+    anchor = f'text-anchor="{_ANCHORS[line.anchor]}" fill="{_hex(line.colour)}"'
+    return f"<text {at} {anchor}{weight}>{''.join(_spans(line))}</text>"
+
+
+def _spans(line: Caption) -> Iterator[str]:
+    """Yield a line's runs, subscripts smaller and lower."""
+    how, lowered = typesetting(line.size), False
+    for run in runs(line.text):
+        if not run.lowered and not lowered:
+            yield escape(run.text)
+            continue
+        shift = (run.lowered - lowered) * how.lower
+        size = f' font-size="{how.small:.2f}"' if run.lowered else ""
+        yield f'<tspan dy="{shift:.2f}"{size}>{escape(run.text)}</tspan>'
+        lowered = run.lowered
+
+
+def _hex(colour: Colour) -> str:
+    return "#" + "".join(f"{part:02x}" for part in colour)

@@ -1,0 +1,136 @@
+"""Curves of a chart and the table that goes with them, held to what the library solves."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.register import register
+from linkanim.paper.curves import Curves, Pace, Wanted, curves_of, extremes, table
+from linkanim.picture.course import Over
+from linkanim.scenes import load
+
+FIVE, TEN = Pace(5.0, "5 rad/s"), Pace(-10.0, "-10 rad/s")
+
+
+def _curves(name: str, *tokens: str, paces: tuple[Pace, ...] = (FIVE,), over: Over | None = None) -> Curves:
+    return curves_of(load(name), Wanted(tokens, paces, over))
+
+
+# scene, over, title, from, to
+AXES: list[tuple[str, Over | None, str, float, float]] = [
+    ("slider-crank", None, "crank angle θ₂ (°)", 0, 360),
+    ("kite", "angle", "crank angle θ₂ (°)", 0, 720),
+    ("slider-crank", "time", "time (s)", 0, math.tau / 5),
+    ("slider-crank", "phase", "phase φ (°)", 0, 360),
+    ("double-rocker", None, "time (s)", 0, math.tau / 5),
+    ("double-rocker", "angle", "input rocker angle θ₂ (°)", 13.80, 108.39),
+    ("double-rocker", "phase", "phase φ (°)", 0, 360),
+]
+
+
+@pytest.mark.parametrize(("name", "over", "title", "low", "high"), AXES)
+@pytest.mark.parametrize("pace", [FIVE, TEN])
+def test_each_curve_is_the_motion_over_what_was_asked(
+    name: str, over: Over | None, title: str, low: float, high: float, pace: Pace
+) -> None:
+    found = _curves(
+        name,
+        "coupler.angle" if name != "slider-crank" else "rod.angle",
+        "P.velocity.x",
+        paces=(pace,),
+        over=over,
+    )
+    scale = abs(FIVE.speed / pace.speed) if title.startswith("time") else 1.0
+    assert found.title == title
+    assert found.low == pytest.approx(low, abs=0.01)
+    assert found.high == pytest.approx(high * scale, abs=0.01)
+    for curve in found.curves:
+        at = np.linspace(0, len(curve.x) - 1, 23).astype(int)
+        motion = found.scene.solve(phase=curve.phases[at], speed=pace.speed)
+        turned = np.remainder(curve.values[at] - curve.quantity.shown(motion) + 180, 360) - 180
+        small = turned if curve.quantity.unit == "rad" else curve.values[at] - curve.quantity.shown(motion)
+        assert small == pytest.approx(np.zeros(23), abs=1e-3 * np.ptp(curve.values))
+        assert np.abs(np.diff(curve.values)).max() < 0.1 * np.ptp(curve.values)
+        places = found.places(curve, motion)
+        apart = np.remainder(places - curve.x[at] + found.high / 2, found.high) - found.high / 2
+        assert apart == pytest.approx(np.zeros(23), abs=1e-9 * found.high)
+
+
+def test_a_curve_is_named_by_what_sets_it_off() -> None:
+    one = _curves("press", "3.angular_velocity")
+    assert [one.words(curve) for curve in one.curves] == ["Link 3: angular velocity ω₃"]
+    paced = _curves("press", "3.angular_velocity", paces=(FIVE, TEN))
+    assert [paced.words(curve) for curve in paced.curves] == ["5 rad/s", "-10 rad/s"]
+    both = _curves("press", "3.angular_velocity", "B.position", paces=(FIVE, TEN))
+    assert both.words(both.curves[0]) == "Link 3: angular velocity ω₃, 5 rad/s"
+    assert both.words(both.curves[-1]) == "B: position r_{B}, y, -10 rad/s"
+
+
+def test_extremes_are_where_the_motion_has_them() -> None:
+    found = _curves("press", "5.travel")
+    high, low = extremes(found.scene, found.curves[0])
+    for peak, turn in ((high, max), (low, min)):
+        near = found.scene.solve(angle=np.radians(peak.angle + np.linspace(-1, 1, 2001)), speed=5.0)
+        assert peak.value == pytest.approx(turn(near.travel["5"]), abs=1e-6)
+        speed = found.scene.solve(angle=math.radians(peak.angle), speed=5.0).travel_velocity["5"]
+        assert abs(speed) < 1e-3
+        assert peak.x == pytest.approx(peak.angle)
+    assert high.value - low.value == pytest.approx(found.scene.info.stroke, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "token"), [("crank-rocker", "crank.angular_velocity"), ("crank-rocker", "mechanical_advantage")]
+)
+def test_what_is_level_or_unbounded_has_no_extremes(name: str, token: str) -> None:
+    found = _curves(name, token)
+    curve = found.curves[0]
+    if token == "mechanical_advantage":
+        curve.values[3] = math.inf
+    assert extremes(found.scene, curve) == ()
+
+
+def test_an_angle_s_extremes_stay_in_the_turn_of_the_curve_and_at_its_ends() -> None:
+    found = _curves("drag-link", "rocker.angle", paces=(TEN,))
+    high, low = extremes(found.scene, found.curves[0])
+    assert high.x == pytest.approx(360.0)
+    assert low.x == pytest.approx(0.0)
+    assert high.value - low.value == pytest.approx(360.0)
+    assert high.value == pytest.approx(found.curves[0].values.max())
+    swinging = _curves("double-rocker", "P.position", over="angle")
+    for curve in swinging.curves:
+        high, low = extremes(swinging.scene, curve)
+        assert 13.79 < low.x < 108.4
+        assert curve.values.min() - 0.01 < low.value <= curve.values.min()
+        assert low.angle == pytest.approx(low.x, abs=0.01)
+
+
+def test_a_quantity_named_twice_is_drawn_once_and_none_is_refused() -> None:
+    assert len(_curves("press", "5.travel", "5.travel").curves) == 1
+    with pytest.raises(BadInput, match="--quantity names none"):
+        _curves("press")
+    with pytest.raises(BadInput, match=r"5\.travl.*did you mean 5\.travel"):
+        _curves("press", "5.travl")
+
+
+def test_the_table_holds_what_is_solved_in_radians() -> None:
+    found = _curves("press", "3.angle", "B.position", "cushion.force", paces=(FIVE, TEN))
+    names, columns = table(found)
+    by_name: dict[str, Any] = dict(zip(names, columns, strict=True))
+    assert names[:4] == ["angle_deg", "angle", "phase", "time@5 rad/s"]
+    known = register(found.scene.linkage)
+    for pace in (FIVE, TEN):
+        motion = found.scene.solve(phase=by_name["phase"], speed=pace.speed)
+        for token in ("3.angle", "cushion.force"):
+            assert by_name[f"{token}@{pace.words}"] == pytest.approx(
+                known[token].read(motion), rel=1e-12, abs=1e-12
+            )
+        assert by_name[f"B.position.y@{pace.words}"] == pytest.approx(motion.position["B"][:, 1])
+        assert by_name[f"time@{pace.words}"] * pace.speed == pytest.approx(by_name["phase"])
+    assert np.degrees(by_name["angle"]) == pytest.approx(by_name["angle_deg"])
+    single, _ = table(_curves("press", "3.angle"))
+    assert single == ["angle_deg", "angle", "phase", "time", "3.angle"]

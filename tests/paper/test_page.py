@@ -1,0 +1,164 @@
+"""A chart on a page: what is on it, and that PNG and SVG are one picture."""
+
+from __future__ import annotations
+
+import io
+import math
+from xml.etree import ElementTree
+
+import numpy as np
+import pygame
+import pytest
+
+from linkanim.paper.chart import Page
+from linkanim.paper.curves import Pace, Wanted, curves_of
+from linkanim.paper.measured import beside
+from linkanim.paper.svg import svg
+from linkanim.picture.items import Caption, draw
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.raster import Layer
+from linkanim.scenes import load, names
+
+SIZE = (800, 450)
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def _page(name: str, *tokens: str, speeds: tuple[float, ...] = (5.0,), size: tuple[int, int] = SIZE) -> Page:
+    paces = tuple(Pace(speed, f"{speed:g} rad/s") for speed in speeds)
+    return Page(curves_of(load(name), Wanted(tokens, paces)), size)
+
+
+def _said(page: Page) -> list[str]:
+    return [item.text for item in page.items() if isinstance(item, Caption)]
+
+
+def test_one_curve_has_titles_and_no_legend() -> None:
+    said = _said(_page("crank-rocker", "rocker.angular_velocity"))
+    assert said[0] == "Crank-rocker"
+    assert "Rocker: angular velocity ω₄ (rad/s)" in said
+    assert "crank angle θ₂ (°)" in said
+    assert not any(text.startswith("5 rad/s") for text in said)
+
+
+def test_three_speeds_have_a_legend_in_words() -> None:
+    said = _said(_page("press", "5.travel_velocity", speeds=(5.0, 10.0, 20.0)))
+    assert {"5 rad/s", "10 rad/s", "20 rad/s"} <= set(said)
+
+
+def test_extremes_are_told_with_value_and_angle() -> None:
+    said = _said(_page("press", "5.travel_velocity", speeds=(10.0,)))
+    assert "659 at 34.8°" in said
+    assert "−255 at 164.9°" in said
+
+
+# tokens, the plots' vertical titles: one unit shares an axis, two have one each, more a strip each
+UNITS = [
+    (("3.angular_velocity", "6.angular_velocity"), ["ω₃, ω₆ (rad/s)"]),
+    (
+        ("3.angular_velocity", "return.force"),
+        ["Link 3: angular velocity ω₃ (rad/s)", "Spring return: force F_{return} (N)"],
+    ),
+    (
+        ("3.angular_velocity", "return.force", "transmission_angle"),
+        [
+            "Link 3: angular velocity ω₃ (rad/s)",
+            "Spring return: force F_{return} (N)",
+            "Transmission angle μ (°)",
+        ],
+    ),
+]
+
+
+@pytest.mark.parametrize(("tokens", "titles"), UNITS)
+def test_units_have_axes_of_their_own(tokens: tuple[str, ...], titles: list[str]) -> None:
+    page = _page("press", *tokens)
+    titled = {
+        item.text: item.at for item in page.items() if isinstance(item, Caption) and item.text in titles
+    }
+    assert list(titled) == titles
+    heights = {round(y) for _, y in titled.values()}
+    assert len(heights) == (1 if len(titles) <= 2 else len(titles))
+    assert _said(page).count("crank angle θ₂ (°)") == 1
+
+
+@pytest.mark.parametrize("size", [SIZE, (320, 180), (200, 900), (64, 64)])
+@pytest.mark.parametrize("name", ["press", "double-rocker"])
+def test_no_two_extremes_are_told_in_one_place_and_all_stays_on_the_page(
+    name: str, size: tuple[int, int]
+) -> None:
+    page = _page(
+        name, *(("5.travel_velocity", "5.travel") if name == "press" else ("coupler.angle",)), size=size
+    )
+    boxes = []
+    for item in page.items():
+        if isinstance(item, Caption) and " at " in item.text:
+            boxes.append(pygame.Rect(item.at, (page.pen.type.width(item.text, item.size), item.size)))
+    for n, box in enumerate(boxes):
+        assert box.collidelist(boxes[n + 1 :]) < 0
+        assert pygame.Rect(0, 0, *size).contains(box)
+    assert page.surface().get_size() == size
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_scene_has_its_chart(name: str) -> None:
+    page = _page(
+        name, "transmission_angle", "input.angular_velocity", "mechanical_advantage", size=(320, 180)
+    )
+    assert len(np.unique(pygame.surfarray.array3d(page.surface()).reshape(-1, 3), axis=0)) > 8
+
+
+def test_the_svg_is_the_picture_of_the_png() -> None:
+    page = _page("press", "5.travel_velocity", "5.travel_acceleration", speeds=(5.0, 20.0))
+    shapes = [item for item in page.items() if isinstance(item, Layer)]
+    ours = offscreen(SIZE)
+    ours.fill(page.background)
+    draw(ours, shapes, page.pen.type)
+    # drawn by SDL_image's own SVG reader, which knows paths and no text
+    theirs = pygame.image.load(io.BytesIO(svg(SIZE, page.background, shapes, title="t").encode()), "t.svg")
+    assert theirs.get_size() == SIZE
+    one, other = (pygame.surfarray.array3d(picture).astype(float) for picture in (ours, theirs))
+    noise = float(((one - other) ** 2).mean())
+    assert 10 * math.log10(255**2 / noise) > 30
+
+
+def test_the_svg_holds_all_that_is_said_as_text() -> None:
+    page = _page("press", "return.force", "3.angular_velocity")
+    document = ElementTree.fromstring(svg(SIZE, None, page.items(), title="a < b & c"))
+    assert document.find(f"{SVG}title").text == "a < b & c"  # type: ignore[union-attr]
+    found = ["".join(text.itertext()) for text in document.iter(f"{SVG}text")]
+    assert "Spring return: force Freturn (N)" in found
+    assert "Link 3: angular velocity ω3 (rad/s)" in found
+    assert document.find(f"{SVG}rect") is None
+    assert document.get("viewBox") == "0 0 800 450"
+
+
+def test_a_line_goes_on_at_its_height_after_a_subscript() -> None:
+    line = Caption("v_{B} and ω₃ (mm)", (10.0, 10.0), 20, (0, 0, 0))
+    text = ElementTree.fromstring(svg((100, 40), None, [line], title="t")).find(f"{SVG}text")
+    assert text is not None
+    shifts = [float(span.get("dy", "0")) for span in text.iter(f"{SVG}tspan")]
+    assert len(shifts) == 4
+    assert sum(shifts) == 0
+
+
+def test_a_table_is_laid_over_the_curve_and_its_largest_difference_found() -> None:
+    page = _page("press", "3.angle", speeds=(10.0,))
+    scene = page.curves.scene
+    angles = np.array([0.0, 87.0, 200.0, 359.0])
+    exact = np.degrees(scene.solve(angle=np.radians(angles)).angle["3"])
+    errors = np.array([0.0, 0.02, 360.0 - 0.05, 0.01])
+    table = np.column_stack([angles, exact + errors])
+    found = beside(page.curves, table, "measured")
+    assert found.largest == pytest.approx(-0.05)
+    assert found.angle == 200.0
+    assert [x for x, _ in found.points] == pytest.approx(angles)
+    shown = Page(page.curves, SIZE, measured=found)
+    assert "measured" in _said(shown)
+
+
+def test_a_table_of_rates_is_compared_at_the_charts_speed_also_of_a_swing() -> None:
+    page = _page("double-rocker", "rocker.angular_velocity", speeds=(3.0,))
+    phases = np.array([0.5, 1.0, 2.0])
+    motion = page.curves.scene.solve(phase=phases, speed=3.0)
+    table = np.column_stack([np.degrees(motion.crank_angle), motion.angular_velocity["rocker"]])
+    assert beside(page.curves, table, "t").largest == pytest.approx(0.0, abs=1e-9)
