@@ -15,13 +15,38 @@ from linkanim.scenes.toml import SCENE_FILE, parse
 from linkanim.units import shown
 
 _CHAPTERS: Mapping[str, tuple[str, ...]] = {
-    "four-bars": ("crank-rocker", "drag-link", "rocker-driven"),
-    "sliders": ("slider-crank",),
-    "six-bars and more": ("six-bar", "press"),
+    "four-bars": (
+        "crank-rocker",
+        "drag-link",
+        "rocker-driven",
+        "crank-rocker-link3",
+        "wiper",
+        "pumpjack",
+        "galloway",
+        "chebyshev-line",
+        "hoecken",
+        "roberts-line",
+        "watt-line",
+        "evans",
+    ),
+    "sliders": (
+        "slider-crank",
+        "inverted-slider-crank",
+        "whitworth",
+        "crank-shaper",
+        "quick-return-press",
+        "toggle-clamp",
+        "knuckle-press",
+    ),
+    "six-bars and more": (
+        "six-bar",
+        "press",
+    ),
     "hard on purpose": (
         "parallelogram",
         "antiparallelogram",
         "kite",
+        "isosceles-slider",
         "double-rocker",
         "triple-rocker",
         "triple-rocker-in-in",

@@ -1,0 +1,75 @@
+"""What each slider and slot of the catalogue is there for, against a closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from linkanim.scenes import load
+
+EPS = 2.0**-52
+
+
+def test_the_slotted_bar_swings_through_twice_the_arc_sine_of_crank_to_ground() -> None:
+    motion = load("inverted-slider-crank").cycle(7200)
+    bar = motion.angle["bar"]
+    expected = np.arctan2(motion.position["A"][:, 1], 110 + motion.position["A"][:, 0])
+    assert np.max(np.abs(bar - expected)) <= 1e-14
+    assert np.ptp(bar) == pytest.approx(2 * math.asin(50 / 110), rel=1e-6)
+
+
+# slow way to quick way: the crank's angles between the limits are 2π - 2β and 2β
+@pytest.mark.parametrize(
+    ("name", "cosine"),
+    [
+        # β where the slotted bar lies along the ram's line: ground to crank
+        ("whitworth", 40 / 80),
+        # β where the crank stands at a right angle to the lever: crank to ground
+        ("crank-shaper", 80 / 180),
+        # β where the drag link lies along the ram's line: ground to the side opposite the crank's pin
+        ("quick-return-press", 45 / math.hypot(45, 90)),
+    ],
+)
+def test_a_quick_return_has_the_time_ratio_of_its_arc_cosine(name: str, cosine: float) -> None:
+    beta = math.acos(cosine)
+    assert load(name).info.time_ratio == pytest.approx((math.pi - beta) / beta, rel=1e-9)
+
+
+def test_the_toggle_clamp_presses_down_where_handle_and_link_are_in_line() -> None:
+    scene = load("toggle-clamp")
+    # Crank, rod and the line from O2 to the upright handle's end form a triangle: twice a turn.
+    across, crank, rod = math.hypot(120, 40), 41.0, 167.0
+    lean = math.acos((across**2 + crank**2 - rod**2) / (2 * across * crank))
+    motion = scene.solve(angle=[math.atan2(40, 120) + lean, math.atan2(40, 120) - lean], speed=1.0)
+    assert np.max(np.abs(motion.position["C"] - [0, 130])) <= 1e-9
+    assert np.max(np.abs(motion.velocity["T"])) <= 1e-9
+    # Past the line the arm has given way by less than a hundredth of its stroke.
+    height = scene.cycle(7200).position["T"][:, 1]
+    lowest = motion.position["T"][0, 1]
+    past = scene.solve(angle=math.atan2(40, 120) + math.pi).position["T"][1] - lowest
+    assert 0 < past < 0.01 * np.ptp(height)
+    assert np.min(height) == pytest.approx(lowest, abs=1e-4)
+
+
+def test_the_knuckle_press_stops_to_the_third_order() -> None:
+    scene = load("knuckle-press")
+    cycle = scene.cycle(720)
+    # Upper and lower link are equal, so the ram is twice as far down as the knee.
+    assert np.max(np.abs(cycle.position["R"][:, 1] - 2 * cycle.position["B"][:, 1])) <= 1e-12
+    bottom = math.atan2(-70, 240)
+    pose = scene.solve(angle=bottom, speed=1.0)
+    assert pose.position["R"] == pytest.approx([0, -260], abs=1e-9)
+    assert abs(pose.travel_velocity["ram"]) <= 1e-9
+    assert abs(pose.travel_acceleration["ram"]) <= 1e-9
+    lift = scene.solve(angle=bottom + np.array([0.02, 0.04])).position["R"][:, 1] + 260
+    assert lift[1] / lift[0] == pytest.approx(16, rel=0.05)
+
+
+def test_the_isosceles_slider_goes_on_through_its_pivot() -> None:
+    scene = load("isosceles-slider")
+    motion = scene.cycle(720)
+    crank = motion.position["A"][:, 0]
+    assert np.max(np.abs(motion.position["B"][:, 0] - 2 * crank)) <= 4 * EPS * 80
+    assert scene.info.stroke == pytest.approx(4 * 80, rel=1e-14)
