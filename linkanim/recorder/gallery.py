@@ -25,7 +25,7 @@ from linkanim.whole import made_folder, replacing
 SIZE = (480, 270)
 RATES = (20.0, 100 / 6, 12.5, 10.0)
 """Frames a second, the first that keeps a GIF within `LARGEST`."""
-LARGEST = 250_000
+LARGEST = 200_000
 LOOK = Look(hud=False)
 SHEET = "contact-sheet.png"
 TAPE = ".tape.json"

@@ -50,7 +50,8 @@ def test_both_wipers_sweep_the_angle_of_the_crank_rocker_in_parallel() -> None:
     scene = load("wiper")
     motion = scene.cycle(FINE)
     expected = swing(*lengths(scene))
-    assert [span(motion.angle[name]) for name in ("rocker", "rocker2")] == pytest.approx([expected] * 2, rel=1e-6)
+    for name in ("rocker", "rocker2"):
+        assert span(motion.angle[name]) == pytest.approx(expected, rel=1e-6)
     apart = motion.position["T2"] - motion.position["T"]
     assert np.max(np.abs(apart - [260, 0])) <= 1e-14 * 350
 
@@ -73,7 +74,7 @@ def test_the_pumpjacks_stroke_is_that_of_the_beam_at_its_limits() -> None:
 
 def test_galloways_short_crank_goes_round_twice() -> None:
     scene = load("galloway")
-    ground, short, _, long = lengths(scene)
+    ground, short, *_ = lengths(scene)
     assert ground == short
     motion = scene.cycle(720)
     # The kite's axis runs from O2 to B and bisects the angle at O2 between the ground and the short crank.

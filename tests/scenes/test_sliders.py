@@ -73,3 +73,21 @@ def test_the_isosceles_slider_goes_on_through_its_pivot() -> None:
     crank = motion.position["A"][:, 0]
     assert np.max(np.abs(motion.position["B"][:, 0] - 2 * crank)) <= 4 * EPS * 80
     assert scene.info.stroke == pytest.approx(4 * 80, rel=1e-14)
+
+
+def test_the_yoke_moves_as_the_cosine() -> None:
+    scene = load("scotch-yoke")
+    angle = np.linspace(-math.pi, math.pi, 721)
+    motion = scene.solve(angle=angle)
+    assert np.max(np.abs(motion.travel["yoke"] - 80 * np.cos(angle))) <= 2 * EPS * 80
+    assert np.max(np.abs(motion.travel["yoke"] - motion.position["A"][:, 0])) == 0.0
+
+
+def test_the_trammels_end_draws_an_ellipse() -> None:
+    motion = load("elliptic-trammel").cycle(720)
+    x, y = motion.position["P"].T
+    # 160 from the block on the upright line, 60 from the one on the level line.
+    assert np.max(np.abs((x / 160) ** 2 + (y / 60) ** 2 - 1)) <= 16 * EPS
+    theta = motion.crank_angle
+    assert np.max(np.abs(x - 160 * np.cos(theta))) <= 4 * EPS * 160
+    assert np.max(np.abs(y + 60 * np.sin(theta))) <= 4 * EPS * 160

@@ -1,0 +1,124 @@
+"""What the six-bars and longer chains of the catalogue are there for."""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from linkanim.scenes import load
+
+Array = NDArray[np.float64]
+FINE = 7200
+
+
+def places(name: str, joint: str, steps: int = FINE) -> NDArray[np.complex128]:
+    """Return a joint's way over a cycle as x + yi."""
+    x, y = load(name).cycle(steps).position[joint].T
+    return np.asarray(x + 1j * y)
+
+
+# Watt's two three-pin links are pinned to each other, Stephenson's are not; what is fixed decides the number.
+@pytest.mark.parametrize(
+    ("name", "met", "fixed"),
+    [("watt-1", True, 2), ("watt-2", True, 3), ("stephenson-1", False, 2), ("stephenson-3", False, 3)],
+)
+def test_a_six_bar_has_its_chain(name: str, met: bool, fixed: int) -> None:
+    linkage = load(name).linkage
+    ground = {joint.name for joint in linkage.joints if joint.fixed}
+    links = [set(body.joints) for body in linkage.bodies] + [ground]
+    assert sorted(map(len, links)) == [2, 2, 2, 2, 3, 3]
+    assert len(ground) == fixed
+    first, second = (link for link in links if len(link) == 3)
+    assert bool(first & second) == met
+    # Seven pins, each in two links.
+    assert sum(len(one & other) for one, other in combinations(links, 2)) == 7
+
+
+def test_the_far_joint_of_the_first_watt_copies_the_cranks_circle() -> None:
+    e, a = places("watt-1", "E"), places("watt-1", "A")
+    assert np.max(np.abs(e - 110 - (16 + 12j) / 11 * (a - 110))) <= 1e-14 * 200
+
+
+def test_the_second_watt_makes_more_than_half_a_turn_of_a_rockers_swing() -> None:
+    angle = load("watt-2").cycle(FINE).angle
+    ground, crank, coupler, rocker = 120.0, 41.0, 118.0, 64.0
+    ends = [
+        math.acos((ground**2 + rocker**2 - diagonal**2) / (2 * ground * rocker))
+        for diagonal in (coupler + crank, coupler - crank)
+    ]
+    assert np.ptp(angle["rocker"]) == pytest.approx(ends[0] - ends[1], rel=1e-6)
+    assert math.degrees(ends[0] - ends[1]) == pytest.approx(81.1, abs=0.05)
+    assert np.ptp(angle["rocker2"]) > math.pi
+
+
+def test_the_third_stephensons_rocker_swings_twice_a_turn() -> None:
+    rate = load("stephenson-3").cycle(720).angular_velocity["rocker2"]
+    assert np.count_nonzero(np.sign(rate) != np.sign(np.roll(rate, 1))) == 4
+
+
+def test_the_first_stephensons_pair_moves_at_both_ends() -> None:
+    motion = load("stephenson-1").cycle(720)
+    for joint in ("C", "D", "E"):
+        assert np.min(np.ptp(motion.position[joint], axis=0)) > 20
+
+
+def meet(p: complex, q: complex, a: float, b: float) -> complex:
+    """Return where circles about p and q meet, left of p -> q: two triangles with a common height."""
+    d = q - p
+    along = (abs(d) ** 2 + a * a - b * b) / (2 * abs(d))
+    return p + d / abs(d) * (along + 1j * math.sqrt(a * a - along * along))
+
+
+@pytest.mark.parametrize("theta", [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+def test_jansens_leg_is_a_chain_of_triangles(theta: float) -> None:
+    a, pivot = 15 * complex(math.cos(theta), math.sin(theta)), -38 - 7.8j
+    b = meet(pivot, a, 41.5, 50)
+    c = meet(a, pivot, 61.9, 39.3)
+    d = meet(pivot, b, 40.1, 55.8)
+    e = meet(c, d, 36.7, 39.4)
+    f = meet(c, e, 49, 65.7)
+    x, y = load("jansen").solve(angle=theta).position["F"]
+    assert abs(complex(x, y) - f) <= 1e-12
+
+
+def test_jansens_foot_is_on_the_ground_for_half_a_turn() -> None:
+    foot = places("jansen", "F")
+    stride, lift = np.ptp(foot.real), np.ptp(foot.imag)
+    level = foot.imag <= np.min(foot.imag) + 0.03 * stride
+    assert np.mean(level) > 0.5
+    assert stride == pytest.approx(67.9, abs=0.05)
+    assert lift == pytest.approx(22.5, abs=0.05)
+
+
+def test_klanns_leg_stands_where_the_patents_table_has_it() -> None:
+    table = {"E": (74.1, 75.0), "K": (23.2, 86.6), "H": (86.6, 150.0), "F": (0.0, 0.0)}
+    motion = load("klann").solve(angle=math.pi)
+    for joint, place in table.items():
+        assert motion.position[joint] == pytest.approx(place, abs=0.005), joint
+
+
+def test_klanns_foot_is_near_the_ground_for_half_a_turn_and_lifts_high() -> None:
+    foot = places("klann", "F")
+    stride, lift = np.ptp(foot.real), np.ptp(foot.imag)
+    assert np.mean(foot.imag <= np.min(foot.imag) + 0.07 * stride) > 0.5
+    assert lift > stride / 2
+
+
+# the turns of the input after which all is back, and the turns of the other wheel in that time
+@pytest.mark.parametrize(
+    ("name", "turns", "other"), [("geared-five-bar-2-1", 1, 2), ("geared-five-bar-3-2", 2, 3)]
+)
+def test_geared_cranks_close_their_curve_after_whole_turns_of_both(name: str, turns: int, other: int) -> None:
+    scene = load(name)
+    assert scene.mechanism.periods == turns
+    first, last = scene.solve(phase=[0.0, scene.period]).position["B"]
+    assert first == pytest.approx(last, abs=1e-12)
+    small = scene.cycle(720).angle["small"]
+    assert (small[0] - small[-1]) * 720 / 719 == pytest.approx(2 * math.pi * other, rel=1e-12)
+    for part in range(1, turns):
+        early = scene.solve(phase=scene.period * part / turns).position["B"]
+        assert np.max(np.abs(early - first)) > 10
