@@ -5,12 +5,10 @@ or numbered PNG. Everything is imported when first asked for: `import linkanim` 
 neither a window nor an encoder.
 """
 
-from __future__ import annotations
-
 import os
-from importlib import import_module
-from typing import TYPE_CHECKING
 
+# Not typing's: whoever starts the command waits for this file before Ctrl-C is answered in one line.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from linkanim.errors import LinkanimError
     from linkanim.picture.look import Look
@@ -39,6 +37,8 @@ def __getattr__(name: str) -> object:
     """Import a public name from the room it lives in; AttributeError for any other."""
     if name not in _HOME:
         raise AttributeError(f"module 'linkanim' has no attribute {name!r}")
+    from importlib import import_module
+
     return getattr(import_module(_HOME[name]), name)
 
 

@@ -1,6 +1,19 @@
-"""`python -m linkanim` is the `linkanim` command."""
+"""The `linkanim` command, also as `python -m linkanim`: Ctrl-C is answered before anything is imported."""
 
-from linkanim.cli import main
+import sys
+
+
+def main() -> int:
+    """Run the command line and return its exit code; 130 and one line where Ctrl-C came during the start."""
+    try:
+        from linkanim.cli import main as run
+
+        return run()
+    except KeyboardInterrupt:
+        if sys.stderr is not None:
+            print("linkanim: interrupted", file=sys.stderr)
+        return 130
+
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    sys.exit(main())

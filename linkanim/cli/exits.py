@@ -27,6 +27,7 @@ def guarded(work: Callable[[], None]) -> int:
     """Do the work, flush what it printed, and return the exit code; never raises, never a traceback."""
     try:
         with _sigterm_raises():
+            _open_closed()
             _print_anything()
             work()
             _flush()
@@ -99,6 +100,18 @@ def _forget_stdout() -> None:
     """Let the interpreter's last flush go nowhere, or it would report the failure a second time."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _open_closed() -> None:
+    """Have streams that were closed before the start lead nowhere: a later file would take their number."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+    for name, number in (("stdout", 1), ("stderr", 2)):
+        if getattr(sys, name) is None:
+            setattr(sys, name, os.fdopen(number, "w", encoding="utf-8", closefd=False))
 
 
 def _print_anything() -> None:

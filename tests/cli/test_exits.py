@@ -175,6 +175,67 @@ def test_with_stderr_closed_stdout_holds_no_error() -> None:
     assert (done.returncode, done.stdout) == (2, b"")
 
 
+# Each of the three streams may be closed, as by a daemon: what is opened later must not take its place.
+@pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")
+@pytest.mark.parametrize("closed", ["2>&-", ">&-", "<&-", "<&- >&- 2>&-"])
+def test_a_recording_needs_no_standard_streams(tmp_path: Path, closed: str) -> None:
+    words = shlex.join([*LINKANIM, "record", "kite", "--size", "64x36", "--seconds", "0.1", "-o", "out.gif"])
+    done = subprocess.run(["sh", "-c", f"{words} {closed}"], check=False, cwd=tmp_path)
+    assert done.returncode == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["out.gif"]
+    assert (tmp_path / "out.gif").read_bytes().startswith(b"GIF89a")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")
+def test_a_table_for_a_closed_stdout_goes_nowhere() -> None:
+    words = shlex.join([*LINKANIM, "solve", "kite", "--sweep", "0:9:3", "--csv", "-"])
+    done = subprocess.run(["sh", "-c", f"{words} >&-"], check=False, stderr=subprocess.PIPE)
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+# Ctrl-C at every import of the start, in a process of its own each; the imports before `main` are the
+# interpreter's, and what it says then is not ours.
+INTERRUPTED_START = """
+import builtins, os, signal, sys
+from linkanim.__main__ import main
+real, count = builtins.__import__, 0
+
+def counted(*words, **more):
+    global count
+    count += 1
+    if count == at:
+        signal.raise_signal(signal.SIGINT)
+    return real(*words, **more)
+
+sys.argv = ["linkanim", "info", "kite"]
+for at in [*range(1, 60), *range(60, 1000, 40)]:
+    child = os.fork()
+    if child == 0:
+        builtins.__import__ = counted
+        sys.exit(main())
+    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+def test_ctrl_c_during_the_start_is_one_line() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED_START], check=True, capture_output=True, text=True
+    )
+    codes = [line for line in done.stdout.splitlines() if line.isdigit()]
+    assert codes[:59] == ["130"] * 59
+    assert set(codes) <= {"130", "0"}
+    assert done.stderr.splitlines() == ["linkanim: interrupted"] * codes.count("130")
+
+
+def test_before_ctrl_c_is_answered_next_to_nothing_is_imported() -> None:
+    told = (
+        "import sys; before = set(sys.modules); import linkanim.__main__; print(*set(sys.modules) - before)"
+    )
+    done = subprocess.run([sys.executable, "-c", told], check=True, capture_output=True, text=True)
+    assert set(done.stdout.split()) == {"linkanim", "linkanim.__main__"}
+
+
 def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
     done = subprocess.run(
         [*LINKANIM, "--help"],

@@ -110,9 +110,7 @@ def test_a_joint_on_moving_joints_is_right_to_many_digits(make: Callable[[Random
     for _ in range(WANTED):
         linkage, solved = next(stream)
         phases = np.array([0.3, 2.1, 4.4, 5.9])
-        motion, cycle = (
-            solved.solve(phase=at, speed=1.0) for at in (phases, np.linspace(0, 2 * np.pi, 400))
-        )
+        motion, cycle = (solved.solve(phase=at, speed=1.0) for at in (phases, np.linspace(0, 2 * np.pi, 400)))
         exact = [derivatives(partial(places, linkage), mpf(float(phase))) for phase in phases]
         for name in ("J", "K") if "K" in linkage.by_name else ("J",):
             for order, kind in enumerate(("position", "velocity", "acceleration")):

@@ -141,9 +141,7 @@ def _turning(turn: Slope, root: SignedRoot, offset: float) -> Slope:
     return turn.plus(slide, root.ratio.rate * (0.5 * offset) * inverse - slide * growth)
 
 
-def _loop_direction(
-    ground: PinLoop, root: SignedRoot, bar: tuple[float, int], *, swapped: bool
-) -> Vec:
+def _loop_direction(ground: PinLoop, root: SignedRoot, bar: tuple[float, int], *, swapped: bool) -> Vec:
     """Return the slotted bar's direction; a slot through its own pivot turns at half the crank's angle.
 
     `bar` is the slot's offset and the closure's sign; `swapped` where the bar turns about the crank's pin.
