@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import zip_longest
@@ -26,7 +26,7 @@ from linkanim.picture.names import Hand, Names, names_of
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
-from linkanim.picture.raster import Layer, paint, paints
+from linkanim.picture.raster import Layer, Stencil, paint, paints, stencil
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.text import Type
@@ -211,7 +211,7 @@ class Painter:
         still.fill((*self._theme.background, 255 if self.look.background else 0))
         known = (self._figure, self.view, self._gauge, self._theme)
         scene = [*wheel_layers(*known), *ground_layers(*known)]
-        paint(still, self._on_stage(scene + self._curves(still=True)))
+        paint(still, list(self._on_stage(scene + ([] if self._moves_behind else self._lines()))))
         if self._legend:
             self._legend.draw(still)
         return still
@@ -240,30 +240,36 @@ class Painter:
     def _spare(self) -> pygame.Surface:
         return self._still.copy()
 
-    def _on_stage(self, layers: list[Layer]) -> list[Layer]:
-        """Return the scene's layers, kept to the rows above the chart."""
-        chart = self._layout.chart
-        return [layer._replace(end=int(chart.y)) for layer in layers] if chart else layers
+    def _on_stage(self, layers: Iterable[Layer]) -> Iterator[Layer]:
+        """Yield the scene's layers, kept to the rows above the chart."""
+        end = self._stage.bottom
+        return (Layer(layer.colour, layer.loops, layer.alpha, end) for layer in layers)
 
     def _wipe(self, canvas: pygame.Surface) -> None:
         if canvas.get_flags() & pygame.SRCALPHA:
             canvas.fill((0, 0, 0, 0))
         canvas.blit(self._still, (0, 0))
 
-    def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer]:
+    def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer | Stencil]:
         """Return all that moves, back to front, the chart's cursor last."""
-        layers = [*placed(self._cast.wheels, self._places(pose)), *(self._ghost(ghost) if ghost else ())]
-        layers += [*self._curves(still=False), *self._above(pose)]
-        return self._on_stage(layers) + (self._strip.cursor(pose) if self._strip else [])
+        behind = [*placed(self._cast.wheels, self._places(pose)), *(self._ghost(ghost) if ghost else ())]
+        layers: list[Layer | Stencil] = [*self._on_stage(behind), *self._curves]
+        layers += self._on_stage(self._above(pose))
+        return layers + (self._strip.cursor(pose) if self._strip else [])
 
-    def _curves(self, *, still: bool) -> list[Layer]:
-        """Return the ground line and the whole curves.
+    @property
+    def _moves_behind(self) -> bool:
+        """Whether something moves behind the curves."""
+        return bool(self._cast.wheels) or self.look.ghost
 
-        They are part of what stands still where nothing moves behind them.
-        """
-        moving_behind = bool(self._cast.wheels) or self.look.ghost
-        if still == moving_behind:
-            return []
+    @cached_property
+    def _curves(self) -> list[Stencil]:
+        """The curves where something moves behind them; else they are part of what stands still."""
+        lines = self._on_stage(self._lines()) if self._moves_behind else ()
+        return [stencil(layer, self.size) for layer in lines]
+
+    def _lines(self) -> list[Layer]:
+        """Return the ground line and the whole curves."""
         known = (self._figure, self.view, self._gauge, self._theme)
         line = ground_line(pivots(self._figure), *known) if self.look.names else []
         return [*line, *(trace.whole() for trace in self._cast.traces)]

@@ -12,6 +12,7 @@ Method: the cell accumulation of scan converters such as FreeType's "smooth" ras
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +27,7 @@ _Ints = NDArray[np.int64]
 _NOTHING = 1 / 1024
 _SOLID = 1 - _NOTHING
 _ROW_BITS = 16
+_COLUMN_BITS = 14
 
 
 class Layer(NamedTuple):
@@ -39,6 +41,14 @@ class Layer(NamedTuple):
     loops: Sequence[Loop]
     alpha: float = 1.0
     end: int = 1 << 15
+
+
+class Stencil(NamedTuple):
+    """A layer that is worked out once for surfaces of one size, and then only mixed in: what stands still."""
+
+    colour: Colour
+    place: _Ints
+    weight: NDArray[np.float32]
 
 
 class _Pieces(NamedTuple):
@@ -65,25 +75,42 @@ class _Runs(NamedTuple):
         return _Runs(*(part[chosen] for part in self))  # type: ignore[arg-type]
 
 
-def paint(surface: pygame.Surface, layers: Sequence[Layer]) -> None:
+def paint(surface: pygame.Surface, layers: Sequence[Layer | Stencil]) -> None:
     """Fill the layers in their order on a 32-bit surface whose rows touch; loops may leave it.
 
     Where the surface has alpha, it is kept straight (not multiplied into the colours).
     """
-    layers = [layer for layer in layers if layer.loops]
-    if not layers:
-        return
-    width, height = surface.get_size()
-    begin, end, number = _edges(layers)
-    lowest = np.array([min(layer.end, height) for layer in layers])[number]
-    pieces = _by_column(*_by_row(begin, end, number, lowest), width)
-    if pieces.line.size:
-        _mix(surface, layers, *_resolve(pieces, width))
+    layers = [layer for layer in layers if isinstance(layer, Stencil) or layer.loops]
+    if layers:
+        shapes = [layer for layer in layers if isinstance(layer, Layer)]
+        _mix(surface, layers, *_runs(shapes, surface.get_size()))
+
+
+def stencil(layer: Layer, size: tuple[int, int]) -> Stencil:
+    """Work out what a layer covers of surfaces of this size."""
+    batches = [
+        _span_pixels(runs, size[0], np.array([layer.alpha]))
+        for runs in _runs([layer] if layer.loops else [], size)
+    ]
+    place, weight, _ = zip(*batches, strict=True)
+    return Stencil(layer.colour, np.concatenate(place), np.concatenate(weight))
 
 
 def paints(surface: pygame.Surface) -> bool:
     """Return whether `paint` can write to this surface."""
     return surface.get_bytesize() == 4 and surface.get_pitch() == 4 * surface.get_width()
+
+
+def _runs(layers: Sequence[Layer], size: tuple[int, int]) -> tuple[_Runs, _Runs]:
+    """Return the pixels on the layers' outlines and the spans between them."""
+    none = np.zeros(0, np.int64)
+    nothing = _Runs(none, none, none, np.zeros(0))
+    if not layers:
+        return nothing, nothing
+    begin, end, number = _edges(layers)
+    lowest = np.array([min(layer.end, size[1]) for layer in layers])[number]
+    pieces = _by_column(*_by_row(begin, end, number, lowest), size[0])
+    return _resolve(pieces, size[0]) if pieces.line.size else (nothing, nothing)
 
 
 def _edges(layers: Sequence[Layer]) -> tuple[Loop, Loop, _Ints]:
@@ -102,8 +129,8 @@ def _by_row(begin: Loop, end: Loop, number: _Ints, lowest: _Ints) -> tuple[_Ints
     """Cut edges at pixel rows; return each piece's line, its signed height, and x at both ends."""
     falls = end.imag > begin.imag
     top, bottom = np.where(falls, begin, end), np.where(falls, end, begin)
-    first = np.floor(np.clip(top.imag, 0, lowest)).astype(np.int64)
-    last = np.ceil(np.clip(bottom.imag, 0, lowest)).astype(np.int64)
+    first = np.floor(np.minimum(np.maximum(top.imag, 0), lowest)).astype(np.int64)
+    last = np.ceil(np.minimum(np.maximum(bottom.imag, 0), lowest)).astype(np.int64)
     height = bottom.imag - top.imag
     edge, row = _expand(np.where(height > 0, np.maximum(last - first, 0), 0), first)
     slope = (bottom.real - top.real) / np.where(height > 0, height, 1)
@@ -116,8 +143,8 @@ def _by_row(begin: Loop, end: Loop, number: _Ints, lowest: _Ints) -> tuple[_Ints
 
 def _by_column(line: _Ints, height: _Floats, x0: _Floats, x1: _Floats, width: int) -> _Pieces:
     """Cut what lies in one row at pixel columns; column `width` collects what lies further right."""
-    left = np.clip(np.minimum(x0, x1), 0, width)
-    right = np.clip(np.maximum(x0, x1), 0, width)
+    left = np.minimum(np.maximum(np.minimum(x0, x1), 0), width)
+    right = np.minimum(np.maximum(np.maximum(x0, x1), 0), width)
     first = np.floor(left).astype(np.int64)
     reach = right - left
     steep = height / np.where(reach > 0, reach, 1)
@@ -136,69 +163,90 @@ def _expand(count: _Ints, first: _Ints) -> tuple[_Ints, _Ints]:
 
 def _resolve(pieces: _Pieces, width: int) -> tuple[_Runs, _Runs]:
     """Sum the pieces along the lines; return the pixels on outlines and the spans between them."""
-    order = _sorted(pieces.line, pieces.column)
-    line, column = pieces.line[order], pieces.column[order]
-    first = np.flatnonzero((np.diff(line, prepend=-1) != 0) | (np.diff(column, prepend=-1) != 0))
-    line, column = line[first], column[first]
+    place = pieces.line << _COLUMN_BITS | pieces.column
+    # a merging sort, for the edges of an outline follow one another down or up the rows
+    order = np.argsort(place, kind="stable")
+    place = place[order]
+    changes = np.empty(place.size, np.bool_)
+    changes[0] = True
+    np.not_equal(place[1:], place[:-1], out=changes[1:])
+    first = np.flatnonzero(changes)
+    place = place[first]
     cover = np.cumsum(np.add.reduceat(pieces.height[order], first))
     area = np.add.reduceat(pieces.area[order], first)
     area[1:] += cover[:-1]
+    line, column = place >> _COLUMN_BITS, place & ((1 << _COLUMN_BITS) - 1)
     on_edge, inside = np.minimum(np.abs(area), 1), np.minimum(np.abs(cover), 1)
-    gap = np.where(np.diff(line, append=-1) == 0, np.diff(column, append=0) - 1, 0)
-    edges = _Runs(line, column, np.ones_like(line), on_edge)
-    spans = _Runs(line, column + 1, gap, inside)
-    return edges.where((column < width) & (on_edge > _NOTHING)), spans.where((gap > 0) & (inside > _NOTHING))
-
-
-def _sorted(line: _Ints, column: _Ints) -> _Ints:
-    """Return the order by line, then column; numpy sorts 16 bits at a time by counting, not comparing."""
-    order = np.argsort(column.astype(np.uint16), kind="stable")
-    for digit in range(0, int(line.max()).bit_length(), 16):
-        digits = (line >> digit).astype(np.uint16)
-        order = order[np.argsort(digits[order], kind="stable")]
-    return order
+    edges = np.flatnonzero((column < width) & (on_edge > _NOTHING))
+    # the cover to the right of a line's last piece is zero, so that no span leads to the next line
+    spans = np.flatnonzero((place[1:] - place[:-1] > 1) & (inside[:-1] > _NOTHING))
+    gap = place[spans + 1] - place[spans] - 1
+    return (
+        _Runs(line[edges], column[edges], np.ones_like(edges), on_edge[edges]),
+        _Runs(line[spans], column[spans] + 1, gap, inside[spans]),
+    )
 
 
 class _Batch(NamedTuple):
-    """Pixels' places in the surface and their coverage, and where each layer's begin."""
+    """Pixels' places in the surface and how much of each is mixed in, and where each layer's begin."""
 
     place: _Ints
-    cover: NDArray[np.float32]
+    weight: NDArray[np.float32]
     bounds: list[int]
 
 
-def _batch(runs: _Runs, width: int, count: int) -> _Batch:
-    """Return every pixel of the runs."""
-    row = runs.line & ((1 << _ROW_BITS) - 1)
-    run, place = _expand(runs.length, row * width + runs.column)
+def _edge_pixels(runs: _Runs, width: int, alphas: _Floats) -> _Batch:
+    """Return runs of one pixel each."""
+    weight = runs.cover if (alphas >= 1).all() else runs.cover * alphas[runs.line >> _ROW_BITS]
+    return _Batch(
+        _place(runs, width), weight.astype(np.float32)[:, None], _bounds(runs, len(alphas)).tolist()
+    )
+
+
+def _span_pixels(runs: _Runs, width: int, alphas: _Floats) -> _Batch:
+    """Return every pixel of longer runs."""
     ends = np.concatenate(([0], np.cumsum(runs.length)))
-    starts = np.searchsorted(runs.line, np.arange(count + 1) << _ROW_BITS)
-    return _Batch(place, runs.cover.astype(np.float32)[run], ends[starts].tolist())
+    place = np.arange(ends[-1]) + np.repeat(_place(runs, width) - ends[:-1], runs.length)
+    weight = (runs.cover * alphas[runs.line >> _ROW_BITS]).astype(np.float32)
+    return _Batch(place, np.repeat(weight, runs.length)[:, None], ends[_bounds(runs, len(alphas))].tolist())
 
 
-def _mix(surface: pygame.Surface, layers: Sequence[Layer], outline: _Runs, spans: _Runs) -> None:
+def _place(runs: _Runs, width: int) -> _Ints:
+    return (runs.line & ((1 << _ROW_BITS) - 1)) * width + runs.column
+
+
+def _bounds(runs: _Runs, count: int) -> _Ints:
+    """Return the number of the first run of each layer, and how many runs there are."""
+    return np.searchsorted(runs.line, np.arange(count + 1) << _ROW_BITS)
+
+
+def _mix(surface: pygame.Surface, layers: Sequence[Layer | Stencil], outline: _Runs, spans: _Runs) -> None:
     """Put the layers' colours on the surface, one layer after the other."""
-    width, count = surface.get_width(), len(layers)
-    solid = spans.cover > _SOLID
-    full = _batch(spans.where(solid), width, count)
-    mixed = [_batch(outline, width, count)]
+    width = surface.get_width()
+    alphas = np.array([layer.alpha for layer in layers if isinstance(layer, Layer)])
+    solid = (spans.cover > _SOLID) & (alphas >= 1)[spans.line >> _ROW_BITS]
+    full = _span_pixels(spans.where(solid), width, alphas)
+    mixed = [_edge_pixels(outline, width, alphas)]
     if not solid.all():
-        mixed.append(_batch(spans.where(~solid), width, count))
+        mixed.append(_span_pixels(spans.where(~solid), width, alphas))
     pixels = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
     inks = _inks(surface, layers)
     words = inks.astype(np.uint8).view(np.uint32)[:, 0]
     clear = bool(surface.get_flags() & pygame.SRCALPHA)
-    for n, layer in enumerate(layers):
-        if layer.alpha >= 1:
-            pixels[full.place[full.bounds[n] : full.bounds[n + 1]]] = words[n]
-        for batch in mixed if layer.alpha >= 1 else (full, *mixed):
+    number = count()
+    for ink, word, layer in zip(inks, words, layers, strict=True):
+        if isinstance(layer, Stencil):
+            _blend(pixels, ink, layer.place, layer.weight, clear)
+            continue
+        n = next(number)
+        pixels[full.place[full.bounds[n] : full.bounds[n + 1]]] = word
+        for batch in mixed:
             part = slice(batch.bounds[n], batch.bounds[n + 1])
             if part.stop > part.start:
-                cover = batch.cover[part] if layer.alpha >= 1 else batch.cover[part] * layer.alpha
-                _blend(pixels, inks[n], batch.place[part], cover[:, None], clear)
+                _blend(pixels, ink, batch.place[part], batch.weight[part], clear)
 
 
-def _inks(surface: pygame.Surface, layers: Sequence[Layer]) -> NDArray[np.float32]:
+def _inks(surface: pygame.Surface, layers: Sequence[Layer | Stencil]) -> NDArray[np.float32]:
     """Return the layers' colours as the surface keeps them, four bytes each, opaque."""
     inks = np.full((len(layers), 4), 255, np.float32)
     inks[:, [shift // 8 for shift in surface.get_shifts()[:3]]] = [layer.colour for layer in layers]

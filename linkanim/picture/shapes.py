@@ -72,9 +72,13 @@ def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:
     return list(np.stack((begin - side, end - side, end + side, begin + side), axis=1))
 
 
-def arrows(feet: ArrayLike, reaches: ArrayLike, width: float, rim: float = 0.0) -> list[Loop]:
-    """Return an arrow from each foot, widened all round by a rim; short ones are smaller arrows."""
+def arrows(feet: ArrayLike, reaches: ArrayLike, width: float, rim: ArrayLike = 0.0) -> list[Loop]:
+    """Return an arrow from each foot, widened all round by a rim (one for all, or one for each).
+
+    Short ones are smaller arrows.
+    """
     feet, reaches = (np.asarray(ends, np.complex128) for ends in (feet, reaches))
+    rim = np.asarray(rim, np.float64)
     length = np.abs(reaches)
     head = np.minimum(4.2 * width, 0.6 * length)
     half = np.minimum(width / 2, head / 5) + rim

@@ -35,6 +35,10 @@ _LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
 _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 
 
+_KEPT = 512
+"""How many lines are remembered, set."""
+
+
 class Run(NamedTuple):
     """Part of a line that is set in one way."""
 
@@ -85,6 +89,7 @@ class Type:
         self._fonts = Fonts()
         self._glyphs: dict[tuple[str, int, Colour, str, int], pygame.Surface] = {}
         self._steps: dict[tuple[str, str, int, str], int] = {}
+        self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
         """Return how wide a line is in pixels; `strong` is the semibold weight."""
@@ -128,7 +133,16 @@ class Type:
             surface.blit(glyph, (x + right // _FINE, y + down - above))
         return width
 
-    def _set(self, text: str, size: int, face: str) -> Iterator[_Place]:
+    def _set(self, text: str, size: int, face: str) -> tuple[_Place, ...]:
+        """Return where the glyphs of a line stand and its end; the last lines are kept, being drawn again."""
+        key = (text, size, face)
+        if key not in self._lines:
+            if len(self._lines) >= _KEPT:
+                self._lines.clear()
+            self._lines[key] = tuple(self._setting(text, size, face))
+        return self._lines[key]
+
+    def _setting(self, text: str, size: int, face: str) -> Iterator[_Place]:
         """Yield where the glyphs of a line stand from the left of its baseline, then its end."""
         x = 0
         for run in runs(text):

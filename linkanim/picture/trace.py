@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, pi
 
@@ -36,6 +37,11 @@ class Trace:
     back: Colour
     width: float
 
+    @cached_property
+    def shades(self) -> tuple[Colour, ...]:
+        """The colours of the recent part, from the oldest on."""
+        return tuple(mixed(self.back, self.colour, shade / _SHADES) for shade in range(1, _SHADES + 1))
+
     def whole(self) -> Layer:
         """Return the whole curve."""
         return Layer(self.back, stroke(self.path, self.width, closed=True))
@@ -47,20 +53,23 @@ class Trace:
         tail = max(round(_RECENT / self.period * count), _SHADES)
         sign = 1 if forward else -1
         last = floor(here) if forward else ceil(here)
-        path = np.append(self.path[(last - sign * np.arange(tail, -1, -1)) % count], place)
-        path = path[np.append(True, path[1:] != path[:-1])]
+        path = np.empty(tail + 2, np.complex128)
+        path[:-1] = self.path[(last - sign * np.arange(tail, -1, -1)) % count]
+        path[-1] = place
+        moves = path[1:] != path[:-1]
+        if not moves.all():
+            path = np.concatenate((path[:1], path[1:][moves]))
         if len(path) < 2:
             return []
-        side = offsets(path) * self.width / 2 * np.linspace(1, _SWELL, len(path))
+        side = offsets(path) * (self.width / 2 * (1 + (_SWELL - 1) / (len(path) - 1) * np.arange(len(path))))
         return list(self._shaded(path - side, path + side))
 
     def _shaded(self, right: Loop, left: Loop) -> Iterator[Layer]:
         """Yield the recent part cut into shades; each runs on a little below the next."""
-        cuts = np.linspace(0, len(right), _SHADES + 1).round().astype(int)
-        for shade, (begin, end) in enumerate(pairwise(cuts), start=1):
+        cuts = [round(len(right) * shade / _SHADES) for shade in range(_SHADES + 1)]
+        for colour, (begin, end) in zip(self.shades, pairwise(cuts), strict=True):
             piece = slice(begin, end + 2)
-            outline = np.concatenate((right[piece], left[piece][::-1]))
-            yield Layer(mixed(self.back, self.colour, shade / _SHADES), [outline])
+            yield Layer(colour, [np.concatenate((right[piece], left[piece][::-1]))])
 
 
 def traces(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Trace, ...]:

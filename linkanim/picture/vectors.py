@@ -58,12 +58,10 @@ class Arrows:
         seen = [(foot, reach) for foot, reach in found if 0.01 < abs(reach) / self.longest < 100]
         if not seen:
             return []
-        feet, reaches = np.array(seen).T
-        width, rim = 1.6 * self.gauge.line, 0.75 * self.gauge.line
-        return [
-            Layer(self.halo, arrows(feet, reaches, width, rim)),
-            Layer(self.colour, arrows(feet, reaches, width)),
-        ]
+        feet, reaches = np.array(seen + seen).T
+        rims = np.repeat([0.75 * self.gauge.line, 0.0], len(seen))
+        drawn = arrows(feet, reaches, 1.6 * self.gauge.line, rims)
+        return [Layer(self.halo, drawn[: len(seen)]), Layer(self.colour, drawn[len(seen) :])]
 
 
 def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[Any, Any]]:
