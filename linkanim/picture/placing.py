@@ -8,7 +8,7 @@ algorithm), closed over the cycle and smoothed. What is placed is in the way of 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -107,8 +107,17 @@ def _placed(wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, f
     local = (wish.places - origin[:, None]) / direction[:, None]
     chosen = _cheapest(cost, _moves(local, wish.size[1]))
     path = Path(np.take_along_axis(local, chosen[:, None], axis=1)[:, 0], np.ones(len(cost)))
-    blocked = _blocked(_track(path, wish)[:, None], wish, clutter, taken)[:, 0]
-    return path._replace(shown=_eased(blocked))
+    track = _track(path, wish)[:, None]
+    blocked = _blocked(track, wish, clutter, taken)[:, 0]
+    later = replace(clutter, discs=_between(clutter.discs)), [(_between(way), size) for way, size in taken]
+    between = _blocked(_between(track), wish, *later)[:, 0]
+    return path._replace(shown=_eased(blocked | between | np.roll(between, 1)))
+
+
+def _between(places: Loop) -> Loop:
+    """Return where things are half a moment later; the cycle is closed."""
+    half: Loop = (places + np.roll(places, -1, axis=0)) / 2
+    return half
 
 
 def _track(path: Path, wish: Wish) -> Loop:

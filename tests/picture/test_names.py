@@ -87,7 +87,9 @@ def test_no_name_jumps_from_frame_to_frame(name: str) -> None:
         assert way[0] == pytest.approx(way[-1])
 
 
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize(
+    "name", ["crank-rocker", "double-rocker", "slider-crank", "six-bar", "press", "kite"]
+)
 def test_every_joint_and_link_is_named_for_most_of_the_cycle(name: str) -> None:
     scene = load(name)
     labels = _names(Painter(scene, (1280, 720), Look(names=1))).labels
