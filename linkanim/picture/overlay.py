@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from linkanim.picture.look import ThemeName
+from linkanim.scenes.scene import Scene
+
 
 @dataclass(frozen=True)
 class EditRow:
@@ -34,17 +37,42 @@ class Panel:
 
 
 @dataclass(frozen=True)
+class Quantities:
+    """The list of quantities: rows of words and symbol, the chosen one's number, the letters that sift."""
+
+    rows: tuple[tuple[str, str], ...]
+    chosen: int
+    sieve: str = ""
+    hint: str = ""
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """All mechanisms, the chosen one's place, and how many frames it has been open; `still` while paused."""
+
+    scenes: tuple[Scene, ...]
+    chosen: int
+    frame: int
+    theme: ThemeName
+    still: bool = False
+
+
+Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
+"""Subjects, each with its lines of (key, what it does)."""
+
+
+@dataclass(frozen=True)
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    `help` holds (key, what it does).
-    With `noted` the HUD
-    says where a limit or a change point is near.
+    With `noted` the HUD says where a limit or a change point is near.
     """
 
     paused: bool = False
     toast: str | None = None
     recording: str | None = None
-    help: tuple[tuple[str, str], ...] | None = None
+    help: Help | None = None
     panel: Panel | None = None
+    quantities: Quantities | None = None
+    shelf: Shelf | None = None
     noted: bool = False

@@ -11,8 +11,10 @@ import pygame
 
 from linkanim.picture.board import Board
 from linkanim.picture.edit_list import edit_list
+from linkanim.picture.help_sheet import help_sheet
 from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import Overlay
+from linkanim.picture.quantity_list import quantity_list
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
 from linkanim.picture.text import Type
@@ -42,9 +44,12 @@ class Panels:
         if overlay.panel:
             drawn = self._keep("panel", overlay.panel, partial(edit_list, self.board))
             surface.blit(drawn, (self.board.margin, self.board.margin))
+        if overlay.quantities:
+            drawn = self._keep("quantities", overlay.quantities, partial(quantity_list, self.board))
+            surface.blit(drawn, (self.board.margin, self.board.margin))
         if overlay.help:
             surface.blit(self._keep("veil", None, self._veil), (0, 0))
-            drawn = self._keep("help", overlay.help, self._help)
+            drawn = self._keep("help", overlay.help, partial(help_sheet, self.board))
             at = ((size[0] - drawn.get_width()) // 2, (size[1] - drawn.get_height()) // 2)
             surface.blit(drawn, at)
         if overlay.toast:
@@ -86,29 +91,7 @@ class Panels:
             self.type.draw(sheet, line, at, size=size, colour=self.theme.ink, anchor="centre")
         return sheet
 
-    def _help(self, rows: tuple[tuple[str, str], ...]) -> pygame.Surface:
-        size = _fitting(self.layout.text_size, 1.38 * (len(rows) + 1.2), self.layout.size[1])
-        widths = self._columns(rows, size)
-        size = _fitting(size, (sum(widths) + 4 * size) / size, self.layout.size[0])
-        keys, words = self._columns(rows, size)
-        sheet = self.board.sheet(keys + words + 4 * size, 1.38 * size * (len(rows) + 1.1))
-        for n, (key, does) in enumerate(rows):
-            y = (0.9 + 1.38 * n) * size
-            self.type.draw(sheet, key, (1.4 * size, y), size=size, colour=self.theme.ink, strong=True)
-            self.type.draw(sheet, does, (2.6 * size + keys, y), size=size, colour=self.theme.dim)
-        return sheet
-
-    def _columns(self, rows: tuple[tuple[str, str], ...], size: int) -> list[int]:
-        """Return the width of each of the columns."""
-        columns = zip(*rows, strict=True)
-        return [max(self.type.width(text, size, strong=True) for text in column) for column in columns]
-
 
 def _bars(size: float) -> list[Loop]:
     bar = box(0.22 * size, 0.72 * size)
     return [np.asarray(bar + side * 0.22 * size) for side in (-1, 1)]
-
-
-def _fitting(size: int, lengths: float, room: int) -> int:
-    """Return the text size, smaller where so many times its own length would not fit the window."""
-    return max(min(size, int(0.96 * room / lengths)), 6)

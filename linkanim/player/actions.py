@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from linkanim.player.action import Action
-from linkanim.player.handlers import clock, edits, looks, outside, shelf
+from linkanim.player.handlers import browse, clock, edits, looks, outside, shelf
 from linkanim.player.state import State
 
 
@@ -55,11 +55,14 @@ ACTIONS: Mapping[str, Rule] = {
     "scrub": Rule(_number, clock.scrub),  # the phase to go to, rad
     "mechanism": Rule(_whole, shelf.mechanism),  # places further on the shelf
     "select": Rule(_whole, shelf.select),  # the place in the catalogue, from 0
+    "put": Rule(_whole, browse.put),  # the place on the shelf, from 0
     "closure": Rule(_nothing, shelf.closure),
     "trace": Rule(_nothing, looks.trace),
     "vectors": Rule(_one_of("v", "a"), looks.vectors),
     "ghost": Rule(_nothing, looks.ghost),
     "chart": Rule(_whole, looks.chart),  # quantities further
+    "plot": Rule(_text, browse.plot),  # a quantity's token
+    "names": Rule(_nothing, looks.names),
     "theme": Rule(_nothing, looks.theme),
     "help": Rule(_nothing, looks.help_),
     # notches, about the point (x, y): window heights from the picture's middle, y down
@@ -76,6 +79,12 @@ ACTIONS: Mapping[str, Rule] = {
     "undo": Rule(_nothing, edits.undo),
     "redo": Rule(_nothing, edits.redo),
     "back": Rule(_nothing, outside.back),
+    "list": Rule(_nothing, browse.list_, taped=False),
+    "shelf": Rule(_nothing, browse.shelf, taped=False),
+    "move": Rule(_whole, browse.move, taped=False),  # rows of the list, or places on the shelf
+    "point": Rule(_whole, browse.point, taped=False),  # the place on the shelf
+    "sift": Rule(_text, browse.sift, taped=False),
+    "unsift": Rule(_nothing, browse.unsift, taped=False),
     "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),
     "screenshot": Rule(_nothing, outside.effect("screenshot"), taped=False),
     "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),

@@ -7,6 +7,7 @@ import pygame
 from linkanim.picture.canvas import Canvas
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
+from linkanim.picture.shelf import Grid, ShelfPainter, grid
 from linkanim.player import display
 from linkanim.player.state import State
 from linkanim.scenes.scene import Scene
@@ -25,6 +26,7 @@ class Easel:
         self._shown: object = None
         self._state = state
         self._titled: str | None = None
+        self._shelf = ShelfPainter()
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
@@ -36,7 +38,10 @@ class Easel:
         canvas = self._fitting(state, surface.get_size())
         picture = (canvas, state.phase, state.clock.speed, over)
         if picture != self._shown:
-            canvas.paint(surface, state.phase, state.clock.speed, over)
+            if over.shelf:
+                self._shelf.draw(surface, over.shelf)
+            else:
+                canvas.paint(surface, state.phase, state.clock.speed, over)
             pygame.display.flip()
             self._shown = picture
 
@@ -88,6 +93,24 @@ class Easel:
     def pixel(self, x: float, y: float) -> tuple[float, float]:
         """Return where a point of the scene is in the window."""
         return self._painter.view.to_pixel(x, y)
+
+    def shelf_columns(self) -> int:
+        """Return how many mechanisms stand beside each other on the open shelf."""
+        return self._grid.columns
+
+    def shelf_at(self, x: float, y: float) -> int | None:
+        """Return the place on the open shelf under a pixel; None between its pictures."""
+        return self._grid.at(x, y)
+
+    @property
+    def is_shelf_open(self) -> bool:
+        """Whether the shelf lies over the picture."""
+        return self._state.browsing is not None
+
+    @property
+    def _grid(self) -> Grid:
+        assert self._state.browsing is not None
+        return grid(self.size, len(self._state.browsing.scenes))
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""

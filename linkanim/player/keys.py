@@ -6,10 +6,16 @@ with "ctrl+" and "shift+" in front, so that nothing here needs pygame.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Iterator, Mapping
+from typing import Literal, NamedTuple
 
 from linkanim.player.action import Action
+
+Mode = Literal["play", "edit", "list", "shelf"]
+"""What the keys are for: the picture, or the overlay that is open."""
+
+SUBJECTS = ("play", "look", "measure", "edit", "keep")
+"""What the keys of the picture are about, in the order in which the help shows them."""
 
 
 class Bind(NamedTuple):
@@ -21,8 +27,9 @@ class Bind(NamedTuple):
 
 
 class Row(NamedTuple):
-    """One line of the help: the keys as they are written, what they do, and what they are bound to."""
+    """One line of the help: its subject, the keys as they are written, what they do, what they ask for."""
 
+    subject: str
     keys: str
     words: str
     binds: tuple[Bind, ...] = ()
@@ -32,7 +39,7 @@ def _on(key: str, name: str, value: int | str | tuple[float, ...] | None = None)
     return Bind(key, Action(name, value))
 
 
-def _held(key: str, name: str, value: int | tuple[float, ...]) -> Bind:
+def _held(key: str, name: str, value: int | tuple[float, ...] | None = None) -> Bind:
     return Bind(key, Action(name, value), repeats=True)
 
 
@@ -40,23 +47,29 @@ def _every(keys: str, name: str, value: str | None = None) -> tuple[Bind, ...]:
     return tuple(_on(key, name, value) for key in keys.split())
 
 
+def _two(first: str, second: str, name: str, values: tuple[int | str, int | str]) -> tuple[Bind, Bind]:
+    return _on(first, name, values[0]), _on(second, name, values[1])
+
+
+def _both(less: str, more: str, name: str, by: int = 1) -> tuple[Bind, Bind]:
+    return _held(less, name, -by), _held(more, name, by)
+
+
 _IN, _OUT = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
 
 KEYS: tuple[Row, ...] = (
-    Row("Space", "play / pause", _every("space", "pause")),
+    Row("play", "Space", "play / pause", _every("space", "pause")),
     Row(
+        "play",
         "← → (Shift: ×10)",
         "pause, and step the crank",
-        (
-            _held("left", "step", -1),
-            _held("right", "step", 1),
-            _held("shift+left", "step", -10),
-            _held("shift+right", "step", 10),
-        ),
+        (*_both("left", "right", "step"), *_both("shift+left", "shift+right", "step", 10)),
     ),
-    Row("↑ ↓", "speed", (_held("up", "speed", 1), _held("down", "speed", -1))),
-    Row("D", "direction", _every("d", "direction")),
+    Row("play", "↑ ↓", "speed", _both("down", "up", "speed")),
+    Row("play", "D", "direction", _every("d", "direction")),
+    Row("play", "R", "back to the start", _every("r", "start")),
     Row(
+        "play",
         "Tab, Shift+Tab, 1–9",
         "mechanism",
         (
@@ -66,16 +79,12 @@ KEYS: tuple[Row, ...] = (
             *(_on(f"kp{place + 1}", "select", place) for place in range(9)),
         ),
     ),
-    Row("B (Shift: ghost)", "assembly: the other closure", (_on("b", "closure"), _on("shift+b", "ghost"))),
-    Row("T", "coupler trace", _every("t", "trace")),
-    Row("V, A", "velocity, acceleration vectors", (_on("v", "vectors", "v"), _on("a", "vectors", "a"))),
-    Row("C (Shift: back)", "chart: next quantity, off", (_on("c", "chart", 1), _on("shift+c", "chart", -1))),
-    Row("E", "edit dimensions (H there: how)", _every("e", "edit")),
-    Row("G", "record GIF: start, stop", _every("g", "record", "gif")),
-    Row("M", "record MP4: start, stop", _every("m", "record", "mp4")),
-    Row("S, F12", "screenshot", _every("s f12", "screenshot")),
-    Row("R", "back to the start", _every("r", "start")),
+    Row("play", "O", "the shelf: all mechanisms", _every("o", "shelf")),
+    Row("play", "drag pin, drag cursor", "move the crank; the chart's cursor, too"),
+    Row("look", "T", "coupler trace", _every("t", "trace")),
+    Row("look", "N", "names: off, joints and links, with dimensions", _every("n", "names")),
     Row(
+        "look",
         "+, −, wheel, drag",
         "zoom, pan",
         (
@@ -83,52 +92,91 @@ KEYS: tuple[Row, ...] = (
             *(_held(key, "zoom", _OUT) for key in ("-", "kp_minus")),
         ),
     ),
-    Row("0, Home", "fit", _every("0 kp0 home", "fit")),
-    Row("L", "light / dark", _every("l", "theme")),
-    Row("F11", "full screen", _every("f11", "fullscreen")),
-    Row("H, F1, ?", "help", _every("h f1 ? shift+/", "help")),
-    Row("Esc, Q", "close an open overlay (Esc); quit", (_on("escape", "back"), _on("q", "quit"))),
-    Row("drag pin, drag cursor", "move the crank; the chart's cursor, too"),
-)
-"""Every key of the window, in the order in which the help shows them."""
-
-EDIT_KEYS: tuple[Row, ...] = (
-    Row("↑ ↓", "choose a dimension", (_held("up", "choose", -1), _held("down", "choose", 1))),
+    Row("look", "0, Home", "fit", _every("0 kp0 home", "fit")),
+    Row("look", "L", "light / dark", _every("l", "theme")),
+    Row("look", "F11", "full screen", _every("f11", "fullscreen")),
+    Row("look", "H, F1, ?", "help", _every("h f1 ? shift+/", "help")),
     Row(
-        "← → (Shift: ×10)",
-        "nudge it",
-        (
-            _held("left", "nudge", -1),
-            _held("right", "nudge", 1),
-            _held("shift+left", "nudge", -10),
-            _held("shift+right", "nudge", 10),
-        ),
+        "look",
+        "Esc, Q",
+        "close an open overlay (Esc); quit",
+        (_on("escape", "back"), _on("q", "quit")),
+    ),
+    Row("measure", "V, A", "velocity, acceleration vectors", _two("v", "a", "vectors", ("v", "a"))),
+    Row("measure", "C (Shift: back)", "chart: next quantity, off", _two("c", "shift+c", "chart", (1, -1))),
+    Row("measure", "K", "the list of quantities", _every("k", "list")),
+    Row("edit", "E", "edit dimensions (H there: how)", _every("e", "edit")),
+    Row(
+        "edit",
+        "B (Shift: ghost)",
+        "assembly: the other closure",
+        (_on("b", "closure"), _on("shift+b", "ghost")),
     ),
     Row(
+        "edit",
+        "Ctrl+Z, Ctrl+Y",
+        "undo, redo",
+        (_held("ctrl+z", "undo"), _held("ctrl+y", "redo"), _held("ctrl+shift+z", "redo")),
+    ),
+    Row("keep", "S, F12", "screenshot", _every("s f12", "screenshot")),
+    Row("keep", "G", "record GIF: start, stop", _every("g", "record", "gif")),
+    Row("keep", "M", "record MP4: start, stop", _every("m", "record", "mp4")),
+    Row("keep", "Ctrl+S", "write the scene as a new file", _every("ctrl+s", "save")),
+)
+"""Every key of the window, by subject, in the order in which the help shows them."""
+
+EDIT_KEYS: tuple[Row, ...] = (
+    Row("in E", "↑ ↓", "choose a dimension", _both("up", "down", "choose")),
+    Row(
+        "in E",
+        "← → (Shift: ×10)",
+        "nudge it",
+        (*_both("left", "right", "nudge"), *_both("shift+left", "shift+right", "nudge", 10)),
+    ),
+    Row(
+        "in E",
         "Tab, Shift+Tab",
         "on with the value typed, to be judged with the others",
         (_on("tab", "pass_on", 1), _on("shift+tab", "pass_on", -1)),
     ),
     Row(
+        "in E",
         "digits, Enter",
         "type a value, with or without a unit; take all that is typed",
-        (*_every("return kp_enter", "take"), Bind("backspace", Action("erase"), repeats=True)),
+        (*_every("return kp_enter", "take"), _held("backspace", "erase")),
     ),
-    Row(
-        "Ctrl+Z, Ctrl+Y",
-        "undo, redo",
-        (
-            Bind("ctrl+z", Action("undo"), repeats=True),
-            Bind("ctrl+y", Action("redo"), repeats=True),
-            Bind("ctrl+shift+z", Action("redo"), repeats=True),
-        ),
-    ),
-    Row("Ctrl+S", "write the scene as a new file", _every("ctrl+s", "save")),
 )
-"""What the keys do while the dimensions are being edited; the others keep their meaning."""
+"""What the keys do while the dimensions are being edited."""
 
-_MEANT = frozenset({"space", "h", "e"})
-"""Keys that print and still keep their meaning in the open list, while no value is begun."""
+LIST_KEYS: tuple[Row, ...] = (
+    Row(
+        "in K",
+        "↑ ↓",
+        "choose a quantity",
+        (*_both("up", "down", "move"), *_both("pageup", "pagedown", "move", 10)),
+    ),
+    Row("in K", "letters", "show what has them in its name", (_held("backspace", "unsift"),)),
+    Row("in K", "Enter", "chart it", _every("return kp_enter", "pick")),
+)
+"""What the keys do while the list of quantities is open."""
+
+SHELF_KEYS: tuple[Row, ...] = (
+    Row(
+        "in O",
+        "arrows, mouse",
+        "choose a mechanism",
+        (*_both("left", "right", "move"), *_both("up", "down", "row")),
+    ),
+    Row("in O", "Enter, click", "put it on", _every("return kp_enter", "pick")),
+)
+"""What the keys do while the shelf is open."""
+
+_OPEN: Mapping[Mode, tuple[Row, ...]] = {"edit": EDIT_KEYS, "list": LIST_KEYS, "shelf": SHELF_KEYS}
+_TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
+    "edit": ("type", frozenset({"space", "h", "e"})),
+    "list": ("sift", frozenset({"space", "h", "k"})),
+}
+"""Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
 
 
 class Press(NamedTuple):
@@ -140,24 +188,23 @@ class Press(NamedTuple):
     ctrl: bool = False
 
 
-def bind_of(press: Press, *, editing: bool = False, typing: bool = False) -> Bind | None:
+def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind | None:
     """Return what a key asks for; None where it is not bound.
 
-    `editing`: the dimensions are open, and what can be printed belongs to the value; `typing`: one has
-    been begun, and even the keys that keep their meaning in the list are print.
+    In an open list what can be printed is typed there; but for the few keys that keep their meaning while
+    nothing has been begun (`typing`).
     """
-    if editing and not press.ctrl and _is_typed(press, typing):
-        return Bind(press.key, Action("type", press.text), repeats=True)
-    tables = (EDIT_KEYS, KEYS) if editing else (KEYS, _ALWAYS)
+    if _is_typed(press, mode, typing):
+        return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
+    tables = (_OPEN.get(mode, ()), KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
     return next(found, None)
 
 
-_ALWAYS = EDIT_KEYS[-2:]  # undo, redo and save need no open list
-
-
-def _is_typed(press: Press, typing: bool) -> bool:
-    return press.text.isprintable() and press.text != "" and (typing or press.key not in _MEANT)
+def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
+    if mode not in _TYPED or press.ctrl or not press.text or not press.text.isprintable():
+        return False
+    return typing or press.key not in _TYPED[mode][1]
 
 
 def _binds(table: tuple[Row, ...]) -> Iterator[Bind]:
@@ -174,23 +221,32 @@ def _names(press: Press) -> tuple[str, ...]:
 
 def key_names() -> tuple[str, ...]:
     """Return every bound key's name once, without modifiers (a key alone may be '+')."""
-    names = (bind.key for table in (KEYS, EDIT_KEYS) for bind in _binds(table))
+    names = (bind.key for table in (KEYS, *_OPEN.values()) for bind in _binds(table))
     return tuple(dict.fromkeys(name.removeprefix("ctrl+").removeprefix("shift+") for name in names))
 
 
-def help_rows(*, editing: bool = False) -> tuple[tuple[str, str], ...]:
-    """Return (keys, what they do) as the help overlay shows them."""
-    return tuple((row.keys, row.words) for row in (EDIT_KEYS if editing else KEYS))
+def help_groups(mode: Mode = "play") -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+    """Return (subject, its lines of keys and what they do) as the help overlay shows them."""
+    rows = _OPEN.get(mode, KEYS)
+    groups: dict[str, list[tuple[str, str]]] = {}
+    for row in rows:
+        groups.setdefault(row.subject, []).append((row.keys, row.words))
+    return tuple((subject, tuple(lines)) for subject, lines in groups.items())
+
+
+def _lines() -> tuple[tuple[str, str], ...]:
+    """Return all lines of the table, those of an open list told as such."""
+    within = (row for table in _OPEN.values() for row in table)
+    rows = (*KEYS, *(row._replace(keys=f"{row.subject}: {row.keys}") for row in within))
+    return tuple((row.keys, row.words) for row in rows)
 
 
 def as_text(*, indent: str = "  ") -> str:
     """Return the table as plain text, for `--help`."""
-    rows = help_rows() + tuple((f"in E: {keys}", words) for keys, words in help_rows(editing=True))
-    width = max(len(keys) for keys, _ in rows)
-    return "\n".join(f"{indent}{keys:<{width}}  {words}" for keys, words in rows)
+    width = max(len(keys) for keys, _ in _lines())
+    return "\n".join(f"{indent}{keys:<{width}}  {words}" for keys, words in _lines())
 
 
 def as_markdown() -> str:
     """Return the table in Markdown, for the README."""
-    rows = help_rows() + tuple((f"in E: {keys}", words) for keys, words in help_rows(editing=True))
-    return "\n".join(["| key | does |", "|---|---|", *(f"| {keys} | {words} |" for keys, words in rows)])
+    return "\n".join(["| key | does |", "|---|---|", *(f"| {keys} | {words} |" for keys, words in _lines())])

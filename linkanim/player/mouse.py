@@ -38,6 +38,13 @@ class Stage(Protocol):
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
 
+    @property
+    def is_shelf_open(self) -> bool:
+        """Whether the shelf lies over the picture."""
+
+    def shelf_at(self, x: float, y: float) -> int | None:
+        """Return the place on the open shelf under a pixel; None between its pictures."""
+
 
 class Mouse:
     """Knows what is being dragged, and where the mouse was last."""
@@ -48,6 +55,8 @@ class Mouse:
 
     def actions(self, event: Event, stage: Stage) -> tuple[Action, ...]:
         """Return what a mouse event asks for."""
+        if stage.is_shelf_open:
+            return self._on_the_shelf(event, stage)
         match event.type:
             case pygame.MOUSEWHEEL:
                 return self._zoomed(event.y, stage) if event.y else ()
@@ -61,6 +70,17 @@ class Mouse:
                 before, self._at = self._at, event.pos
                 return self._panned(before, stage) if self._drag == "pan" else self._moved(stage)
         return ()
+
+    def _on_the_shelf(self, event: Event, stage: Stage) -> tuple[Action, ...]:
+        """Choose the mechanism under the mouse; a click puts it on, and one beside closes the shelf."""
+        self._drag = None
+        if event.type not in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN):
+            return ()
+        self._at = event.pos
+        place = stage.shelf_at(*self._at)
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            return (Action("shelf") if place is None else Action("put", place),)
+        return () if place is None else (Action("point", place),)
 
     def _grabbed(self, stage: Stage) -> Literal["pan", "crank", "chart"]:
         pin = stage.crank_pin()

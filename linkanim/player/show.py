@@ -6,15 +6,18 @@ import re
 from dataclasses import replace
 
 from linkanim.digits import significant, typeset
-from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.picture.overlay import EditRow, Overlay, Panel, Quantities, Shelf
+from linkanim.picture.quantities import quantity
 from linkanim.picture.text import subscripted
+from linkanim.player.browsing import Browsing, Listing, listed
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.editing import chosen
-from linkanim.player.keys import help_rows
+from linkanim.player.keys import help_groups
 from linkanim.player.state import FLASH_FRAMES, State
 from linkanim.scenes.edit import Dimension, dimensions
 
 _HINT = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
+_LIST_HINT = "↑ ↓ choose   letters sift   Enter charts   Esc closes"
 _NAME = re.compile(r"\b[^\W\d_]\w*")
 _STEPS = 12
 """So many shades of a flash: each is drawn once."""
@@ -27,9 +30,23 @@ def overlay(state: State) -> Overlay:
         noted=True,
         toast=state.toast.text if state.toast else None,
         recording=_recording(state),
-        help=help_rows(editing=state.editing.open) if state.help else None,
+        help=help_groups(state.mode) if state.help else None,
         panel=panel(state) if state.editing.open else None,
+        quantities=_quantities(state, state.listing) if state.listing else None,
+        shelf=_shelf(state, state.browsing) if state.browsing else None,
     )
+
+
+def _quantities(state: State, listing: Listing) -> Quantities:
+    scene = state.scene
+    found = [quantity(scene, token) for token in listed(scene, listing.sieve)]
+    rows = tuple((one.words, f"{one.symbol} ({one.shown_unit(scene.length_unit)})") for one in found)
+    return Quantities(rows, listing.chosen, listing.sieve, _LIST_HINT)
+
+
+def _shelf(state: State, browsing: Browsing) -> Shelf:
+    frame, still = state.frame - browsing.since, state.clock.paused
+    return Shelf(browsing.scenes, browsing.chosen, frame, state.look.theme, still=still)
 
 
 def _recording(state: State) -> str | None:

@@ -12,9 +12,11 @@ from typing import Literal
 
 from linkanim.picture.look import Look
 from linkanim.player.action import Action
+from linkanim.player.browsing import Browsing, Listing
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.editing import Editing
 from linkanim.player.glide import Glide
+from linkanim.player.keys import Mode
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 
@@ -43,7 +45,8 @@ class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
-    `place` the one that is on. `touched` is the frame of the last action, `turned` that at
+    `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf.
+    `touched` is the frame of the last action, `turned` that at
     which an edit made another class of the linkage, while the list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "fullscreen",
     "save", "quit", and "report" (with the text of a fault's report).
@@ -57,6 +60,8 @@ class State:
     look: Look = field(default_factory=Look)
     help: bool = False
     editing: Editing = field(default_factory=Editing)
+    listing: Listing | None = None
+    browsing: Browsing | None = None
     glide: Glide | None = None
     turned: int | None = None
     toast: Toast | None = None
@@ -69,6 +74,18 @@ class State:
     def shown(self) -> Scene:
         """The scene to draw: `scene`, or one on the way to it while a length is changing."""
         return self.glide.scene if self.glide else self.scene
+
+    @property
+    def mode(self) -> Mode:
+        """What the keys are for."""
+        if self.editing.open:
+            return "edit"
+        return "list" if self.listing else "shelf" if self.browsing else "play"
+
+    @property
+    def typing(self) -> bool:
+        """Whether something has been begun in the open list."""
+        return self.editing.typed != "" if self.editing.open else bool(self.listing and self.listing.sieve)
 
     @property
     def phase(self) -> float:

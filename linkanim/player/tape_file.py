@@ -22,6 +22,7 @@ from linkanim.player.editing import Editing
 from linkanim.player.state import State
 from linkanim.player.tape import Tape
 from linkanim.scenes import names
+from linkanim.scenes.joints import Key
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
@@ -93,6 +94,7 @@ def _start_document(state: State) -> dict[str, Any]:
             "open": editing.open,
             "chosen": editing.chosen,
             "typed": editing.typed,
+            "drafts": [[text, *key] for key, text in editing.drafts],
             "past": [_scene_document(scene) for scene in editing.past],
             "future": [_scene_document(scene) for scene in editing.future],
         },
@@ -170,6 +172,7 @@ def _look(part: Section) -> Look:
         zoom=min(max(part.number("zoom"), 0.01), 100.0),
         pan=(across, down),
         ghost=part.flag("ghost"),
+        names=part.whole("names", 0, 2) if "names" in part else 0,
     )
 
 
@@ -184,9 +187,19 @@ def _editing(part: Section) -> Editing:
         open=part.flag("open"),
         chosen=part.whole("chosen", 0, 10_000),
         typed=part.text("typed")[:40],
+        drafts=_drafts(part),
         past=past,
         future=future,
     )
+
+
+def _drafts(part: Section) -> tuple[tuple[Key, str], ...]:
+    """Return the values begun in other rows: lists of the text and the dimension's path."""
+    if "drafts" not in part:
+        return ()
+    entries = part.listed("drafts")
+    found = (entries.items(key) for key in entries.values)
+    return tuple((tuple(path), str(text)[:40]) for text, *path in found if path)
 
 
 def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:

@@ -13,6 +13,7 @@ from linkanim.errors import LinkanimError
 from linkanim.player import display, files
 from linkanim.player.action import Action
 from linkanim.player.advance import aged, carried, settled
+from linkanim.player.browsing import RESOLVED, listed
 from linkanim.player.easel import Easel
 from linkanim.player.fault import recovered, report
 from linkanim.player.keyboard import Keyboard
@@ -83,9 +84,23 @@ class Window:
         for event in events:
             for action in self._meant(event):
                 yield from self._off_the_reel(action)
-                yield action
-        yield from self._keyboard.repeated(self.state.frame)
+                yield from self._resolved(action)
+        for action in self._keyboard.repeated(self.state.frame):
+            yield from self._resolved(action)
         yield from self._news()
+
+    def _resolved(self, action: Action) -> Iterator[Action]:
+        """Yield an action; what depends on an open list or shelf, as what it means there."""
+        browsing, listing = self.state.browsing, self.state.listing
+        if action.name == "row" and browsing and isinstance(action.value, int):
+            yield Action("point", browsing.chosen + action.value * self.easel.shelf_columns())
+        elif action.name == "pick" and browsing:
+            yield Action("put", browsing.chosen)
+        elif action.name == "pick" and listing:
+            tokens = listed(self.state.scene, listing.sieve)
+            yield from (Action("plot", token) for token in tokens[listing.chosen : listing.chosen + 1])
+        elif action.name not in RESOLVED:
+            yield action
 
     def _rewound(self) -> State:
         """Return the state to go on from: a tape that has ended goes on from its start."""
@@ -176,7 +191,6 @@ class Window:
         if event.type != pygame.KEYDOWN:
             return ()
         press = self._keyboard.press(event)
-        editing = self.state.editing
-        bind = bind_of(press, editing=editing.open, typing=editing.typed != "") if press else None
+        bind = bind_of(press, self.state.mode, typing=self.state.typing) if press else None
         self._keyboard.hold(event, bind, self.state.frame)
         return (bind.action,) if bind else ()

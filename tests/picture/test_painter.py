@@ -20,7 +20,7 @@ from linkanim.picture.figure import figure
 from linkanim.picture.fonts import Fonts
 from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.offscreen import offscreen
-from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.picture.overlay import EditRow, Overlay, Panel, Quantities
 from linkanim.picture.painter import Painter
 from linkanim.picture.quantities import quantities
 from linkanim.picture.shapes import hull
@@ -119,7 +119,7 @@ def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str
 @pytest.mark.parametrize("look", [FULL, replace(FULL, theme="dark"), replace(FULL, chart=None)])
 @pytest.mark.parametrize("size", [(640, 360), (320, 180)])
 def test_a_painter_that_takes_over_paints_as_one_that_begins(look: Look, size: tuple[int, int]) -> None:
-    scene, overlay = load("press"), Overlay(help=(("H", "help"),), toast="told")
+    scene, overlay = load("press"), Overlay(help=(("look", (("H", "help"),)),), toast="told")
     before = Painter(load("press"), (640, 360), FULL)
     before.paint(offscreen((640, 360)), scene.pose(0.5), overlay)
     pictures = []
@@ -262,7 +262,9 @@ def test_what_stands_beside_the_scene_fits_into_the_view_too() -> None:
         Overlay(paused=True),
         Overlay(recording="REC GIF 0:03"),
         Overlay(toast="saved crank-rocker.gif"),
-        Overlay(help=(("Space", "play / pause"), ("← →", "step"))),
+        Overlay(help=(("play", (("Space", "play / pause"), ("← →", "step"))),)),
+        Overlay(quantities=Quantities((("Rocker: angle", "θ₄ (°)"),), 0, "rock", "Enter charts")),
+        Overlay(quantities=Quantities((), 0, "nothing")),
         Overlay(panel=Panel((EditRow("crank", "40 mm", chosen=True),), error="too long", hint="Esc closes")),
     ],
 )
@@ -288,12 +290,13 @@ def test_a_panel_that_is_kept_follows_what_it_says() -> None:
     assert pictures[0] == pictures[2]
 
 
-@pytest.mark.parametrize("size", [(640, 360), (3840, 2160), (500, 700)])
+@pytest.mark.parametrize("size", [(320, 180), (640, 360), (3840, 2160), (500, 700)])
 def test_a_long_help_fits_any_window(size: tuple[int, int]) -> None:
     scene = load("crank-rocker")
     surface = offscreen(size)
     rows = tuple((f"key {n}", "what it does, in a few words") for n in range(24))
-    Painter(scene, size, Look(chart="B.velocity")).paint(surface, scene.pose(1.0), Overlay(help=rows))
+    overlay = Overlay(help=(("one", rows[:9]), ("two", rows[9:])))
+    Painter(scene, size, Look(chart="B.velocity")).paint(surface, scene.pose(1.0), overlay)
     background = (*theme_of("light").background, 255)
     assert all(tuple(surface.get_at((x, size[1] // 2))) == background for x in (0, size[0] - 1))
     assert all(tuple(surface.get_at((size[0] // 2, y))) == background for y in (0, size[1] - 1))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pygame
@@ -51,3 +52,17 @@ class Player:
         for place in places[1:]:
             self.mouse(pygame.MOUSEMOTION, place, rel=(0, 0), buttons=(1, 0, 0))
         self.mouse(pygame.MOUSEBUTTONUP, places[-1], button=1)
+
+
+def fake_start(started: list[list[str]]) -> Callable[[list[str], int], object]:
+    """Return what starts no process, notes its command, and says that it is done."""
+
+    class Done:
+        def poll(self) -> int:
+            return 0
+
+    def start(command: list[str], said: int) -> object:
+        started.append(command)
+        return Done()
+
+    return start

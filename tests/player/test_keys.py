@@ -9,24 +9,30 @@ import pytest
 
 from linkanim.player.action import Action
 from linkanim.player.actions import is_known
+from linkanim.player.browsing import RESOLVED
 from linkanim.player.keys import (
     EDIT_KEYS,
     KEYS,
+    LIST_KEYS,
+    SHELF_KEYS,
+    SUBJECTS,
     Bind,
+    Mode,
     Press,
     Row,
     as_markdown,
     as_text,
     bind_of,
-    help_rows,
+    help_groups,
     key_names,
 )
 
-BINDS = [bind for table in (KEYS, EDIT_KEYS) for row in table for bind in row.binds]
+TABLES = {"playing": KEYS, "editing": EDIT_KEYS, "listing": LIST_KEYS, "browsing": SHELF_KEYS}
+BINDS = [bind for table in TABLES.values() for row in table for bind in row.binds]
 
 
-def asked(press: Press, *, editing: bool = False, typing: bool = False) -> Action | None:
-    bind = bind_of(press, editing=editing, typing=typing)
+def asked(press: Press, mode: Mode = "play", *, typing: bool = False) -> Action | None:
+    bind = bind_of(press, mode, typing=typing)
     return bind.action if bind else None
 
 
@@ -73,6 +79,9 @@ PLAYING = {
     "escape": (Press("escape", "\x1b"), Action("back")),
     "q": (Press("q", "q"), Action("quit")),
     "a letter with shift is the letter": (Press("t", "T", shift=True), Action("trace")),
+    "n": (Press("n", "n"), Action("names")),
+    "k": (Press("k", "k"), Action("list")),
+    "o": (Press("o", "o"), Action("shelf")),
     "ctrl+s": (Press("s", "\x13", ctrl=True), Action("save")),
     "ctrl+z": (Press("z", "\x1a", ctrl=True), Action("undo")),
     "ctrl+y": (Press("y", "\x19", ctrl=True), Action("redo")),
@@ -119,27 +128,74 @@ EDITING = {
 
 @pytest.mark.parametrize(("press", "typing", "action"), EDITING.values(), ids=EDITING)
 def test_a_key_while_the_dimensions_are_open(press: Press, typing: bool, action: Action | None) -> None:
-    assert asked(press, editing=True, typing=typing) == action
+    assert asked(press, "edit", typing=typing) == action
+
+
+# With the list of quantities open what can be printed sifts it; but Space, H and K, until it does.
+LISTING = {
+    "up": (Press("up"), False, Action("move", -1)),
+    "page down": (Press("pagedown"), False, Action("move", 10)),
+    "a letter sifts": (Press("v", "v"), False, Action("sift", "v")),
+    "a digit sifts": (Press("5", "5"), False, Action("sift", "5")),
+    "k closes": (Press("k", "k"), False, Action("list")),
+    "k sifts on": (Press("k", "k"), True, Action("sift", "k")),
+    "space pauses": (Press("space", " "), False, Action("pause")),
+    "space parts words": (Press("space", " "), True, Action("sift", " ")),
+    "backspace": (Press("backspace", "\x08"), True, Action("unsift")),
+    "enter": (Press("return", "\r"), True, Action("pick")),
+    "escape": (Press("escape", "\x1b"), True, Action("back")),
+    "ctrl+s is not text": (Press("s", "s", ctrl=True), True, Action("save")),
+}
+
+
+@pytest.mark.parametrize(("press", "typing", "action"), LISTING.values(), ids=LISTING)
+def test_a_key_while_the_quantities_are_open(press: Press, typing: bool, action: Action | None) -> None:
+    assert asked(press, "list", typing=typing) == action
+
+
+# With the shelf open the arrows and Enter are its own, all else keeps its meaning.
+BROWSING = {
+    "left": (Press("left"), Action("move", -1)),
+    "down": (Press("down"), Action("row", 1)),
+    "enter": (Press("return", "\r"), Action("pick")),
+    "o closes": (Press("o", "o"), Action("shelf")),
+    "escape": (Press("escape", "\x1b"), Action("back")),
+    "l": (Press("l", "l"), Action("theme")),
+}
+
+
+@pytest.mark.parametrize(("press", "action"), BROWSING.values(), ids=BROWSING)
+def test_a_key_while_the_shelf_is_open(press: Press, action: Action | None) -> None:
+    assert asked(press, "shelf") == action
+
+
+def test_the_help_goes_by_subjects() -> None:
+    assert tuple(subject for subject, _ in help_groups()) == SUBJECTS
+    assert [subject for subject, _ in help_groups("list")] == ["in K"]
 
 
 def test_keys_that_hold_are_those_that_move() -> None:
     held = {bind.action.name for bind in BINDS if bind.repeats}
-    assert held == {"step", "speed", "zoom", "choose", "nudge", "erase", "undo", "redo"}
+    assert held == {
+        *("step", "speed", "zoom", "choose", "nudge", "erase", "undo", "redo"),
+        *("move", "row", "unsift"),
+    }
 
 
 @pytest.mark.parametrize("bind", BINDS, ids=lambda bind: bind.key)
 def test_every_key_asks_for_a_known_action(bind: Bind) -> None:
-    assert is_known(bind.action)
+    assert is_known(bind.action) or bind.action.name in RESOLVED
 
 
-@pytest.mark.parametrize("table", [KEYS, EDIT_KEYS], ids=["playing", "editing"])
+@pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)
 def test_no_key_is_bound_twice_in_a_table(table: tuple[Row, ...]) -> None:
     keys = [bind.key for row in table for bind in row.binds]
     assert len(keys) == len(set(keys))
 
 
 def test_help_text_and_readme_show_every_row() -> None:
-    for keys, words in help_rows() + help_rows(editing=True):
+    for row in (row for table in TABLES.values() for row in table):
+        keys, words = row.keys, row.words
         assert any(keys in line and words in line for line in as_text().splitlines())
         assert any(keys in line and words in line for line in as_markdown().splitlines())
 

@@ -76,6 +76,17 @@ def test_a_file_reads_back(tape: Tape, tmp_path: Path) -> None:
     assert read(path) == tape
 
 
+def test_what_is_begun_and_named_reads_back(live: State, tmp_path: Path) -> None:
+    asked = (Action("names"), Action("edit"), Action("type", "7"), Action("pass_on", 1), Action("type", "8"))
+    for action in asked:
+        live = advance(live, [action])
+    tape = Tape(starting(live), 5)
+    write(tape, tmp_path / "mine.tape.json")
+    again = read(tmp_path / "mine.tape.json").start
+    assert (again.editing, again.look) == (live.editing, live.look)
+    assert (again.look.names, again.editing.typed, len(again.editing.drafts)) == (1, "8", 1)
+
+
 def test_a_file_is_never_written_over(tape: Tape, tmp_path: Path) -> None:
     path = tmp_path / "mine.tape.json"
     path.write_text("mine")

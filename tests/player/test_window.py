@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pygame
 import pytest
-from playing import CTRL, SHIFT, SIZE, Player
+from playing import CTRL, SHIFT, SIZE, Player, fake_start
 
 from linkanim.player import display
 from linkanim.player.action import Action
@@ -388,18 +388,6 @@ def test_a_recording_is_taped_and_rendered_beside(
     player.tick(15)
     assert player.state.toast is not None
     assert "crank-rocker-1.gif is written" in player.state.toast.text
-
-
-def fake_start(started: list[list[str]]) -> Callable[[list[str], int], object]:
-    class Done:
-        def poll(self) -> int:
-            return 0
-
-    def start(command: list[str], said: int) -> object:
-        started.append(command)
-        return Done()
-
-    return start
 
 
 def test_closing_the_window_finishes_a_recording(

@@ -19,7 +19,7 @@ Handler = Callable[[State, Any], State]
 def edit(state: State, _: None) -> State:
     """Open or close the list; values begun are let go of, undo and redo stay."""
     editing = edit_.choose(replace(state.editing, drafts=()), state.scene, 0)
-    return replace(state, editing=replace(editing, open=not editing.open))
+    return replace(state, editing=replace(editing, open=not editing.open), listing=None, browsing=None)
 
 
 def _listed(work: Callable[[Editing, Scene, Any], Editing]) -> Handler:

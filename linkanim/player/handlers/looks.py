@@ -5,22 +5,29 @@ from __future__ import annotations
 from dataclasses import replace
 
 from linkanim.errors import LinkanimError
-from linkanim.picture.quantities import quantities
+from linkanim.picture.quantities import telling
 from linkanim.player.framing import panned, zoomed
 from linkanim.player.state import State, told
 from linkanim.scenes.closure import other_closure
 
 
 def chart(state: State, further: int) -> State:
-    """Show the quantity so many further; none follows the last."""
-    charts = (None, *quantities(state.scene))
-    at = charts.index(state.look.chart) if state.look.chart in charts else 0
+    """Show the telling quantity so many further; none follows the last, and any that is not telling."""
+    charts = (None, *telling(state.scene))
+    if state.look.chart not in charts:
+        return replace(state, look=replace(state.look, chart=None))
+    at = charts.index(state.look.chart)
     return replace(state, look=replace(state.look, chart=charts[(at + further) % len(charts)]))
 
 
 def trace(state: State, _: None) -> State:
     """Show or hide the trace."""
     return replace(state, look=replace(state.look, trace=not state.look.trace))
+
+
+def names(state: State, _: None) -> State:
+    """Show the names of joints and links, then their dimensions, then neither."""
+    return replace(state, look=replace(state.look, names=(state.look.names + 1) % 3))
 
 
 def vectors(state: State, kind: str) -> State:

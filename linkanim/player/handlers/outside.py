@@ -17,9 +17,11 @@ def note(state: State, text: str) -> State:
 
 
 def back(state: State, _: None) -> State:
-    """Let go of what lies on top: the help, a value begun, the drafts, the list; then quit."""
+    """Let go of what lies on top: the help, a list, a value begun; then quit."""
     if state.help:
         return replace(state, help=False)
+    if state.listing or state.browsing:
+        return replace(state, listing=None, browsing=None)
     if state.editing.open and state.editing.begun:
         return replace(state, editing=edit_.let_go(state.editing))
     return edit(state, None) if state.editing.open else asking(state, "quit")

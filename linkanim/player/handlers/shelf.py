@@ -20,13 +20,13 @@ def mechanism(state: State, further: int) -> State:
     """Put on the scene so many places further on the shelf."""
     if not state.shelf:
         return state
-    return _put_on(state, (state.place + further) % len(state.shelf))
+    return put_on(state, (state.place + further) % len(state.shelf))
 
 
 def select(state: State, place: int) -> State:
     """Choose of the catalogue, whatever else stands on the shelf."""
     named = [at for at, entry in enumerate(state.shelf) if isinstance(entry, str)]
-    return _put_on(state, named[place]) if place < len(named) else state
+    return put_on(state, named[place]) if place < len(named) else state
 
 
 def closure(state: State, _: None) -> State:
@@ -53,16 +53,14 @@ def _verdict(info: Info) -> tuple[str, bool, bool]:
     return info.class_name, "<" in rule, ">" in rule
 
 
-def _put_on(state: State, place: int) -> State:
-    """Start a mechanism as its file says, paused where the last one was."""
+def put_on(state: State, place: int) -> State:
+    """Start a mechanism of the shelf as its file says, paused where the last one was."""
     entry = state.shelf[place]
     scene = proved(load(entry) if isinstance(entry, str) else entry, 0.0)
     clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
-    editing = Editing(open=state.editing.open)
-    return replace(
-        state, scene=scene, place=place, clock=clock, look=look, editing=editing, glide=None, turned=None
-    )
+    bare = replace(state, editing=Editing(open=state.editing.open), listing=None, glide=None, turned=None)
+    return replace(bare, scene=scene, place=place, clock=clock, look=look)
 
 
 def _kept_chart(state: State, scene: Scene) -> str | None:

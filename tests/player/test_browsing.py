@@ -1,0 +1,234 @@
+"""The list of quantities and the shelf: what is found, what is picked, and what a tape keeps of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pygame
+import pytest
+from playing import SIZE, Player, fake_start
+
+from linkanim.picture.quantities import quantities, quantity, telling
+from linkanim.picture.shelf import grid
+from linkanim.player.action import Action
+from linkanim.player.advance import advance
+from linkanim.player.browsing import listed
+from linkanim.player.show import overlay
+from linkanim.player.state import State, begin
+from linkanim.player.tape_file import read
+from linkanim.scenes import load, names
+
+
+def after(state: State, *asked: Action | str) -> State:
+    for one in asked:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+@pytest.fixture
+def press() -> State:
+    return begin(load("press"))
+
+
+def test_the_list_holds_every_quantity_once_the_telling_ones_first(press: State) -> None:
+    tokens = listed(press.scene, "")
+    assert sorted(tokens) == sorted(quantities(press.scene))
+    assert tokens[: len(telling(press.scene))] == telling(press.scene)
+
+
+# What is typed is looked for in token, words and symbol, word by word, whichever its case.
+SIEVES = {
+    "a token's end": ("travel_velocity", "5.travel_velocity"),
+    "words": ("link 3 angular velocity", "3.angular_velocity"),
+    "words in another order": ("VELOCITY angular 3", "3.angular_velocity"),
+    "a symbol": ("ω₆", "6.angular_velocity"),
+    "a name": ("cushion", "cushion.force"),
+}
+
+
+@pytest.mark.parametrize(("sieve", "found"), SIEVES.values(), ids=SIEVES)
+def test_letters_sift_the_list(press: State, sieve: str, found: str) -> None:
+    tokens = listed(press.scene, sieve)
+    assert found in tokens
+    assert len(tokens) < len(quantities(press.scene)) / 2
+
+
+def test_the_list_shows_words_symbol_and_unit(press: State) -> None:
+    shown = overlay(after(press, "list", Action("sift", "cushion.f"))).quantities
+    assert shown is not None
+    assert shown.rows == (("Damper cushion: force", f"{quantity(press.scene, 'cushion.force').symbol} (N)"),)
+    assert (shown.chosen, shown.sieve) == (0, "cushion.f")
+
+
+def test_the_lists_ends_are_ends(press: State) -> None:
+    top = after(press, "list", Action("move", -1))
+    assert top.listing is not None
+    assert top.listing.chosen == 0
+    bottom = after(top, Action("move", 10_000))
+    assert bottom.listing is not None
+    assert bottom.listing.chosen == len(quantities(press.scene)) - 1
+
+
+def test_sifting_starts_from_the_top(press: State) -> None:
+    state = after(press, "list", Action("move", 5), Action("sift", "v"))
+    assert state.listing is not None
+    assert (state.listing.chosen, state.listing.sieve) == (0, "v")
+    state = after(state, Action("move", 2), "unsift")
+    assert state.listing is not None
+    assert (state.listing.chosen, state.listing.sieve) == (0, "")
+
+
+def test_the_list_opens_at_what_is_charted(press: State) -> None:
+    token = quantities(press.scene)[40]
+    state = after(press, Action("plot", token), "list")
+    assert state.listing is not None
+    assert listed(press.scene, "")[state.listing.chosen] == token
+
+
+def test_c_goes_through_the_telling_ones_and_then_shows_none(press: State) -> None:
+    charts = []
+    state = press
+    for _ in range(len(telling(press.scene)) + 1):
+        state = after(state, Action("chart", 1))
+        charts.append(state.look.chart)
+    assert charts == [*telling(press.scene), None]
+    assert after(state, Action("chart", -1)).look.chart == telling(press.scene)[-1]
+
+
+def test_c_puts_away_a_chart_that_is_not_telling(press: State) -> None:
+    token = next(token for token in quantities(press.scene) if token not in telling(press.scene))
+    assert after(press, Action("plot", token), Action("chart", 1)).look.chart is None
+
+
+def test_names_are_off_then_names_then_dimensions(press: State) -> None:
+    levels = [after(press, *["names"] * count).look.names for count in range(4)]
+    assert levels == [0, 1, 2, 0]
+
+
+@pytest.mark.parametrize("key", ["list", "shelf", "back"])
+def test_an_open_list_or_shelf_is_closed_by_its_key_and_by_escape(press: State, key: str) -> None:
+    for opening in ("list", "shelf"):
+        state = after(press, opening, key if key == "back" else opening)
+        assert (state.listing, state.browsing, state.effects) == (None, None, ())
+
+
+def test_one_overlay_is_open_at_a_time(press: State) -> None:
+    assert after(press, "list", "shelf").mode == "shelf"
+    assert after(press, "shelf", "list").mode == "list"
+    assert after(press, "shelf", "edit").mode == "edit"
+
+
+def test_a_list_of_another_mechanism_is_closed(press: State) -> None:
+    assert after(press, "list", Action("mechanism", 1)).listing is None
+
+
+def test_an_unknown_quantity_is_not_charted(press: State) -> None:
+    state = after(press, Action("plot", "nothing.at_all"))
+    assert (state.look.chart, state.toast is not None) == (None, True)
+
+
+def test_the_shelf_opens_at_the_mechanism_that_is_on_and_goes_round(press: State) -> None:
+    state = after(press, "shelf")
+    assert state.browsing is not None
+    assert [scene.name for scene in state.browsing.scenes] == list(names())
+    assert state.browsing.chosen == press.place
+    state = after(state, Action("move", len(names())))
+    assert state.browsing is not None
+    assert state.browsing.chosen == press.place
+
+
+@pytest.mark.parametrize("place", [-1, 999])
+def test_a_place_off_the_shelf_is_not_gone_to(press: State, place: int) -> None:
+    state = after(press, "shelf", Action("point", place), Action("put", place))
+    assert state.browsing is not None
+    assert (state.browsing.chosen, state.scene) == (press.place, press.scene)
+
+
+@pytest.mark.parametrize("size", [(320, 180), (1280, 720), (720, 1280), (3840, 2160), (1000, 300)])
+@pytest.mark.parametrize("count", [1, 2, 14, 15, 40])
+def test_the_grid_fills_any_window_and_overlaps_nothing(size: tuple[int, int], count: int) -> None:
+    found = grid(size, count)
+    assert len(found.cells) == count
+    for n, cell in enumerate(found.cells):
+        assert cell.x >= 0
+        assert cell.right <= size[0]
+        assert cell.y >= 0
+        assert cell.bottom <= size[1] + 1
+        assert found.at(cell.x + cell.width / 2, cell.y + cell.height / 2) == n
+    assert found.at(-5.0, -5.0) is None
+
+
+def test_a_quantity_is_charted_from_the_list(player: Player) -> None:
+    paused = player.pixels
+    player.type("k")
+    assert player.pixels != paused
+    player.type("rocker acc")
+    player.press(pygame.K_RETURN)
+    assert player.state.look.chart == listed(player.state.scene, "rocker acc")[0]
+    assert player.state.listing is None
+
+
+def test_nothing_is_charted_where_nothing_is_found(player: Player) -> None:
+    player.type("k")
+    player.type("xyzzy")
+    player.press(pygame.K_RETURN)
+    assert (player.state.look.chart, player.state.listing is not None) == (None, True)
+
+
+def test_the_shelf_is_browsed_with_arrows_and_enter(player: Player) -> None:
+    player.type("o")
+    columns = grid(SIZE, len(names())).columns
+    player.press(pygame.K_RIGHT)
+    player.press(pygame.K_DOWN)
+    player.press(pygame.K_RETURN)
+    assert (player.state.scene.name, player.state.browsing) == (names()[1 + columns], None)
+
+
+def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
+    player.type("o")
+    cell = grid(SIZE, len(names())).cells[6]
+    middle = (cell.x + cell.width / 2, cell.y + cell.height / 2)
+    player.mouse(pygame.MOUSEMOTION, middle, rel=(0, 0), buttons=(0, 0, 0))
+    assert player.state.browsing is not None
+    assert player.state.browsing.chosen == 6
+    player.mouse(pygame.MOUSEBUTTONDOWN, middle, button=1)
+    assert player.state.scene.name == names()[6]
+    assert player.state.mode == "play"
+
+
+def test_a_click_beside_the_pictures_closes_the_shelf(player: Player) -> None:
+    player.type("o")
+    player.mouse(pygame.MOUSEBUTTONDOWN, (1, 1), button=1)
+    assert (player.state.browsing, player.state.scene.name) == (None, "crank-rocker")
+
+
+def test_the_shelf_is_alive_and_still_while_paused(player: Player) -> None:
+    player.type("o")
+    player.tick(len(names()))
+    still = player.pixels
+    player.tick(10)
+    assert player.pixels == still
+    player.type(" ")
+    player.tick(30)
+    moving = player.pixels
+    player.tick(10)
+    assert player.pixels not in (still, moving)
+
+
+def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
+    player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("linkanim.player.rendering._start", fake_start([]))
+    player.type("g")
+    player.type("k")
+    player.type("rocker vel")
+    player.press(pygame.K_RETURN)
+    player.type("o")
+    player.press(pygame.K_RIGHT)
+    player.press(pygame.K_RETURN)
+    token = listed(load("crank-rocker"), "rocker vel")[0]
+    player.type("g")
+    tape = read(here / "recordings/crank-rocker-1.tape.json")
+    assert [action for _, action in tape.actions] == [Action("plot", token), Action("put", 1)]
+    *_, last = tape.states()
+    assert last.scene.name == names()[1]
