@@ -122,3 +122,88 @@ def test_geared_cranks_close_their_curve_after_whole_turns_of_both(name: str, tu
     for part in range(1, turns):
         early = scene.solve(phase=scene.period * part / turns).position["B"]
         assert np.max(np.abs(early - first)) > 10
+
+
+def test_the_dwell_six_bars_rocker_stands_for_140_degrees_of_the_crank() -> None:
+    scene = load("dwell-six-bar")
+    stands = scene.solve(angle=np.radians(np.linspace(110, 250, 281))).angle["rocker2"]
+    assert math.degrees(np.ptp(stands)) <= 1 / 6
+    assert math.degrees(np.ptp(scene.cycle(FINE).angle["rocker2"])) > 40
+
+
+def test_the_scissor_lift_rises_three_times_what_a_pair_gains_and_stays_level() -> None:
+    motion = load("scissor-lift").cycle(720)
+    foot = motion.position["F"][:, 0]
+    height = 3 * np.sqrt(200.0**2 - foot**2)
+    assert np.max(np.abs(motion.position["R3"] - np.stack((foot, height), axis=1))) <= 1e-14 * 600 * 4
+    assert np.max(np.abs(motion.position["L3"][:, 0])) <= 1e-12
+    assert np.max(np.abs(motion.angle["platform"])) <= 1e-14
+
+
+def test_the_leg_is_down_where_its_brace_is_in_line() -> None:
+    scene = load("landing-gear")
+    # H in line with the brace: the crank's pin closes a triangle of crank, rod and O6 to H.
+    reach = math.hypot(6, 90)
+    lean = math.acos((reach**2 + 35**2 - 124**2) / (2 * reach * 35))
+    for angle in (math.atan2(-90, 6) + lean, math.atan2(-90, 6) - lean):
+        motion = scene.solve(angle=angle, speed=1.0)
+        assert motion.position["K"] == pytest.approx((80, -60), abs=1e-9)
+        assert motion.angle["leg"] == pytest.approx(-math.pi / 2, abs=1e-6)
+        assert abs(motion.angular_velocity["leg"]) <= 1e-6
+    assert math.degrees(np.ptp(scene.cycle(720).angle["leg"])) > 85
+
+
+def test_the_umbrella_opens_alike_on_both_sides() -> None:
+    motion = load("umbrella").cycle(720)
+    left, right = motion.position["T"], motion.position["U"]
+    assert np.max(np.abs(left + right * [1, -1])) <= 1e-14 * 283
+    down = -motion.position["R"][:, 1]
+    cosine = (down**2 + 90**2 - 110**2) / (2 * 90 * down)
+    assert np.max(np.abs(right[:, 1] + 240 * cosine)) <= 1e-12
+
+
+def test_coupled_wheels_turn_alike_through_each_others_change_points() -> None:
+    motion = load("parallel-locomotive").cycle(720)
+    a, b, c, d = (motion.position[joint] for joint in "ABCD")
+    assert np.max(np.abs(b - a - [140, 0])) <= 1e-14 * 260
+    # A loop down the chain passes its change points to 1e-8 of the longest link, rounded up to twice that.
+    assert np.max(np.abs(d - c - [140, 0])) <= 2e-8 * 140
+    assert np.max(np.abs(c - np.stack((-a[:, 1], a[:, 0]), axis=1))) <= 1e-14 * 60
+    # Whichever rod lies along the line of the wheels, the other's pins are at least 60 / √2 off it.
+    assert np.min(np.maximum(np.abs(a[:, 1]), np.abs(c[:, 1]))) >= 60 / math.sqrt(2) - 1e-9
+
+
+def test_andrewss_squeezer_stands_as_published() -> None:
+    scene = load("andrews")
+    # The consistent angles of the test set for initial value problems: β, γ, Φ, δ and ε; Ω is -Φ, Θ nought.
+    beta, gamma, phi = -0.0617138900142764496, 0.455279819163070380, 0.222668390165885885
+    delta, epsilon = 0.487364979543842550, 1.23054744454982119
+    position = scene.solve(angle=beta).position
+    at = {joint: complex(*place) for joint, place in position.items()}
+
+    def turned(joint: str, base: str) -> complex:
+        way = at[joint] - at[base]
+        return way / abs(way)
+
+    found = {
+        ("E", "R"): -complex(math.cos(beta), math.sin(beta)),
+        ("E", "B"): complex(math.sin(gamma), -math.cos(gamma)),
+        ("F", "A"): complex(math.cos(delta), math.sin(delta)),
+        ("F", "E"): -complex(math.sin(phi + delta), -math.cos(phi + delta)),
+        ("G", "A"): complex(math.sin(epsilon), -math.cos(epsilon)),
+        ("G", "E"): -complex(math.cos(epsilon - phi), math.sin(epsilon - phi)),
+    }
+    for (joint, base), direction in found.items():
+        assert abs(turned(joint, base) - direction) <= 1e-14, (joint, base)
+    assert len(scene.linkage.bodies) == 7
+
+
+def test_at_grashofs_limit_two_turns_bring_all_back() -> None:
+    scene = load("grashof-limit-six-bar")
+    lengths = scene.document["six-bar"]["lengths"][:4]
+    assert min(lengths) + max(lengths) == sum(lengths) / 2
+    assert scene.mechanism.periods == 2
+    once, twice = scene.solve(phase=[2 * math.pi, 4 * math.pi]).position["B"]
+    first = scene.solve(phase=0.0).position["B"]
+    assert np.max(np.abs(once - first)) > 10
+    assert twice == pytest.approx(first, abs=1e-12)

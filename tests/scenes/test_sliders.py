@@ -91,3 +91,12 @@ def test_the_trammels_end_draws_an_ellipse() -> None:
     theta = motion.crank_angle
     assert np.max(np.abs(x - 160 * np.cos(theta))) <= 4 * EPS * 160
     assert np.max(np.abs(y + 60 * np.sin(theta))) <= 4 * EPS * 160
+
+
+def test_the_oscillating_cylinders_rod_runs_through_its_trunnion() -> None:
+    motion = load("oscillating-cylinder").cycle(7200)
+    a, p = motion.position["A"], motion.position["P"] - [-90, 0]
+    from_trunnion = a - [-90, 0]
+    across = from_trunnion[:, 0] * p[:, 1] - from_trunnion[:, 1] * p[:, 0]
+    assert np.max(np.abs(across)) <= 1e-14 * 155**2
+    assert np.ptp(motion.angle["rod"]) == pytest.approx(2 * math.asin(60 / 90), rel=1e-6)
