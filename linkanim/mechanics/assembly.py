@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .chain import LimitFit, Touches
+from .chain import ChainRoot
 from .clock import Clock
 from .expression import Graph, Value
 from .linkage import Linkage
@@ -37,8 +37,8 @@ class Assembly:
     path: Path
     signs: Mapping[str, int]
     unscale: float = 1.0
-    fits: Mapping[str, LimitFit] = field(default_factory=dict)
-    touches: Mapping[str, Touches] = field(default_factory=dict)
+    chain: Mapping[str, ChainRoot] = field(default_factory=dict)
+    """The roots of dyads on moving points that vanish on the way."""
 
     @cached_property
     def gears(self) -> Mapping[str, Gearing]:

@@ -1,8 +1,14 @@
 """The signed root of a dyad on moving points that limits the input, or passes change points.
 
-Its margin F = U·W vanishes with the way to the limit: F = uⁱ vʲ S with S smooth and positive. So
-q = √uⁱ √vʲ √S is signed like any limit's, and next to the limit S comes from a polynomial, since
-F itself has lost its digits there. Between the limits S is F over the ways.
+Its margin F = U·W is a difference of rounded coordinates, without digits of its own where it vanishes:
+q = √F would keep half of them. So each zero has a smooth signed way z to it: the root of half the way to
+a limit, or the sine of half the way to a change point. There F = z²·R² with R smooth and positive, and
+next to the zero q = z·R, R being a polynomial fitted once in fifty digits (`fitting`). Then
+
+    q' = d(zR)/dz z'        ρ = q'/((U - W)/2)
+
+need no digits of F or of its rates, and stay finite through limits and change points. Between the zeros
+F keeps its digits: there q = ±√F, and the signs of all the ways are its sign on the smooth path.
 """
 
 from __future__ import annotations
@@ -10,165 +16,251 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
-from .clock import Clock, Ends
+from .clock import Clock, half_angle
 from .exact import Sum
 from .expression import Value, maximum, select, sqrt
-from .planar import Moving, Slope
-from .signed import SMALLEST, SignedRoot, plain_root
-
-CLOSE = 1e-10
-"""Square of the way within which an input counts as next to a change point."""
+from .planar import Moving, MovingPoint, Slope, Vec
+from .signed import Reduced, SignedRoot, plain_root
 
 
 @dataclass(frozen=True, slots=True)
-class NearEnd:
-    """S over the way to its limit: a polynomial in way/width, for ways below `width`."""
+class Fit:
+    """A smooth function for arguments up to `width`: a polynomial in (x - centre)/half."""
 
     width: float
+    centre: float
+    half: float
     coefficients: tuple[float, ...]
 
-    def slope(self, way: Value) -> Slope:
-        """Return the polynomial and its derivative in the way (Horner)."""
-        x = way * (1.0 / self.width)
+    def at(self, x: Moving) -> Moving:
+        """Return the function of what moves, with its rates (Horner's scheme, and the chain rule)."""
+        t = (x.value - self.centre) * (1.0 / self.half)
         value: Value = self.coefficients[-1]
-        rate: Value = 0.0
+        first: Value = 0.0
+        second: Value = 0.0
         for coefficient in self.coefficients[-2::-1]:
-            rate = rate * x + value
-            value = value * x + coefficient
-        return Slope(value, rate * (1.0 / self.width))
+            second = second * t + first
+            first = first * t + value
+            value = value * t + coefficient
+        rate, bend = x.rate * (1.0 / self.half), x.second * (1.0 / self.half)
+        return Moving(value, first * rate, second * (rate * rate * 2.0) + first * bend)
 
 
-@dataclass(frozen=True, slots=True)
-class LimitFit:
-    """How a dyad further down the chain behaves next to the ends of the swing that it limits."""
+class Way(NamedTuple):
+    """A signed way z to a zero, and the argument of what is fitted there; `share` is z over it.
 
-    upper: NearEnd | None
-    lower: NearEnd | None
-
-
-@dataclass(frozen=True, slots=True)
-class Touches:
-    """Where a dyad on moving points passes a change point, and with it to its other closure.
-
-    `places` are angles of an input that turns, repeating after `turns` turns; of one that swings
-    they are phases, since its two ways may run on different closures before this one, and
-    `amplitude` is that of the swing. `least` is the smallest margin that its digits can tell from
-    none; `sign` makes the named closure the one just after the start.
+    The argument is the same a turn later, where z is -z.
     """
 
-    places: tuple[Sum, ...]
+    z: Moving
+    argument: Moving
+    share: Value = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Near:
+    """What is fitted next to a zero: R, and D over the argument where the ends of equal bars meet there."""
+
+    root: Fit
+    across: tuple[Fit, Fit] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the way to it."""
+
+    upper: bool
+    near: Near | None = None
+
+    def way(self, clock: Clock) -> Way:
+        """Return the way to the limit."""
+        assert clock.ends is not None
+        ends = clock.ends
+        z, half = (ends.root_u, ends.u) if self.upper else (ends.root_v, ends.v)
+        return Way(z, Moving(half.value, half.rate, (z * z).second))
+
+    def chosen(self, way: Way, width: float, close: Value, otherwise: Value) -> Value:
+        """Return `close` within the width, else the other."""
+        return select(way.argument.value, width, close, otherwise)
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """A change point: z is the sine of half the way from it, and the argument that of all the way.
+
+    `place` is an angle of an input that turns; of one that swings it is a phase, since its two ways may
+    run on different closures before this one, and `amplitude` is that of the swing. It repeats after
+    `turns` drive periods (a power of two, of a swing).
+    """
+
+    place: Sum
     turns: int
     amplitude: float | None
+    near: Near | None = None
+
+    def way(self, clock: Clock) -> Way:
+        """Return the way from the change point."""
+        turn = self._on_turn(clock) if self.amplitude is None else self._on_swing(clock, self.amplitude)
+        sine, cosine = turn
+        return Way(sine, (sine * cosine).scaled(2.0), 0.5 / cosine.value)
+
+    def _on_turn(self, clock: Clock) -> Turning:
+        share = Fraction(1, self.turns)
+        half = clock.half(self.place * share, share)
+        return _turning(half.sine, half.cosine, Slope(clock.rate, clock.second).scaled(0.5 / self.turns))
+
+    def _on_swing(self, clock: Clock, amplitude: float) -> Turning:
+        assert clock.ends is not None
+        if clock.phase is not None and self.turns > 1:
+            half = half_angle((clock.phase - self.place.high) * (1.0 / self.turns), sharp=True)
+            return _turning(half.sine, half.cosine, clock.pace.scaled(0.5 / self.turns))
+        scale = 1.0 / math.sqrt(amplitude)
+        sine, cosine = clock.ends.root_v.scaled(scale), clock.ends.root_u.scaled(scale)
+        for _ in range(self.turns.bit_length() - 1):
+            sine, cosine = _halved(sine, cosine)
+        half_way = float(self.place) / (2 * self.turns)
+        along, aside = math.cos(half_way), math.sin(half_way)
+        return (
+            sine.scaled(along) + cosine.scaled(-aside),
+            cosine.scaled(along) + sine.scaled(aside),
+        )
+
+    def chosen(self, way: Way, width: float, close: Value, otherwise: Value) -> Value:
+        """Return `close` within the width, else the other: the argument is as small half a turn away."""
+        z = way.z.value
+        return select(z * z, math.sin(math.asin(width) / 2) ** 2, close, otherwise)
+
+
+Turning = tuple[Moving, Moving]
+"""Sine and cosine of a moving angle."""
+
+
+def _turning(sine: Value, cosine: Value, rate: Slope) -> Turning:
+    """Return sine and cosine with their rates where the angle itself has that rate."""
+    first, second, square = rate.value, rate.rate, rate.value * rate.value
+    return (
+        Moving(sine, cosine * first, cosine * second - sine * square),
+        Moving(cosine, -(sine * first), -(sine * second) - cosine * square),
+    )
+
+
+def _halved(sine: Moving, cosine: Moving) -> Turning:
+    """Return sine and cosine of half an angle between 0 and π."""
+    half_cosine = sqrt((cosine.value + 1.0) * 0.5)
+    rate = Slope(
+        sine.rate * cosine.value - cosine.rate * sine.value,
+        sine.second * cosine.value - cosine.second * sine.value,
+    )
+    return _turning(sine.value * 0.5 / half_cosine, half_cosine, rate.scaled(0.5))
+
+
+Zero = End | Touch
+
+
+class Closing(NamedTuple):
+    """What closes a dyad on moving points: U, W, what drives it, and its ends' distance D where it has two.
+
+    `half_difference` is (U - W)/2, or 1/2 of a `single` root, which has no U.
+    """
+
+    u: Value
+    w: Value
+    driver: Moving
+    single: bool
+    across: MovingPoint | None
+
+    @property
+    def half_difference(self) -> Value:
+        """(U - W)/2: q' is ρ times that."""
+        return 0.5 if self.single else (self.u - self.w) * 0.5
+
+    @property
+    def size(self) -> Value:
+        """What the margin is beside: (U + W)², which is 16a²b² of two bars, or L²."""
+        return self.driver.value if self.single else (self.u + self.w) * (self.u + self.w)
+
+    def rates(self, q: Moving) -> Slope:
+        """Return ρ of a root that is known with its rates."""
+        half = self.half_difference
+        ratio = q.rate / half
+        # (U - W)' is -2 (L²)'.
+        bent = q.second if self.single else q.second + ratio * self.driver.rate
+        return Slope(ratio, bent / half)
+
+
+@dataclass(frozen=True, slots=True)
+class ChainRoot:
+    """The zeros of one dyad's root; `sign` makes the closure that is named the one just after the start.
+
+    Below `least` the margin has no digits left.
+    """
+
+    zeros: tuple[Zero, ...]
     least: float
     sign: float = 1.0
 
     def side(self, clock: Clock) -> Value:
         """Return the sign of the closure on the smooth path."""
         side: Value = self.sign
-        for way in self._ways(clock):
-            side = side * _sign(way)
+        for zero in self.zeros:
+            side = side * _sign(zero.way(clock).z.value)
         return side
 
-    def _ways(self, clock: Clock) -> list[Value]:
-        """Return the signed sines of half the ways from each change point."""
-        if self.amplitude is None or clock.ends is None:
-            share = Fraction(1, self.turns)
-            return [clock.half(place * share, share).sine for place in self.places]
-        scale = 1.0 / math.sqrt(self.amplitude)
-        sine, cosine = clock.ends.root_v.value * scale, clock.ends.root_u.value * scale
-        halves = [float(place) / 2 for place in self.places]
-        return [sine * math.cos(half) - cosine * math.sin(half) for half in halves]
+    def root(self, closing: Closing, clock: Clock) -> SignedRoot:
+        """Return q and ρ, signed and finite through every zero."""
+        margin = maximum(closing.u * closing.w, self.least)
+        plain = plain_root(margin, 1.0, closing.driver, closing.half_difference)
+        side = self.side(clock)
+        found = SignedRoot(plain.q * side, Slope(plain.ratio.value * side, plain.ratio.rate * side))
+        if any(zero.near and zero.near.across for zero in self.zeros) and closing.across:
+            found = found.with_lift(Reduced(closing.across, found.q))
+        for zero in self.zeros:
+            if zero.near is not None:
+                found = self._beside(zero, zero.near, closing, clock, found)
+        return found
 
-    def root(self, margin: Value, driver: Moving, half_difference: Value, clock: Clock) -> SignedRoot:
-        """Return q, signed, and ρ.
+    def _beside(self, zero: Zero, near: Near, closing: Closing, clock: Clock, far: SignedRoot) -> SignedRoot:
+        """Return the root from its fit next to a zero, else the one from `far` of it."""
+        way, others = zero.way(clock), self._others(zero, clock)
+        fitted = near.root.at(way.argument)
+        q = way.z * fitted
+        rho = closing.rates(q)
 
-        The margin has lost its digits next to a change point: q is good to 1e-8 of the longest link
-        there, ρ to 1e-5, and within 1e-5 rad ρ' is left out.
-        """
-        found = plain_root(maximum(margin, self.least), 1.0, driver, half_difference)
-        side, close = self.side(clock), 1e6 * self.least
-        # Where g and q vanish together ρ² = g'/(U - W)/2, from q' = ρ (U - W)/2.
-        past: Value = 0.0
-        for way in self._ways(clock):
-            past = past + select(way * way, CLOSE, _sign(way), 0.0)
-        limit = sqrt(maximum(driver.second / half_difference, 0.0)) * past * _sign(driver.second)
-        ratio = select(margin, close, limit, found.ratio.value)
-        rate = select(margin, close, 0.0, found.ratio.rate)
-        return SignedRoot(found.q * side, Slope(ratio * side, rate * side))
+        def chosen(close: Value, otherwise: Value) -> Value:
+            return zero.chosen(way, near.root.width, close, otherwise)
+
+        found = SignedRoot(
+            chosen(q.value * others, far.q),
+            Slope(chosen(rho.value * others, far.ratio.value), chosen(rho.rate * others, far.ratio.rate)),
+        )
+        if far.lift is None:
+            return found
+        if near.across is None:
+            return found.with_lift(Reduced(far.lift.across, chosen(q.value * others, far.lift.q)))
+        reduced = _vector(*(fit.at(way.argument) for fit in near.across))
+        points = [
+            Vec(chosen(a.x, b.x), chosen(a.y, b.y))
+            for a, b in zip(reduced.parts, far.lift.across.parts, strict=True)
+        ]
+        return found.with_lift(
+            Reduced(MovingPoint(*points), chosen(fitted.value * way.share * others, far.lift.q))
+        )
+
+    def _others(self, zero: Zero, clock: Clock) -> Value:
+        """Return the sign of the closure without that zero's."""
+        others: Value = self.sign
+        for other in self.zeros:
+            if other is not zero:
+                others = others * _sign(other.way(clock).z.value)
+        return others
+
+
+def _vector(x: Moving, y: Moving) -> MovingPoint:
+    """Return the vector of two moving components."""
+    return MovingPoint(Vec(x.value, y.value), Vec(x.rate, y.rate), Vec(x.second, y.second))
 
 
 def _sign(value: Value) -> Value:
     return select(value, 0.0, -1.0, 1.0)
-
-
-@dataclass(frozen=True, slots=True)
-class Margin:
-    """F = U·W, half of U - W, and what drives it in time and in the input's angle."""
-
-    value: Value
-    half_difference: Value
-    in_time: Moving
-    in_angle: Moving
-
-
-def limited_root(margin: Margin, fit: LimitFit, clock: Clock) -> SignedRoot:
-    """Return q and ρ, finite through the limits that the dyad sets."""
-    ends = clock.ends
-    assert ends is not None
-    upper, lower = fit.upper is not None, fit.lower is not None
-    smooth = _smooth_part(margin, fit, ends)
-    root = sqrt(smooth.value)
-    q = root * ends.root_u.value if upper else root
-    q = q * ends.root_v.value if lower else q
-    driver = Slope(margin.in_angle.rate, margin.in_angle.second * clock.rate)
-    share = ends.share_of_rate(clock.pace, upper, lower)
-    regular = driver * share / Slope(root, smooth.rate * clock.rate * 0.5 / root)
-    if upper and lower:
-        return SignedRoot(q, regular)
-    return SignedRoot(q, _nearest(regular, _in_time(margin, q), ends, upper=upper))
-
-
-def _smooth_part(margin: Margin, fit: LimitFit, ends: Ends) -> Slope:
-    """Return S and its derivative in the input's angle."""
-    u, v = (maximum(way.value, SMALLEST) for way in (ends.u, ends.v))
-    ways: Value = 1.0
-    fall: Value = 0.0
-    if fit.upper:
-        ways, fall = ways * u, fall + 0.5 / u
-    if fit.lower:
-        ways, fall = ways * v, fall - 0.5 / v
-    value = margin.value / ways
-    found = Slope(value, margin.in_angle.rate * margin.half_difference * 2.0 / ways + value * fall)
-    if fit.upper:
-        found = _switched(ends.u.value, fit.upper, -0.5, found)
-    if fit.lower:
-        found = _switched(ends.v.value, fit.lower, 0.5, found)
-    return found
-
-
-def _switched(way: Value, near: NearEnd, way_rate: float, otherwise: Slope) -> Slope:
-    """Return the polynomial below its width, else what was found without it."""
-    fitted = near.slope(way)
-    return Slope(
-        select(way, near.width, fitted.value, otherwise.value),
-        select(way, near.width, fitted.rate * way_rate, otherwise.rate),
-    )
-
-
-def _in_time(margin: Margin, q: Value) -> Slope:
-    """Return ρ away from the dyad's own limit, from derivatives in time."""
-    ratio = margin.in_time.rate / q
-    return Slope(ratio, (margin.in_time.second - ratio * ratio * margin.half_difference) / q)
-
-
-def _nearest(regular: Slope, in_time: Slope, ends: Ends, *, upper: bool) -> Slope:
-    """Return ρ: the regular form in the half of the swing at the dyad's own limit.
-
-    The other end may belong to a dyad before it, whose derivatives in the angle are unbounded there.
-    """
-    own, other = (ends.u.value, ends.v.value) if upper else (ends.v.value, ends.u.value)
-    return Slope(
-        select(own, other, regular.value, in_time.value),
-        select(own, other, regular.rate, in_time.rate),
-    )

@@ -11,6 +11,7 @@ import numpy as np
 
 from linkanim.digits import degrees, short, significant
 
+from .chain import Touch
 from .exact import HALF_TURN, Sum
 from .kinds import RRR
 from .linkage import Linkage
@@ -292,8 +293,8 @@ def _touched(mechanism: Mechanism) -> Iterator[float]:
         for factor, extra in ((loop.root.u, HALF_TURN), (loop.root.w, Sum(0.0))):
             if factor.kind is Kind.CHANGE_POINT:
                 yield from _reached(path, loop.gearing, loop.root.reference + extra)
-    for touches in mechanism.assembly.touches.values():
-        places = np.array([float(place) for place in touches.places])
+    for root in mechanism.assembly.chain.values():
+        places = np.array([float(zero.place) for zero in root.zeros if isinstance(zero, Touch)])
         yield from (places if path.full_turn else path.angles(places)).tolist()
 
 

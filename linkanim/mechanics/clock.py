@@ -13,7 +13,7 @@ from fractions import Fraction
 
 from .exact import Sum, two_product, two_sum
 from .expression import Value, cos, sqrt, tan
-from .planar import Slope
+from .planar import Moving, Slope
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,18 +63,18 @@ class Ends:
 
     u: Slope
     v: Slope
-    root_u: Slope
-    root_v: Slope
+    root_u: Moving
+    root_v: Moving
     by_phase: bool
 
     def share_of_rate(self, rate: Slope, upper: bool, lower: bool) -> Slope:
         """Return θ' divided by √u where `upper` and by √v where `lower`: regular by phase."""
         if not self.by_phase:
-            share = rate / self.root_u if upper else rate
-            return share / self.root_v if lower else share
+            share = rate / self.root_u.slope if upper else rate
+            return share / self.root_v.slope if lower else share
         share = rate.scaled(2.0)
-        share = share if upper else share * self.root_u
-        return share if lower else share * self.root_v
+        share = share if upper else share * self.root_u.slope
+        return share if lower else share * self.root_v.slope
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,8 @@ class Clock:
     """What the input does at one instant.
 
     `angle` is θ without `origin`; `rate` and `second` are its derivatives in time; `pace` is the
-    derivative of what drives it (φ' or θ') with its own derivative.
+    derivative of what drives it (φ' or θ') with its own derivative; `phase` is φ where a swing is
+    driven by it.
     """
 
     angle: Value
@@ -91,6 +92,7 @@ class Clock:
     second: Value
     pace: Slope
     ends: Ends | None = None
+    phase: Value | None = None
 
     def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, sharp: bool = False) -> Half:
         """Return half of ratio × θ - reference, to the last digit at any number of turns."""
@@ -127,35 +129,32 @@ def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> 
     half = half_angle(phase, sharp=True)
     scale = math.sqrt(amplitude)
     root_u, root_v = half.cosine * scale, half.sine * scale
-    half_rate = pace.value * 0.5
+    half_rate, bend = pace.value * 0.5, pace.rate * 0.5
+    square = half_rate * half_rate
     u, v, both = root_u * root_u, root_v * root_v, root_u * root_v
     ends = Ends(
         Slope(u, -(both * pace.value)),
         Slope(v, both * pace.value),
-        Slope(root_u, -(root_v * half_rate)),
-        Slope(root_v, root_u * half_rate),
+        Moving(root_u, -(root_v * half_rate), -(root_u * square) - root_v * bend),
+        Moving(root_v, root_u * half_rate, root_u * bend - root_v * square),
         by_phase=True,
     )
     rate = (both + both) * pace.value
     second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
     # A cosine of its own, not v - u: near the middle of the swing it keeps all its digits.
-    return Clock(cos(phase) * -amplitude, middle, rate, second, pace, ends)
+    return Clock(cos(phase) * -amplitude, middle, rate, second, pace, ends, phase)
 
 
 def swing_by_angle(angle: Value, u: Value, v: Value, pace: Slope, middle: Sum) -> Clock:
     """Return the clock of a swing driven by its angle from the middle; u and v are half the ways left."""
-    ends = Ends(Slope(u), Slope(v), Slope(sqrt(u)), Slope(sqrt(v)), by_phase=False)
-    return Clock(angle, middle, pace.value, pace.rate, pace, by_angle(ends, pace))
-
-
-def by_angle(ends: Ends, pace: Slope) -> Ends:
-    """Return the same two ways with their derivatives where the angle itself runs at `pace`."""
+    root_u, root_v = (_root_of_way(way, sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
     half_rate = pace.value * 0.5
-    root_u, root_v = ends.root_u.value, ends.root_v.value
-    return Ends(
-        Slope(ends.u.value, -half_rate),
-        Slope(ends.v.value, half_rate),
-        Slope(root_u, -(half_rate * 0.5) / root_u),
-        Slope(root_v, (half_rate * 0.5) / root_v),
-        by_phase=False,
-    )
+    ends = Ends(Slope(u, -half_rate), Slope(v, half_rate), root_u, root_v, by_phase=False)
+    return Clock(angle, middle, pace.value, pace.rate, pace, ends)
+
+
+def _root_of_way(way: Value, sign: float, pace: Slope) -> Moving:
+    """Return the root of half the way to a limit, which the angle's pace changes with that sign."""
+    root = sqrt(way)
+    rate = pace.value * (0.25 * sign) / root
+    return Moving(root, rate, (pace.rate * (0.25 * sign) - rate * rate) / root)

@@ -56,7 +56,7 @@ class Mechanism:
     @property
     def hindered(self) -> bool:
         """Whether a dyad down the chain limits the input or touches a change point."""
-        return bool(self.assembly.fits or self.assembly.touches)
+        return bool(self.assembly.chain)
 
     @cached_property
     def setting(self) -> Setting:

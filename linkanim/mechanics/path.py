@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from decimal import localcontext
 from fractions import Fraction
 from typing import ClassVar
 
@@ -22,6 +23,7 @@ from .joint import Joint
 from .linkage import Linkage
 from .loop import Loop
 from .planar import Slope
+from .precise import context, cosine, exactly, nearest_sum
 from .reach import Array, Reach, reach
 from .roots import Kind, LoopRoot
 from .signed import Swinging
@@ -80,14 +82,14 @@ class Turn:
         once = places[:count]
         return np.concatenate([once - period, once, once + period]), np.tile(values[:count], 3), count
 
-    def cut(self, low: tuple[float, str | None], high: tuple[float, str | None]) -> Swing:
+    def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> Swing:
         """Return the swing between two phases, at each of which a dyad limits the input."""
         names = tuple(dyad for _, dyad in (low, high) if dyad is not None)
         return Swing(self.place(low[0]), self.place(high[0]), (names[0], names[1]), self.periods)
 
-    def place(self, phase: float) -> Sum:
+    def place(self, phase: Sum) -> Sum:
         """Return the angle at a phase, by which a place on this path is known."""
-        return exact_angle(self.start) + Sum(phase)
+        return exact_angle(self.start) + phase
 
     def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
         """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
@@ -182,17 +184,17 @@ class Swing:
         """Return sampled phases and their values, and the index of the one nearest to the start."""
         return places, values, int(np.abs(self.angles(places) - start).argmin())
 
-    def cut(self, low: tuple[float, str | None], high: tuple[float, str | None]) -> Swing:
+    def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> Swing:
         """Return the swing between two phases; at one without a dyad the input goes to its own limit."""
         angles = [
-            own if dyad is None else self.middle + Sum(-self.amplitude * math.cos(phase))
+            own if dyad is None else self.middle + _cosine(phase).times(-self.amplitude)
             for (phase, dyad), own in zip((low, high), (self.low, self.high), strict=True)
         ]
         return Swing(angles[0], angles[1], (low[1] or self.ends[0], high[1] or self.ends[1]), self.repeats)
 
-    def place(self, phase: float) -> Sum:
+    def place(self, phase: Sum) -> Sum:
         """Return the phase: of an angle's two ways through it, each is a place of its own."""
-        return Sum(phase)
+        return phase
 
     def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
         """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
@@ -221,6 +223,12 @@ class Swing:
 
 
 Path = Turn | Swing
+
+
+def _cosine(angle: Sum) -> Sum:
+    """Return the cosine to twice a float's digits."""
+    with localcontext(context()):
+        return nearest_sum(cosine(exactly(angle)))
 
 
 @dataclass(frozen=True, slots=True)

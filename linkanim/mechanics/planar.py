@@ -58,6 +58,25 @@ class Moving:
     rate: Value = 0.0
     second: Value = 0.0
 
+    def __mul__(self, other: Moving) -> Moving:
+        return Moving(
+            self.value * other.value,
+            self.rate * other.value + self.value * other.rate,
+            self.second * other.value + self.rate * other.rate * 2.0 + self.value * other.second,
+        )
+
+    def __add__(self, other: Moving) -> Moving:
+        return Moving(self.value + other.value, self.rate + other.rate, self.second + other.second)
+
+    def scaled(self, factor: Value) -> Moving:
+        """Return the quantity times a constant."""
+        return Moving(self.value * factor, self.rate * factor, self.second * factor)
+
+    @property
+    def slope(self) -> Slope:
+        """The number with its first derivative alone."""
+        return Slope(self.value, self.rate)
+
 
 @dataclass(frozen=True, slots=True)
 class MovingPoint:
@@ -68,11 +87,15 @@ class MovingPoint:
     acceleration: Vec = ZERO
 
     def __add__(self, other: MovingPoint) -> MovingPoint:
-        return MovingPoint(
-            self.position + other.position,
-            self.velocity + other.velocity,
-            self.acceleration + other.acceleration,
-        )
+        return MovingPoint(*(a + b for a, b in zip(self.parts, other.parts, strict=True)))
+
+    def __sub__(self, other: MovingPoint) -> MovingPoint:
+        return MovingPoint(*(a - b for a, b in zip(self.parts, other.parts, strict=True)))
+
+    @property
+    def parts(self) -> tuple[Vec, Vec, Vec]:
+        """Position, velocity and acceleration."""
+        return self.position, self.velocity, self.acceleration
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from decimal import Decimal
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .expression import Expr, Value
+from .precise import cosine, sine, square_root, tangent
 
 Array = NDArray[np.floating[Any]]
 
@@ -96,6 +98,30 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     result = layout.format(*(_name(value) for value in outputs))
     source = "\n".join([f"def pose({', '.join(inputs)}):", *lines, f"    return {result}"])
     return _define(source, "pose", FLOAT_NAMES)
+
+
+DECIMAL_NAMES = {"sqrt": square_root, "tan": tangent, "sin": sine, "cos": cosine}
+
+
+def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., tuple[Decimal, ...]]:
+    """Return a function of Decimals that gives the outputs; call it in a `precise.context`."""
+    constants: dict[str, Decimal] = {}
+
+    def name(value: Value | str) -> str:
+        if isinstance(value, (Expr, str)):
+            return _name(value)
+        key = f"k{len(constants)}"
+        constants[key] = Decimal(value)
+        return key
+
+    lines = [
+        f"    {_name(node)} = {(INFIX.get(node.op) or FLOAT_CALLS[node.op]).format(*map(name, node.args))}"
+        for node in needed(outputs)
+        if node.op != "input"
+    ]
+    result = "".join(f"{name(value)}, " for value in outputs)
+    source = "\n".join([f"def exact({', '.join(inputs)}):", *lines, f"    return ({result})"])
+    return _define(source, "exact", {**DECIMAL_NAMES, **constants})
 
 
 @dataclass(frozen=True)

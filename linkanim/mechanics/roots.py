@@ -18,6 +18,7 @@ from enum import Enum
 from fractions import Fraction
 
 from .exact import Sum, gap, quarter_turns
+from .precise import context, nearest_sum, sine_and_cosine
 
 
 class Kind(Enum):
@@ -78,26 +79,11 @@ def factor(least: float, most: float, spread: Fraction, exact_most: Fraction) ->
 
 def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
     """Return x with sin²(x/2) = square as a sum of two floats: one Newton step from a float."""
-    with localcontext() as context:
-        context.prec = 60
+    with localcontext(context()):
         target = Decimal(square.numerator) / Decimal(square.denominator)
         half = Decimal(half_guess)
-        sine, cosine = _sine_and_cosine(half)
-        step = (target - sine * sine) / (2 * sine * cosine)
-        doubled = 2 * (half + step)
-        high = float(doubled)
-        return Sum(high, float(doubled - Decimal(high)))
-
-
-def _sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
-    """Return sine and cosine by their series, for angles up to π/2."""
-    sums = [Decimal(0), Decimal(0)]
-    term = Decimal(1)
-    for n in range(1, 60):
-        sums[n % 2] += term if n % 4 in (1, 2) else -term
-        term = term * angle / n
-    cosine, sine = sums[1], sums[0]
-    return sine, cosine
+        sine, cosine = sine_and_cosine(half)
+        return nearest_sum(2 * (half + (target - sine * sine) / (2 * sine * cosine)))
 
 
 def four_bar_root(ground: float, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:

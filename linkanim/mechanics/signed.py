@@ -8,12 +8,13 @@ root that stays positive. ρ = (K/2 sin ψ)ψ'/q has what vanishes in both divid
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from .clock import Ends, Half, half_of
 from .exact import FULL_TURN, HALF_TURN, Sum
 from .expression import Value, cos, maximum, minimum, select, sin, sqrt
-from .planar import Moving, Slope
+from .planar import Moving, MovingPoint, Slope
 from .roots import Factor, Kind, LoopRoot
 
 SMALLEST = 1e-300
@@ -22,18 +23,34 @@ OWN_LIMIT = 1e-15
 """A limit within this angle of the end of a swing is that end."""
 
 
+class Reduced(NamedTuple):
+    """D between the two ends of a dyad, and q, both over what vanishes where its ends meet."""
+
+    across: MovingPoint
+    q: Value
+
+
 @dataclass(frozen=True, slots=True)
 class SignedRoot:
-    """q, the regular ratio ρ = (K/2 sin ψ)ψ'/q, and the signed √U where q is a product of two roots."""
+    """q, the regular ratio ρ = (K/2 sin ψ)ψ'/q, and the signed √U where q is a product of two roots.
+
+    `lift` is what a dyad is closed with whose two ends meet on the way.
+    """
 
     q: Value
     ratio: Slope
     root_u: Value = 0.0
+    lift: Reduced | None = None
 
     def times(self, sign: int) -> SignedRoot:
         """Return the root of the closure on the other side where `sign` is -1."""
         factor = float(sign)
-        return SignedRoot(self.q * factor, self.ratio.scaled(factor), self.root_u * factor)
+        lift = self.lift and Reduced(self.lift.across, self.lift.q * factor)
+        return SignedRoot(self.q * factor, self.ratio.scaled(factor), self.root_u * factor, lift)
+
+    def with_lift(self, lift: Reduced) -> SignedRoot:
+        """Return the root of a dyad whose ends meet on the way."""
+        return replace(self, lift=lift)
 
 
 def plain_root(u: Value, w: Value, driver: Moving, half_difference: Value) -> SignedRoot:

@@ -6,62 +6,65 @@ for an instant; what drives the dyad is at an extreme there, so the place is a z
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .assembly import JUST_AFTER, Assembly
-from .chain import Touches
+from .chain import ChainRoot, Touch
 from .expression import Graph
+from .fitting import refined
 from .planar import Slope
-from .program import Batch, batch
+from .program import batch
 from .search import around, sign_changes
 
 SAMPLES_A_TURN = 2880
 TOUCHING = 1e-12
 """Share of a margin's greatest value below which an extreme of it touches zero."""
-LEAST = 1e-16
+LEAST = 1e-40
+AT_END = 1e-6
 
 Array = NDArray[np.float64]
 
 
-def through_change_points(assembly: Assembly, names: Iterable[str], scales: Mapping[str, float]) -> Assembly:
-    """Return the assembly with the change points of the named dyads passed smoothly."""
-    touches = {}
-    for name in names:
-        phases = tuple(_touching_phases(assembly, name, scales[name]).tolist())
-        if phases:
-            touches[name] = _named(assembly, phases, scales[name] * LEAST)
-    if not touches:
+def through_change_points(assembly: Assembly) -> Assembly:
+    """Return the assembly with the zeros of every dyad on moving points, those at its limits known.
+
+    In the chain's order: where a dyad passes onto its other closure, what stands on it goes another way.
+    """
+    for name in assembly.walk_at(Graph().input("x"), Slope(1.0)).closings:
+        assembly = _through(assembly, name)
+    return assembly
+
+
+def _through(assembly: Assembly, name: str) -> Assembly:
+    path, known = assembly.path, assembly.chain.get(name, ChainRoot((), 0.0))
+    phases, scale = _touching_phases(assembly, name)
+    places = (path.place(refined(assembly, name, phase, touching=True)) for phase in phases)
+    touches = tuple(Touch(place, path.periods, path.amplitude) for place in places)
+    root = ChainRoot((*known.zeros, *touches), scale * LEAST)
+    if not root.zeros:
         return assembly
-    path = assembly.path
-    if any(len(found.places) % 2 for found in touches.values()):
-        path = replace(path, rounds=2 * path.rounds)
-    return replace(assembly, path=path, touches=touches)
-
-
-def _named(assembly: Assembly, phases: tuple[float, ...], least: float) -> Touches:
-    """Return the touches with the sign under which the named closure holds just after the start."""
-    path = assembly.path
-    found = Touches(tuple(map(path.place, phases)), path.periods, path.amplitude, least)
-    side = found.side(path.clock(JUST_AFTER, Slope(1.0)))
+    side = root.side(path.clock(JUST_AFTER, Slope(1.0)))
     assert isinstance(side, float)
-    return replace(found, sign=side)
+    if len(touches) % 2:
+        path = replace(path, rounds=2 * path.rounds)
+    return replace(assembly, path=path, chain={**assembly.chain, name: replace(root, sign=side)})
 
 
-def _touching_phases(assembly: Assembly, name: str, scale: float) -> Array:
-    """Return the phases at which a dyad's margin touches zero, over a true period."""
-    program = _margin_and_rate(assembly, name)
+def _touching_phases(assembly: Assembly, name: str) -> tuple[list[float], float]:
+    """Return the phases at which a dyad's margin touches zero, over a true period, and its greatest value."""
+    closing = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings[name]
+    program = batch({"x": True}, [closing.u * closing.w, closing.driver.rate])
     places = around(assembly.path.periods, SAMPLES_A_TURN)
     with np.errstate(all="ignore"):
+        scale = float(np.nanmax(np.abs(program(places)[0]), initial=0.0))
         extremes = sign_changes(lambda phase: program(phase)[1], places)
         margins: Array = program(extremes)[0]
-    return extremes[np.abs(margins) <= TOUCHING * scale]
-
-
-def _margin_and_rate(assembly: Assembly, name: str) -> Batch:
-    graph = Graph()
-    found = assembly.walk_at(graph.input("x"), Slope(1.0))
-    return batch({"x": True}, [found.margins[name], found.drivers[name].rate])
+    touching = np.abs(margins) <= TOUCHING * scale
+    for end, middle in zip(assembly.path.ends, (0.0, np.pi), strict=False):
+        # By phase every rate vanishes at the ends of a swing, also where the dyad limits it.
+        if end == name:
+            touching &= np.abs(np.remainder(extremes - middle + np.pi, 2 * np.pi) - np.pi) > AT_END
+    return extremes[touching].tolist(), scale

@@ -56,8 +56,9 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
     assembly = mechanism.assembly
     found = assembly.walk_at(Graph().input("x"), Slope(1.0))
     places = around(assembly.path.periods, SAMPLES_A_TURN)
-    for name, driver in found.drivers.items():
-        program = batch({"x": True}, [driver.value, driver.rate, *found.factors[name]])
+    for name, closing in found.closings.items():
+        driver = closing.driver
+        program = batch({"x": True}, [driver.value, driver.rate, closing.u, closing.w])
         with np.errstate(all="ignore"):
             turning = [sign_changes(partial(_row, program, row), places) for row in (0, 1)]
             factors = program(np.concatenate([places[:1], *turning]))[2:]
@@ -71,8 +72,7 @@ def _row(program: Batch, row: int, places: Array) -> Array:
 
 def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:
     """Tell whether a dyad's bars fall into one line: at a limit of its own, or at a change point."""
-    assembly = mechanism.assembly
-    return name in assembly.touches or name in assembly.path.ends
+    return name in mechanism.assembly.chain or name in mechanism.assembly.path.ends
 
 
 def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:

@@ -13,7 +13,7 @@ from fractions import Fraction
 from .clock import Half
 from .expression import Value, sqrt
 from .planar import Moving, MovingPoint, Slope, Vec
-from .signed import SignedRoot
+from .signed import Reduced, SignedRoot
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,33 +101,33 @@ def _near_constant(gap: float, near: float, far: float) -> float:
     return float(Fraction(gap) ** 2 + Fraction(near) ** 2 - Fraction(far) ** 2)
 
 
-def moving_triangle(
-    p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], signed: SignedRoot
-) -> Triangle:
-    """Return the triangle on two points that both move."""
+def moving_triangle(across: MovingPoint, lengths: tuple[float, float], signed: SignedRoot) -> Triangle:
+    """Return the triangle on two points that both move, D apart.
+
+    Where equal bars' ends meet, D and q vanish together: what is left of both gives the lift and the turn.
+    """
     a, b = lengths
-    across, rate = q.position - p.position, q.velocity - p.velocity
-    square = across.dot(across)
+    reduced = signed.lift or Reduced(across, signed.q)
+    (d, rate, bend), excess = reduced.across.parts, (b - a) * (b + a)
+    square = d.dot(d)
     share = 0.5 / square
-    growth = across.dot(rate) * 4.0 * share
-    turn = across.cross(rate) * (share + share)
-    excess = (b - a) * (b + a)
-    second = across.cross(q.acceleration - p.acceleration) * (share + share) - turn * growth
+    growth = d.dot(rate) * 4.0 * share
+    turn = d.cross(rate) * (share + share)
+    second = d.cross(bend) * (share + share) - turn * growth
     return Triangle(
-        across=across,
+        across=across.position,
         near=(square - excess) * share,
         far=(square + excess) * share,
-        lift=across.left().scaled(signed.q * share),
+        lift=d.left().scaled(reduced.q * share),
         turn=Slope(turn, second + signed.ratio.value * (share * growth * excess)),
         ratio=signed.ratio,
     )
 
 
-def moving_square(p: MovingPoint, q: MovingPoint) -> Moving:
-    """Return L² between two moving points with its rates."""
-    across, rate = q.position - p.position, q.velocity - p.velocity
-    second = across.dot(q.acceleration - p.acceleration) + rate.dot(rate)
-    return Moving(across.dot(across), across.dot(rate) * 2.0, second * 2.0)
+def moving_square(across: MovingPoint) -> Moving:
+    """Return L² between two points that move, D apart, with its rates."""
+    d, rate, bend = across.parts
+    return Moving(d.dot(d), d.dot(rate) * 2.0, (d.dot(bend) + rate.dot(rate)) * 2.0)
 
 
 def moving_factors(square: Value, lengths: tuple[float, float]) -> tuple[Value, Value]:

@@ -7,13 +7,13 @@ frame: a bar, the arms along which its joints are carried, and how fast it turns
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from linkanim.errors import AssemblyError
 
-from .chain import Margin, limited_root
-from .clock import Clock, Half, by_angle
+from .chain import Closing
+from .clock import Clock, Half
 from .expression import Value, sqrt
 from .frames import holding, share_of
 from .joint import Point
@@ -43,33 +43,28 @@ class Kinematics:
     centres: Mapping[str, MovingPoint]
     bodies: Mapping[str, Slope]
     travels: Mapping[str, Moving]
-    factors: Mapping[str, tuple[Value, Value]]
-    """For each dyad closed from moving points: U (1 where there is none) and W."""
-    drivers: Mapping[str, Moving]
-    """What closes each of these dyads: L², or how far its end lies from its line."""
+    closings: Mapping[str, Closing]
+    """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
 
     @property
     def margins(self) -> Mapping[str, Value]:
         """For each dyad closed from moving points: U·W, negative where it cannot be assembled."""
-        return {name: u * w for name, (u, w) in self.factors.items()}
+        return {name: closing.u * closing.w for name, closing in self.closings.items()}
 
 
 @dataclass
 class Walk:
     """What has been found so far; joints add themselves to it in their order.
 
-    `in_angle` has the drivers with their derivatives in the input's angle, where a chain limits the input.
     `pieces` stand in the order of the linkage's frames.
     """
 
     assembly: Assembly
     clock: Clock
-    in_angle: Mapping[str, Moving]
     points: dict[str, MovingPoint] = field(default_factory=dict)
     pieces: list[Piece] = field(default_factory=lambda: [Piece()])
     travels: dict[str, Moving] = field(default_factory=dict)
-    factors: dict[str, tuple[Value, Value]] = field(default_factory=dict)
-    drivers: dict[str, Moving] = field(default_factory=dict)
+    closings: dict[str, Closing] = field(default_factory=dict)
 
     @property
     def linkage(self) -> Linkage:
@@ -97,34 +92,28 @@ class Walk:
         root, half, pace = self.loop_root(loop, sign)
         return root, PinLoop(loop.ground.length, loop.ground.direction, loop.crank.length, half, pace)
 
-    def span_root(
-        self, name: str, ends: tuple[MovingPoint, MovingPoint], lengths: tuple[float, float]
-    ) -> SignedRoot:
-        """Return the root of two bars on points that both move."""
-        square = moving_square(*ends)
-        return self.margin_root(name, moving_factors(square.value, lengths), square)
+    def span_root(self, name: str, across: MovingPoint, lengths: tuple[float, float]) -> SignedRoot:
+        """Return the root of two bars on points that both move, D apart."""
+        square = moving_square(across)
+        u, w = moving_factors(square.value, lengths)
+        return self.chain_root(
+            name, Closing(u, w, square, False, across if lengths[0] == lengths[1] else None)
+        )
 
-    def slot_root(self, name: str, ends: tuple[MovingPoint, MovingPoint], offset: float) -> SignedRoot:
-        """Return the root √(L² - o²) of a slot whose pin is carried by a moving point."""
-        square = moving_square(*ends)
+    def slot_root(self, name: str, across: MovingPoint, offset: float) -> SignedRoot:
+        """Return the root √(L² - o²) of a slot whose pin is carried by a moving point, D from the pivot."""
+        square = moving_square(across)
         distance = sqrt(square.value)
         margin = (distance - offset) * (distance + offset)
-        return self.margin_root(name, (1.0, margin), square, single=True)
+        return self.chain_root(name, Closing(1.0, margin, square, True, None if offset else across))
 
-    def margin_root(
-        self, name: str, factors: tuple[Value, Value], driver: Moving, *, single: bool = False
-    ) -> SignedRoot:
-        """Return the root of a dyad on moving points, its margin kept; `single` where there is no U."""
-        u, v = factors
-        self.factors[name], self.drivers[name] = factors, driver
-        half_difference = 0.5 if single else (u - v) * 0.5
-        fits, touches = self.assembly.fits, self.assembly.touches.get(name)
-        if name in fits and name in self.in_angle:
-            margin = Margin(u * v, half_difference, driver, self.in_angle[name])
-            return limited_root(margin, fits[name], self.clock)
-        if touches is not None:
-            return touches.root(u * v, driver, half_difference, self.clock)
-        return plain_root(u, v, driver, half_difference)
+    def chain_root(self, name: str, closing: Closing) -> SignedRoot:
+        """Return the root of a dyad on moving points, and keep what closes it."""
+        self.closings[name] = closing
+        root = self.assembly.chain.get(name)
+        if root is not None:
+            return root.root(closing, self.clock)
+        return plain_root(closing.u, closing.w, closing.driver, closing.half_difference)
 
     def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
         """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""
@@ -171,26 +160,13 @@ class Walk:
                 for name, body in turning.items()
             },
             {name: self.travels[body.slider] for name, body in bodies.items() if body.slider is not None},
-            self.factors,
-            self.drivers,
+            self.closings,
         )
 
 
 def walked(assembly: Assembly, clock: Clock) -> Kinematics:
     """Return the motion of everything in the linkage at the clock's instant."""
-    limited = assembly.fits and clock.ends
-    in_angle = _walked(assembly, _angle_clock(clock), {}).drivers if limited else {}
-    return _walked(assembly, clock, in_angle).kinematics()
-
-
-def _angle_clock(clock: Clock) -> Clock:
-    """Return the same instant with derivatives in the input's angle instead of in time."""
-    assert clock.ends is not None
-    return replace(clock, rate=1.0, second=0.0, pace=Slope(1.0), ends=by_angle(clock.ends, Slope(1.0)))
-
-
-def _walked(assembly: Assembly, clock: Clock, in_angle: Mapping[str, Moving]) -> Walk:
-    walk = Walk(assembly, clock, in_angle)
+    walk = Walk(assembly, clock)
     for joint in assembly.linkage.joints:
         joint.close(walk)
-    return walk
+    return walk.kinematics()

@@ -12,7 +12,7 @@ from linkanim.mechanics.joint import Joint, Need
 from linkanim.mechanics.loop import Loop, ground_between
 from linkanim.mechanics.planar import Slope, Vec, carried
 from linkanim.mechanics.roots import slot_root
-from linkanim.mechanics.signed import SignedRoot
+from linkanim.mechanics.signed import Reduced, SignedRoot
 from linkanim.mechanics.triangle import PinLoop, moving_triangle, pin_triangle
 
 if TYPE_CHECKING:
@@ -94,9 +94,11 @@ class RPR(Joint):
             turn = pin_triangle(ground, (0.0, 0.0), root).turn
             direction = _loop_direction(ground, root, (self.offset, sign), swapped=loop.swapped)
         else:
-            root = walk.slot_root(self.name, (pivot, pin), self.offset).times(sign)
-            turn = moving_triangle(pin, pivot, (0.0, 0.0), root).turn
-            direction = _direction(pin.position - pivot.position, root.q, self.offset)
+            across = pin - pivot
+            root = walk.slot_root(self.name, across, self.offset).times(sign)
+            turn = moving_triangle(across, (0.0, 0.0), root).turn
+            reduced = root.lift or Reduced(across, root.q)
+            direction = _direction(reduced.across.position, reduced.q, self.offset)
         turning = _turning(turn, root, self.offset) if self.offset else turn
         arm = direction.scaled(self.length)
         walk.points[self.name] = pivot + carried(arm, turning)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from linkanim.mechanics.chain import Closing
 from linkanim.mechanics.exact import exact_angle, quarter_turns, unit
 from linkanim.mechanics.joint import Joint, Need
 from linkanim.mechanics.loop import Loop
@@ -106,8 +107,8 @@ class RRP(Joint):
         loop, sign = walk.assembly.loops.get(self.name), walk.assembly.signs[self.name]
         if loop is not None:
             return walk.loop_root(loop, sign)[0]
-        factors = self.length - aside.value, self.length + aside.value
-        return walk.margin_root(self.name, factors, aside).times(sign)
+        u, w = self.length - aside.value, self.length + aside.value
+        return walk.chain_root(self.name, Closing(u, w, aside, False, None)).times(sign)
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.

@@ -98,8 +98,9 @@ class RRR(Joint):
             root, pin = walk.pin_loop(loop, sign)
             triangle = pin_triangle(pin, lengths, root)
         else:
-            root = walk.span_root(self.name, (p, q), lengths).times(sign)
-            triangle = moving_triangle(p, q, lengths, root)
+            across = q - p
+            root = walk.span_root(self.name, across, lengths).times(sign)
+            triangle = moving_triangle(across, lengths, root)
         found = _meet(p, q, lengths, triangle)
         walk.points[self.name] = found.point
         arms = ((found.turning_a, first, found.arm_a), (found.turning_b, second, found.arm_b))

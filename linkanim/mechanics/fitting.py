@@ -1,0 +1,181 @@
+"""Where the root of a dyad on moving points vanishes, and what is smooth there, found in fifty digits.
+
+The formulas of the linkage are compiled for decimals, so a margin has digits left wherever it matters:
+its zeros come from Newton's method, and R with margin = z²·R² (`chain`) from interpolation.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from decimal import Decimal, localcontext
+from typing import NamedTuple
+
+from .assembly import Assembly
+from .chain import ChainRoot, Closing, End, Fit, Near, Zero
+from .clock import swing_by_angle
+from .exact import Sum
+from .expression import Graph, Value
+from .path import Swing
+from .planar import Slope
+from .precise import context, exactly, interpolated, nearest_sum, nodes, sine
+from .program import decimals
+
+Decimals = tuple[Decimal, ...]
+
+
+class Sample(NamedTuple):
+    """A place next to a zero: the argument of what is fitted, z, and there the margin and D."""
+
+    argument: Decimal
+    z: Decimal
+    margin: Decimal
+    across: Decimals = ()
+
+
+STEPS = 40
+NUDGE = Decimal(10) ** -15
+CONVERGED = Decimal(10) ** -25
+NEARBY = 1e-6
+"""How far a zero may lie from where floats have found it."""
+POINTS = 20
+WIDEST = 0.5
+TRIES = 12
+LAST = 1e-17
+"""What the last coefficients of a fit may be, beside the first one."""
+
+
+def refined(assembly: Assembly, name: str, phase: float, *, touching: bool) -> Sum:
+    """Return the phase at which a dyad's margin vanishes, from that phase in floats (Newton's method).
+
+    Where it is `touching`, the margin has its extreme there. Slopes are differences: the formulas' own
+    rates have constants that are rounded otherwise than the margin's.
+    """
+    run = decimals(("x",), _by_phase(assembly, name)[:1])
+    with localcontext(context()):
+        start = place = Decimal(phase)
+        for _ in range(STEPS):
+            before, here, after = (run(place + way)[0] for way in (-NUDGE, 0, NUDGE))
+            slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
+            step = slope / bend if touching else here / slope
+            if not abs(place - step - start) < Decimal(NEARBY):
+                return Sum(phase)
+            place -= step
+            if abs(step) < CONVERGED:
+                break
+        return nearest_sum(place)
+
+
+def _by_phase(assembly: Assembly, name: str) -> tuple[Value, ...]:
+    return _outputs(assembly.walk_at(Graph().input("x"), Slope(1.0)).closings[name])
+
+
+def _outputs(closing: Closing) -> tuple[Value, ...]:
+    """Return the margin, and D where the dyad's ends may meet."""
+    place = closing.across and closing.across.position
+    return (closing.u * closing.w, *((place.x, place.y) if place else ()))
+
+
+def fitted(assembly: Assembly) -> Assembly:
+    """Return the assembly with what is smooth next to the zeros of every dyad on moving points."""
+    chain = {name: _fitted_root(assembly, name, root) for name, root in assembly.chain.items()}
+    return replace(assembly, chain=chain)
+
+
+def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
+    with localcontext(context()):
+        return replace(
+            root, zeros=tuple(replace(zero, near=_near(assembly, name, zero)) for zero in root.zeros)
+        )
+
+
+def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
+    """Fit on the widest stretch where a polynomial holds to the last digit; None where there is none."""
+    sampled, width = _sampler(assembly, name, zero)
+    zeroth = sampled(Decimal(0))
+    for _ in range(TRIES):
+        half = width / 2 if isinstance(zero, End) else width
+        stretch = _Stretch(width, half if isinstance(zero, End) else 0.0, half)
+        samples = [sampled(Decimal(stretch.centre) + Decimal(half) * node) for node in nodes(POINTS)]
+        root = stretch.fit(samples, _roots(samples, zeroth.margin))
+        meeting = _meet(zeroth.across, samples)
+        shares = [_shares(samples, zeroth, k) for k in (0, 1)] if meeting else []
+        fits = [root, *(stretch.fit(samples, values) for values in shares)]
+        last = max(_last(fits[:1]), _last(fits[1:]))
+        if last <= LAST:
+            return Near(root, (fits[1], fits[2]) if meeting else None)
+        width *= max(min(0.8 * (LAST / last) ** (1 / POINTS), 0.8), 0.1)
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Stretch:
+    """Where a fit is made: its width, and the middle and the half of its arguments."""
+
+    width: float
+    centre: float
+    half: float
+
+    def fit(self, samples: list[Sample], values: list[Decimal]) -> Fit:
+        """Return the polynomial through the values at the samples' ways."""
+        places = [(sample.argument - Decimal(self.centre)) / Decimal(self.half) for sample in samples]
+        return Fit(self.width, self.centre, self.half, tuple(interpolated(places, values)))
+
+
+def _roots(samples: list[Sample], rest: Decimal) -> list[Decimal]:
+    """Return R, NaN beyond another zero; at the zero itself rounding has left a `rest` of the margin."""
+    squares = [(sample.margin - rest) / sample.z**2 for sample in samples]
+    return [square.sqrt() if square > 0 else Decimal("NaN") for square in squares]
+
+
+def _shares(samples: list[Sample], zeroth: Sample, component: int) -> list[Decimal]:
+    """Return a component of D over the argument; at the zero itself rounding has left a rest of D, too."""
+    rest = zeroth.across[component]
+    return [(sample.across[component] - rest) / sample.argument for sample in samples]
+
+
+def _meet(across: Decimals, samples: list[Sample]) -> bool:
+    """Tell whether D is nothing at the zero itself, beside what it is around."""
+    around = max((abs(value) for sample in samples for value in sample.across), default=Decimal(0))
+    return bool(across) and all(abs(value) <= around * Decimal(NEARBY) for value in across)
+
+
+def _last(fits: list[Fit]) -> float:
+    """Return the last coefficients beside the greatest first one, as they stand to Chebyshev polynomials."""
+    size = max((abs(c) for fit in fits for c in fit.coefficients[:2]), default=1.0)
+    last = max((abs(c) for fit in fits for c in fit.coefficients[-2:]), default=0.0) / 2.0 ** (POINTS - 2)
+    return last / size if last < math.inf else math.inf
+
+
+def _sampler(assembly: Assembly, name: str, zero: Zero) -> tuple[Callable[[Decimal], Sample], float]:
+    """Return the margin, and D, as a function of the way to a zero, and how far that way may go."""
+    path = assembly.path
+    if isinstance(zero, End):
+        assert isinstance(path, Swing)
+        return _by_way(assembly, path, name, upper=zero.upper), path.amplitude / 2
+    run = decimals(("x",), _by_phase(assembly, name))
+    start = Decimal(0) if zero.amplitude else exactly(path.place(Sum(0.0)))
+    place, turns = exactly(zero.place) - start, zero.turns
+
+    def sampled(argument: Decimal) -> Sample:
+        apart = Decimal(turns * math.asin(float(argument)))
+        margin, *across = run(place + apart)
+        return Sample(sine(apart / turns), sine(apart / (2 * turns)), margin, tuple(across))
+
+    return sampled, WIDEST / turns
+
+
+def _by_way(assembly: Assembly, path: Swing, name: str, *, upper: bool) -> Callable[[Decimal], Sample]:
+    """Return the margin as a function of half the way to a limit."""
+    graph = Graph()
+    u, v = graph.input("u"), graph.input("v")
+    clock = swing_by_angle(v - u, u, v, Slope(0.0), path.middle)
+    run = decimals(("u", "v"), _outputs(assembly.walk(clock).closings[name])[:1])
+    amplitude = (exactly(path.high) - exactly(path.low)) / 2
+
+    def sampled(way: Decimal) -> Sample:
+        margin = run(*((way, amplitude - way) if upper else (amplitude - way, way)))[0]
+        return Sample(way, way.sqrt(), margin)
+
+    return sampled
