@@ -110,16 +110,16 @@ class Page:
         columns = [groups] if len(groups) <= _TOGETHER else [[group] for group in groups]
         foot = (2 * _LINE - _BELOW) * pen.small
         high = (rect.height - foot) / len(columns)
-        edges = [max(edge) for edge in zip(*(self._margins(sides, high) for sides in columns), strict=True)]
+        tall = max(high - (_LINE + _BELOW) * pen.small, 1)
+        edges = [max(edge) for edge in zip(*(self._margins(sides, tall) for sides in columns), strict=True)]
         x = self.curves.axis(max(min(round(rect.width / (5 * pen.small)), 12), 2))
         for n, sides in enumerate(columns):
             last = n == len(columns) - 1
             top = rect.y + n * high + _LINE * pen.small
-            tall = high - (_LINE + _BELOW) * pen.small
-            area = Rect(rect.x + edges[0], top, max(rect.width - sum(edges), 1), max(tall, 1))
+            area = Rect(rect.x + edges[0], top, max(rect.width - sum(edges), 1), tall)
             yield from self._plot(area, x if last else _unlabelled(x), sides)
             if last:
-                yield x_title(Plot(area, x, self._axis(sides[0], high)), self.curves.title, pen)
+                yield x_title(Plot(area, x, self._axis(sides[0], tall)), self.curves.title, pen)
 
     def _margins(self, sides: list[list[Curve]], high: float) -> tuple[float, float]:
         """Return how much room the tick labels at either side take."""
@@ -134,7 +134,7 @@ class Page:
         """Return the vertical axis of curves of one unit."""
         values = np.concatenate([curve.values for curve in side])
         unit = side[0].quantity.shown_unit(self.curves.scene.length_unit)
-        most = max(min(round(high / (2.8 * self.pen.small)), 8), 2)
+        most = max(min(round(high / (2.0 * self.pen.small)), 6), 3)
         return around(values, most=most, unit="°" if unit == "°" else "", room=_ROOM)
 
     def _plot(self, area: Rect, x: Axis, sides: list[list[Curve]]) -> Iterator[Item]:

@@ -91,8 +91,8 @@ class Painter:
         self._cast = self._casting()
         self._names = self._named()
         self._legend = legend_for(self._cast.arrows, self._layout, self._type, self._theme)
-        self._bare = self._drawn_once()
-        self._still = self._charted()
+        self._still = self._drawn_once()
+        self._charted: pygame.Surface | None = None
 
     def paint(
         self,
@@ -108,8 +108,7 @@ class Painter:
         large as the painter's size is painted from its top left corner.
         """
         canvas = self._canvas(surface)
-        self._run_at(pose.input_speed)
-        self._wipe(canvas)
+        self._wipe(canvas, self._still_at(pose.input_speed))
         paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
         if self._names:
             self._names.draw(canvas.subsurface(self._stage), pose, self._places(pose))
@@ -216,19 +215,14 @@ class Painter:
             self._legend.draw(still)
         return still
 
-    def _charted(self) -> pygame.Surface:
-        """Return the layer that stands still with the chart on it."""
+    def _still_at(self, speed: float) -> pygame.Surface:
+        """Return the layer that stands still, with the chart of the motion at this speed on it."""
         if not self._strip:
-            return self._bare
-        still = self._bare.copy()
-        self._strip.draw(still)
-        return still
-
-    def _run_at(self, speed: float) -> None:
-        """Draw the chart anew where the motion runs at another speed: both are one motion."""
-        if self._strip and self._strip.speed != speed:
-            self._strip = self._strip.at(speed)
-            self._still = self._charted()
+            return self._still
+        if self._charted is None or self._strip.speed != speed:
+            self._strip, self._charted = self._strip.at(speed), self._still.copy()
+            self._strip.draw(self._charted)
+        return self._charted
 
     def _canvas(self, surface: pygame.Surface) -> pygame.Surface:
         """Return the surface itself where it can be written to directly, else one like the static layer."""
@@ -245,10 +239,10 @@ class Painter:
         end = self._stage.bottom
         return (Layer(layer.colour, layer.loops, layer.alpha, end) for layer in layers)
 
-    def _wipe(self, canvas: pygame.Surface) -> None:
+    def _wipe(self, canvas: pygame.Surface, still: pygame.Surface) -> None:
         if canvas.get_flags() & pygame.SRCALPHA:
             canvas.fill((0, 0, 0, 0))
-        canvas.blit(self._still, (0, 0))
+        canvas.blit(still, (0, 0))
 
     def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer | Stencil]:
         """Return all that moves, back to front, the chart's cursor last."""

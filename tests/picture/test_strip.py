@@ -207,6 +207,8 @@ def test_the_axes_are_titled(size: tuple[int, int], monkeypatch: pytest.MonkeyPa
         return draw(self, surface, text, *rest, **more)
 
     monkeypatch.setattr(Type, "draw", noting)
-    Painter(load("crank-rocker"), size, Look(chart="rocker.angular_velocity"))
+    scene = load("crank-rocker")
+    painter = Painter(scene, size, Look(chart="rocker.angular_velocity"))
+    painter.paint(offscreen(size), scene.pose(1.0))
     assert "crank angle θ₂ (°)" in drawn
     assert any(text.endswith("ω₄ (rad/s)") for text in drawn)
