@@ -51,7 +51,8 @@ def _in_json(pose: Mapping[str, Any], token: str) -> float | None:
     """Return a quantity from what `solve --json` prints, angles in degrees; None where that has it not."""
     part, kind, *axis = [*token.split("."), ""]
     if kind in ("position", "velocity", "acceleration") and part in pose["joints"]:
-        return _component(pose["joints"][part][kind], axis[0])
+        whole = kind == "position" and not axis[0]  # a chart shows both components
+        return None if whole else _component(pose["joints"][part][kind], axis[0])
     for struts in (pose["springs"], pose["dampers"]):
         if part in struts and kind in struts[part]:
             return float(struts[part][kind])

@@ -46,6 +46,8 @@ _STANDARD = {
 """The numbers that textbooks give the links of the common linkages; the ground is 1."""
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _NEAREST = 3
+_ROUNDING = 1e-13
+"""Of what is as large as the extent, moved at the input's speed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,6 +212,12 @@ class Quantity:
         """Return the values as people read them: angles in degrees."""
         found = self.read(motion)
         return np.degrees(found) if self.unit == "rad" else found
+
+    def rounding(self, cycle: Any) -> float:
+        """Return how large rounding errors may be over a cycle, from its extent and the input's speed."""
+        extent = max(float(np.abs(places).max()) for places in cycle.position.values())
+        size = extent if "{}" in self.unit else 1.0
+        return _ROUNDING * size * abs(float(cycle.input_speed)) ** self.order
 
     def shown_unit(self, length_unit: str) -> str:
         """Return the unit that goes with `shown`."""

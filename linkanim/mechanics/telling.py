@@ -4,24 +4,39 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from .derived import crank_body, output_body
 from .kinds import Pin
 from .linkage import Body, Damper, Linkage, Spring
-from .register import TURNING, register
+from .motion import Motion
+from .register import TURNING, Quantity, register
 
 _LEAST, _MOST = 6, 10
+_LEVEL = 1e-6
+"""Of a quantity's greatest size; what changes less stands still."""
 
 
-def telling(linkage: Linkage, traced: tuple[str, ...] = ()) -> tuple[str, ...]:
+def telling(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ...]:
     """Return the tokens of six to ten quantities that say most of a linkage, the most telling first.
 
-    What it is there to move, the forces, how its links turn, the torque at its input, the first
-    `traced` joint, how well it transmits.
+    What it is there to move, the forces, how its links turn, the torque at its input, the first of the
+    `traced` joints whose speed changes, how well it transmits; nothing that stands still over the cycle.
     """
-    known = register(linkage)
-    wished = [token for token in _wished(linkage, traced[:1]) if token in known]
-    rest = [token for token in known if token not in wished]
+    linkage = cycle.setting.linkage
+    changing = {token for token, one in register(linkage).items() if _changes(one, cycle)}
+    point = tuple(name for name in traced if f"{name}.velocity" in changing)[:1]
+    wished = [token for token in _wished(linkage, point) if token in changing]
+    rest = [token for token in register(linkage) if token in changing and token not in wished]
+    rest.sort(key=lambda token: token.partition(".")[0] not in traced)
     return tuple(dict.fromkeys((*wished[:_MOST], *rest[: max(_LEAST - len(wished), 0)])))
+
+
+def _changes(one: Quantity, cycle: Motion) -> bool:
+    """Whether a quantity has more than one value, rounding errors aside."""
+    values = np.asarray(one.read(cycle))
+    found = values[np.isfinite(values)]
+    return bool(found.size and np.ptp(found) > max(_LEVEL * np.abs(found).max(), 10 * one.rounding(cycle)))
 
 
 def _wished(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:

@@ -12,8 +12,7 @@ from linkanim.mechanics.register import Quantity, look_up, register
 from linkanim.mechanics.telling import telling as most_telling
 from linkanim.scenes.scene import Scene
 
-_ROUNDING = 1e-13
-"""Of what is as large as the extent, moved at the input's speed."""
+_TRIED = 96
 
 
 class Series(NamedTuple):
@@ -36,7 +35,7 @@ def quantities(scene: Scene) -> tuple[str, ...]:
 
 def telling(scene: Scene) -> tuple[str, ...]:
     """Return the tokens of the six to ten quantities that say most of a scene, the most telling first."""
-    return most_telling(scene.linkage, scene.trace)
+    return most_telling(scene.cycle(_TRIED), scene.trace)
 
 
 def quantity(scene: Scene, token: str) -> Quantity:
@@ -62,7 +61,4 @@ def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
 
 def rounded(values: NDArray[np.float64], quantity: Quantity, cycle: Motion) -> NDArray[np.float64]:
     """Return values with 0 for what is nothing but rounding errors at a cycle's extent and input speed."""
-    length = max(float(np.abs(places).max()) for places in cycle.position.values())
-    extent = length if "{}" in quantity.unit else 1.0
-    least = _ROUNDING * extent * abs(float(cycle.input_speed)) ** quantity.order
-    return np.where(np.abs(values) <= least, 0.0, values)
+    return np.where(np.abs(values) <= quantity.rounding(cycle), 0.0, values)

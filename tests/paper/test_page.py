@@ -16,6 +16,7 @@ from linkanim.paper.measured import beside
 from linkanim.paper.svg import svg
 from linkanim.picture.items import Caption, draw
 from linkanim.picture.offscreen import offscreen
+from linkanim.picture.quantities import telling
 from linkanim.picture.raster import Layer
 from linkanim.scenes import load, names
 
@@ -101,9 +102,7 @@ def test_no_two_extremes_are_told_in_one_place_and_all_stays_on_the_page(
 
 @pytest.mark.parametrize("name", names())
 def test_every_scene_has_its_chart(name: str) -> None:
-    page = _page(
-        name, "transmission_angle", "input.angular_velocity", "mechanical_advantage", size=(320, 180)
-    )
+    page = _page(name, *telling(load(name))[:4], size=(320, 180))
     assert len(np.unique(pygame.surfarray.array3d(page.surface()).reshape(-1, 3), axis=0)) > 8
 
 

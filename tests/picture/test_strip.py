@@ -121,7 +121,7 @@ def test_the_curve_is_that_of_the_running_motion(name: str, token: str, speed: f
 
 @pytest.mark.parametrize("name", names())
 def test_another_speed_costs_no_solving(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    chart = _strip(name, "A.acceleration" if name != "rocker-driven" else "B.acceleration")
+    chart = _strip(name, f"{load(name).linkage.drive.joint}.acceleration")
     before = chart.curves[1]
     monkeypatch.setattr(
         "linkanim.mechanics.mechanism.Mechanism.solve", lambda *_, **__: pytest.fail("solved")
