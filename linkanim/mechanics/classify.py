@@ -186,8 +186,18 @@ def _class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
     if four_bar is not None:
         name = _four_bar_name(four_bar)
         return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"
+    if not dyads:
+        return _cranks_name(linkage)
     own = dyads[0].linkage_name(mechanism.assembly) if len(dyads) == 1 else None
     return own or f"{_bars(len(dyads))} linkage{slider}"
+
+
+def _cranks_name(linkage: Linkage) -> str:
+    """Name a linkage without dyads by how its cranks turn."""
+    geared = [crank for crank in linkage.cranks if crank.gear]
+    if any(not linkage.joint(crank.pivot).fixed for crank in geared):
+        return "epicyclic gear train"
+    return "geared cranks" if geared else "crank"
 
 
 def _bars(dyads: int) -> str:

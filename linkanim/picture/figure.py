@@ -90,13 +90,6 @@ class Figure:
         x, y = self.cycle.position[name][0]
         return complex(float(x), float(y))
 
-    def path_on(self, name: str, on: tuple[str, str], view: View) -> Loop:
-        """Return the pixels a joint passes through as its body sees it: from on[0], on[1] lying at 0°."""
-        start, end, point = (self.cycle.position[joint] for joint in (*on, name))
-        way, axis = ((to - start) @ DOWN for to in (point, end))
-        path: Loop = view.scale * way * np.conj(axis) / np.abs(axis)
-        return path
-
     def path(self, name: str, view: View) -> Loop:
         """Return the pixels a joint passes through in one cycle, at equal steps of phase."""
         points = self.cycle.position[name]

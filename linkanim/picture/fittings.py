@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,9 +18,11 @@ from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Part, lined
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.shapes import box, rounded, segments, unit
-from linkanim.picture.theme import Theme, mixed
-from linkanim.picture.view import View
+from linkanim.picture.theme import LIGHT, Theme, mixed
+from linkanim.picture.view import Box, View, joined
 
+_TRIED = 90
+"""Poses of a cycle at which is looked how far a fitting reaches."""
 _BLOCK = (4.6, 3.2)
 """A slider block's length and height in half widths of a bar."""
 
@@ -37,17 +39,37 @@ class Bench:
 
 @dataclass(frozen=True)
 class Fitting:
-    """What a joint adds to the picture: parts behind the bodies and before them, lines of its guide."""
+    """What a joint adds to the picture: parts behind the bodies and before them, rails on the ground.
+
+    `rails` has the joint that travels between them and their direction, y down.
+    """
 
     behind: tuple[Part, ...] = ()
     before: tuple[Part, ...] = ()
-    guide: tuple[Loop, ...] = ()
+    rails: tuple[str, complex] | None = None
 
 
 def fittings(bench: Bench) -> tuple[Fitting, ...]:
     """Return the fittings of all joints that have some, in the joints' order."""
     joints = bench.figure.linkage.joints
     return tuple(FITTINGS[type(joint)](joint, bench) for joint in joints if type(joint) in FITTINGS)
+
+
+def fittings_box(figure: Figure, box: Box) -> Box:
+    """Return the box widened so that slotted bars and guides are in it, wherever they go."""
+    thin = 1e-6 * max(figure.shortest, 1e-6 * (box.right - box.left + box.high - box.low))
+    bench = Bench(figure, View(1.0, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
+    parts = [part for fitting in fittings(bench) for part in (*fitting.behind, *fitting.before)]
+    cycle = {name: np.atleast_2d(points) @ DOWN for name, points in figure.cycle.position.items()}
+    for n in range(0, len(figure.cycle.phase), max(len(figure.cycle.phase) // _TRIED, 1)):
+        places = {name: complex(path[n]) for name, path in cycle.items() if np.isfinite(path[n])}
+        for part in parts:
+            if {part.at, part.tail, part.head} <= places.keys():
+                loops = [loop for layer in part.placed(places) for loop in layer.loops]
+                drawn = np.concatenate(loops)
+                reach = Box(drawn.real.min(), -drawn.imag.max(), drawn.real.max(), -drawn.imag.min())
+                box = joined(box, reach)
+    return box
 
 
 def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[Loop]:
@@ -61,25 +83,30 @@ def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[L
 
 
 def _slider(joint: RRP, bench: Bench) -> Fitting:
-    """Return a block, and the two rails that it runs between."""
+    """Return a block between rails on the ground, or a small one in the slot of a body that carries it."""
     along = complex(np.exp(-1j * joint.line.angle))
-    block = Part(joint.name, *_ways(joint.name, joint.line), _block(bench, along), (joint.name,))
-    return _guided(joint.name, joint.line, along, bench, (block,))
+    if joint.line.on is None:
+        block = Part(joint.name, joint.name, joint.name, _block(bench, along), (joint.name,))
+        return Fitting(behind=(block,), rails=(joint.name, along))
+    guide, slot = _carried_slot(joint.name, joint.line, along, bench)
+    block = Part(joint.name, *joint.line.on, _block(bench, along, 0.62), (joint.name,))
+    return Fitting(behind=(guide,), before=(slot, block))
 
 
-def _ways(name: str, line: Line) -> tuple[str, str]:
-    """Return the joints whose direction what lies on a line keeps: its body's, or none on the ground."""
-    return line.on or (name, name)
-
-
-def _guided(name: str, line: Line, along: complex, bench: Bench, parts: tuple[Part, ...]) -> Fitting:
-    """Return parts with their rails, which stand on the ground or go along with the line's body."""
-    if line.on is None:
-        return Fitting(behind=parts, guide=tuple(_rails(bench.figure.path(name, bench.view), along, bench)))
-    tail, head = line.on
-    rails = tuple(_rails(bench.figure.path_on(name, line.on, bench.view), along, bench))
-    carried = Part(tail, tail, head, (Layer(bench.theme.ground, list(rails)),))
-    return Fitting(behind=(carried, *parts))
+def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[Part, Part]:
+    """Return the bar that a body carries along a line, from the joint it runs through, and the slot in it."""
+    assert line.on is not None
+    gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
+    places = bench.figure.cycle.position
+    seen = (places[name] - places[line.through]) @ DOWN * np.conj(_facing(line, bench) * along)
+    foot = -1j * along * line.offset * scale
+    near, far = (foot + along * scale * float(way) for way in (np.nanmin(seen.real), np.nanmax(seen.real)))
+    colours = theme.outline, theme.metal
+    arm = lined([0j, foot], gauge.bar, gauge.outline, colours) if line.offset else []
+    bar = lined([foot, near, far], 1.35 * gauge.bar, gauge.outline, colours)
+    hollow = Layer(mixed(theme.metal, theme.outline, 0.75), [rounded([near, far], 0.5 * gauge.bar)])
+    ways = (line.through, *line.on)
+    return Part(*ways, (*arm, *bar), (line.through,)), Part(*ways, (hollow,))
 
 
 def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
@@ -90,9 +117,16 @@ def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[La
     return Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner])
 
 
-def _rails(path: Loop, along: complex, bench: Bench) -> Iterator[Loop]:
-    """Yield the lines of two rails, as long as what travels along the path needs."""
-    gauge = bench.gauge
+def rails(bench: Bench) -> Iterator[Loop]:
+    """Yield the lines of all rails on the ground."""
+    for fitting in fittings(bench):
+        if fitting.rails is not None:
+            yield from _rails(*fitting.rails, bench)
+
+
+def _rails(name: str, along: complex, bench: Bench) -> Iterator[Loop]:
+    """Yield the lines of two rails, as long as the joint's travel needs."""
+    gauge, path = bench.gauge, bench.figure.path(name, bench.view)
     way = np.real(path * np.conj(along))
     across = float(np.nanmean(np.imag(path * np.conj(along))))
     beyond = (_BLOCK[0] / 2 + 0.9) * gauge.bar
@@ -148,10 +182,13 @@ def _yoke(joint: RPP, bench: Bench) -> Fitting:
     colours = theme.outline, theme.metal
     bar = lined([0j, *ends], 1.35 * gauge.bar, gauge.outline, colours)
     hollow = Layer(mixed(theme.metal, theme.outline, 0.75), [rounded(list(ends), 0.5 * gauge.bar)])
-    ways = _ways(joint.name, joint.line)
+    ways = joint.line.on or (joint.name, joint.name)
     slotted = Part(joint.name, *ways, (*_block(bench, along), *bar, hollow))
     collar = Part(joint.pin, *ways, _block(bench, across, 0.62), (joint.pin,))
-    return replace(_guided(joint.name, joint.line, along, bench, (slotted,)), before=(collar,))
+    if joint.line.on is None:
+        return Fitting((slotted,), (collar,), (joint.name, along))
+    guide, slot = _carried_slot(joint.name, joint.line, along, bench)
+    return Fitting((guide, slot, slotted), (collar,))
 
 
 FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {RRP: _slider, RPR: _slotted, RPP: _yoke}

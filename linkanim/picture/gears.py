@@ -1,4 +1,4 @@
-"""Gear pairs: two toothed wheels that mesh, or two pulleys where both cranks turn the same way."""
+"""Gear pairs: wheels that mesh, planets on the wheel they roll on, pulleys where both turn the same way."""
 
 from __future__ import annotations
 
@@ -33,27 +33,45 @@ _BELT = 0.3
 
 @dataclass(frozen=True)
 class Wheel:
-    """A wheel about the pivot of a crank, its radius in the scene's unit; `teeth` is 0 for a pulley.
+    """A wheel about a joint, its radius in the scene's unit; `teeth` is 0 for a pulley.
 
-    `tooth` is the angle of a tooth ahead of the crank, in radians, counter-clockwise.
+    It turns with the direction from its centre to the joint `arm`, or not at all without one. `tooth` is
+    the angle of a tooth ahead of that direction, in radians, counter-clockwise. The teeth of a `ring`
+    point inwards: `tooth` is then the angle of a gap.
     """
 
-    crank: Crank
+    centre: str
+    arm: str | None
     radius: float
     teeth: int = 0
     tooth: float = 0.0
+    ring: bool = False
 
 
 @dataclass(frozen=True)
 class Pair:
-    """Two wheels that drive each other."""
+    """Two wheels that roll on each other, or share a belt; a planet rolls on a wheel that stands still."""
 
     driver: Wheel
     driven: Wheel
 
+    @property
+    def wheels(self) -> tuple[Wheel, Wheel]:
+        """Both of them, the one behind first."""
+        return self.driver, self.driven
+
+    @property
+    def planetary(self) -> bool:
+        """Whether the driven wheel goes round with an arm."""
+        return self.driver.arm is None
+
 
 def pairs(figure: Figure) -> tuple[Pair, ...]:
-    """Return the gear pairs with pivots apart, sized so that their pitch circles roll on each other."""
+    """Return the gear pairs with pivots apart, sized so that their pitch circles roll on each other.
+
+    A crank that is geared to the one whose pin it turns on is a planet: what makes it turn as it does is
+    a wheel about that crank's own pivot which stands still, a ring around it where it turns the other way.
+    """
     cranks = {crank.name: crank for crank in figure.linkage.cranks}
     found = (_pair(figure, crank, cranks) for crank in cranks.values())
     return tuple(pair for pair in found if pair)
@@ -64,22 +82,72 @@ def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> Pair | None
     if gear is None or gear.mate not in cranks:
         return None
     driver = cranks[gear.mate]
+    fixed = figure.linkage.joint(driver.pivot).fixed
+    if crank.pivot == driver.name and fixed:
+        return _planet(figure, crank, driver)
     apart = figure.start(crank.pivot) - figure.start(driver.pivot)
-    ratio = abs(gear.ratio)
-    if apart == 0 or ratio == 0:
+    if not (fixed and figure.linkage.joint(crank.pivot).fixed) or apart == 0:
         return None
     if gear.ratio > 0:
-        large = _BELT * abs(apart)
-        share = float(ratio)
-        return Pair(Wheel(driver, large * min(share, 1)), Wheel(crank, large * min(1 / share, 1)))
+        return _pulleys((driver, crank), abs(apart), float(gear.ratio))
+    return _meshing(figure, (driver, crank), apart)
+
+
+def _pulleys(cranks: tuple[Crank, Crank], apart: float, ratio: float) -> Pair:
+    driver, driven = cranks
+    large = _BELT * apart
+    return Pair(
+        Wheel(driver.pivot, driver.name, large * min(ratio, 1)),
+        Wheel(driven.pivot, driven.name, large * min(1 / ratio, 1)),
+    )
+
+
+def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> Pair:
+    """Return two wheels on fixed pivots that turn against each other."""
+    driver, driven = cranks
+    assert driven.gear is not None
+    ratio = abs(driven.gear.ratio)
     radius = abs(apart) * float(ratio / (1 + ratio))
-    fewest = ceil(_FEWEST / min(ratio.numerator, ratio.denominator))
-    many = max(fewest, round(_TEETH / (ratio.numerator + ratio.denominator)))
-    first, second = many * ratio.numerator, many * ratio.denominator
+    first, second = _teeth(ratio.numerator, ratio.denominator)
     contact = float(np.angle(apart))
     at = contact - _angle(figure, driver)
-    facing = contact + pi - _angle(figure, crank) + pi / second
-    return Pair(Wheel(driver, radius, first, at), Wheel(crank, abs(apart) - radius, second, facing))
+    facing = contact + pi - _angle(figure, driven) + pi / second
+    return Pair(
+        Wheel(driver.pivot, driver.name, radius, first, at),
+        Wheel(driven.pivot, driven.name, abs(apart) - radius, second, facing),
+    )
+
+
+def _teeth(one: int, other: int) -> tuple[int, int]:
+    """Return the numbers of teeth of two wheels whose radii are as these numbers."""
+    many = max(ceil(_FEWEST / min(one, other)), round(_TEETH / (one + other)))
+    return many * one, many * other
+
+
+def _planet(figure: Figure, planet: Crank, arm: Crank) -> Pair | None:
+    """Return the still wheel and the planet that rolls on it: r and R of radius, the arm d long.
+
+    Rolling on it makes the planet turn 1 - R/r times as often as its arm inside a ring, where R - r = d,
+    and 1 + R/r times outside a sun, where R + r = d; a belt from it, 1 - R/r times.
+    """
+    assert planet.gear is not None
+    ratio, long = planet.gear.ratio, arm.length
+    contact = _angle(figure, arm)
+    if ratio < 0:
+        still, small = _teeth(ratio.denominator - ratio.numerator, ratio.denominator)
+        tooth = contact - _angle(figure, planet)
+        rolling = Wheel(planet.pivot, planet.name, long / float(-ratio), small, tooth)
+        return Pair(Wheel(arm.pivot, None, long + rolling.radius, still, contact, ring=True), rolling)
+    if ratio > 1:
+        still, small = _teeth(ratio.numerator - ratio.denominator, ratio.denominator)
+        facing = contact + pi - _angle(figure, planet) + pi / small
+        rolling = Wheel(planet.pivot, planet.name, long / float(ratio), small, facing)
+        return Pair(Wheel(arm.pivot, None, long - rolling.radius, still, contact), rolling)
+    if ratio < 1:
+        large = _BELT * long
+        still_wheel = Wheel(arm.pivot, None, large * float(1 - ratio))
+        return Pair(still_wheel, Wheel(planet.pivot, planet.name, large))
+    return None
 
 
 def _angle(figure: Figure, crank: Crank) -> float:
@@ -87,51 +155,76 @@ def _angle(figure: Figure, crank: Crank) -> float:
 
 
 def teeth_a_second(figure: Figure) -> float:
-    """Return how many teeth pass the fastest gear pair's contact in a second at the scene's speed."""
+    """Return how many teeth of the fastest wheel turn past a direction in a second at the scene's speed."""
     step = figure.scene.period / len(figure.cycle.phase)
     fastest = 0.0
-    for pair in pairs(figure):
-        arm = figure.cycle.position[pair.driver.crank.name] - figure.cycle.position[pair.driver.crank.pivot]
+    for wheel in (wheel for pair in pairs(figure) for wheel in pair.wheels if wheel.arm):
+        arm = figure.cycle.position[str(wheel.arm)] - figure.cycle.position[wheel.centre]
         turned = np.diff(np.unwrap(np.arctan2(arm[:, 1], arm[:, 0])))
-        fastest = max(fastest, pair.driver.teeth * float(np.nanmax(np.abs(turned))) / step)
+        fastest = max(fastest, wheel.teeth * float(np.nanmax(np.abs(turned))) / step)
     return fastest * abs(figure.linkage.drive.speed) / (2 * pi)
 
 
 def wheels_box(figure: Figure, box: Box) -> Box:
-    """Return the box widened so that every wheel is in it."""
-    for pair in pairs(figure):
-        for wheel in (pair.driver, pair.driven):
-            centre, radius = figure.start(wheel.crank.pivot), 1.06 * wheel.radius
-            low, high = centre - complex(radius, radius), centre + complex(radius, radius)
-            box = joined(box, Box(low.real, low.imag, high.real, high.imag))
+    """Return the box widened so that every wheel is in it, wherever it goes."""
+    for wheel in (wheel for pair in pairs(figure) for wheel in pair.wheels):
+        way = np.atleast_2d(figure.cycle.position[wheel.centre])
+        radius = _rim(wheel)
+        low, high = np.nanmin(way, axis=0) - radius, np.nanmax(way, axis=0) + radius
+        box = joined(box, Box(float(low[0]), float(low[1]), float(high[0]), float(high[1])))
     return box
 
 
+def _rim(wheel: Wheel) -> float:
+    """Return how far a wheel reaches, in the scene's unit."""
+    return wheel.radius * (1 + 7 / wheel.teeth) if wheel.ring else 1.06 * wheel.radius
+
+
 def wheel_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
-    """Return what does not turn: the wheels' discs and the belts."""
+    """Return what does not turn: the discs of wheels that stay where they are, and the belts between them."""
     layers = []
     for pair in pairs(figure):
-        for wheel in (pair.driver, pair.driven):
+        for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel) and not wheel.ring):
             centre = _centre(figure, view, wheel)
             layers.append(Layer(_tone(wheel, pair, theme), [centre + disc(_root(wheel, view, gauge))]))
-        if not pair.driver.teeth:
-            layers.append(Layer(theme.ground, list(_belt(figure, view, pair, gauge))))
+        if not pair.driven.teeth and not pair.planetary:
+            layers.append(Layer(theme.ground, list(_belt(_pulled(pair, figure, view), gauge))))
     return layers
 
 
+def _stays(figure: Figure, wheel: Wheel) -> bool:
+    return figure.linkage.joint(wheel.centre).fixed
+
+
 def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
-    """Return what turns: the teeth, their outline, and holes that show how far a wheel has turned."""
+    """Return what turns or goes round: teeth, outlines, and holes that show how far a wheel has turned."""
     parts = []
     for pair in pairs(figure):
-        for wheel in (pair.driver, pair.driven):
-            root, tone = _root(wheel, view, gauge), _tone(wheel, pair, theme)
-            holes = [0.62 * root * np.exp(2j * pi * k / 5) + disc(0.19 * root) for k in range(5)]
-            ring = _ring(wheel, view, gauge)
-            line = stroke(ring[0], gauge.outline, closed=True)
-            layers = [Layer(tone, ring), Layer(mixed(tone, theme.background, 0.6), holes)]
-            layers.append(Layer(_edge(wheel, pair, theme), line))
-            parts.append(Part(wheel.crank.pivot, wheel.crank.pivot, wheel.crank.name, tuple(layers)))
+        for wheel in pair.wheels:
+            layers = _wheel(wheel, pair, (view, gauge, theme), moving=not _stays(figure, wheel))
+            parts.append(Part(wheel.centre, wheel.centre, wheel.arm or wheel.centre, layers))
+        if pair.planetary and not pair.driven.teeth:
+            far = abs(figure.start(pair.driven.centre) - figure.start(pair.driver.centre)) * view.scale
+            belt = (0j, complex(far), pair.driver.radius * view.scale, pair.driven.radius * view.scale)
+            ends = pair.driver.centre, pair.driver.centre, pair.driven.centre
+            parts.append(Part(*ends, (Layer(theme.ground, list(_belt(belt, gauge))),)))
     return tuple(parts)
+
+
+def _wheel(wheel: Wheel, pair: Pair, drawn: tuple[View, Gauge, Theme], *, moving: bool) -> tuple[Layer, ...]:
+    """Return a wheel about the origin; its disc too where it cannot be drawn once."""
+    view, gauge, theme = drawn
+    tone, edge = _tone(wheel, pair, theme), _edge(wheel, pair, theme)
+    rim = _ring(wheel, view, gauge)
+    if wheel.ring:
+        lines = [loop for outline in rim for loop in stroke(outline, gauge.outline, closed=True)]
+        return Layer(tone, rim), Layer(edge, lines)
+    root = _root(wheel, view, gauge)
+    holes = [0.62 * root * np.exp(2j * pi * k / 5) + disc(0.19 * root) for k in range(5)]
+    body = [Layer(tone, [disc(root)])] if moving else []
+    line = stroke(rim[0], gauge.outline, closed=True)
+    hollow = Layer(mixed(tone, theme.background, 0.6), holes)
+    return *body, Layer(tone, rim), hollow, Layer(edge, line)
 
 
 def _tone(wheel: Wheel, pair: Pair, theme: Theme) -> Colour:
@@ -143,7 +236,7 @@ def _edge(wheel: Wheel, pair: Pair, theme: Theme) -> Colour:
 
 
 def _centre(figure: Figure, view: View, wheel: Wheel) -> complex:
-    place = figure.start(wheel.crank.pivot)
+    place = figure.start(wheel.centre)
     return view.place((place.real, place.imag))
 
 
@@ -156,26 +249,32 @@ def _root(wheel: Wheel, view: View, gauge: Gauge) -> float:
 
 
 def _ring(wheel: Wheel, view: View, gauge: Gauge) -> list[Loop]:
-    """Return the rim: teeth outside, a circle just inside the disc's edge as its hole."""
+    """Return the rim: teeth outside and a circle inside the disc's edge as its hole; a ring's inside out."""
+    radius = wheel.radius * view.scale
+    if wheel.ring:
+        return [disc(_rim(wheel) * view.scale), _toothed(wheel, radius, _TIP, _FOOT)[::-1]]
     inner = disc(max(_root(wheel, view, gauge) - gauge.line, 0.5))[::-1]
-    if not wheel.teeth:
-        return [disc(wheel.radius * view.scale), inner]
-    radii, half = _flank(wheel.teeth)
+    return [_toothed(wheel, radius, _FOOT, _TIP) if wheel.teeth else disc(radius), inner]
+
+
+def _toothed(wheel: Wheel, radius: float, foot: float, tip: float) -> Loop:
+    """Return the outline of teeth `foot` modules below the pitch circle and `tip` beyond it."""
+    radii, half = _flank(wheel.teeth, foot, tip)
     sides = np.concatenate((-half, half[::-1]))
     turns = np.arange(wheel.teeth)[:, None] * 2 * pi / wheel.teeth + sides - wheel.tooth
-    outline = wheel.radius * view.scale * np.concatenate((radii, radii[::-1])) * np.exp(1j * turns)
-    return [outline.ravel(), inner]
+    outline: Loop = radius * np.concatenate((radii, radii[::-1])) * np.exp(1j * turns)
+    return outline.ravel()
 
 
-def _flank(teeth: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _flank(teeth: int, foot: float, tip: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return radii from a tooth's foot to its tip in pitch radii, and half its angle there.
 
     An involute of the base circle, so that two wheels touch without cutting into each other: half the
     angle is pi / 2z + inv(pressure) - inv(its angle there), with inv a = tan a - a (ISO 21771, tooth
-    thickness at any circle). Below the base circle the flank is a radius.
+    thickness at any circle). Below the base circle the flank is a radius. A ring's gaps are such teeth.
     """
     base = cos(_PRESSURE)
-    radii = np.linspace(1 - 2 * _FOOT / teeth, 1 + 2 * _TIP / teeth, 8)
+    radii = np.linspace(1 - 2 * foot / teeth, 1 + 2 * tip / teeth, 8)
     there = np.arccos(base / np.maximum(radii, base))
     return radii, pi / (2 * teeth) + _involute(_PRESSURE) - _involute(there)
 
@@ -185,13 +284,17 @@ def _involute(angle: ArrayLike) -> NDArray[np.float64]:
     return flank
 
 
-def _belt(figure: Figure, view: View, pair: Pair, gauge: Gauge) -> Iterator[Loop]:
-    """Yield the two straight runs of an open belt."""
-    one, other = _centre(figure, view, pair.driver), _centre(figure, view, pair.driven)
+def _pulled(pair: Pair, figure: Figure, view: View) -> tuple[complex, complex, float, float]:
+    """Return the centres of two pulleys in pixels, and their radii."""
     radii = pair.driver.radius * view.scale, pair.driven.radius * view.scale
+    return _centre(figure, view, pair.driver), _centre(figure, view, pair.driven), *radii
+
+
+def _belt(pulled: tuple[complex, complex, float, float], gauge: Gauge) -> Iterator[Loop]:
+    """Yield the two straight runs of an open belt."""
+    one, other, first, second = pulled
     along = (other - one) / abs(other - one)
-    lean = np.arccos((radii[0] - radii[1]) / abs(other - one))
+    lean = np.arccos((first - second) / abs(other - one))
     for side in (1, -1):
         normal = along * np.exp(1j * side * lean)
-        ends = one + radii[0] * normal, other + radii[1] * normal
-        yield from segments(*ends, 1.5 * gauge.line)
+        yield from segments(one + first * normal, other + second * normal, 1.5 * gauge.line)

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from linkanim.picture.figure import Figure
-from linkanim.picture.fittings import Bench, fittings, hatched
+from linkanim.picture.fittings import Bench, hatched, rails
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import rounded, segments, unit
@@ -18,7 +18,7 @@ from linkanim.picture.view import View
 
 def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
     """Return pedestals and guides."""
-    lines = [loop for fitting in fittings(Bench(figure, view, gauge, theme)) for loop in fitting.guide]
+    lines = list(rails(Bench(figure, view, gauge, theme)))
     layers = [Layer(theme.ground, lines)]
     for name in figure.fixed:
         layers += _pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)

@@ -16,6 +16,7 @@ from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stam
 from linkanim.picture.chart import pen_for
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import Figure, figure
+from linkanim.picture.fittings import fittings_box
 from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
 from linkanim.picture.ground import ground_layers, ground_line
 from linkanim.picture.hud import Hud, hud_for
@@ -34,8 +35,14 @@ from linkanim.picture.theme import Theme, mixed, theme_of
 from linkanim.picture.trace import Trace, traces
 from linkanim.picture.turning import Turning, turning_of
 from linkanim.picture.vectors import Arrows, arrows_of
-from linkanim.picture.view import View, fit, joined, moved
+from linkanim.picture.view import Box, View, fit, joined, moved
 from linkanim.scenes.scene import Scene
+
+
+def swept(figure: Figure) -> Box:
+    """Return the rectangle of the scene that a linkage sweeps with its wheels, slotted bars and guides."""
+    return fittings_box(figure, wheels_box(figure, figure.box))
+
 
 _GHOST = 0.78
 """How much of the background is in the other closure's colours."""
@@ -139,7 +146,7 @@ class Painter:
 
     def _framed(self, beside: Figure) -> tuple[View, Gauge]:
         """Return the view of what the linkages sweep, and the thicknesses that go with its scale."""
-        box, unit = wheels_box(self._figure, joined(self._figure.box, beside.box)), self._layout.unit
+        box, unit = joined(swept(self._figure), swept(beside)), self._layout.unit
         measure = gauge(unit, self._figure.shortest * fit(box, self._layout.scene).scale)
         room = self._layout.scene.inset(measure.pedestal + 1.5 * measure.bar)
         width, height = self.size

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from linkanim.mechanics.kinds import RPP, RPR, Crank, Line, Pin
+from linkanim.mechanics.kinds import RPP, RPR, RRP, Crank, Line, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture.bodies import body_parts, colours_of
 from linkanim.picture.figure import figure
+from linkanim.picture.fittings import fittings_box
 from linkanim.picture.layout import gauge
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import View
@@ -82,6 +85,25 @@ def test_a_yoke_has_a_slot_as_long_as_its_pin_needs_and_a_collar_on_it() -> None
     assert slot.imag.min() == pytest.approx(-30.0 * VIEW.scale - 0.5 * GAUGE.bar, abs=0.1)
     assert abs(slot.real).max() == pytest.approx(0.5 * GAUGE.bar, abs=0.1)
     assert len(figure(scene).shown) == 3
+
+
+def test_a_guide_goes_along_with_the_body_that_carries_it_and_is_in_the_picture() -> None:
+    base = load("crank-rocker").linkage
+    line = Line("O4", math.radians(20), 10.0, ("O4", "B"))
+    joints = (*base.joints, RRP("J", "O2", 110.0, line))
+    shown = figure(Scene("ram", "Ram", "", "mm", Linkage(joints, base.drive), ("J",)))
+    bar, slot, block = (part for part in body_parts(shown, VIEW, GAUGE, LIGHT) if part.tail == "O4")
+    assert (bar.at, slot.at, block.at) == ("O4", "O4", "J")
+    wide = fittings_box(shown, shown.box)
+    for phase in (0.0, 1.0, 2.5, 4.0):
+        pose = shown.scene.pose(phase)
+        places = {name: complex(x, -y) for name, (x, y) in pose.position.items()}
+        hole = np.concatenate(slot.placed(places)[0].loops)
+        # the slot's sides run half a bar's half width beside the joint that slides in it
+        across = np.exp(1j * np.angle(places["B"] - places["O4"]) - 1j * line.angle)
+        assert np.imag((hole - places["J"]) / across) == pytest.approx(0.0, abs=0.51 * GAUGE.bar)
+        assert wide.left <= hole.real.min() + GAUGE.bar
+        assert -wide.high <= hole.imag.min() + GAUGE.bar
 
 
 def test_the_swept_box_holds_the_coupler_curve() -> None:

@@ -279,3 +279,51 @@ def test_a_longer_window_scales_the_gauge() -> None:
     assert large == replace(
         small, bar=2 * small.bar, outline=2 * small.outline, pin=2 * small.pin, line=2 * small.line
     )
+
+
+def planetary(ratio: Fraction, arm: float = 40.0) -> Scene:
+    joints = (Pin("O", (0.0, 0.0)), Crank("A", "O", arm), Crank("E", "A", 15.0, Gear("A", ratio)))
+    return Scene("planet", "Planet", "", "mm", Linkage(joints, Drive("A", 1.0, 0.3)))
+
+
+# Rolling without slip on what stands still: r of the planet, R of the ring (+) or sun (-), from the ratio.
+@pytest.mark.parametrize(
+    ("ratio", "planet", "still", "ring"),
+    [
+        pytest.param(Fraction(-1), 40.0, 80.0, True, id="Cardan's gears: half the ring"),
+        pytest.param(Fraction(-3), 40 / 3, 160 / 3, True, id="a quarter of the ring"),
+        pytest.param(Fraction(3), 40 / 3, 80 / 3, False, id="outside a sun twice as large"),
+    ],
+)
+def test_a_planet_rolls_on_a_wheel_that_stands_still(
+    ratio: Fraction, planet: float, still: float, ring: bool
+) -> None:
+    scene, view = planetary(ratio), View(5.0, 0.0, 0.0)
+    shown = figure(scene)
+    pair = pairs(shown)[0]
+    assert pair.driven.radius == pytest.approx(planet)
+    assert pair.driver.radius == pytest.approx(still)
+    assert (pair.driver.arm, pair.driver.ring) == (None, ring)
+    assert Fraction(pair.driver.teeth, pair.driven.teeth) == Fraction(still / planet).limit_denominator(9)
+    outline = 0 if not ring else 1
+    rims = wheel_parts(shown, view, GAUGE, LIGHT)
+    for phase in np.linspace(0, 7, 30):
+        places = {name: view.place(point) for name, point in scene.pose(float(phase)).position.items()}
+        fixed, rolling = rims[0].placed(places)[0].loops[outline], rims[1].placed(places)[1].loops[0]
+        contact = float(np.angle(places["A"] - places["O"]))
+        toward = contact if ring else contact + math.pi
+        reach = _profile(rolling, places["A"], toward) * (1 if ring else -1) + abs(places["A"] - places["O"])
+        # a tooth meets a gap: the two rims lie upon each other where they touch
+        assert reach == pytest.approx(_profile(fixed, places["O"], contact), abs=0.35 * 10 * _module(pair))
+
+
+def test_a_planet_that_keeps_its_arm_s_turning_has_no_wheels_and_a_slower_one_a_belt() -> None:
+    assert pairs(figure(planetary(Fraction(1)))) == ()
+    pair = pairs(figure(planetary(Fraction(1, 2))))[0]
+    assert (pair.driver.teeth, pair.driven.teeth) == (0, 0)
+    assert pair.driver.radius / pair.driven.radius == pytest.approx(0.5)
+
+
+def test_a_ring_is_part_of_what_must_be_seen() -> None:
+    shown = figure(planetary(Fraction(-1)))
+    assert wheels_box(shown, shown.box).right > 80.0
