@@ -76,6 +76,9 @@ ACTIONS: Mapping[str, Rule] = {
     "type": Rule(_text, edits.write),
     "erase": Rule(_nothing, edits.erase),
     "take": Rule(_nothing, edits.take),
+    "grab": Rule(_text, edits.grab),  # a joint
+    "carry": Rule(_numbers(3), edits.carry),  # to (x, y) in the scene's unit, in such parts of a nudge's step
+    "drop": Rule(_nothing, edits.drop),
     "undo": Rule(_nothing, edits.undo),
     "redo": Rule(_nothing, edits.redo),
     "back": Rule(_nothing, outside.back),

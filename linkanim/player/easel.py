@@ -10,6 +10,7 @@ from linkanim.picture.painter import Painter
 from linkanim.picture.shelf import Grid, ShelfPainter, grid
 from linkanim.player import display
 from linkanim.player.state import State
+from linkanim.scenes.handles import handles
 from linkanim.scenes.scene import Scene
 
 _SMALLEST = 32
@@ -85,6 +86,19 @@ class Easel:
     def crank_pin(self) -> tuple[float, float]:
         """Return where the input crank's pin is, in pixels."""
         return self._painter.crank_pin_px(self.scene.pose(self.phase, 0))
+
+    def handle_at(self, x: float, y: float, reach: float) -> str | None:
+        """Return the joint under a pixel that can be dragged while the list is open; None elsewhere."""
+        if not self._state.editing.open:
+            return None
+        places = self.scene.pose(self.phase, 0).position.items()
+        away = {name: max(map(abs, self._from(place, x, y))) for name, place in places}
+        near = sorted((far, name) for name, far in away.items() if far <= reach)
+        return next((name for _, name in near if handles(self.scene, name)), None)
+
+    def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
+        px, py = self.pixel(*place)
+        return px - x, py - y
 
     def world(self, x: float, y: float) -> tuple[float, float]:
         """Return the point of the scene under a pixel."""

@@ -105,9 +105,14 @@ def nudge(editing: Editing, scene: Scene, steps: int) -> tuple[Editing, Scene]:
     item = chosen(editing, scene)
     if item is None:
         return editing, scene
-    value = Decimal(repr(item.value)) + steps * Decimal(_NUDGE.get(item.unit, "1"))
+    value = Decimal(repr(item.value)) + steps * step_of(item.unit)
     text = f"{value.normalize():f}"
     return _tried(_clear(editing), scene, {item.key: text}, text)
+
+
+def step_of(unit: str) -> Decimal:
+    """Return the step in which a dimension of that unit is nudged."""
+    return Decimal(_NUDGE.get(unit, "1"))
 
 
 def undo(editing: Editing, scene: Scene) -> tuple[Editing, Scene]:
@@ -148,23 +153,24 @@ def _tried(editing: Editing, scene: Scene, values: Mapping[Key, str], typed: str
     """
     try:
         after = with_dimensions(scene, values)
-        loss = None if editing.warned else _loss(scene.info, after.info)
+        loss = None if editing.warned else loss_of_turning(scene.info, after.info)
     except LinkanimError as error:
         reason = str(error).removeprefix(f"{scene.name}: ")
         return replace(editing, typed=typed, refusal=_reason(reason, values, scene), warned=False), scene
     if loss:
-        return replace(editing, typed=typed, refusal=loss, warned=True), scene
+        refusal = f"{loss} (Enter takes it all the same)"
+        return replace(editing, typed=typed, refusal=refusal, warned=True), scene
     drafts = tuple(pair for pair in editing.drafts if pair[0] not in values)
     return changed(replace(editing, drafts=drafts), scene), after
 
 
-def _loss(before: Info, after: Info) -> str | None:
+def loss_of_turning(before: Info, after: Info) -> str | None:
     """Say that the input no longer turns fully, where it did; else None."""
     if after.full_turn or not before.full_turn:
         return None
     low, high = (typeset(degrees(limit)) for limit in after.input_range)
     cause = f"{after.grashof}: " if after.grashof else ""
-    return f"{cause}the crank cannot turn fully; it swings {low}…{high} (Enter takes it all the same)"
+    return f"{cause}the crank cannot turn fully; it swings {low}…{high}"
 
 
 def _reason(message: str, values: Mapping[Key, str], scene: Scene) -> str:

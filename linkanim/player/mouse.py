@@ -1,7 +1,8 @@
-"""The mouse: the wheel zooms, a drag pans, or moves the crank or the chart's cursor."""
+"""The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor or a joint."""
 
 from __future__ import annotations
 
+from itertools import zip_longest
 from typing import Literal, Protocol
 
 import pygame
@@ -12,6 +13,13 @@ from linkanim.player.scrub import phase_towards
 from linkanim.scenes.scene import Scene
 
 _REACH = 0.035  # of the window's height
+_TENTHS = 0.1
+
+
+def latest(events: list[Event]) -> list[Event]:
+    """Return the events without those of a mouse that moved on in the same frame."""
+    pairs = zip_longest(events, events[1:])
+    return [one for one, then in pairs if then is None or not one.type == then.type == pygame.MOUSEMOTION]
 
 
 class Stage(Protocol):
@@ -32,6 +40,9 @@ class Stage(Protocol):
     def crank_pin(self) -> tuple[float, float]:
         """Return where the input crank's pin is."""
 
+    def handle_at(self, x: float, y: float, reach: float) -> str | None:
+        """Return the joint under a pixel that can be dragged while the list is open; None elsewhere."""
+
     def world(self, x: float, y: float) -> tuple[float, float]:
         """Return the point of the scene under a pixel."""
 
@@ -50,7 +61,7 @@ class Mouse:
     """Knows what is being dragged, and where the mouse was last."""
 
     def __init__(self) -> None:
-        self._drag: Literal["pan", "crank", "chart"] | None = None
+        self._drag: Literal["pan", "crank", "chart", "joint"] | None = None
         self._at = (0.0, 0.0)
 
     def actions(self, event: Event, stage: Stage) -> tuple[Action, ...]:
@@ -62,10 +73,14 @@ class Mouse:
                 return self._zoomed(event.y, stage) if event.y else ()
             case pygame.MOUSEBUTTONDOWN if event.button == 1:
                 self._at = event.pos
-                self._drag = self._grabbed(stage)
+                handle = stage.handle_at(*self._at, _REACH * stage.size[1])
+                self._drag = "joint" if handle else self._grabbed(stage)
+                if handle:
+                    return (Action("grab", handle),)
                 return self._moved(stage) if self._drag == "chart" else ()
             case pygame.MOUSEBUTTONUP if event.button == 1:
-                self._drag = None
+                held, self._drag = self._drag, None
+                return (Action("drop"),) if held == "joint" else ()
             case pygame.MOUSEMOTION:
                 before, self._at = self._at, event.pos
                 return self._panned(before, stage) if self._drag == "pan" else self._moved(stage)
@@ -99,5 +114,8 @@ class Mouse:
     def _moved(self, stage: Stage) -> tuple[Action, ...]:
         if self._drag == "crank":
             return (Action("scrub", phase_towards(stage.scene, stage.phase, stage.world(*self._at))),)
+        if self._drag == "joint":
+            fine = _TENTHS if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1.0
+            return (Action("carry", (*stage.world(*self._at), fine)),)
         phase = stage.charted(*self._at) if self._drag == "chart" else None
         return () if phase is None else (Action("scrub", phase),)

@@ -14,6 +14,7 @@ from linkanim.picture.look import Look
 from linkanim.player.action import Action
 from linkanim.player.browsing import Browsing, Listing
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
+from linkanim.player.dragging import Held
 from linkanim.player.editing import Editing
 from linkanim.player.glide import Glide
 from linkanim.player.keys import Mode
@@ -46,7 +47,7 @@ class State:
 
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
     `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf.
-    `touched` is the frame of the last action, `turned` that at
+    `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
     which an edit made another class of the linkage, while the list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "fullscreen",
     "save", "quit", and "report" (with the text of a fault's report).
@@ -60,6 +61,7 @@ class State:
     look: Look = field(default_factory=Look)
     help: bool = False
     editing: Editing = field(default_factory=Editing)
+    held: Held | None = None
     listing: Listing | None = None
     browsing: Browsing | None = None
     glide: Glide | None = None

@@ -18,7 +18,7 @@ from linkanim.player.easel import Easel
 from linkanim.player.fault import recovered, report
 from linkanim.player.keyboard import Keyboard
 from linkanim.player.keys import bind_of
-from linkanim.player.mouse import Mouse
+from linkanim.player.mouse import Mouse, latest
 from linkanim.player.rendering import Rendering, render
 from linkanim.player.show import overlay
 from linkanim.player.state import State
@@ -81,7 +81,7 @@ class Window:
     def _asked(self, events: list[Event]) -> Iterator[Action]:
         """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
         yield from self._reeled()
-        for event in events:
+        for event in latest(events):
             for action in self._meant(event):
                 yield from self._off_the_reel(action)
                 yield from self._resolved(action)

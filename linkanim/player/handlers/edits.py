@@ -7,19 +7,57 @@ from dataclasses import replace
 from typing import Any
 
 from linkanim.player import editing as edit_
+from linkanim.player.dragging import Held, carried_to
 from linkanim.player.editing import Editing
 from linkanim.player.glide import glide
 from linkanim.player.handlers.shelf import exchanged
 from linkanim.player.state import State
+from linkanim.scenes.edit import dimensions
+from linkanim.scenes.handles import handles
 from linkanim.scenes.scene import Scene
 
 Handler = Callable[[State, Any], State]
 
 
 def edit(state: State, _: None) -> State:
-    """Open or close the list; values begun are let go of, undo and redo stay."""
+    """Open or close the list; a joint is dropped, values begun are let go of, undo and redo stay."""
+    state = drop(state, None)
     editing = edit_.choose(replace(state.editing, drafts=()), state.scene, 0)
     return replace(state, editing=replace(editing, open=not editing.open), listing=None, browsing=None)
+
+
+def grab(state: State, joint: str) -> State:
+    """Take hold of a joint while the list is open: the picture stands still, the list at its dimension."""
+    keys = [item.key for item in dimensions(state.scene)]
+    found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
+    if not state.editing.open or not found:
+        return state
+    held = Held(joint, state.scene, state.phase, not state.clock.paused)
+    state = drop(state, None)
+    editing = edit_.choose(replace(state.editing, chosen=keys.index(found[0].key)), state.scene, 0)
+    clock = state.clock.pause(state.frame, True)
+    return replace(state, held=held, editing=editing, clock=clock, glide=None)
+
+
+def carry(state: State, to: tuple[float, float, float]) -> State:
+    """Drag the held joint to a point (scene's unit), in whole units times the third number."""
+    if state.held is None or not to[2] > 0.0:
+        return state
+    editing, scene = carried_to(state.editing, state.scene, state.held, to[:2], to[2])
+    if scene is state.scene:
+        return replace(state, editing=editing)
+    state = replace(exchanged(state, scene), editing=editing)
+    angle = state.held.scene.pose(state.held.phase, 0).crank_angle if state.held else 0.0
+    phase = scene.mechanism.assembly.path.phase_of(angle, state.phase)
+    return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+
+
+def drop(state: State, _: None) -> State:
+    """Let go of the joint; what ran before runs on."""
+    if state.held is None:
+        return state
+    clock = state.clock.pause(state.frame, not state.held.ran)
+    return replace(state, held=None, clock=clock, editing=replace(state.editing, refusal=None))
 
 
 def _listed(work: Callable[[Editing, Scene, Any], Editing]) -> Handler:

@@ -1,0 +1,213 @@
+"""Joints dragged while the list is open: what follows, in which steps, what is refused, one undo a drag."""
+
+from __future__ import annotations
+
+import pygame
+import pytest
+from playing import Player
+
+from linkanim.player.action import Action
+from linkanim.player.advance import advance
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Tape, starting
+from linkanim.scenes import load, names
+from linkanim.scenes.edit import dimensions
+from linkanim.scenes.handles import handles, span
+
+
+def after(state: State, *asked: Action | str) -> State:
+    for one in asked:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+def values(state: State) -> dict[str, float]:
+    return {item.label: item.value for item in dimensions(state.scene)}
+
+
+def place(state: State, joint: str) -> tuple[float, float]:
+    return state.scene.pose(state.phase, 0).position[joint]
+
+
+def opened(name: str, phase: float) -> State:
+    return after(begin(load(name)), Action("scrub", phase), "edit")
+
+
+def drag(state: State, joint: str, by: tuple[float, float], share: float = 1.0) -> State:
+    x, y = place(state, joint)
+    return after(state, Action("grab", joint), Action("carry", (x + by[0], y + by[1], share)))
+
+
+# Each kind of joint, and the dimensions that follow it.
+FOLLOWS = {
+    "a crank pin": ("crank-rocker", "A", {"Crank 2"}),
+    "a dyad's joint": ("crank-rocker", "B", {"Coupler 3", "Rocker 4"}),
+    "a coupler point": ("crank-rocker", "P", {"Coupler point, along", "Coupler point, to the left"}),
+    "a shorthand's pin": ("crank-rocker", "O4", {"Ground 1"}),
+    "a slider": ("slider-crank", "B", {"Rod 3"}),
+    "an arm's joint": ("six-bar", "C", {"Arm 6"}),
+    "a second dyad's joint": ("six-bar", "D", {"Coupler 7", "Rocker 8"}),
+    "a geared crank's pin": ("press", "D", {"Crank 7"}),
+    "a dyad's joint of the long form": ("press", "B", {"Bar 3, A–B", "Bar 6, D–B"}),
+    "a point of a body": ("press", "H", {"H on A–B, along", "H on A–B, to the left"}),
+    "a pin by coordinates": ("press", "G", {"Pin G, x", "Pin G, y"}),
+    "a pin by distance": ("press", "O7", {"Pin O7, distance", "Pin O7, direction"}),
+}
+
+
+@pytest.mark.parametrize(("name", "joint", "labels"), FOLLOWS.values(), ids=FOLLOWS)
+def test_what_is_dragged_sets_its_own_dimensions(name: str, joint: str, labels: set[str]) -> None:
+    state = opened(name, 1.0)
+    found = {handle.key for handle in handles(state.scene, joint)}
+    assert {item.label for item in dimensions(state.scene) if item.key in found} == labels
+    moved = drag(state, joint, (6.2, 5.1))
+    assert moved.editing.refusal is None
+    changed = {label for label, value in values(moved).items() if value != values(state)[label]}
+    assert changed
+    assert changed <= labels
+    assert all(value % 1.0 == 0.0 for label, value in values(moved).items() if label in changed)
+
+
+@pytest.mark.parametrize(
+    ("name", "joint"), [("crank-rocker", "B"), ("crank-rocker", "P"), ("press", "B"), ("press", "H")]
+)
+def test_a_joint_lies_where_it_was_dragged_at_the_present_pose(name: str, joint: str) -> None:
+    state = opened(name, 1.0)
+    goal = tuple(part + shift for part, shift in zip(place(state, joint), (3.0, 2.0), strict=True))
+    moved = drag(state, joint, (3.0, 2.0), 0.001)
+    assert place(moved, joint) == pytest.approx(goal, abs=0.01)
+    assert moved.phase == state.phase
+
+
+def test_shift_goes_in_tenths() -> None:
+    state = drag(opened("crank-rocker", 1.0), "A", (0.37, 0.0), 0.1)
+    assert values(state)["Crank 2"] == 50.2
+
+
+def test_a_swings_crank_angle_stays_though_its_range_changes() -> None:
+    state = opened("triple-rocker", 1.0)
+    moved = drag(state, "B", (14.0, 9.0))
+    assert moved.editing.refusal is None
+    assert moved.scene.info.input_range != state.scene.info.input_range
+    angles = (one.scene.pose(one.phase, 0).crank_angle for one in (state, moved))
+    assert next(angles) == pytest.approx(next(angles))
+
+
+def test_a_drag_is_one_undo() -> None:
+    state = opened("crank-rocker", 1.0)
+    x, y = place(state, "B")
+    ways = [Action("carry", (x + far, y, 1.0)) for far in (2.0, 5.0, 9.0)]
+    moved = after(state, Action("grab", "B"), *ways, "drop")
+    assert moved.scene != state.scene
+    assert after(moved, "undo").scene == state.scene
+    assert after(moved, "undo", "redo").scene == moved.scene
+
+
+def test_a_drag_that_comes_back_to_its_start_ends_on_the_same_lengths() -> None:
+    state = opened("crank-rocker", 1.0)
+    x, y = place(state, "B")
+    moved = after(
+        state, Action("grab", "B"), Action("carry", (x + 9.0, y, 1.0)), Action("carry", (x, y, 1.0))
+    )
+    assert values(moved) == values(state)
+
+
+def test_what_cannot_be_assembled_is_refused_and_the_last_good_linkage_stays() -> None:
+    state = opened("crank-rocker", 1.0)
+    good = drag(state, "A", (1.0, 2.0))
+    refused = after(good, Action("carry", (400.0, 400.0, 1.0)))
+    assert refused.scene == good.scene
+    assert "cannot" in str(refused.editing.refusal)
+    assert after(refused, "drop").editing.refusal is None
+
+
+def test_the_end_of_full_turns_is_refused() -> None:
+    state = opened("crank-rocker", 1.0)
+    x, y = place(state, "A")
+    refused = after(state, Action("grab", "A"), Action("carry", (1.4 * x, 1.4 * y, 1.0)))
+    assert refused.scene == state.scene
+    assert str(refused.editing.refusal).endswith("it swings −151.7°…151.7°")
+
+
+def test_the_picture_stands_still_while_a_joint_is_held_and_runs_on_after() -> None:
+    running = after(begin(load("crank-rocker")), "edit")
+    held = after(running, Action("grab", "B"))
+    assert held.clock.paused
+    assert not after(held, "drop").clock.paused
+    paused = after(running, "pause", Action("grab", "B"), "drop")
+    assert paused.clock.paused
+
+
+def test_the_list_goes_to_what_is_dragged() -> None:
+    state = after(opened("crank-rocker", 1.0), Action("grab", "B"))
+    assert dimensions(state.scene)[state.editing.chosen].label == "Coupler 3"
+
+
+# What is not there to be dragged is left alone.
+NOT_HELD = {
+    "a closed list": ("crank-rocker", "B", False),
+    "an unknown joint": ("crank-rocker", "Z", True),
+    "the origin of a shorthand": ("slider-crank", "O2", True),
+}
+
+
+@pytest.mark.parametrize(("name", "joint", "is_open"), NOT_HELD.values(), ids=NOT_HELD)
+def test_what_cannot_be_dragged_is_not_held(name: str, joint: str, is_open: bool) -> None:
+    state = begin(load(name))
+    state = after(state, *(["edit"] if is_open else []), Action("grab", joint))
+    assert state.held is None
+    assert after(state, Action("carry", (1.0, 1.0, 1.0)), "drop").scene is state.scene
+
+
+def test_a_closed_list_lets_go() -> None:
+    state = after(begin(load("crank-rocker")), "edit", Action("grab", "B"), "edit")
+    assert (state.held, state.clock.paused) == (None, False)
+
+
+def test_a_tape_keeps_a_drag() -> None:
+    state = opened("crank-rocker", 1.0)
+    x, y = place(state, "B")
+    actions = ((1, Action("grab", "B")), (3, Action("carry", (x + 5.0, y, 1.0))), (5, Action("drop")))
+    *_, last = Tape(starting(state), 6, actions).states()
+    assert last.scene == after(state, *(action for _, action in actions)).scene
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_span_is_the_bar_that_its_dimension_measures(name: str) -> None:
+    scene = load(name)
+    pose = scene.pose(0.7, 0)
+    spans = [(item, span(scene, item.key)) for item in dimensions(scene)]
+    for item, ends in spans:
+        if ends:
+            (x0, y0), (x1, y1) = (pose.position[end] for end in ends)
+            assert ((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5 == pytest.approx(item.value)
+    assert any(ends for _, ends in spans)
+
+
+def test_a_joint_is_dragged_with_the_mouse(player: Player) -> None:
+    player.type("e")
+    before, easel = player.state, player.window.easel
+    x, y = place(before, "B")
+    player.drag(easel.pixel(x, y), easel.pixel(x + 6.0, y + 6.0), easel.pixel(x + 10.0, y + 10.0))
+    assert values(player.state)["Rocker 4"] > values(before)["Rocker 4"]
+    assert (player.state.held, player.state.editing.past) == (None, (before.scene,))
+
+
+def test_moves_of_one_frame_are_taken_as_one(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    player.type("e")
+    start = player.window.easel.pixel(*place(player.state, "B"))
+    player.mouse(pygame.MOUSEBUTTONDOWN, start, button=1)
+    seen: list[Action] = []
+    actions = player.window._mouse.actions
+
+    def noted(*args: object) -> tuple[Action, ...]:
+        found = actions(*args)  # type: ignore[arg-type]
+        seen.extend(found)
+        return found
+
+    monkeypatch.setattr(player.window._mouse, "actions", noted)
+    for far in range(1, 9):
+        at = (round(start[0]) + far, round(start[1]))
+        pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=at, rel=(1, 0), buttons=(1, 0, 0)))
+    player.tick()
+    assert [action.name for action in seen] == ["carry"]
