@@ -92,7 +92,7 @@ def test_a_guide_goes_along_with_the_body_that_carries_it_and_is_in_the_picture(
     line = Line("O4", math.radians(20), 10.0, ("O4", "B"))
     joints = (*base.joints, RRP("J", "O2", 110.0, line))
     shown = figure(Scene("ram", "Ram", "", "mm", Linkage(joints, base.drive), ("J",)))
-    bar, slot, block = (part for part in body_parts(shown, VIEW, GAUGE, LIGHT) if part.tail == "O4")
+    bar, _, slot, block = (part for part in body_parts(shown, VIEW, GAUGE, LIGHT) if part.tail == "O4")
     assert (bar.at, slot.at, block.at) == ("O4", "O4", "J")
     wide = fittings_box(shown, shown.box)
     for phase in (0.0, 1.0, 2.5, 4.0):
