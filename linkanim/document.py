@@ -9,7 +9,6 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from typing import Any, ClassVar, Self, TypeVar
 
 from linkanim.errors import BadInput
@@ -126,6 +125,8 @@ class Section:
 
 def meant(name: str, known: Iterable[str]) -> str:
     """Return ' (did you mean "crank"?)' for a name close to a known one, else an empty text."""
+    from difflib import get_close_matches  # for what is wrong only: a window opens sooner without
+
     near = get_close_matches(name, list(known), n=1, cutoff=0.6)
     return f" (did you mean {shown(near[0])}?)" if near else ""
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import os
 import re
-import secrets
 import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -161,7 +160,7 @@ def _saying_why(target: Path) -> Iterator[None]:
 
 
 def _part(folder: Path) -> Path:
-    return folder / f".linkanim-{os.getpid()}-{secrets.token_hex(4)}.part"
+    return folder / f".linkanim-{os.getpid()}-{os.urandom(4).hex()}.part"
 
 
 def _alive(pid: int) -> bool:

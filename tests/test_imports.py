@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -137,3 +138,33 @@ def test_a_start_loads_no_more_than_it_needs(start: str, absent: tuple[str, ...]
     )
     assert done.stderr == ""
     assert done.stdout.splitlines()[-1] == "loaded:"
+
+
+# numpy and pygame load what they like; a library that only an error, a key or a file needs is ours.
+UNSEEN = ("json", "difflib", "html", "tempfile", "subprocess", "tomli_w", "PIL", "imageio", "tqdm", "mpmath")
+FIRST_FRAME = """
+import pygame.display as display
+flip = display.flip
+def first():
+    flip()
+    print("loaded:", *sorted(set(sys.modules) - before))
+    raise SystemExit
+display.flip = first
+main(["play", "press"])
+"""
+
+
+def test_the_first_frame_loads_nothing_that_it_does_not_need() -> None:
+    prologue = "import sys, numpy, pygame\nbefore = set(sys.modules)\nfrom linkanim.cli import main\n"
+    done = subprocess.run(
+        [sys.executable, "-c", prologue + FIRST_FRAME],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+        env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"},
+    )
+    told = next(line for line in done.stdout.splitlines() if line.startswith("loaded:"))
+    assert set(told.split()) & set(UNSEEN) == set()
+    assert "linkanim.picture.painter" in told
+    assert not any(name in told for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "rendering"))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from argparse import Namespace
 from collections.abc import Callable
@@ -80,4 +79,6 @@ def _recordings(options: Namespace) -> int:
 
 
 def _json(value: Any) -> str:
+    import json
+
     return json.dumps(value, indent=2, allow_nan=False)

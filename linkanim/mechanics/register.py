@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import partial
 from typing import Any
 
@@ -269,6 +268,8 @@ def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
     """
     if token in known:
         return known[token]
+    from difflib import get_close_matches
+
     near = get_close_matches(token, list(known), n=_NEAREST)
     meant = f" (did you mean {' or '.join(near)}?)" if near else ""
     raise BadInput(f"quantity {token!r}: {of} has none of this name{meant}; it has {', '.join(known)}")

@@ -6,7 +6,6 @@ good linkage, and writes what is needed to find the hole.
 
 from __future__ import annotations
 
-import json
 import traceback
 from dataclasses import replace
 
@@ -52,6 +51,8 @@ def named(error: Exception) -> str:
 
 def report(scene: Scene, error: Exception, **asked: object) -> str:
     """Return, as JSON, the scene whole, what was asked of it, and where the solver failed."""
+    import json
+
     from linkanim import __version__
 
     content = {

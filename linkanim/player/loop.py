@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from linkanim.picture.look import Look
-from linkanim.player import display, tape_file
+from linkanim.player import display
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
@@ -68,4 +68,8 @@ def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterato
 
 def _tape(scene: object) -> Tape | None:
     path = str(scene) if isinstance(scene, str | os.PathLike) else ""
-    return tape_file.read(Path(path)) if path.lower().endswith(".json") else None
+    if not path.lower().endswith(".json"):
+        return None
+    from linkanim.player import tape_file
+
+    return tape_file.read(Path(path))

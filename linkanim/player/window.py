@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pygame
 from pygame.event import Event
@@ -19,11 +20,13 @@ from linkanim.player.fault import recovered, report
 from linkanim.player.keyboard import Keyboard
 from linkanim.player.keys import bind_of
 from linkanim.player.mouse import Mouse, latest
-from linkanim.player.rendering import Rendering, render
 from linkanim.player.show import overlay
 from linkanim.player.state import State
 from linkanim.player.tape import Reel, Tape, Taping
 from linkanim.scenes.write import save
+
+if TYPE_CHECKING:
+    from linkanim.player.rendering import Rendering
 
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
@@ -178,6 +181,8 @@ class Window:
     def _render(self, form: str) -> None:
         taping, self._taping = self._taping, None
         if taping:
+            from linkanim.player.rendering import render
+
             self._renderings.append(render(taping.tape(self.state.frame), form))
 
     def _meant(self, event: Event) -> tuple[Action, ...]:

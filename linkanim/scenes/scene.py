@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 from linkanim.errors import BadInput
@@ -113,6 +112,8 @@ class Scene:
 
     def _repr_html_(self) -> str:
         """Return the scene's title and what is told of its linkage, as a notebook shows it."""
+        from html import escape
+
         rows = (("scene", f"{self.name}: {self.title}"), ("source", self.source), *self.info.lines)
         cells = "".join(
             f"<tr><th style='text-align:left'>{escape(label)}</th><td>{escape(value)}</td></tr>"

@@ -6,8 +6,6 @@ import re
 from itertools import count
 from pathlib import Path
 
-import tomli_w
-
 from linkanim import whole
 from linkanim.errors import SceneError
 from linkanim.scenes.scene import Scene
@@ -23,6 +21,8 @@ def text(scene: Scene) -> str:
     """
     if not scene.document:
         raise SceneError(f"{scene.name}: has no scene file behind it that could be written; load it from one")
+    import tomli_w
+
     return _LIST.sub(_on_one_line, tomli_w.dumps(dict(scene.document)))
 
 
