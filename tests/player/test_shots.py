@@ -15,6 +15,8 @@ import pytest
 from playing import Player
 
 from linkanim.player import display
+from linkanim.player.action import Action
+from linkanim.player.advance import carried
 from linkanim.player.state import begin
 from linkanim.scenes import load
 
@@ -27,16 +29,14 @@ MEAN_LEVELS = 1.0
 
 def _press(player: Player) -> None:
     player.type("va")
-    while player.state.look.chart != "C.acceleration":
-        player.type("c")
+    player.window.state = carried(player.state, Action("plot", "C.acceleration"))
     player.tick(75)
 
 
 def _double_rocker(player: Player) -> None:
     player.type("lv")
     player.press(pygame.K_b, pygame.KMOD_LSHIFT, "B")
-    while player.state.look.chart != "coupler.angle":
-        player.type("c")
+    player.window.state = carried(player.state, Action("plot", "coupler.angle"))
     player.tick(108)
 
 
