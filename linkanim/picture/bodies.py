@@ -58,7 +58,14 @@ def _local(body: Body, figure: Figure, view: View) -> list[complex]:
 def _body(body: Body, points: list[complex], gauge: Gauge, colours: tuple[Colour, Colour]) -> Part:
     shaped = glazed if len(hull(points)) > 2 else lined
     layers = shaped(points, gauge.bar, gauge.outline, colours)
-    return Part(body.joints[0], body.joints[0], body.joints[1], tuple(layers), body.joints)
+    return Part(
+        body.joints[0],
+        body.joints[0],
+        body.joints[1],
+        tuple(layers),
+        body.joints,
+        body.name or "-".join(body.joints),
+    )
 
 
 def pin_stamp(gauge: Gauge, theme: Theme) -> Stamp:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import NamedTuple
 
@@ -24,6 +24,18 @@ class Caption(NamedTuple):
 
 
 Item = Layer | Caption
+
+
+class Group(NamedTuple):
+    """Shapes that belong together, under a name."""
+
+    name: str
+    layers: Sequence[Layer]
+
+
+def flat(groups: Iterable[Group]) -> Iterator[Layer]:
+    """Yield the shapes of all groups in their order."""
+    return (layer for group in groups for layer in group.layers)
 
 
 def draw(surface: pygame.Surface, items: Iterable[Item], type_: Type) -> None:

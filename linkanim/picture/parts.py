@@ -27,6 +27,12 @@ class Part:
     head: str
     layers: tuple[Layer, ...]
     joints: tuple[str, ...] = ()
+    name: str = ""
+
+    @property
+    def title(self) -> str:
+        """What its group is called: by its body, or by the joint that it is fitted to."""
+        return f"body-{self.name}" if self.name else f"fitting-{self.at}"
 
     def placed(self, places: Places) -> list[Layer]:
         """Return the layers where the joints now lie."""

@@ -29,13 +29,13 @@ SIZES = [(320, 180), (1280, 720), (720, 1280)]
 
 
 def _names(painter: Painter) -> Names:
-    assert painter._names is not None
-    return painter._names
+    assert painter.names is not None
+    return painter.names
 
 
 def _standing(painter: Painter, pose: Pose) -> Iterator[tuple[str, Rect]]:
     """Yield what is written and the rectangle it takes, for every label that shows."""
-    names, places = _names(painter), painter._places(pose)
+    names, places = _names(painter), painter.drawing.places(pose)
     for label in names.labels:
         middle, shown = label.placed(pose.phase / names.period, places)
         wide, high = label.lettering.size
@@ -54,12 +54,12 @@ def _gap(one: Rect, other: Rect) -> float:
 def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size: tuple[int, int]) -> None:
     scene = load(name)
     painter = Painter(scene, size, Look(names=1, chart="A.velocity" if name == "press" else None))
-    gauge, hud, chart = painter._gauge, painter._layout.hud, painter._layout.chart
+    gauge, hud, chart = painter.drawing.scenery.gauge, painter._layout.hud, painter._layout.chart
     assert hud
     for phase in np.linspace(0, scene.period, 31):
         pose = scene.pose(float(phase))
         labels = list(_standing(painter, pose))
-        pins = [painter._places(pose)[pin] for pin in painter._figure.pins]
+        pins = [painter.drawing.places(pose)[pin] for pin in painter._figure.pins]
         for (one, box), (other, second) in combinations(labels, 2):
             assert _gap(box, second) > -1.0, (one, other, phase)
         for text, box in labels:
@@ -146,11 +146,11 @@ def test_where_bars_are_short_links_are_called_by_their_numbers() -> None:
 def test_the_arrow_bends_the_way_the_input_turns_and_turns_over_with_it(name: str) -> None:
     scene = load(name)
     painter = Painter(scene, (1280, 720), replace(BARE, names=1))
-    turning, drive = painter._cast.turning, scene.linkage.drive
+    turning, drive = painter.drawing.cast.turning, scene.linkage.drive
     assert turning
     for phase, speed in ((1.0, drive.speed), (1.0, -drive.speed), (4.0, 3 * drive.speed)):
         pose = scene.pose(phase, speed=speed)
-        places = painter._places(pose)
+        places = painter.drawing.places(pose)
         line = turning.direction(pose, places, abs(drive.speed / speed))[-1]
         centre, tip = places[turning.pivot], line.loops[-1][0]
         bar = places[turning.pin] - centre
@@ -163,11 +163,9 @@ def test_an_input_that_stands_still_has_no_arrow() -> None:
     scene = load("crank-rocker")
     painter = Painter(scene, (640, 360), replace(BARE, names=1))
     painter.paint(offscreen((640, 360)), scene.pose(1.0, speed=0.0))
-    assert painter._cast.turning
-    assert (
-        painter._cast.turning.direction(scene.pose(1.0, speed=0.0), painter._places(scene.pose(1.0)), 1.0)
-        == []
-    )
+    turning, still = painter.drawing.cast.turning, scene.pose(1.0, speed=0.0)
+    assert turning
+    assert turning.direction(still, painter.drawing.places(still), 1.0) == []
 
 
 def test_the_ground_line_runs_from_pivot_to_pivot() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from pictures import BARE, SMALL, alphas, painted, pixels
 
 from linkanim.bench.fidelity import frame_decibels
 from linkanim.errors import BadInput
-from linkanim.picture import hud
+from linkanim.picture import drawing, hud
 from linkanim.picture import painter as painting
 from linkanim.picture.bodies import colours_of
 from linkanim.picture.figure import figure
@@ -80,23 +81,27 @@ def test_each_choice_of_the_look_changes_the_picture(change: dict[str, Any]) -> 
 def test_what_stands_still_is_drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
     calls: dict[str, int] = {}
 
-    def counted(name: str) -> None:
-        real = getattr(painting, name)
+    def counted(module: ModuleType, name: str) -> None:
+        real = getattr(module, name)
 
         def count(*args: Any, **named: Any) -> Any:
             calls[name] = calls.get(name, 0) + 1
             return real(*args, **named)
 
-        monkeypatch.setattr(painting, name, count)
+        monkeypatch.setattr(module, name, count)
 
-    once = ("figure", "ground_layers", "wheel_layers", "traces", "strip", "hud_for", "body_parts")
-    for name in once:
-        counted(name)
+    of_painter, of_drawing = (
+        ("figure", "strip", "hud_for"),
+        ("ground_layers", "wheel_layers", "traces", "body_parts"),
+    )
+    for module, once in ((painting, of_painter), (drawing, of_drawing)):
+        for name in once:
+            counted(module, name)
     scene, surface = load("press"), offscreen((640, 360))
     painter = Painter(scene, (640, 360), FULL)
     for step in range(5):
         painter.paint(surface, scene.pose(0.1 * step))
-    assert calls == dict.fromkeys(once, 1)
+    assert calls == dict.fromkeys((*of_painter, *of_drawing), 1)
 
 
 def test_nothing_grows_with_the_number_of_frames() -> None:

@@ -1,0 +1,210 @@
+"""What a scene looks like in one view: all that is drawn of a pose, in groups by name, back to front."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import zip_longest
+
+import numpy as np
+
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
+from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
+from linkanim.picture.figure import Figure
+from linkanim.picture.fittings import fittings_box
+from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
+from linkanim.picture.ground import ground_layers, ground_line
+from linkanim.picture.items import Group
+from linkanim.picture.layout import Gauge, Layout, gauge
+from linkanim.picture.look import ACCELERATION, VELOCITY, Look
+from linkanim.picture.names import Hand, Names, names_of
+from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
+from linkanim.picture.raster import Layer
+from linkanim.picture.struts import Coil, Cushion, coils, cushions
+from linkanim.picture.text import Type
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.trace import Trace, traces
+from linkanim.picture.turning import Turning, turning_of
+from linkanim.picture.vectors import Arrows, arrows_of
+from linkanim.picture.view import Box, View, fit, joined, moved
+
+_FAINT = 0.78
+"""How much of the background is in the colours of what is drawn faintly."""
+
+
+@dataclass(frozen=True)
+class Scenery:
+    """What is drawn, where and how thick, in which colours; `size` is the whole picture's, in pixels."""
+
+    figure: Figure
+    view: View
+    gauge: Gauge
+    theme: Theme
+    layout: Layout
+    look: Look
+
+    @property
+    def known(self) -> tuple[Figure, View, Gauge, Theme]:
+        """What the parts take their measures from."""
+        return self.figure, self.view, self.gauge, self.theme
+
+
+@dataclass(frozen=True)
+class Cast:
+    """All that moves, ready to be placed."""
+
+    wheels: tuple[Part, ...]
+    struts: tuple[Coil | Cushion, ...]
+    bodies: tuple[Part, ...]
+    pinned: tuple[tuple[str, ...], ...]
+    """The pins and marks that lie below the first of the bodies, and on each."""
+    pin: Stamp
+    mass: Stamp
+    traces: tuple[Trace, ...]
+    marks: Mapping[str, Stamp]
+    arrows: tuple[Arrows, ...]
+    turning: Turning | None
+    legs: tuple[Part, ...]
+
+
+def swept(figure: Figure) -> Box:
+    """Return the rectangle of the scene that a linkage sweeps with its wheels, slotted bars and guides."""
+    return fittings_box(figure, wheels_box(figure, figure.box))
+
+
+def scenery(figure: Figure, beside: Figure, layout: Layout, theme: Theme, look: Look) -> Scenery:
+    """Fit what two linkages sweep into the room that a layout has for them; thicknesses go with the scale."""
+    box = joined(swept(figure), swept(beside))
+    measure = gauge(layout.unit, figure.shortest * fit(box, layout.scene).scale)
+    room = layout.scene.inset(measure.pedestal + 1.5 * measure.bar)
+    width, height = layout.size
+    pan = (look.pan[0] * height, look.pan[1] * height)
+    view = moved(fit(box, room), (width / 2, height / 2), zoom=look.zoom, pan=pan)
+    return Scenery(figure, view, measure, theme, layout, look)
+
+
+class Drawing:
+    """A scene's drawing at one view and look, of any pose.
+
+    With `apart` each joint has a group of its own; else pins of one depth share one, which paints faster.
+    """
+
+    def __init__(self, scenery: Scenery, *, apart: bool = False) -> None:
+        self.scenery, self._apart = scenery, apart
+        self.cast = _cast(scenery, self.symbols)
+
+    @cached_property
+    def symbols(self) -> Symbols | None:
+        """The dimensions' symbols, where the look asks for them."""
+        return symbols(self.scenery.figure) if self.scenery.look.names > 1 else None
+
+    def names(self, type_: Type) -> Names | None:
+        """Return the names of joints and links, and their dimensions, where the look asks for them."""
+        set_ = self.scenery
+        if not set_.look.names:
+            return None
+        hand = Hand(type_, set_.layout, set_.theme, set_.gauge)
+        return names_of(set_.figure, set_.view, hand, self.cast.turning, self.symbols)
+
+    def places(self, pose: Pose) -> Places:
+        """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside."""
+        view = self.scenery.view
+        return {name: _somewhere(view.place(point)) for name, point in pose.position.items()}
+
+    def standing(self) -> Iterator[Group]:
+        """Yield what stands still behind everything."""
+        yield Group("wheels", wheel_layers(*self.scenery.known))
+        yield Group("ground", ground_layers(*self.scenery.known))
+
+    def wheels(self, places: Places) -> Iterator[Group]:
+        """Yield what turns behind the curves."""
+        for part in self.cast.wheels:
+            yield Group(f"wheel-{part.head}", part.placed(places))
+
+    @property
+    def moves_behind(self) -> bool:
+        """Whether something moves behind the curves."""
+        return bool(self.cast.wheels) or self.scenery.look.ghost
+
+    def faint(self, pose: Pose) -> list[Layer]:
+        """Return a pose's bodies and pins, mostly background."""
+        back = self.scenery.theme.background
+        layers = (layer for group in self._pinned(self.places(pose)) for layer in group.layers)
+        return [Layer(mixed(layer.colour, back, _FAINT), layer.loops, layer.alpha) for layer in layers]
+
+    def curves(self) -> Iterator[Group]:
+        """Yield the ground line and the whole curves."""
+        figure, look = self.scenery.figure, self.scenery.look
+        if look.names:
+            yield Group("ground-line", ground_line(pivots(figure), *self.scenery.known))
+        for trace in self.cast.traces:
+            yield Group(f"curve-{trace.joint}", [trace.whole()])
+
+    def moving(self, pose: Pose) -> Iterator[Group]:
+        """Yield all that moves over the curves, back to front."""
+        places, cast = self.places(pose), self.cast
+        for trace in cast.traces:
+            recent = trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
+            yield Group(f"recent-{trace.joint}", recent)
+        for item, strut in zip(self.scenery.figure.struts, cast.struts, strict=True):
+            yield Group(f"strut-{item.name}", strut.layers(places))
+        yield from self._pinned(places)
+        yield Group("dimensions", placed(cast.legs, places))
+        yield Group("input", list(self._turning(pose, places)))
+        masses = [self.scenery.view.place(at) for at in pose.com_position.values()]
+        yield Group("centres-of-mass", cast.mass.at(masses))
+        for kind in cast.arrows:
+            yield Group(kind.words, kind.layers(pose, self.scenery.view, self.scenery.figure.scene.trace))
+
+    def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
+        """Yield the way the input turns, and its angle."""
+        turning, drive = self.cast.turning, self.scenery.figure.linkage.drive
+        if turning and self.scenery.look.names > 1:
+            yield from turning.angle(places)
+        if turning and pose.input_speed:
+            yield from turning.direction(pose, places, abs(drive.speed / pose.input_speed))
+
+    def _pinned(self, places: Places) -> Iterator[Group]:
+        """Yield the bodies with their pins, each pin at the depth of its own links."""
+        for names, part in zip_longest(self.cast.pinned, self.cast.bodies):
+            for together in [(name,) for name in names] if self._apart else [names]:
+                yield Group("-".join(("joint", *together)), self._stamped(together, places))
+            if part:
+                yield Group(part.title, part.placed(places))
+
+    def _stamped(self, names: tuple[str, ...], places: Places) -> list[Layer]:
+        pins = [places[name] for name in names if name in self.scenery.figure.pins]
+        layers = self.cast.pin.at(pins) if pins else []
+        for name in names:
+            if name in self.cast.marks:
+                layers += self.cast.marks[name].at([places[name]])
+        return layers
+
+
+def _cast(scenery: Scenery, known: Symbols | None) -> Cast:
+    figure, view, gauge, theme = scenery.known
+    look = scenery.look
+    curves = traces(*scenery.known) if look.trace else ()
+    bodies = body_parts(*scenery.known)
+    marked = [trace.joint for trace in curves if trace.joint not in figure.pins]
+    height = scenery.layout.size[1]
+    kinds = [kind for kind in (VELOCITY, ACCELERATION) if kind in look.vectors]
+    return Cast(
+        wheels=wheel_parts(*scenery.known),
+        struts=(*coils(*scenery.known), *cushions(*scenery.known)),
+        bodies=bodies,
+        pinned=by_depth(bodies, (*figure.pins, *marked)),
+        pin=pin_stamp(gauge, theme),
+        mass=mass_stamp(gauge, theme),
+        traces=curves,
+        marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
+        arrows=tuple(arrows_of(figure, kind, height, gauge, theme) for kind in kinds),
+        turning=turning_of(*scenery.known) if look.names else None,
+        legs=tuple(leg_part(legs, view, gauge, theme.dim) for legs in known.legs) if known else (),
+    )
+
+
+def _somewhere(place: complex) -> complex:
+    return place if np.isfinite(place.real) and np.isfinite(place.imag) else complex(-1e6, -1e6)
