@@ -18,10 +18,9 @@ import pytest
 from linkanim.cli import main
 from linkanim.picture.chart import pen_for
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.hud import rows
 from linkanim.picture.layout import layout
-from linkanim.picture.look import Look
 from linkanim.picture.quantities import quantities, telling
+from linkanim.picture.readings import rows
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
@@ -81,7 +80,7 @@ def _tokens(name: str) -> list[str]:
 
 def _strips(name: str) -> tuple[Figure, dict[str, Strip]]:
     shown = figure(load(name))
-    window = layout((1280, 720), Look(chart="x"))
+    window = layout((1280, 720), chart=True)
     pen = pen_for(window, Type(), LIGHT)
     return shown, {token: strip(shown, token, window, pen) for token in _tokens(name)}
 

@@ -27,7 +27,7 @@ from linkanim.picture.chart import (
 )
 from linkanim.picture.items import Caption, Item, draw
 from linkanim.picture.layout import layout
-from linkanim.picture.look import Look, ThemeName
+from linkanim.picture.look import ThemeName
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import box as rounded_box
@@ -58,7 +58,7 @@ class Page:
     @cached_property
     def pen(self) -> Pen:
         """What it is drawn with."""
-        return pen_for(layout(self.size, Look()), Type(), theme_of(self.theme))
+        return pen_for(layout(self.size), Type(), theme_of(self.theme))
 
     @property
     def background(self) -> Colour:

@@ -15,13 +15,33 @@ from linkanim.scenes.scene import Scene
 
 
 class Canvas:
-    """A painter with the scene of its ghost, made for one scene, size and look; it follows `before`."""
+    """A painter with the scene of its ghost, made for one scene, size and look; it follows `before`.
 
-    def __init__(self, scene: Scene, size: tuple[int, int], look: Look, before: Canvas | None = None) -> None:
-        self.made_for = (id(scene), size, look)
+    With `both` the view fits both closures, so that it stays when one changes into the other; it does so,
+    too, where the look zooms or pans, which is meant as the window shows it. `listed` leaves room for the
+    edit list.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        size: tuple[int, int],
+        look: Look,
+        before: Canvas | None = None,
+        *,
+        both: bool = False,
+        listed: bool = False,
+    ) -> None:
         self._scene, self._look = scene, look
+        self._made_for = (size, look, listed)
+        whole = both or look.ghost or look.framed
+        self._goal, self._other = _closures(scene, before) if whole else (scene, None)
         last: Painter | None = before.painter if before else None
-        self.painter: Painter = Painter(scene, size, look, beside=self._ghost, before=last)
+        self.painter: Painter = Painter(scene, size, look, beside=self._other, before=last, listed=listed)
+
+    def fits(self, scene: Scene, size: tuple[int, int], look: Look, *, listed: bool = False) -> bool:
+        """Return whether it is made for these."""
+        return self._scene is scene and self._made_for == (size, look, listed)
 
     def paint(self, surface: pygame.Surface, phase: float, speed: float, over: Overlay) -> Pose:
         """Paint a phase, the other closure behind it where the look asks; return its pose."""
@@ -32,4 +52,14 @@ class Canvas:
 
     @cached_property
     def _ghost(self) -> Scene | None:
-        return ghost_of(self._scene) if self._look.ghost else None
+        if not self._look.ghost:
+            return None
+        return ghost_of(self._scene) if self._scene.towards else self._other
+
+
+def _closures(scene: Scene, before: Canvas | None) -> tuple[Scene, Scene | None]:
+    """Return the scene, or the one that it is on the way to, and its other closure."""
+    goal = scene.towards or scene
+    if before and before._goal is goal and before._other:
+        return goal, before._other
+    return goal, ghost_of(goal)

@@ -13,11 +13,10 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import Figure
-from linkanim.picture.fittings import fittings_box
-from linkanim.picture.gears import wheel_layers, wheel_parts, wheels_box
+from linkanim.picture.gears import wheel_layers, wheel_parts
 from linkanim.picture.ground import ground_layers, ground_line
 from linkanim.picture.items import Group
-from linkanim.picture.layout import Gauge, Layout, gauge
+from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.names import Hand, Names, names_of
 from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
@@ -28,7 +27,7 @@ from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.trace import Trace, traces
 from linkanim.picture.turning import Turning, turning_of
 from linkanim.picture.vectors import Arrows, arrows_of
-from linkanim.picture.view import Box, View, fit, joined, moved
+from linkanim.picture.view import View
 
 _FAINT = 0.78
 """How much of the background is in the colours of what is drawn faintly."""
@@ -67,22 +66,6 @@ class Cast:
     arrows: tuple[Arrows, ...]
     turning: Turning | None
     legs: tuple[Part, ...]
-
-
-def swept(figure: Figure) -> Box:
-    """Return the rectangle of the scene that a linkage sweeps with its wheels, slotted bars and guides."""
-    return fittings_box(figure, wheels_box(figure, figure.box))
-
-
-def scenery(figure: Figure, beside: Figure, layout: Layout, theme: Theme, look: Look) -> Scenery:
-    """Fit what two linkages sweep into the room that a layout has for them; thicknesses go with the scale."""
-    box = joined(swept(figure), swept(beside))
-    measure = gauge(layout.unit, figure.shortest * fit(box, layout.scene).scale)
-    room = layout.scene.inset(measure.pedestal + 1.5 * measure.bar)
-    width, height = layout.size
-    pan = (look.pan[0] * height, look.pan[1] * height)
-    view = moved(fit(box, room), (width / 2, height / 2), zoom=look.zoom, pan=pan)
-    return Scenery(figure, view, measure, theme, layout, look)
 
 
 class Drawing:

@@ -24,14 +24,16 @@ def driven_body(scene: Scene) -> Body | None:
 
 
 def driven_name(scene: Scene) -> str:
-    """Return what the driven bar is called: the scene's name for it, else "crank", or "rocker" if it swings.
+    """Return what the driven bar is called: "crank" if it turns; if it swings the scene's name for it.
 
-    A bar that swings is no crank, whatever its body is called: it is then the rocker, or the input rocker
-    where another body has that name.
+    What swings is no crank, whatever its body is called: it is then the rocker, or the input rocker where
+    another body has that name.
     """
     body = driven_body(scene)
     name = body.name if body and not body.name.isdecimal() else "crank"
-    if name != "crank" or scene.info.full_turn:
+    if scene.info.full_turn:
+        return "crank"
+    if name != "crank":
         return name
     return "input rocker" if any(other.name == "rocker" for other in scene.linkage.bodies) else "rocker"
 

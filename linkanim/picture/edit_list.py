@@ -54,7 +54,7 @@ def _planned(board: Board, panel: Panel) -> _Plan:
     sizes = range(board.layout.text_size, board.layout.small_size - 1, -1)
     for size in (size for size in sizes if len(panel.rows) <= _room(board, size)):
         plan = _divided(board, panel, size, (panel.facts, panel.hint))
-        if len(plan.rows) == len(panel.rows):
+        if len(plan.rows) == len(panel.rows) and plan.wide <= board.layout.list_width:
             return plan
     for more in ((panel.facts, panel.hint), (panel.facts, ""), ((), "")):
         plan = _divided(board, panel, sizes[-1], more)
@@ -65,10 +65,9 @@ def _planned(board: Board, panel: Panel) -> _Plan:
 
 def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...], str]) -> _Plan:
     facts, hint = more
-    covered = board.layout.hud.right if board.layout.hud else 0.0
     columns = zip(*((row.label, row.value) for row in panel.rows), strict=True)
     needed = sum(board.widest(column, size, strong=True) for column in columns) + 5.5 * size
-    wide = min(max(needed, 19.0 * size, covered), board.layout.size[0] - 2.0 * board.margin)
+    wide = min(max(needed, board.layout.list_width), board.layout.size[0] - 2.0 * board.margin)
     room = wide - 2.4 * size
     said = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
     foot = [(line, board.theme.warning) for line in board.type.wrapped(panel.error or "", size, room)]

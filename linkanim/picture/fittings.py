@@ -19,7 +19,7 @@ from linkanim.picture.parts import Part, lined
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.shapes import box, rounded, segments, unit
 from linkanim.picture.theme import LIGHT, Theme, mixed
-from linkanim.picture.view import Box, View, joined
+from linkanim.picture.view import View
 
 _TRIED = 90
 """Poses of a cycle at which is looked how far a fitting reaches."""
@@ -55,21 +55,19 @@ def fittings(bench: Bench) -> tuple[Fitting, ...]:
     return tuple(FITTINGS[type(joint)](joint, bench) for joint in joints if type(joint) in FITTINGS)
 
 
-def fittings_box(figure: Figure, box: Box) -> Box:
-    """Return the box widened so that slotted bars and guides are in it, wherever they go."""
+def outlines(figure: Figure) -> Iterator[Loop]:
+    """Yield where the outlines of slotted bars and guides pass, x + yi in the scene's unit, drawn thin."""
+    box = figure.box
     thin = 1e-6 * max(figure.shortest, 1e-6 * (box.right - box.left + box.high - box.low))
     bench = Bench(figure, View(1.0, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
     parts = [part for fitting in fittings(bench) for part in (*fitting.behind, *fitting.before)]
     cycle = {name: np.atleast_2d(points) @ DOWN for name, points in figure.cycle.position.items()}
     for n in range(0, len(figure.cycle.phase), max(len(figure.cycle.phase) // _TRIED, 1)):
         places = {name: complex(path[n]) for name, path in cycle.items() if np.isfinite(path[n])}
-        for part in parts:
-            if {part.at, part.tail, part.head} <= places.keys():
-                loops = [loop for layer in part.placed(places) for loop in layer.loops]
-                drawn = np.concatenate(loops)
-                reach = Box(drawn.real.min(), -drawn.imag.max(), drawn.real.max(), -drawn.imag.min())
-                box = joined(box, reach)
-    return box
+        for part in (part for part in parts if {part.at, part.tail, part.head} <= places.keys()):
+            for loop in (loop for layer in part.placed(places) for loop in layer.loops):
+                outline: Loop = np.conj(loop)
+                yield outline
 
 
 def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[Loop]:

@@ -16,7 +16,7 @@ from linkanim.picture.parts import Part
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import disc, segments, stroke
 from linkanim.picture.theme import Theme, mixed
-from linkanim.picture.view import Box, View, joined
+from linkanim.picture.view import View
 
 _TEETH = 24
 """Of about how many teeth two wheels of one size have together: few, so that each can be followed."""
@@ -46,6 +46,12 @@ class Wheel:
     teeth: int = 0
     tooth: float = 0.0
     ring: bool = False
+
+    @property
+    def reach(self) -> float:
+        """How far it reaches from its middle, in the scene's unit: to its tips, or a ring's outer edge."""
+        beyond = 7.0 if self.ring else 2 * _TIP
+        return self.radius * (1 + beyond / self.teeth) if self.teeth else self.radius
 
 
 @dataclass(frozen=True)
@@ -165,19 +171,10 @@ def teeth_a_second(figure: Figure) -> float:
     return fastest * abs(figure.linkage.drive.speed) / (2 * pi)
 
 
-def wheels_box(figure: Figure, box: Box) -> Box:
-    """Return the box widened so that every wheel is in it, wherever it goes."""
-    for wheel in (wheel for pair in pairs(figure) for wheel in pair.wheels):
-        way = np.atleast_2d(figure.cycle.position[wheel.centre])
-        radius = _rim(wheel)
-        low, high = np.nanmin(way, axis=0) - radius, np.nanmax(way, axis=0) + radius
-        box = joined(box, Box(float(low[0]), float(low[1]), float(high[0]), float(high[1])))
-    return box
-
-
-def _rim(wheel: Wheel) -> float:
-    """Return how far a wheel reaches, in the scene's unit."""
-    return wheel.radius * (1 + 7 / wheel.teeth) if wheel.ring else 1.06 * wheel.radius
+def wheels(figure: Figure) -> Iterator[Wheel]:
+    """Yield the wheels of all pairs."""
+    for pair in pairs(figure):
+        yield from pair.wheels
 
 
 def wheel_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
@@ -252,7 +249,7 @@ def _ring(wheel: Wheel, view: View, gauge: Gauge) -> list[Loop]:
     """Return the rim: teeth outside and a circle inside the disc's edge as its hole; a ring's inside out."""
     radius = wheel.radius * view.scale
     if wheel.ring:
-        return [disc(_rim(wheel) * view.scale), _toothed(wheel, radius, _TIP, _FOOT)[::-1]]
+        return [disc(wheel.reach * view.scale), _toothed(wheel, radius, _TIP, _FOOT)[::-1]]
     inner = disc(max(_root(wheel, view, gauge) - gauge.line, 0.5))[::-1]
     return [_toothed(wheel, radius, _FOOT, _TIP) if wheel.teeth else disc(radius), inner]
 

@@ -42,12 +42,13 @@ class _Plan(NamedTuple):
     high: float
 
 
-def help_sheet(board: Board, groups: Help) -> pygame.Surface:
-    """Return the help, its text as large as lets it stand in the window.
+def help_sheet(board: Board, told: tuple[Help, int]) -> pygame.Surface:
+    """Return the help, its text as large as lets it stand in a room so wide, and in the window's height.
 
     Where not all of it can be read there, the last subjects are left out.
     """
-    plan = next(filter(partial(_fits, board), _plans(board, groups)), None)
+    groups, room = told
+    plan = next(filter(partial(_fits, (room, board.layout.size[1])), _plans(board, groups)), None)
     size, columns, wide, high = plan or _planned(board, groups[:1], _LEAST)
     sheet = board.sheet(wide, high)
     x = 1.4 * size
@@ -72,8 +73,8 @@ def _planned(board: Board, groups: Help, size: int) -> _Plan:
     return _Plan(size, columns, wide, high)
 
 
-def _fits(board: Board, plan: _Plan) -> bool:
-    width, height = board.layout.size
+def _fits(room: tuple[int, int], plan: _Plan) -> bool:
+    width, height = room
     return plan.wide <= 0.97 * width and plan.high <= 0.97 * height
 
 

@@ -2,70 +2,92 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from linkanim.picture.look import Look
 from linkanim.picture.view import Rect
 
 _DRAWN_FOR = (1280, 720)
+_EDGE = 10.8
+"""From the window's edge to the edit list, in units."""
+_SHARE_BELOW, _SHARE_BESIDE = 0.27, 0.45
+"""A chart's share of the height, or of the width."""
+_TALLEST = 0.42
+"""The height of a chart beside the scene, in widths of the window."""
 
 
 @dataclass(frozen=True)
 class Layout:
-    """The parts of a window; `unit` is one pixel of a 1280 × 720 window at this size."""
+    """The parts of a window; `unit` is one pixel of a window of 1280 × 720, or upright."""
 
     size: tuple[int, int]
     unit: float
-    scene: Rect
+    stage: Rect
+    """What chart and edit list leave to the scene and the words about it."""
     hud: Rect | None
     legend: Rect | None
-    """The key to the vectors, at the foot of the HUD's column."""
+    """The key to the vectors, at the foot of the HUD."""
     chart: Rect | None
+    marks: Rect
+    """Where the marks of recording and pause stand; at the left of the stage they begin at their left."""
+    words: tuple[Rect, ...] = ()
+    """What of the HUD and the key holds words: names stay off these."""
+
+    @property
+    def reach(self) -> Rect:
+        """How far the scene may be drawn when it is zoomed: to the chart, and under the edit list."""
+        if self.chart is None:
+            return Rect(0, 0, *self.size)
+        if self.chart.x >= self.stage.right:
+            return Rect(0, 0, int(self.stage.right), self.size[1])
+        return Rect(0, 0, self.size[0], int(self.chart.y))
 
     @property
     def title_size(self) -> int:
         """The height of the scene's title in whole pixels."""
-        return max(round(30 * self.unit), 17)
+        return round(1.43 * self.text_size)
 
     @property
     def text_size(self) -> int:
         """The height of text that must read from the back row."""
-        return max(round(21 * self.unit), 14)
+        return max(round(21 * self.unit), 13)
 
     @property
     def small_size(self) -> int:
         """The height of tick labels and hints."""
-        return _small(self.unit)
+        return max(round(17 * self.unit), 11)
+
+    @property
+    def margin(self) -> float:
+        """How far words stay off the stage's edges."""
+        return max(20 * self.unit, 6.0)
+
+    @property
+    def list_width(self) -> int:
+        """How wide the edit list is as a rule."""
+        return round(min(max(19.0 * self.text_size, 0.3 * self.size[0]), 0.5 * self.size[0]))
 
 
-def layout(size: tuple[int, int], look: Look) -> Layout:
-    """Divide a window: HUD on the left, chart along the bottom, the scene in what is left."""
-    unit = min(size[0] / _DRAWN_FOR[0], size[1] / _DRAWN_FOR[1])
-    whole = Rect(0, 0, *size).inset(20 * unit)
-    chart = None
-    if look.chart:
-        tall = 0.27 * size[1]
-        chart = Rect(whole.x, whole.bottom - tall, whole.width, tall)
-    high = (chart.y - 12 * unit if chart else whole.bottom) - whole.y
-    if not look.hud:
-        return Layout(size, unit, Rect(whole.x, whole.y, whole.width, high), None, None, chart)
-    wide = min(max(0.255 * size[0], 204.0), 0.36 * size[0])
-    left = whole.x + wide + 16 * unit
-    scene = Rect(left, whole.y, max(whole.right - left, 1), high)
-    hud, legend = _column(Rect(whole.x, whole.y, wide, high), len(look.vectors) * 1.5 * _small(unit))
-    return Layout(size, unit, scene, hud, legend, chart)
+def layout(
+    size: tuple[int, int], *, chart: bool = False, beside: bool = False, listed: bool = False
+) -> Layout:
+    """Divide a window: a chart along the bottom, or `beside` the scene; the stage is what is left.
 
-
-def _column(column: Rect, foot: float) -> tuple[Rect, Rect | None]:
-    """Divide the HUD's column: the numbers, and a key so high below them."""
-    if not foot:
-        return column, None
-    numbers = column._replace(height=max(column.height - foot, 1))
-    return numbers, column._replace(y=column.bottom - foot, height=foot)
-
-
-def _small(unit: float) -> int:
-    return max(round(17 * unit), 12)
+    `listed` leaves room for the edit list, on the left. The HUD has no place yet: that depends on the scene.
+    """
+    unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
+    whole = Rect(0, 0, *size)
+    empty = Layout(size, unit, whole, None, None, None, whole)
+    left = empty.list_width + 2 * _EDGE * unit if listed else 0.0
+    room, edge = Rect(left, 0, size[0] - left, size[1]), 20 * unit
+    if not chart:
+        return replace(empty, stage=room)
+    if beside:
+        wide, high = _SHARE_BESIDE * room.width, min(room.height - 2 * edge, _TALLEST * room.width)
+        strip = Rect(room.right - wide, (room.height - high) / 2, wide - edge, high)
+        return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=strip)
+    tall = _SHARE_BELOW * room.height
+    strip = Rect(left + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
+    return replace(empty, stage=room._replace(height=strip.y - 0.6 * edge), chart=strip)
 
 
 @dataclass(frozen=True)
@@ -80,9 +102,9 @@ class Gauge:
     """The width of a thin line."""
 
     @property
-    def pedestal(self) -> float:
-        """How far a ground pin's pedestal reaches from the pin."""
-        return 2.6 * self.bar + 2 * self.outline
+    def around(self) -> tuple[float, float, float]:
+        """How far drawing reaches about a wheel's rim, about a joint, and about a foot."""
+        return self.line, self.bar + self.outline, 3.3 * self.bar + 2 * self.outline
 
 
 def gauge(unit: float, shortest: float) -> Gauge:

@@ -33,3 +33,8 @@ class Look:
     pan: tuple[float, float] = (0.0, 0.0)
     ghost: bool = False
     names: int = 0
+
+    @property
+    def framed(self) -> bool:
+        """Whether it is zoomed or panned."""
+        return self.zoom != 1 or self.pan != (0.0, 0.0)

@@ -24,7 +24,7 @@ from linkanim.picture.shapes import hull, unit
 from linkanim.picture.text import Type, subscripted
 from linkanim.picture.theme import Theme
 from linkanim.picture.turning import Turning
-from linkanim.picture.view import Rect, View
+from linkanim.picture.view import View
 
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
 """Where along a bar its name may stand."""
@@ -251,8 +251,6 @@ class _Stage:
     def clutter(self) -> Clutter:
         """Return what is in the labels' way."""
         gauge, layout = self._hand.gauge, self._hand.layout
-        rects = tuple(rect for rect in (layout.hud, layout.legend) if rect)
-        bottom = layout.chart.y if layout.chart else layout.size[1]
         names = list(self._paths)
         radii = np.array(
             [
@@ -261,7 +259,7 @@ class _Stage:
             ]
         )
         discs = np.stack([self._paths[name] for name in names], axis=1)
-        return Clutter(discs, radii, rects, Rect(0, 0, layout.size[0], bottom).inset(2), self._bars())
+        return Clutter(discs, radii, layout.words, layout.stage.inset(2), self._bars())
 
     def _numbers(self, body: Body) -> tuple[int, ...]:
         """Return which of the bars are the sides of a body."""

@@ -10,17 +10,18 @@ import pygame
 from linkanim.mechanics.kinds import Crank
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.chart import pen_for
-from linkanim.picture.drawing import Drawing, scenery
+from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.hud import Hud, hud_for
+from linkanim.picture.hud import Hud
 from linkanim.picture.items import flat
-from linkanim.picture.layout import Layout, layout
+from linkanim.picture.layout import Layout
 from linkanim.picture.legend import legend_for
 from linkanim.picture.look import Look
 from linkanim.picture.names import Names
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.raster import Layer, Stencil, paint, paints, stencil
+from linkanim.picture.staging import Staging, staged, wanted_of
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, theme_of
@@ -34,7 +35,8 @@ class Painter:
     It solves one cycle and draws its static layer when it is made; make a new one when scene, size
     or look changes. `beside` is a scene that must fit into the view too, such as the other closure.
     `before` is a painter that this one takes over from: what it drew of text and panels is kept where
-    the size is the same, and nothing else changes. Its HUD stays where scene, size and theme do.
+    the size is the same, and nothing else changes. What was measured of the scene stays as long as it does.
+    `listed` leaves room for the edit list, instead of the HUD.
     Raises BadInput where the look's chart is no quantity of the scene.
     """
 
@@ -46,18 +48,19 @@ class Painter:
         *,
         beside: Scene | None = None,
         before: Painter | None = None,
+        listed: bool = False,
     ) -> None:
         self.scene, self.size, self.look = scene, size, look
         self._theme: Theme = theme_of(look.theme)
-        self._layout: Layout = layout(size, look)
-        self._figure: Figure = figure(scene)
         self._type: Type = before._type if before and before.size == size else Type()
-        around = figure(beside) if beside else self._figure
-        self.drawing = Drawing(scenery(self._figure, around, self._layout, self._theme, look))
+        wanted, kept = wanted_of(size, look, listed=listed), before._staging if before else None
+        self._staging: Staging = staged(scene.towards or scene, beside, wanted, self._type, before=kept)
+        self._figure: Figure = figure(scene) if scene.towards else self._staging.subject.figure
+        self._layout: Layout = self._staging.arrangement.layout
+        self.drawing = Drawing(self._staging.scenery(self._figure, self._theme, look))
         self.view: View = self.drawing.scenery.view
         self._strip: Strip | None = self._chart()
-        said = before._hud if before else None
-        self._hud: Hud | None = hud_for(scene, self._layout, self._type, self._theme, before=said)
+        self._hud: Hud | None = self._worded(before)
         self._panels: Panels = self._laid_over(before)
         self.names: Names | None = self.drawing.names(self._type)
         self._legend = legend_for(self.drawing.cast.arrows, self._layout, self._type, self._theme)
@@ -79,14 +82,13 @@ class Painter:
         """
         canvas = self._canvas(surface)
         self._wipe(canvas, self._still_at(pose.input_speed))
-        paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
+        self._act(canvas, pose, ghost if self.look.ghost else None)
         if self.names:
-            self.names.draw(canvas.subsurface(self._stage), pose, self.drawing.places(pose))
+            self.names.draw(canvas.subsurface(self._layout.reach), pose, self.drawing.places(pose))
         if self._strip:
             self._strip.draw_reading(canvas, pose)
         if self._hud:
-            canvas.blit(self._hud.sheet, self._hud.sheet.get_offset())
-            self._hud.draw_values(canvas, pose, noted=overlay.noted)
+            self._hud.draw(canvas, pose, noted=overlay.noted, backed=self.look.framed)
         if self._legend:
             self._legend.draw_values(canvas, pose.input_speed)
         self._panels.draw(canvas, overlay)
@@ -107,6 +109,14 @@ class Painter:
         """Return the phase under a pixel of the chart, 0 to one true period; None beside the chart."""
         return self._strip.phase_at(px, py) if self._strip else None
 
+    def _worded(self, before: Painter | None) -> Hud | None:
+        arrangement, place = self._staging.arrangement, self._layout.hud
+        if arrangement.block is None or place is None:
+            return None
+        if before and before._staging is self._staging and before._theme == self._theme:
+            return before._hud
+        return Hud(self._staging.subject.figure.scene, arrangement.block, place, self._type, self._theme)
+
     def _laid_over(self, before: Painter | None) -> Panels:
         if before and (before._layout, before._theme) == (self._layout, self._theme):
             return before._panels
@@ -118,11 +128,6 @@ class Painter:
         pen = pen_for(self._layout, self._type, self._theme)
         return strip(self._figure, self.look.chart, self._layout, pen)
 
-    @cached_property
-    def _stage(self) -> pygame.Rect:
-        """Return the window down to the chart."""
-        chart = self._layout.chart
-        return pygame.Rect(0, 0, self.size[0], int(chart.y) if chart else self.size[1])
 
     def _drawn_once(self) -> pygame.Surface:
         """Return the layer that stands still but for the chart: background, ground, curves, key."""
@@ -131,6 +136,8 @@ class Painter:
         still.fill((*self._theme.background, 255 if self.look.background else 0))
         curves = () if self.drawing.moves_behind else self.drawing.curves()
         paint(still, list(self._on_stage(flat((*self.drawing.standing(), *curves)))))
+        if self._aside:
+            still.fill((*self._theme.background, 255 if self.look.background else 0), self._aside)
         if self._legend:
             self._legend.draw(still)
         return still
@@ -156,8 +163,26 @@ class Painter:
 
     def _on_stage(self, layers: Iterable[Layer]) -> Iterator[Layer]:
         """Yield the scene's layers, kept to the rows above the chart."""
-        end = self._stage.bottom
+        end = int(self._layout.reach.bottom)
         return (Layer(layer.colour, layer.loops, layer.alpha, end) for layer in layers)
+
+    @cached_property
+    def _aside(self) -> pygame.Rect | None:
+        """The columns beside the stage that the chart has to itself."""
+        reach, (width, height) = self._layout.reach, self.size
+        return pygame.Rect(reach.right, 0, width - reach.right, height) if reach.right < width else None
+
+    def _act(self, canvas: pygame.Surface, pose: Pose, ghost: Pose | None) -> None:
+        """Draw all that moves; what reaches beyond the stage is cut off."""
+        layers, cursor = self._moving(pose, ghost), self._strip.cursor(pose) if self._strip else []
+        if not self._aside:
+            paint(canvas, [*layers, *cursor])
+            return
+        paint(canvas, layers)
+        if canvas.get_flags() & pygame.SRCALPHA:
+            canvas.fill((0, 0, 0, 0), self._aside)
+        canvas.blit(self._still_at(pose.input_speed), self._aside, self._aside)
+        paint(canvas, cursor)
 
     def _wipe(self, canvas: pygame.Surface, still: pygame.Surface) -> None:
         if canvas.get_flags() & pygame.SRCALPHA:
@@ -165,12 +190,12 @@ class Painter:
         canvas.blit(still, (0, 0))
 
     def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer | Stencil]:
-        """Return all that moves, back to front, the chart's cursor last."""
+        """Return all of the scene that moves, back to front."""
         drawing = self.drawing
         behind = [*flat(drawing.wheels(drawing.places(pose))), *(drawing.faint(ghost) if ghost else ())]
         layers: list[Layer | Stencil] = [*self._on_stage(behind), *self._curves]
         layers += self._on_stage(flat(drawing.moving(pose)))
-        return layers + (self._strip.cursor(pose) if self._strip else [])
+        return layers
 
     @cached_property
     def _curves(self) -> list[Stencil]:

@@ -38,24 +38,28 @@ class Panels:
         return Board(self.layout, self.type, self.theme)
 
     def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw all that an overlay holds."""
-        size, gap = self.layout.size, 18 * self.layout.unit
+        """Draw all that an overlay holds: the help beside the edit list, a toast on the stage's foot."""
+        stage = self.layout.stage
         self._marks(surface, overlay)
+        if overlay.help:
+            surface.blit(self._keep("veil", None, self._veil), (0, 0))
+        left = 0
         if overlay.panel:
             drawn = self._keep("panel", overlay.panel, partial(edit_list, self.board))
             surface.blit(drawn, (self.board.margin, self.board.margin))
+            left = self.board.margin + drawn.get_width()
         if overlay.quantities:
             drawn = self._keep("quantities", overlay.quantities, partial(quantity_list, self.board))
             surface.blit(drawn, (self.board.margin, self.board.margin))
         if overlay.help:
-            surface.blit(self._keep("veil", None, self._veil), (0, 0))
-            drawn = self._keep("help", overlay.help, partial(help_sheet, self.board))
-            at = ((size[0] - drawn.get_width()) // 2, (size[1] - drawn.get_height()) // 2)
+            room = self.layout.size[0] - left
+            drawn = self._keep("help", (overlay.help, room), partial(help_sheet, self.board))
+            at = (left + (room - drawn.get_width()) // 2, (self.layout.size[1] - drawn.get_height()) // 2)
             surface.blit(drawn, at)
         if overlay.toast:
             drawn = self._keep("toast", overlay.toast, self._toast)
-            at = ((size[0] - drawn.get_width()) // 2, round(size[1] - drawn.get_height() - 2 * gap))
-            surface.blit(drawn, at)
+            across = stage.x + (stage.width - drawn.get_width()) / 2
+            surface.blit(drawn, (round(across), round(stage.bottom - drawn.get_height() - self.board.margin)))
 
     def _keep(self, kind: str, value: Any, make: Any) -> pygame.Surface:
         if kind not in self._kept or self._kept[kind][0] != value:
@@ -69,21 +73,23 @@ class Panels:
         return veil
 
     def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw the marks of recording and pause at the top right, words and signs."""
-        size, unit = self.layout.text_size, self.layout.unit
-        right, top = self.layout.size[0] - 20 * unit, 18 * unit
+        """Draw the marks of recording and pause, words and signs."""
+        size, place, stage = self.layout.text_size, self.layout.marks, self.layout.stage
+        leads, top = place.x - stage.x < stage.right - place.right, place.y
         marks = [(overlay.recording, self.theme.warning, [0.36 * size * disc(1.0)])]
         marks.append(("paused" if overlay.paused else None, self.theme.ink, _bars(size)))
         for words, colour, sign in marks:
             if words:
-                width = self.type.draw(surface, words, (right, top), size=size, colour=colour, anchor="right")
-                middle = complex(right - width - 0.8 * size, top + 0.5 * size)
+                width = self.type.width(words, size)
+                left = place.x + 1.2 * size if leads else place.right - width
+                self.type.draw(surface, words, (left, top), size=size, colour=colour)
+                middle = complex(left - 0.8 * size, top + 0.5 * size)
                 paint(surface, [Layer(colour, [middle + loop for loop in sign])])
                 top += 1.5 * size
 
     def _toast(self, text: str) -> pygame.Surface:
         size = self.layout.text_size
-        lines = self.type.wrapped(text, size, 0.8 * self.layout.size[0])
+        lines = self.type.wrapped(text, size, 0.9 * self.layout.stage.width - 2 * size)
         wide = max((self.type.width(line, size) for line in lines), default=0)
         sheet = self.board.sheet(wide + 2 * size, (1.25 * len(lines) + 0.75) * size)
         for n, line in enumerate(lines):

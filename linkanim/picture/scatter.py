@@ -12,7 +12,6 @@ from linkanim.picture.axis import decades
 from linkanim.picture.chart import Pen, Plot, axes, pen_for, plot_area, point_layers
 from linkanim.picture.items import draw
 from linkanim.picture.layout import layout
-from linkanim.picture.look import Look
 from linkanim.picture.raster import Colour, paint
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
@@ -48,7 +47,7 @@ def scatter(
     surface = pygame.Surface(size, 0, 32)
     colours = theme_of(theme)
     surface.fill(colours.background)
-    pen = pen_for(layout(size, Look()), Type(), colours)
+    pen = pen_for(layout(size), Type(), colours)
     plot = _plot(points, size, pen)
     draw(surface, axes(plot, pen), pen.type)
     _draw_names(surface, plot, names, pen)

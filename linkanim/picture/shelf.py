@@ -41,8 +41,7 @@ class Grid(NamedTuple):
 
 def grid(size: tuple[int, int], count: int) -> Grid:
     """Return the grid in which so many pictures are largest, their names below them inside their cells."""
-    look = Look(hud=False)
-    parts = layout(size, look)
+    parts = layout(size)
     gap, line = 14 * parts.unit, 1.5 * parts.small_size
     whole = Rect(0, 0, *size).inset(gap)
 
@@ -89,7 +88,7 @@ class ShelfPainter:
     def _frames(self, size: tuple[int, int], found: Grid, shelf: Shelf) -> pygame.Surface:
         """Return the frames and names, which stand still while the same mechanism is chosen."""
         if self._framed is None or self._framed[0] != shelf.chosen:
-            board = Board(layout(size, Look(hud=False)), self._type, theme_of(shelf.theme))
+            board = Board(layout(size), self._type, theme_of(shelf.theme))
             sheet = pygame.Surface(size, 0, 32)
             sheet.fill(board.theme.background)
             for n, cell in enumerate(found.cells):

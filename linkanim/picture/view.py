@@ -28,6 +28,13 @@ class Rect(NamedTuple):
         """Return it without a border of that width; never smaller than one pixel."""
         return Rect(self.x + by, self.y + by, max(self.width - 2 * by, 1), max(self.height - 2 * by, 1))
 
+    def meets(self, other: Rect) -> bool:
+        """Return whether the two overlap."""
+        apart = (
+            other.x >= self.right or self.x >= other.right or other.y >= self.bottom or self.y >= other.bottom
+        )
+        return not apart
+
     def holds(self, x: float, y: float) -> bool:
         """Return whether a position lies in it."""
         return self.x <= x <= self.right and self.y <= y <= self.bottom
@@ -40,6 +47,11 @@ class Box(NamedTuple):
     low: float
     right: float
     high: float
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Its middle."""
+        return (self.left + self.right) / 2, (self.low + self.high) / 2
 
 
 def joined(one: Box, other: Box) -> Box:

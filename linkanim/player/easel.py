@@ -64,8 +64,9 @@ class Easel:
         return surface
 
     def _fitting(self, state: State, size: tuple[int, int]) -> Canvas:
-        if self._canvas is None or self._canvas.made_for != (id(state.shown), size, state.look):
-            self._canvas = Canvas(state.shown, size, state.look, self._canvas)
+        listed = state.editing.open or state.listing is not None
+        if self._canvas is None or not self._canvas.fits(state.shown, size, state.look, listed=listed):
+            self._canvas = Canvas(state.shown, size, state.look, self._canvas, both=True, listed=listed)
         return self._canvas
 
     @property

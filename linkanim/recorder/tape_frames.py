@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from linkanim.player.tape import Tape
     from linkanim.recorder.process import Frame
 
+_WHOLE_VIEW = frozenset(("closure", "ghost", "zoom", "pan"))
+"""Actions that need the window's view, which holds both closures; else the one shown takes the room."""
+
 
 class TapeFrames:
     """Pictures of what a tape does. Drawn in their order each costs one; going back starts anew."""
@@ -32,6 +35,7 @@ class TapeFrames:
         self.alpha = not tape.start.look.background
         self.colours = tuple(colour for theme in _themes(tape) for colour in theme_colours(theme))
         self._tape = tape
+        self._both = any(action.name in _WHOLE_VIEW for _, action in tape.actions)
         self._fps = fps
         self._surface = offscreen(size, alpha=self.alpha)
         self._canvas: Canvas | None = None
@@ -51,9 +55,8 @@ class TapeFrames:
         return next(islice(self._ahead, skipped, None))
 
     def _canvas_for(self, state: State) -> Canvas:
-        look = (id(state.shown), self.size, state.look)
-        if self._canvas is None or self._canvas.made_for != look:
-            self._canvas = Canvas(state.shown, self.size, state.look, self._canvas)
+        if self._canvas is None or not self._canvas.fits(state.shown, self.size, state.look):
+            self._canvas = Canvas(state.shown, self.size, state.look, self._canvas, both=self._both)
         return self._canvas
 
 

@@ -12,8 +12,8 @@ from linkanim.mechanics.kinds import RPP, RPR, RRP, Crank, Line, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture.bodies import body_parts, colours_of
 from linkanim.picture.figure import figure
-from linkanim.picture.fittings import fittings_box
 from linkanim.picture.layout import gauge
+from linkanim.picture.sweep import sweep_of
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import View
 from linkanim.scenes import load
@@ -94,7 +94,7 @@ def test_a_guide_goes_along_with_the_body_that_carries_it_and_is_in_the_picture(
     shown = figure(Scene("ram", "Ram", "", "mm", Linkage(joints, base.drive), ("J",)))
     bar, _, slot, block = (part for part in body_parts(shown, VIEW, GAUGE, LIGHT) if part.tail == "O4")
     assert (bar.at, slot.at, block.at) == ("O4", "O4", "J")
-    wide = fittings_box(shown, shown.box)
+    wide = sweep_of(shown).box
     for phase in (0.0, 1.0, 2.5, 4.0):
         pose = shown.scene.pose(phase)
         places = {name: complex(x, -y) for name, (x, y) in pose.position.items()}

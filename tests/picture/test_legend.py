@@ -9,7 +9,8 @@ import pytest
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
 from linkanim.picture.legend import Legend, legend_for
-from linkanim.picture.look import ACCELERATION, VELOCITY, Look
+from linkanim.picture.look import ACCELERATION, VELOCITY
+from linkanim.picture.staging import Wanted, staged
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.vectors import arrows_of
@@ -33,10 +34,11 @@ def test_the_key_says_what_its_arrow_stands_for_at_any_speed() -> None:
 
 @pytest.mark.parametrize("size", [(400, 800), (480, 270), (640, 360), (1280, 720), (3840, 2160)])
 def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
-    shown, type_, look = figure(load("press")), Type(), Look(vectors=frozenset("va"))
+    shown, type_ = figure(load("press")), Type()
     measure = gauge(1.0, 100.0)
     kinds = tuple(arrows_of(shown, kind, size[1], measure, LIGHT) for kind in (VELOCITY, ACCELERATION))
-    legend = legend_for(kinds, layout(size, look), type_, LIGHT)
+    parts = staged(load("press"), None, Wanted(size, False, 2, True, False), type_).arrangement.layout
+    legend = legend_for(kinds, parts, type_, LIGHT)
     assert legend is not None
     for kind in kinds:
         words = [kind.words, legend.meaning(kind, kind.drive)]
@@ -45,4 +47,4 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
 
 
 def test_there_is_no_key_without_arrows() -> None:
-    assert legend_for((), layout((640, 360), Look()), Type(), LIGHT) is None
+    assert legend_for((), layout((640, 360)), Type(), LIGHT) is None

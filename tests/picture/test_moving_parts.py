@@ -13,13 +13,14 @@ from pictures import pixels
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.gears import Pair, pairs, wheel_layers, wheel_parts, wheels_box
+from linkanim.picture.gears import Pair, pairs, wheel_layers, wheel_parts, wheels
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
+from linkanim.picture.sweep import sweep_of
 from linkanim.picture.theme import DARK, LIGHT, Theme, contrast
 from linkanim.picture.trace import traces
 from linkanim.picture.vectors import LONGEST, arrows_of
@@ -182,9 +183,13 @@ def test_gears_on_one_pivot_have_nothing_to_show() -> None:
 
 
 def test_wheels_are_part_of_what_must_be_seen(press: Figure) -> None:
-    wide = wheels_box(press, press.box)
+    wide = sweep_of(press).box
     assert wide.left <= -165 * 1.05
     assert wide.high >= 165 * 1.05
+    for wheel in wheels(press):
+        middle = press.start(wheel.centre)
+        assert wide.left <= middle.real - wheel.reach
+        assert wide.high >= middle.imag + wheel.reach
 
 
 @pytest.mark.parametrize("phase", [0.0, 0.001, 1.0, 6.2831, 50.0])
@@ -326,4 +331,4 @@ def test_a_planet_that_keeps_its_arm_s_turning_has_no_wheels_and_a_slower_one_a_
 
 def test_a_ring_is_part_of_what_must_be_seen() -> None:
     shown = figure(planetary(Fraction(-1)))
-    assert wheels_box(shown, shown.box).right > 80.0
+    assert sweep_of(shown).box.right > 80.0

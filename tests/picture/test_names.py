@@ -54,8 +54,8 @@ def _gap(one: Rect, other: Rect) -> float:
 def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size: tuple[int, int]) -> None:
     scene = load(name)
     painter = Painter(scene, size, Look(names=1, chart="A.velocity" if name == "press" else None))
-    gauge, hud, chart = painter.drawing.scenery.gauge, painter._layout.hud, painter._layout.chart
-    assert hud
+    gauge, words, reach = painter.drawing.scenery.gauge, painter._layout.words, painter._layout.reach
+    assert words
     for phase in np.linspace(0, scene.period, 31):
         pose = scene.pose(float(phase))
         labels = list(_standing(painter, pose))
@@ -63,9 +63,9 @@ def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size:
         for (one, box), (other, second) in combinations(labels, 2):
             assert _gap(box, second) > -1.0, (one, other, phase)
         for text, box in labels:
-            assert _gap(box, hud) > -1.0, text
-            assert 0 <= box.x < box.right <= size[0], text
-            assert 0 <= box.y < box.bottom <= (chart.y if chart else size[1]), text
+            assert all(_gap(box, rect) > -1.0 for rect in words), text
+            assert 0 <= box.x < box.right <= reach.right, text
+            assert 0 <= box.y < box.bottom <= reach.bottom, text
             for pin in pins:
                 x, y = min(max(pin.real, box.x), box.right), min(max(pin.imag, box.y), box.bottom)
                 assert abs(pin - complex(x, y)) > gauge.pin - 1.0, (text, phase)

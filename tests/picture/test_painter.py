@@ -14,7 +14,7 @@ from pictures import BARE, SMALL, alphas, painted, pixels
 
 from linkanim.bench.fidelity import frame_decibels
 from linkanim.errors import BadInput
-from linkanim.picture import drawing, hud
+from linkanim.picture import drawing, staging
 from linkanim.picture import painter as painting
 from linkanim.picture.bodies import colours_of
 from linkanim.picture.figure import figure
@@ -23,7 +23,6 @@ from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import EditRow, Overlay, Panel, Quantities
 from linkanim.picture.painter import Painter
-from linkanim.picture.quantities import quantities
 from linkanim.picture.shapes import hull
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load, names
@@ -91,7 +90,7 @@ def test_what_stands_still_is_drawn_once(monkeypatch: pytest.MonkeyPatch) -> Non
         monkeypatch.setattr(module, name, count)
 
     of_painter, of_drawing = (
-        ("figure", "strip", "hud_for"),
+        ("staged", "strip"),
         ("ground_layers", "wheel_layers", "traces", "body_parts"),
     )
     for module, once in ((painting, of_painter), (drawing, of_drawing)):
@@ -152,12 +151,14 @@ def test_a_step_of_a_pan_measures_the_hud_no_more(monkeypatch: pytest.MonkeyPatc
     before = Painter(scene, (640, 360), Look())
 
     def refused(*_: object) -> None:
-        raise AssertionError("the HUD is measured again")
+        raise AssertionError("the scene is measured again")
 
-    monkeypatch.setattr(hud, "rows", refused)
+    for name in ("said_of", "sweep_of", "figure", "arranged"):
+        monkeypatch.setattr(staging, name, refused)
     after = Painter(scene, (640, 360), replace(Look(), pan=(0.1, 0.2), zoom=2.0), before=before)
     assert after.view != before.view
     assert after._hud is before._hud
+    Painter(scene, (640, 360), replace(Look(), theme="dark"), before=before)
 
 
 @pytest.mark.parametrize("change", [{"theme": "dark"}, {"vectors": frozenset("va")}, {"chart": "3.angle"}])
@@ -167,21 +168,7 @@ def test_a_hud_follows_its_theme_and_its_place(change: dict[str, Any]) -> None:
     taken, new = (Painter(scene, (640, 360), look, before=first)._hud for first in (before, None))
     assert taken is not None
     assert new is not None
-    assert (taken.column, taken.size, taken.lines) == (new.column, new.size, new.lines)
-
-
-@pytest.mark.parametrize(("chart", "bottom"), [(None, 350), ("coupler.angle", 253)])
-def test_the_view_holds_all_that_the_linkage_sweeps_beside_the_hud_and_above_the_chart(
-    chart: str | None, bottom: int
-) -> None:
-    for name in names():
-        scene = load(name)
-        look = Look(chart=chart if chart in quantities(scene) else None)
-        painter = Painter(scene, (640, 360), look)
-        points = np.concatenate(list(scene.cycle(90).position.values()))
-        placed = np.array([painter.view.to_pixel(*point) for point in points])
-        assert np.all(placed.min(axis=0) > (160, 10)), name
-        assert np.all(placed.max(axis=0) < (630, bottom if look.chart else 350)), name
+    assert (taken.place, taken.block, taken.theme) == (new.place, new.block, new.theme)
 
 
 def test_without_a_background_only_what_is_drawn_is_opaque() -> None:

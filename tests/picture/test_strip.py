@@ -24,7 +24,7 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
 
-WINDOW: Layout = layout((640, 360), Look(chart="x"))
+WINDOW: Layout = layout((640, 360), chart=True)
 
 
 def _strip(scene: str, token: str, speed: float | None = None) -> Strip:

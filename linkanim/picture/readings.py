@@ -1,0 +1,138 @@
+"""What the HUD tells of a pose: its rows of numbers, and what is special about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees, floor, inf, log10, pi, tau
+from typing import NamedTuple
+
+from linkanim.digits import stepped
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.driven import driven_name, sign_of, speed_in, speed_unit, speed_words
+from linkanim.scenes.scene import Scene
+
+_NEAR_LIMIT = 0.06 * pi
+"""How near to a limit, in phase, the HUD says so: there the input has 1 % of its swing left."""
+_NEAR_CHANGE = pi / 45
+_HELD, _EASED = 0.2, 0.5
+"""How long a note stands before and after the instant it is about, and how long it comes and goes, in s."""
+_READ = 0.36
+"""A note is not read where the next follows in this time (s), and well where it does in twice of it."""
+
+
+class Row(NamedTuple):
+    """A name and its value; the name stays while the value moves."""
+
+    label: str
+    value: str
+
+
+def rows(scene: Scene, pose: Pose) -> tuple[Row, ...]:
+    """Return the numbers of a pose: the same names in the same order at every pose of a scene.
+
+    The input's speed is the pose's: of an input that swings, how often it does and its angular velocity
+    at this instant. Speeds are in the unit that the scene states its own in; forces appear where they are
+    known; lengths are in the scene's unit, forces in newtons, tension positive.
+    """
+    return tuple(row for _, row in ranked(scene, pose))
+
+
+def ranked(scene: Scene, pose: Pose) -> Iterator[tuple[int, Row]]:
+    """Yield the rows, each with its rank: those of the highest are the first to go where there is no room."""
+    yield from _input_rows(scene, pose)
+    yield from _strut_rows(scene, pose)
+
+
+def _input_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Row]]:
+    info, name = scene.info, f"{driven_name(scene)} angle"
+    if info.full_turn:
+        yield 0, Row(name, _turned(pose.crank_angle))
+        yield 1, Row("input speed", speed_words(scene, pose.input_speed))
+    else:
+        low, high = info.input_range
+        yield 0, Row(name, _deg(pose.crank_angle))
+        yield 5, Row("input range", f"{_deg(low)}…{_deg(high)}")
+        yield 1, Row("input rate", speed_words(scene, pose.input_speed))
+        yield 3, Row("angular velocity", _live(scene, pose))
+    if info.true_period != 1:
+        yield 6, Row("true period", f"{info.true_period} turns")
+
+
+def _live(scene: Scene, pose: Pose) -> str:
+    """Return the driven bar's angular velocity in words, always with as many decimals."""
+    unit = speed_unit(scene)
+    largest = abs(speed_in(unit, scene.linkage.drive.speed))
+    step = 10.0 ** (floor(log10(largest)) - 2)
+    return f"{stepped(speed_in(unit, pose.crank_rate), step)} {sign_of(unit)}"
+
+
+def _strut_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Row]]:
+    unit = scene.length_unit
+    for name, spring in pose.spring.items():
+        yield 4, Row(f"spring {name}", f"{stepped(spring.length, 0.1)} {unit}")
+        if spring.force is not None:
+            yield 2, Row("spring force", f"{stepped(spring.force, 0.1)} N")
+    for name, damper in pose.damper.items():
+        yield 4, Row(f"damper {name}", f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s")
+        if damper.force is not None:
+            yield 2, Row("damper force", f"{stepped(damper.force, 0.1)} N")
+
+
+class Note(NamedTuple):
+    """What is special about a pose, and how clearly it is said, in eighths: 0 is not at all."""
+
+    words: str
+    eighths: int
+
+
+def note(scene: Scene, pose: Pose) -> Note:
+    """Return what is special here: the nearest limit of the input or change point.
+
+    It is eased in before and out after, in time as in angle, and gives way where another is as near.
+    Where they follow each other too fast to be read, none is said.
+    """
+    known = [(_nearness(pose, away, near), words) for away, near, words in _special(scene, pose)]
+    (most, words), (next_most, _), *_ = (*sorted(known, reverse=True), (0.0, ""), (0.0, ""))
+    pause = tau / max(len(known), 1) / abs(pose.input_speed) if pose.input_speed else inf
+    return Note(words, round(8 * (most - next_most) * eased(pause / _READ - 1.0)))
+
+
+def _nearness(pose: Pose, away: float, near: float) -> float:
+    """Return 1 at a special phase, 0 far `away` (rad of phase), eased between, at the speed it runs by."""
+    by_angle = eased(2.0 - 2.0 * away / near)
+    seconds = away / abs(pose.input_speed) if pose.input_speed else inf
+    return max(by_angle, eased(1.0 + (_HELD - seconds) / _EASED))
+
+
+def eased(share: float) -> float:
+    """Return 0 up to 0, 1 from 1 on, and a smooth step between."""
+    share = min(max(share, 0.0), 1.0)
+    return share * share * (3.0 - 2.0 * share)
+
+
+def notes(scene: Scene) -> tuple[str, ...]:
+    """Return all that `note` ever says of a scene."""
+    return tuple(words for *_, words in _special(scene, scene.pose(0.0)))
+
+
+def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
+    """Yield the input's limits and change points: how far away, how far is near (rad of phase), in words."""
+    info = scene.info
+    if not info.full_turn:
+        for limit, at in zip(info.input_range, (0.0, pi), strict=True):
+            yield _apart(pose.phase, at), _NEAR_LIMIT, f"near the limit {_deg(limit)}"
+    for point in info.change_points:
+        yield _apart(pose.crank_angle, point), _NEAR_CHANGE, f"near the change point {_turned(point)}"
+
+
+def _deg(angle: float) -> str:
+    return f"{stepped(degrees(angle), 0.1)}°"
+
+
+def _turned(angle: float) -> str:
+    """Return an angle within one turn, rounded first, so that none reads 360°."""
+    return f"{stepped(round(degrees(angle) % 360, 1) % 360, 0.1)}°"
+
+
+def _apart(one: float, other: float) -> float:
+    return abs((one - other + pi) % tau - pi)

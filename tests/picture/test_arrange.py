@@ -1,0 +1,229 @@
+"""The scene takes the room, and the words what its motion leaves of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pygame
+import pytest
+from pictures import pixels
+
+from linkanim.picture.look import Look
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.overlay import EditRow, Overlay, Panel
+from linkanim.picture.painter import Painter
+from linkanim.picture.quantities import quantities
+from linkanim.picture.staging import Wanted, staged
+from linkanim.picture.text import Type
+from linkanim.picture.theme import theme_of
+from linkanim.picture.view import Rect
+from linkanim.picture.words import unsaid
+from linkanim.scenes import load, names
+from linkanim.scenes.closure import ghost_of
+
+FORMATS = ((1280, 720), (1024, 768), (720, 1280), (320, 180))
+BACKGROUND = theme_of("light").background
+
+
+@cache
+def type_of_words() -> Type:
+    return Type()
+
+
+@pytest.mark.parametrize("size", FORMATS)
+@pytest.mark.parametrize("chart", [False, True])
+@pytest.mark.parametrize("name", names())
+def test_what_a_scene_sweeps_fills_the_height_or_the_width(
+    name: str, chart: bool, size: tuple[int, int]
+) -> None:
+    """At least 85 % of the one or 60 % of the other, of what a chart leaves; with the other closure, too."""
+    scene = load(name)
+    for other in (None, ghost_of(scene)):
+        staging = staged(scene, other, Wanted(size, chart, 0, True, False), type_of_words())
+        arrangement, box = staging.arrangement, staging.subject.sweep.box
+        left, low = arrangement.view.to_pixel(box.left, box.low)
+        right, high = arrangement.view.to_pixel(box.right, box.high)
+        stage = arrangement.layout.stage
+        assert low - high >= 0.85 * stage.height or right - left >= 0.6 * stage.width
+        assert stage.x <= left < right <= stage.right
+        assert stage.y <= high < low <= stage.bottom
+
+
+def _moments(name: str, count: int) -> Iterator[float]:
+    yield from np.linspace(0.0, load(name).period, count, endpoint=False)
+
+
+@pytest.mark.parametrize("size", [(640, 360), (320, 180)])
+@pytest.mark.parametrize("name", names())
+def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, int]) -> None:
+    scene, look = load(name), Look(chart=None)
+    painter, surface = Painter(scene, size, look), offscreen(size)
+    words = painter._layout.words
+    assert words
+    painter._hud = None
+    for phase in _moments(name, 24):
+        painter.paint(surface, scene.pose(float(phase)))
+        for rect in words:
+            assert (_part(surface, rect) == BACKGROUND).all(), phase
+
+
+@pytest.mark.parametrize("name", names())
+def test_all_that_is_drawn_lies_in_the_window(name: str) -> None:
+    scene, size = load(name), (640, 360)
+    painter, surface = Painter(scene, size, Look(hud=False)), offscreen(size)
+    edge = np.ones((size[1], size[0]), bool)
+    edge[2:-2, 2:-2] = False
+    for phase in _moments(name, 24):
+        painter.paint(surface, scene.pose(float(phase)))
+        assert (pixels(surface)[edge] == BACKGROUND).all(), phase
+
+
+def _part(surface: pygame.Surface, rect: Rect) -> np.ndarray:
+    left, top = round(rect.x), round(rect.y)
+    return pixels(surface)[top : round(rect.bottom), left : round(rect.right)]
+
+
+@pytest.mark.parametrize("size", [(320, 180), (480, 270), (1280, 720), (720, 1280)])
+@pytest.mark.parametrize("name", names())
+def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int, int]) -> None:
+    scene = load(name)
+    block = staged(scene, None, Wanted(size, False, 0, True, False), type_of_words()).arrangement.block
+    assert block is not None
+    assert " ".join(line.text for line in block.lines if line.strong) == scene.title
+    assert block.size >= max(10, 0.7 * min(21 * size[1] / 720, 21))
+    assert any(label.endswith("angle") for label in block.rows)
+
+
+@pytest.mark.parametrize("name", ["press", "six-bar", "rocker-driven"])
+def test_a_title_is_in_one_line_where_it_finds_room(name: str) -> None:
+    arrangement = staged(load(name), None, Wanted((1280, 720), False, 0, True, False), Type()).arrangement
+    assert arrangement.block is not None
+    assert arrangement.block.turns == 0
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (480, 270)])
+@pytest.mark.parametrize("name", names())
+def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
+    name: str, size: tuple[int, int]
+) -> None:
+    scene = load(name)
+    other = ghost_of(scene)
+    if other is None:
+        return
+    wanted = Wanted(size, False, 0, True, False)
+    one = staged(scene, other, wanted, type_of_words()).arrangement
+    two = staged(other, ghost_of(other), wanted, type_of_words()).arrangement
+    views = [(view.scale, view.x, view.y) for view in (one.view, two.view)]
+    assert views[0] == pytest.approx(views[1], abs=1e-6)
+    assert one.layout.hud == pytest.approx(two.layout.hud, abs=1e-6)
+
+
+def test_a_tall_scene_has_its_chart_beside_it_and_a_wide_one_below() -> None:
+    for name, beside in (("press", True), ("slider-crank", False)):
+        wanted = Wanted((1280, 720), True, 0, True, False)
+        layout = staged(load(name), None, wanted, type_of_words()).arrangement.layout
+        assert layout.chart is not None
+        assert (layout.chart.x >= layout.stage.right) == beside
+        assert (layout.chart.y >= layout.stage.bottom) != beside
+
+
+def test_a_scene_that_is_zoomed_does_not_reach_into_a_chart_beside_it() -> None:
+    scene = load("press")
+    look, size = Look(chart="C.velocity"), (640, 360)
+    fitted, near = (Painter(scene, size, replace(look, zoom=zoom)) for zoom in (1.0, 6.0))
+    reach = fitted._layout.reach
+    drawn = [offscreen(size), offscreen(size)]
+    for painter, surface in zip((fitted, near), drawn, strict=True):
+        painter.paint(surface, scene.pose(1.0))
+    left = round(reach.right)
+    one, other = (pixels(surface)[:, left:] for surface in drawn)
+    assert np.array_equal(one, other)
+
+
+def test_words_over_a_zoomed_scene_have_a_backing() -> None:
+    scene, size = load("press"), (640, 360)
+    near = Painter(scene, size, Look(zoom=6.0))
+    words, pivot = near._layout.words[-1], near.view.to_pixel(0.0, 0.0)
+    pan = ((words.x + words.width / 2 - pivot[0]) / 360, (words.y + words.height / 2 - pivot[1]) / 360)
+    painter, surface = Painter(scene, size, Look(zoom=6.0, pan=pan)), offscreen(size)
+    painter.paint(surface, scene.pose(1.0))
+    told = _part(surface, words)
+    painter._hud = None
+    painter.paint(surface, scene.pose(1.0))
+    bare = _part(surface, words)
+    covered = np.abs(bare - BACKGROUND).max(axis=-1) > 20
+    assert covered.mean() > 0.5
+    light = np.abs(told - BACKGROUND).max(axis=-1) < 12
+    assert light.mean() > 0.6
+
+
+def test_the_view_makes_room_for_the_edit_list() -> None:
+    for name in names():
+        staging = staged(load(name), None, Wanted((1280, 720), False, 0, True, True), type_of_words())
+        box, layout = staging.subject.sweep.box, staging.arrangement.layout
+        assert staging.arrangement.view.to_pixel(box.left, 0.0)[0] > layout.list_width + 10
+
+
+EDITED = Overlay(panel=Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="Esc closes"))
+
+
+def test_help_stands_beside_the_values_that_it_explains() -> None:
+    scene, size = load("crank-rocker"), (1280, 720)
+    painter, surface = Painter(scene, size, Look(), listed=True), offscreen(size)
+    painter.paint(surface, scene.pose(1.0), EDITED)
+    plain = pixels(surface)
+    lines = tuple((f"key {n}", "what it does, in a few words") for n in range(9))
+    helped = replace(EDITED, help=(("edit", lines),))
+    painter.paint(surface, scene.pose(1.0), helped)
+    panel = (plain == theme_of("light").chosen).all(axis=-1)
+    rows, columns = np.nonzero(panel)
+    within = np.s_[rows.min() : rows.max(), columns.min() : columns.max()]
+    assert np.array_equal(pixels(surface)[within], plain[within])
+    assert not np.array_equal(pixels(surface)[:, 640:], plain[:, 640:])
+
+
+@pytest.mark.parametrize("name", ["press", "crank-rocker"])
+def test_a_toast_does_not_lie_on_the_chart(name: str) -> None:
+    scene, size = load(name), (1280, 720)
+    chart = next(token for token in quantities(scene) if token.endswith("acceleration"))
+    painter, surface = Painter(scene, size, Look(chart=chart)), offscreen(size)
+    painter.paint(surface, scene.pose(1.0))
+    plain = pixels(surface)
+    painter.paint(surface, scene.pose(1.0), Overlay(toast="recordings/a-file-of-mine.gif is written"))
+    changed = np.any(pixels(surface) != plain, axis=-1)
+    rows, columns = np.nonzero(changed)
+    stage = painter._layout.stage
+    assert rows.size
+    assert stage.x <= columns.min() <= columns.max() < stage.right
+    assert stage.y <= rows.min() <= rows.max() < stage.bottom
+
+
+@pytest.mark.parametrize("size", [(640, 360), (720, 1280)])
+@pytest.mark.parametrize("name", names())
+def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) -> None:
+    layout = staged(load(name), None, Wanted(size, False, 0, True, False), type_of_words()).arrangement.layout
+    assert not any(layout.marks.meets(rect) for rect in layout.words)
+
+
+@pytest.mark.parametrize(
+    ("title", "class_name", "rest"),
+    [
+        # the title says it all, in the same words or in others
+        ("Grashof double-rocker", "Grashof double-rocker", ""),
+        ("Triple-rocker, inward-outward", "triple-rocker (inward/outward)", ""),
+        ("Parallelogram", "parallelogram", ""),
+        # it says a part
+        ("Crank-rocker", "Grashof crank-rocker", "Grashof"),
+        ("Kite", "kite (change point)", "change point"),
+        ("Drag link", "Grashof drag-link (double crank)", "Grashof (double crank)"),
+        ("Six-bar: two in series", "six-bar: crank-rocker, then kite", "crank-rocker, then kite"),
+        # nothing, or half a word
+        ("My machine", "Grashof crank-rocker", "Grashof crank-rocker"),
+        ("A rocker of mine", "Grashof crank-rocker", "Grashof crank-rocker"),
+    ],
+)
+def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, rest: str) -> None:
+    assert unsaid(title, class_name) == rest
