@@ -13,11 +13,11 @@ from typing import TextIO
 
 import numpy as np
 
-from linkanim import units
 from linkanim.cli import table
 from linkanim.cli.commands import EVERY_ANGLE
-from linkanim.cli.strict import finite, json_text
-from linkanim.cli.tree import BLOCK, Leaf, Tree, leaves, rows, tree
+from linkanim.cli.strict import json_text
+from linkanim.cli.sweeping import Block, Steps, blocks
+from linkanim.cli.tree import Leaf, Tree, leaves, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.motion import Motion
@@ -28,12 +28,11 @@ from linkanim.whole import checked_target, replacing
 
 @dataclass(frozen=True)
 class Asked:
-    """Where to solve: `by` is "angle" (of the crank) or "phase"; one value, or those of a sweep."""
+    """Where to solve: `by` is "angle" (of the crank) or "phase"; one value in radians, or a sweep's steps."""
 
     by: str
-    degrees: tuple[float, ...]
-    radians: tuple[float, ...]
-    sweep: bool
+    value: float = 0.0
+    steps: Steps | None = None
 
 
 def run(options: Namespace) -> None:
@@ -46,17 +45,18 @@ def run(options: Namespace) -> None:
     target = _target(options.csv)
     scene = load(options.scene)
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
-    motion = _solved(scene, asked, speed, options.acceleration)
-    head = {"scene": scene.name, "angle": None, "phase": None, "speed": speed}
-    head |= {"acceleration": options.acceleration, "length_unit": scene.length_unit}
-    found = _found(scene, motion, asked)
-    poses = ({**head, **row} for row in rows(found, len(asked.radians)))
+    found = _blocks(scene, asked, speed, options.acceleration)
     if options.csv:
-        _write_csv(target, asked, found)
-    elif options.json:
-        _print_json(poses, asked.sweep)
+        _write_csv(target, asked.by, found)
+        return
+    head: Tree = {"scene": scene.name, "angle": None, "phase": None}
+    head |= {"time": None} if asked.steps else {}
+    head |= {"speed": speed, "acceleration": options.acceleration, "length_unit": scene.length_unit}
+    poses = ({**head, **row} for block in found for row in rows(block.found))
+    if options.json:
+        _print_json(poses, asked.steps is not None)
     else:
-        words = table.of_sweep if asked.sweep else table.of_pose
+        words = table.of_sweep if asked.steps else table.of_pose
         print(words(scene, poses))
 
 
@@ -66,9 +66,7 @@ def _asked(options: Namespace) -> Asked:
         return _one(angle, phase, options.csv)
     if angle is not None or phase not in (None, EVERY_ANGLE):
         raise BadInput("--sweep goes with no other angle; write --phase alone to sweep the phase")
-    degrees = tuple(sweep.degrees())
-    radians = tuple(units.angle(f"{value!r} deg") for value in degrees)
-    return Asked("phase" if phase is EVERY_ANGLE else "angle", degrees, radians, sweep=True)
+    return Asked("phase" if phase is EVERY_ANGLE else "angle", steps=Steps.of(sweep))
 
 
 def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Asked:
@@ -79,29 +77,31 @@ def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Aske
     given = [(by, value) for by, value in (("angle", angle), ("phase", phase)) if value is not None]
     if len(given) != 1:
         raise BadInput('say where to solve: one of --angle "87 deg", --phase "87 deg" and --sweep 0:360:1')
-    by, value = given[0]
-    return Asked(by, (math.degrees(value),), (value,), sweep=False)
+    return Asked(*given[0])
 
 
-def _solved(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Motion:
-    """Solve for all inputs at once; `OutOfRange` where there is one only and it cannot be reached."""
-    inputs = np.array(asked.radians)
-    if asked.by == "phase":
-        return scene.solve(phase=inputs, speed=speed, acceleration=acceleration)
-    motion = scene.solve(angle=inputs, speed=speed, acceleration=acceleration)
-    if not asked.sweep and any(np.isnan(points).any() for points in motion.position.values()):
-        low, high = (f"{significant(math.degrees(limit), 6)} deg" for limit in scene.info.input_range)
-        raise OutOfRange(
-            f"{scene.name}: --angle {significant(asked.degrees[0], 6)} deg cannot be reached; "
-            f"the crank angle goes from {low} to {high} (--phase runs through both limits)"
-        )
-    return motion
+def _blocks(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Iterator[Block]:
+    """Yield what was asked for, row by row in blocks; `OutOfRange` where one angle cannot be reached."""
+
+    def solve(inputs: Leaf) -> Motion:
+        return scene.solve(**{asked.by: inputs}, speed=speed, acceleration=acceleration)  # type: ignore[arg-type]
+
+    if asked.steps is not None:
+        yield from blocks(scene, asked.steps, asked.by, speed, solve)
+        return
+    motion = solve(np.array([asked.value]))
+    if any(np.isnan(points).any() for points in motion.position.values()):
+        raise _beyond(scene, asked.value)
+    where = {"angle": motion.crank_angle, "phase": motion.phase, asked.by: np.array([asked.value])}
+    yield Block(np.degrees([asked.value]), {**where, **tree(scene, motion)})
 
 
-def _found(scene: Scene, motion: Motion, asked: Asked) -> Tree:
-    """Return what is known at each input; the input is as it was asked, also where nothing else is."""
-    where = {"angle": motion.crank_angle, "phase": motion.phase, asked.by: np.array(asked.radians)}
-    return {**where, **tree(scene, motion)}
+def _beyond(scene: Scene, angle: float) -> OutOfRange:
+    low, high = (f"{significant(math.degrees(limit), 6)} deg" for limit in scene.info.input_range)
+    return OutOfRange(
+        f"{scene.name}: --angle {significant(math.degrees(angle), 6)} deg cannot be reached; "
+        f"the crank angle goes from {low} to {high} (--phase runs through both limits)"
+    )
 
 
 def _print_json(objects: Iterator[Tree], sweep: bool) -> None:
@@ -121,24 +121,26 @@ def _target(name: str | None) -> Path | None:
     return None if name in (None, "-") else checked_target(str(name), (".csv",))
 
 
-def _write_csv(target: Path | None, asked: Asked, found: Tree) -> None:
+def _write_csv(target: Path | None, by: str, found: Iterator[Block]) -> None:
     if target is None:
-        _csv_rows(sys.stdout, asked, found)
+        _csv_rows(sys.stdout, by, found)
         return
     with replacing(target) as part, part.open("w", encoding="utf-8", newline="") as file:
-        _csv_rows(file, asked, found)
+        _csv_rows(file, by, found)
 
 
-def _csv_rows(file: TextIO, asked: Asked, found: Tree) -> None:
+def _csv_rows(file: TextIO, by: str, found: Iterator[Block]) -> None:
     """Write the input in degrees and then every quantity; what is not known is an empty cell."""
-    names, columns = zip(*leaves(found), strict=True)
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow([f"{asked.by}_deg", *names])
-    for start in range(0, len(asked.degrees), BLOCK):
-        part = slice(start, start + BLOCK)
-        writer.writerows(zip(asked.degrees[part], *(_cells(column[part]) for column in columns), strict=True))
+    for number, block in enumerate(found):
+        names, columns = zip(*leaves(block.found), strict=True)
+        if number == 0:
+            csv.writer(file, lineterminator="\n").writerow([f"{by}_deg", *names])
+        cells = zip(*map(_cells, (block.degrees, *columns)), strict=True)
+        file.write("".join(f"{','.join(row)}\n" for row in cells))
 
 
-def _cells(column: Leaf) -> list[object]:
-    values = column.tolist()
-    return values if np.isfinite(column).all() else [finite(value) for value in values]
+def _cells(column: Leaf) -> Iterator[str]:
+    """Return a column's cells: every digit, and nothing where there is no finite value."""
+    if np.isfinite(column).all():
+        return map(repr, column.tolist())
+    return (repr(value) if math.isfinite(value) else "" for value in column.tolist())

@@ -19,9 +19,6 @@ from linkanim.scenes.scene import Scene
 Leaf = NDArray[np.float64]
 Tree = dict[str, Any]
 
-BLOCK = 4096
-"""Rows that are turned into Python's own numbers at a time, so that a long sweep stays small."""
-
 
 def tree(scene: Scene, motion: Motion) -> Tree:
     """Return joints, bodies, springs and dampers of N poses, in the scene's unit, radians and seconds."""
@@ -76,17 +73,12 @@ def leaves(node: Any, name: str = "") -> Iterator[tuple[str, Any]]:
         yield from leaves(part, f"{name}.{key}" if name else key)
 
 
-def rows(node: Tree, count: int) -> Iterator[Tree]:
+def rows(node: Tree) -> Iterator[Tree]:
     """Yield the tree of each row, its leaves plain floats."""
-    for start in range(0, count, BLOCK):
-        block = _block(node, slice(start, start + BLOCK))
-        yield from (_row(block, row) for row in range(min(BLOCK, count - start)))
-
-
-def _block(node: Tree, part: slice) -> Tree:
     # a tuple is a leaf; a list would be a pair
-    return mapped(lambda leaf: tuple(leaf[part].tolist()), node)  # type: ignore[no-any-return]
+    plain = mapped(lambda leaf: tuple(leaf.tolist()), node)
+    yield from (_row(plain, row) for row in range(len(plain["phase"])))
 
 
-def _row(block: Tree, row: int) -> Tree:
-    return mapped(lambda leaf: leaf[row], block)  # type: ignore[no-any-return]
+def _row(plain: Tree, row: int) -> Tree:
+    return mapped(lambda leaf: leaf[row], plain)  # type: ignore[no-any-return]

@@ -21,10 +21,6 @@ class Sweep:
     step: Decimal
     rows: int
 
-    def degrees(self) -> list[float]:
-        """Return the angles in degrees, each rounded once from its exact value."""
-        return [float(self.first + self.step * k) for k in range(self.rows)]
-
 
 def sweep(text: str) -> Sweep:
     """Read `a:b:step` in degrees; b is included where it falls on a step."""

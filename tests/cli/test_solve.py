@@ -224,6 +224,7 @@ def test_the_words_and_cells_of_what_is_out_of_reach_have_no_phase(solve: Solve)
     row = dict(zip(cells[0].split(","), cells[2].split(","), strict=True))
     assert row.pop("angle_deg") == "120.0"
     assert float(row.pop("angle")) == math.radians(120)
+    assert float(row.pop("time")) == pytest.approx(math.radians(60) / (math.pi / 2))
     assert {name: value for name, value in row.items() if value and ".O" not in name} == {}
 
 

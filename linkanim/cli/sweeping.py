@@ -1,0 +1,106 @@
+"""The rows of a sweep, solved a block at a time: a long one takes no more memory than a short one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim import units
+from linkanim.cli.tree import Leaf, Tree, mapped, tree
+from linkanim.cli.values import Sweep
+from linkanim.mechanics.exact import two_product
+from linkanim.mechanics.motion import Motion
+from linkanim.scenes.scene import Scene
+
+BLOCK = 4096
+_WHOLE = 2**53
+"""Below this every whole number is a float."""
+
+
+class Block(NamedTuple):
+    """Neighbouring rows: the inputs in degrees, and what is known at each; leaves are arrays (N,)."""
+
+    degrees: Leaf
+    found: Tree
+
+
+@dataclass(frozen=True)
+class Steps:
+    """The inputs of a sweep, exact: row k is (first + step·k) / scale degrees, in whole numbers."""
+
+    first: int
+    step: int
+    scale: int
+    rows: int
+
+    @staticmethod
+    def of(sweep: Sweep) -> Steps:
+        """Return a sweep's decimals in whole numbers of their last digit."""
+        first, step = Fraction(sweep.first), Fraction(sweep.step)
+        scale = max(math.lcm(first.denominator, step.denominator), 1)
+        return Steps(int(first * scale), int(step * scale), scale, sweep.rows)
+
+    def degrees(self, start: int, stop: int) -> Leaf:
+        """Return rows in degrees, each rounded once."""
+        if not self._fits:
+            return np.array([float(Fraction(self._at(row), self.scale)) for row in range(start, stop)])
+        return self._counts(start, stop) / float(self.scale)
+
+    def radians(self, start: int, stop: int) -> Leaf:
+        """Return rows in radians, as `units.angle` reads them: by the float π, rounded once."""
+        if not self._fits:
+            return np.array([units.angle(f"{value!r} deg") for value in self.degrees(start, stop).tolist()])
+        exact = Fraction(math.pi) / (180 * self.scale)
+        high = float(exact)
+        counts = self._counts(start, stop)
+        product, lost = two_product(counts, high)
+        radians: Leaf = product + (lost + counts * float(exact - Fraction(high)))
+        return radians
+
+    @property
+    def _fits(self) -> bool:
+        """Whether all whole numbers are floats."""
+        return max(abs(self._at(0)), abs(self._at(self.rows)), self.scale) < _WHOLE
+
+    def _at(self, row: int) -> int:
+        return self.first + self.step * row
+
+    def _counts(self, start: int, stop: int) -> Leaf:
+        return (self.first + self.step * np.arange(start, stop)).astype(float)
+
+
+def blocks(
+    scene: Scene, steps: Steps, by: str, speed: float, solve: Callable[[Leaf], Motion]
+) -> Iterator[Block]:
+    """Yield a sweep's rows; `by` is "angle" or "phase", which runs at `speed` from time 0 in the first row.
+
+    Bodies' angles run on from block to block, which share a row for it.
+    """
+    start, last = steps.radians(0, 1)[0], None
+    for row in range(0, steps.rows, BLOCK):
+        shared, stop = int(row > 0), min(row + BLOCK, steps.rows)
+        inputs = steps.radians(row - shared, stop)
+        motion = solve(inputs)
+        time = (inputs - start) / speed if speed else np.full(len(inputs), np.nan)
+        where = {"angle": motion.crank_angle, "phase": motion.phase, by: inputs, "time": time}
+        found = _continued({**where, **tree(scene, motion)}, last)
+        last = found
+        yield Block(steps.degrees(row, stop), _without(found, shared))
+
+
+def _continued(found: Tree, last: Tree | None) -> Tree:
+    """Return rows whose bodies' angles go on from the last row of those before, which is their first."""
+    for name, body in found["bodies"].items():
+        if last is not None and "angle" in body:
+            turns = np.rint((last["bodies"][name]["angle"][-1] - body["angle"][0]) / math.tau)
+            body["angle"] = body["angle"] + math.tau * np.nan_to_num(turns)
+    return found
+
+
+def _without(found: Tree, rows: int) -> Tree:
+    return mapped(lambda leaf: leaf[rows:], found)  # type: ignore[no-any-return]
