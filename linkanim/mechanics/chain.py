@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
-from .clock import Clock, half_angle
+from .circular import sharp_half_angle
+from .clock import Clock
 from .exact import Sum
 from .expression import Value, maximum, select, sqrt
 from .planar import Moving, MovingPoint, Slope, Vec
@@ -114,7 +115,7 @@ class Touch:
     def _on_swing(self, clock: Clock, amplitude: float) -> Turning:
         assert clock.ends is not None
         if clock.phase is not None and self.turns > 1:
-            half = half_angle((clock.phase - self.place.high) * (1.0 / self.turns), sharp=True)
+            half = sharp_half_angle((clock.phase - self.place.high) * (1.0 / self.turns))
             return _turning(half.sine, half.cosine, clock.pace.scaled(0.5 / self.turns))
         scale = 1.0 / math.sqrt(amplitude)
         sine, cosine = clock.ends.root_v.scaled(scale), clock.ends.root_u.scaled(scale)

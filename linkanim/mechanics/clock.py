@@ -8,53 +8,14 @@ u = amp cos²(φ/2) and v = amp sin²(φ/2), half the ways left to its upper and
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from .circular import Half, cosine_of, half_angle, sharp_half_angle
 from .exact import Sum, two_product, two_sum
-from .expression import Value, cos, sqrt, tan
+from .expression import Value, sqrt
 from .planar import Moving, Slope
-
-
-@dataclass(frozen=True, slots=True)
-class Half:
-    """Half an angle: sine and cosine, signed over two turns, their squares and their product."""
-
-    sine: Value
-    cosine: Value
-    square: Value
-    cosine_square: Value
-    product: Value
-
-
-def half_of(sine: Value, cosine: Value) -> Half:
-    """Return the half angle of a sine and a cosine."""
-    return Half(sine, cosine, sine * sine, cosine * cosine, sine * cosine)
-
-
-def half_angle(angle: Value, *, sharp: bool = False) -> Half:
-    """Return half the angle from one tangent, the circular function that numpy computes many at a time.
-
-    Squares and product come from tan(x/2), each to its own last digit; the signed sine and cosine
-    from tan(x/4). That cosine is right to the last digit of 1; where it is `sharp`, to its own last
-    digit next to its zeros.
-    """
-    tangent = tan(angle * 0.5)
-    cosine_square = 1.0 / (tangent * tangent + 1.0)
-    product = tangent * cosine_square
-    t = tan(angle * 0.25)
-    share = 1.0 / (t * t + 1.0)
-    cosine = cos(angle * 0.5) if sharp else (1.0 - t) * (1.0 + t) * share
-    return Half((t + t) * share, cosine, tangent * product, cosine_square, product)
-
-
-def _turned(half: Half, rest: Value) -> Half:
-    """Return the half angle further by a rest below 1e-6."""
-    bend = rest * 0.5
-    return half_of(
-        half.sine + (half.cosine - half.sine * bend) * rest,
-        half.cosine - (half.sine + half.cosine * bend) * rest,
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,18 +55,20 @@ class Clock:
     ends: Ends | None = None
     phase: Value | None = None
 
-    def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, sharp: bool = False) -> Half:
+    def half(
+        self,
+        reference: Sum,
+        ratio: Fraction = Fraction(1),
+        *,
+        form: Callable[[Value, Value], Half] = half_angle,
+    ) -> Half:
         """Return half of ratio × θ - reference, to the last digit at any number of turns."""
         shift = self.origin * ratio - reference
         scaled, low = _scaled(self.angle, ratio)
-        if shift.high == 0 and shift.low == 0 and _is_zero(low):
-            return half_angle(scaled)
+        if shift.high == 0 and shift.low == 0:
+            return form(scaled, low)
         total, error = two_sum(scaled, shift.high)
-        return _turned(half_angle(total, sharp=True), (error + low + shift.low) * 0.5)
-
-
-def _is_zero(value: Value) -> bool:
-    return isinstance(value, float) and value == 0.0
+        return form(total, error + low + shift.low)
 
 
 def _scaled(x: Value, ratio: Fraction) -> tuple[Value, Value]:
@@ -115,6 +78,8 @@ def _scaled(x: Value, ratio: Fraction) -> tuple[Value, Value]:
     if q == 1:
         return product, lost
     quotient = product / q
+    if math.frexp(q)[0] == 0.5:
+        return quotient, lost / q
     back, error = two_product(quotient, q)
     return quotient, ((product - back) - error + lost) / q
 
@@ -126,7 +91,7 @@ def turn(x: Value, pace: Slope, origin: Sum) -> Clock:
 
 def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> Clock:
     """Return the clock of a swing driven by its phase."""
-    half = half_angle(phase, sharp=True)
+    half = sharp_half_angle(phase)
     scale = math.sqrt(amplitude)
     root_u, root_v = half.cosine * scale, half.sine * scale
     half_rate, bend = pace.value * 0.5, pace.rate * 0.5
@@ -142,7 +107,7 @@ def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> 
     rate = (both + both) * pace.value
     second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
     # A cosine of its own, not v - u: near the middle of the swing it keeps all its digits.
-    return Clock(cos(phase) * -amplitude, middle, rate, second, pace, ends, phase)
+    return Clock(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase)
 
 
 def swing_by_angle(angle: Value, u: Value, v: Value, pace: Slope, middle: Sum) -> Clock:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from .circular import direction
+
 QUARTER_TURN_HIGH = math.pi / 2
 QUARTER_TURN_LOW = 6.123233995736766e-17
 """π/2 is the sum of the two, to 32 digits."""
@@ -92,7 +94,7 @@ def unit(angle: float) -> tuple[float, float]:
     count = round(angle / QUARTER_TURN_HIGH)
     if quarter_turns(count).high == angle:
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[count % 4]
-    return math.cos(angle), math.sin(angle)
+    return direction(angle)
 
 
 def gap(*lengths: float) -> float:

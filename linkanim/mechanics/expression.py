@@ -10,13 +10,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+WHOLE = 2.0**52
+"""Added to a smaller number, it leaves no room for a fraction."""
 COMMUTES = frozenset({"add", "mul", "minimum", "maximum"})
 
 
 class Graph:
     """The operations noted so far; equal ones are one node."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, exact: bool = False) -> None:
+        self.exact = exact
+        """Whether it will be run in many digits, on functions that are right in all of them."""
         self._nodes: dict[tuple[object, ...], Expr] = {}
 
     def input(self, name: str, *, uniform: bool = False) -> Expr:
@@ -198,10 +202,13 @@ def _unary(op: str, plain: Callable[[float], float]) -> Callable[[Value], Value]
     return apply
 
 
+def nearest_whole(x: float) -> float:
+    """Return the whole number nearest a float below 2⁵² in size, of two the even one, as numpy's rint."""
+    return math.copysign((abs(x) + WHOLE) - WHOLE, x)
+
+
 sqrt = _unary("sqrt", math.sqrt)
-tan = _unary("tan", math.tan)
-sin = _unary("sin", math.sin)
-cos = _unary("cos", math.cos)
+rint = _unary("rint", nearest_whole)
 
 
 def minimum(a: Value, b: Value) -> Value:

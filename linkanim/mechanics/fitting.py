@@ -68,7 +68,7 @@ def refined(assembly: Assembly, name: str, phase: float, *, touching: bool) -> S
 
 
 def _by_phase(assembly: Assembly, name: str) -> tuple[Value, ...]:
-    return _outputs(assembly.walk_at(Graph().input("x"), Slope(1.0)).closings[name])
+    return _outputs(assembly.walk_at(Graph(exact=True).input("x"), Slope(1.0)).closings[name])
 
 
 def _outputs(closing: Closing) -> tuple[Value, ...]:
@@ -168,7 +168,7 @@ def _sampler(assembly: Assembly, name: str, zero: Zero) -> tuple[Callable[[Decim
 
 def _by_way(assembly: Assembly, path: Swing, name: str, *, upper: bool) -> Callable[[Decimal], Sample]:
     """Return the margin as a function of half the way to a limit."""
-    graph = Graph()
+    graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
     clock = swing_by_angle(v - u, u, v, Slope(0.0), path.middle)
     run = decimals(("u", "v"), _outputs(assembly.walk(clock).closings[name])[:1])

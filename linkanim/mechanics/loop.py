@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from linkanim.errors import AssemblyError
 
-from .clock import Clock, Half
+from .circular import Half, half_angle, sharp_half_angle
+from .clock import Clock
 from .exact import HALF_TURN, Sum, exact_angle, unit
+from .expression import Value
 from .planar import Slope, Vec
 from .roots import Kind, LoopRoot
 from .signed import SignedRoot, sharpened, sign_of_root, signed_root
@@ -72,7 +74,19 @@ class Loop:
         return sign_of_root(self.root, self._half(clock))
 
     def _half(self, clock: Clock) -> Half:
-        return clock.half(self.root.reference - self.gearing.offset, self.gearing.ratio)
+        reference = self.root.reference - self.gearing.offset
+        return clock.half(reference, self.gearing.ratio, form=self.form)
+
+    @property
+    def form(self) -> Callable[[Value, Value], Half]:
+        """How ψ/2 is worked out: with as many digits of its cosine as the root needs."""
+        return sharp_half_angle if self.root.u.kind is Kind.PLAIN and not self.root.wide else half_angle
+
+
+def form_of(crank: str, loops: Mapping[str, Loop]) -> Callable[[Value, Value], Half]:
+    """Return how the crank's own half angle is worked out: as a loop needs it whose ψ is that angle, too."""
+    own = (loop for loop in loops.values() if loop.pin == crank and loop.root.reference == STRAIGHT)
+    return next((loop.form for loop in own), half_angle)
 
 
 def gearings(linkage: Linkage) -> dict[str, Gearing]:

@@ -42,12 +42,6 @@ def cosine(angle: Decimal) -> Decimal:
     return sine_and_cosine(angle)[1]
 
 
-def tangent(angle: Decimal) -> Decimal:
-    """Return the tangent."""
-    found = sine_and_cosine(angle)
-    return found[0] / found[1]
-
-
 def sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
     """Return sine and cosine, by their series after whole right angles are taken off."""
     if not angle.is_finite():

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .expression import Expr, Value
-from .precise import cosine, sine, square_root, tangent
+from .expression import WHOLE, Expr, Value
+from .precise import cosine, sine, square_root
 
 Array = NDArray[np.floating[Any]]
 
@@ -26,9 +26,7 @@ BLOCK = 16384
 INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
 FLOAT_CALLS = {
     "sqrt": "sqrt({})",
-    "tan": "tan({})",
-    "sin": "sin({})",
-    "cos": "cos({})",
+    "rint": "copysign((abs({0}) + WHOLE) - WHOLE, {0})",
     "minimum": "min({}, {})",
     "maximum": "max({}, {})",
     "select": "({2} if {0} < {1} else {3})",
@@ -40,9 +38,7 @@ UFUNCS: Mapping[str, Callable[..., Any]] = {
     "div": np.divide,
     "neg": np.negative,
     "sqrt": np.sqrt,
-    "tan": np.tan,
-    "sin": np.sin,
-    "cos": np.cos,
+    "rint": np.rint,
     "minimum": np.minimum,
     "maximum": np.maximum,
 }
@@ -85,7 +81,7 @@ def _define(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., A
     return function
 
 
-FLOAT_NAMES = {"sqrt": math.sqrt, "tan": math.tan, "sin": math.sin, "cos": math.cos}
+FLOAT_NAMES = {"sqrt": math.sqrt, "copysign": math.copysign, "WHOLE": WHOLE}
 
 
 def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Callable[..., Any]:
@@ -100,7 +96,9 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     return _define(source, "pose", FLOAT_NAMES)
 
 
-DECIMAL_NAMES = {"sqrt": square_root, "tan": tangent, "sin": sine, "cos": cosine}
+DECIMAL_NAMES = {"sqrt": square_root, "sin": sine, "cos": cosine}
+DECIMAL_CALLS = {**FLOAT_CALLS, "sin": "sin({})", "cos": "cos({})"}
+"""Only graphs that are `exact` have sines and cosines."""
 
 
 def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., tuple[Decimal, ...]]:
@@ -115,7 +113,7 @@ def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., t
         return key
 
     lines = [
-        f"    {_name(node)} = {(INFIX.get(node.op) or FLOAT_CALLS[node.op]).format(*map(name, node.args))}"
+        f"    {_name(node)} = {(INFIX.get(node.op) or DECIMAL_CALLS[node.op]).format(*map(name, node.args))}"
         for node in needed(outputs)
         if node.op != "input"
     ]
@@ -176,7 +174,7 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
         tuple(outputs),
         _block(arrays, [*uniform, *map(_name, fixed)], plan),
         _prelude(uniform, fixed),
-        tuple(np.array(value) for value in plan.constants),
+        tuple(np.array(float.fromhex(digits)) for digits in plan.constants),
         plan.buffers,
     )
 
@@ -196,7 +194,7 @@ class _Plan:
         self.nodes = [node for node in nodes if node.op != "input"]
         self.places: dict[int, str] = {}
         self.copies: list[tuple[int, Value]] = []
-        self.constants: dict[float, str] = {}
+        self.constants: dict[str, str] = {}
         self.buffers = 0
         self.rows = len(outputs)
         inputs = {node.index for node in nodes if node.op == "input"}
@@ -233,7 +231,8 @@ class _Plan:
         if isinstance(value, Expr):
             return self.places.get(value.index) or _name(value)
         # An array of no dimension: numpy would make one of a plain number at every call.
-        return self.constants.setdefault(float(value), f"k{len(self.constants)}")
+        # Known by its digits: as keys, 0.0 and -0.0 would be one.
+        return self.constants.setdefault(float(value).hex(), f"k{len(self.constants)}")
 
     def lines(self) -> Iterator[str]:
         """Yield the numpy calls in order."""

@@ -20,6 +20,9 @@ from fractions import Fraction
 from .exact import Sum, gap, quarter_turns
 from .precise import context, nearest_sum, sine_and_cosine
 
+WIDE = 1 / 16
+"""Share of K above which U is its greatest value less K sin²(ψ/2)."""
+
 
 class Kind(Enum):
     """What one factor of the root does over the crank's turn."""
@@ -62,6 +65,11 @@ class LoopRoot:
     u: Factor
     w: Factor
     reference: Sum
+
+    @property
+    def wide(self) -> bool:
+        """True where U stays so far from zero that its digits do not hang on those of a small cosine."""
+        return self.u.least >= WIDE * self.spread or self.single
 
     @property
     def single(self) -> bool:

@@ -11,9 +11,10 @@ import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from .clock import Ends, Half, half_of
+from .circular import Half, cosine_within, half_of, sine_within
+from .clock import Ends
 from .exact import FULL_TURN, HALF_TURN, Sum
-from .expression import Value, cos, maximum, minimum, select, sin, sqrt
+from .expression import Value, maximum, minimum, select, sqrt
 from .planar import Moving, MovingPoint, Slope
 from .roots import Factor, Kind, LoopRoot
 
@@ -96,7 +97,7 @@ def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value, Value]:
     w = spread + root.w.least
     if root.single:
         return 1.0, w, 0.5
-    u = half.cosine_square * root.spread + root.u.least
+    u = root.u.most - spread if root.wide else half.cosine_square * root.spread + root.u.least
     return u, w, 0.5 * (root.u.most - root.w.least) - spread
 
 
@@ -128,7 +129,7 @@ class _Ways:
     @property
     def touching(self) -> Value:
         """cos(ψ/2) of U, sin(ψ/2) of W: to its own last digit, however near π the limits lie."""
-        return sin(minimum(self.x.value, self.y.value) + 0.5 * self.short) * self.sign
+        return sine_within(minimum(self.x.value, self.y.value) + 0.5 * self.short) * self.sign
 
 
 def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | None:
@@ -211,10 +212,10 @@ def _part(factor: Factor, value: Slope, touching: Slope, scale: float, ways: _Wa
 def _root_of_sine(x: Slope, supplement: Value, *, divided: bool) -> Slope:
     """Return √sin x, or √(sin x / x) where `divided`; near π the supplement keeps the digits."""
     safe = maximum(x.value, SMALLEST)
-    sine = sin(minimum(safe, supplement))
+    sine = sine_within(minimum(safe, supplement))
     if not divided:
         root = sqrt(sine)
-        return Slope(root, root * 0.5 * (cos(x.value) / sine) * x.rate)
+        return Slope(root, root * 0.5 * (cosine_within(x.value) / sine) * x.rate)
     root = sqrt(sine / safe)
     return Slope(root, root * 0.5 * _logarithmic_slope(x.value, safe, sine) * x.rate)
 
@@ -225,4 +226,4 @@ def _logarithmic_slope(x: Value, safe: Value, sine: Value) -> Value:
     fraction: Value = float(LAMBERT_DEPTH)
     for odd in range(LAMBERT_DEPTH - 2, 1, -2):
         fraction = float(odd) - square / fraction
-    return select(x, 1.0, -(x / fraction), cos(x) / maximum(sine, SMALLEST) - 1.0 / safe)
+    return select(x, 1.0, -(x / fraction), cosine_within(x) / maximum(sine, SMALLEST) - 1.0 / safe)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .clock import Half
+from .circular import Half
 from .expression import Value, sqrt
 from .planar import Moving, MovingPoint, Slope, Vec
 from .signed import Reduced, SignedRoot

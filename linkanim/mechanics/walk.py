@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 from linkanim.errors import AssemblyError
 
 from .chain import Closing
-from .clock import Clock, Half
+from .circular import Half
+from .clock import Clock
 from .expression import Value, sqrt
 from .frames import holding, share_of
 from .joint import Point

@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, NamedTuple
 
+from linkanim.mechanics.exact import unit
 from linkanim.mechanics.joint import Joint, Point
 from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
 from linkanim.scenes.check import Table
@@ -37,11 +38,8 @@ def side(table: Table, key: str, options: tuple[str, str]) -> int:
 
 def on_circle(length: float, angle: float) -> Point:
     """Return the point at `length` and `angle` (rad) from the origin, exact at multiples of pi/2."""
-    quarter = round(angle / (math.pi / 2))
-    if angle == quarter * (math.pi / 2):
-        along, left = ((1, 0), (0, 1), (-1, 0), (0, -1))[quarter % 4]
-        return along * length, left * length
-    return length * math.cos(angle), length * math.sin(angle)
+    along, left = unit(angle)
+    return along * length, left * length
 
 
 def polar_pin(name: str, base: Pin | None, length: float, angle: float) -> Pin:

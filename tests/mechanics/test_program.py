@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from linkanim.mechanics.expression import Expr, Graph, Value, maximum, minimum, select, sqrt, tan
+from linkanim.mechanics.expression import Expr, Graph, Value, maximum, minimum, rint, select, sqrt
 from linkanim.mechanics.program import BLOCK, batch, needed, scalar
 
 
@@ -18,7 +18,7 @@ def formulas(x: Value, w: Value) -> list[Value]:
         -(x * w) + x,
         (2.0 * x) * (3.0 * w),
         (-x - w) * 0.5,
-        select(x, 0.5, tan(x), -x),
+        select(x, 0.5, rint(x * 3.0), -x),
         maximum(minimum(x, w), 0.25),
         1.0 / square - x / 4.0,
         x,

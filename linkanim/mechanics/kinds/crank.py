@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.loop import form_of
 from linkanim.mechanics.planar import Vec, carried
 
 if TYPE_CHECKING:
@@ -60,8 +61,9 @@ class Crank(Joint):
         The difference is right to 1.3 eps of r, where 1 - 2 sin² is to 2.5.
         """
         gearing = walk.assembly.gears[self.name]
-        half = walk.clock.half(-gearing.offset, gearing.ratio)
-        arm = Vec((half.cosine_square - half.square) * self.length, half.product * (2.0 * self.length))
+        form = form_of(self.name, walk.assembly.loops)
+        half = walk.clock.half(-gearing.offset, gearing.ratio, form=form)
+        arm = Vec(half.difference * self.length, half.product * (2.0 * self.length))
         pace = walk.pace(gearing)
         walk.points[self.name] = walk.points[self.pivot] + carried(arm, pace)
         walk.add_piece(pace, (self.pivot, self.name), arm)

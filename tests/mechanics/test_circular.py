@@ -1,0 +1,157 @@
+"""Sines and cosines of our own: within a few last digits of the true ones, from floats and arrays alike."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+from linkanim.mechanics.circular import (
+    PI_PARTS,
+    cosine_within,
+    direction,
+    half_angle,
+    reduced,
+    sharp_half_angle,
+    sine_within,
+    tangent,
+)
+from linkanim.mechanics.expression import Value, nearest_whole
+
+EPS = 2.0**-52
+RANDOM = np.random.default_rng(10)
+TURN = 2 * math.pi
+WITHIN_A_TURN = RANDOM.uniform(-TURN, TURN, 500).tolist()
+NEAR_ZEROS = [k * math.pi + s * 10.0**-p for k in range(-4, 5) for s in (-1, 1) for p in (3, 6, 9, 12)]
+FAR = [turns * TURN + x for turns in (1e3, 1e6, 1e9) for x in WITHIN_A_TURN[:60]]
+ANGLES = [*WITHIN_A_TURN, *NEAR_ZEROS, *FAR, 0.0, math.pi, 2 * TURN]
+
+
+@pytest.fixture(autouse=True)
+def fifty_digits() -> Any:
+    with mp.workdps(50):
+        yield
+
+
+def plain(found: Value) -> float:
+    """The value as the float that it is when only floats went in."""
+    assert isinstance(found, float)
+    return found
+
+
+def units(found: Value, true: Any, *, of: Any = 1) -> float:
+    """The error in units of 2⁻⁵² of a size."""
+    return float(abs(mpf(plain(found)) - true) / abs(of)) / EPS
+
+
+def test_pi_is_the_sum_of_its_parts_and_the_first_two_are_short() -> None:
+    total = sum(mpf(part) for part in PI_PARTS)
+    assert abs(total - mp.pi) < mpf(2) ** -94
+    for part in PI_PARTS[:2]:
+        assert part.as_integer_ratio()[0].bit_length() <= 21
+
+
+def test_the_tangent_is_good_to_its_last_digit_but_one() -> None:
+    angles = [*RANDOM.uniform(-math.pi, math.pi, 3000).tolist(), math.pi, -math.pi, 1e-9]
+    errors = []
+    for angle in angles:
+        true = 4 * mp.tan(mpf(angle) / 4)
+        errors.append(units(tangent(angle, 4.0), true, of=true))
+    assert max(errors) <= 0.75
+
+
+@pytest.mark.parametrize("turns", [1.0, 2.0, 4.0])
+def test_what_is_left_of_an_angle_has_all_its_digits(turns: float) -> None:
+    for angle in ANGLES:
+        for rest in (0.0, 1e-17 * angle):
+            n, left = (plain(value) for value in reduced(angle, rest, turns))
+            true = mpf(angle) + mpf(rest) - n * turns * mp.pi
+            assert abs(left) <= turns * math.pi / 2 * (1 + 1e-6)
+            least = abs(n) * turns * 1e-28 + abs(rest) * EPS
+            assert abs(left - true) <= abs(true) * mpf(2) ** -53 * 1.01 + least
+
+
+FORMS = {"half": half_angle, "sharp": sharp_half_angle}
+BOUNDS = {
+    "half": {"sine": 2, "cosine": 2.5, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2},
+    "sharp": {"sine": 1.2, "cosine": 1.2, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2},
+}
+
+
+def true_half(angle: float, rest: float) -> dict[str, Any]:
+    x = (mpf(angle) + mpf(rest)) / 2
+    s, c = mp.sin(x), mp.cos(x)
+    squares = {"square": s * s, "cosine_square": c * c, "product": s * c, "difference": c * c - s * s}
+    return {"sine": s, "cosine": c, **squares}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_half_an_angle_is_good_to_a_few_last_digits_of_one(form: str) -> None:
+    worst = dict.fromkeys(BOUNDS[form], 0.0)
+    for angle in ANGLES:
+        rest = 3e-17 * angle
+        half = FORMS[form](angle, rest)
+        for name, true in true_half(angle, rest).items():
+            worst[name] = max(worst[name], units(getattr(half, name), true))
+    assert all(worst[name] <= bound for name, bound in BOUNDS[form].items()), worst
+
+
+@pytest.mark.parametrize(
+    ("form", "names"),
+    [("half", ["sine", "square"]), ("sharp", ["sine", "cosine", "square", "cosine_square", "product"])],
+)
+def test_next_to_a_zero_there_are_still_all_digits(form: str, names: list[str]) -> None:
+    for angle in NEAR_ZEROS:
+        half, true = FORMS[form](angle, 0.0), true_half(angle, 0.0)
+        for name in names:
+            assert units(getattr(half, name), true[name], of=true[name]) <= 4, (angle, name)
+
+
+@pytest.mark.parametrize(
+    ("function", "true", "most", "size"),
+    [
+        (sine_within, mp.sin, math.pi / 2, None),
+        (cosine_within, mp.cos, math.pi, 1),
+    ],
+)
+def test_functions_of_a_short_range(
+    function: Callable[[Value], Value], true: Callable[[Any], Any], most: float, size: float | None
+) -> None:
+    for angle in [*RANDOM.uniform(0, most, 800).tolist(), most, 1e-9, 1e-300]:
+        exact = true(mpf(angle))
+        assert units(function(angle), exact, of=size or exact) <= 4
+
+
+def test_a_direction_of_floats() -> None:
+    for angle in ANGLES:
+        cosine, sine = direction(angle)
+        assert units(sine, mp.sin(mpf(angle))) <= 1.2
+        assert units(cosine, mp.cos(mpf(angle))) <= 1.2
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_floats_and_arrays_get_the_same_bits(form: str) -> None:
+    # Plain operators on arrays: neither a formula graph nor a compiled program between.
+    angles = np.array(ANGLES)
+    for name in BOUNDS[form]:
+        alone = [getattr(FORMS[form](angle, 0.0), name) for angle in ANGLES]
+        together = getattr(_on_arrays(FORMS[form], angles), name)
+        assert np.array(alone).tobytes() == together.tobytes()
+
+
+def _on_arrays(form: Callable[..., Any], angles: Any) -> Any:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("linkanim.mechanics.circular.rint", np.rint)
+        half = form(angles, 0.0)
+        for name in ("sine", "square"):
+            getattr(half, name)
+        return half
+
+
+@pytest.mark.parametrize("x", [0.0, -0.0, 0.5, 1.5, -0.5, -2.5, 0.49999999999999994, 2.0**51 + 0.5])
+def test_the_nearest_whole_number_is_numpys(x: float) -> None:
+    assert np.float64(nearest_whole(x)).tobytes() == np.rint(x).tobytes()
