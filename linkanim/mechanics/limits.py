@@ -29,6 +29,8 @@ from .program import Batch, batch
 from .search import ends_of
 from .touching import SAMPLES_A_TURN, TOUCHING, through_change_points
 
+NEAR = 1e-3
+"""A margin above this share of its greatest value at all samples has no zero between them."""
 USED_UP = 1e-10
 """A margin below this share of its greatest value is one at its limit."""
 STOPPED_SHORT = 1 / 64
@@ -63,6 +65,12 @@ class _Margins:
             values = self.program(x)[row] / self.scale[row]
         return bool((np.abs(values) <= USED_UP).all())
 
+    def near_zero(self, x: Array) -> set[str]:
+        """Return the dyads that come near a margin of nothing at one of the places, or have none there."""
+        with np.errstate(all="ignore"):
+            values = self.program(x)[: len(self.names)] / self.scale[:, None]
+        return {name for name, low in zip(self.names, values.min(axis=1), strict=True) if not low > NEAR}
+
     def all_open(self, x: Array) -> bool:
         """Tell whether every dyad can be closed at all the places."""
         return bool((self.lowest(x)[0] >= 0).all())
@@ -76,10 +84,12 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     margins = _margins(assembly)
     if margins is None:
         return assembly
-    whole = through_change_points(assembly)
-    if _runs_through(whole):
+    around = _around(assembly.path)
+    is_open = margins.all_open(around)
+    whole = through_change_points(assembly, margins.names, margins.near_zero(around))
+    if is_open and (whole is assembly or _runs_through(whole)):
         return fitted(whole)
-    if margins.all_open(_around(assembly.path)):
+    if is_open:
         # It is on the closures behind a change point that a dyad cannot be closed.
         assembly = whole
         margins = _margins(whole) or margins
@@ -91,7 +101,8 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     found = _open_interval(assembly, places, values, margins)
     for path in _smooth_paths(assembly.path.cut(*found)):
         limited = resigned(replace(assembly, path=path, chain={}))
-        limited = through_change_points(replace(limited, chain=_ends(path, margins.names)))
+        limited = replace(limited, chain=_ends(path, margins.names))
+        limited = through_change_points(limited, margins.names, margins.names)
         if _runs_through(limited):
             return fitted(limited)
     raise AssemblyError("the input has no range on which every dyad can be closed")

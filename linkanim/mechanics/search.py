@@ -25,12 +25,13 @@ def around(turns: int, samples_a_turn: int) -> Array:
     return step * (np.arange(turns * samples_a_turn + 1, dtype=np.float64) - 0.5)
 
 
-def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array) -> Array:
+def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, share: float = FINEST) -> Array:
     """Return the last places at which a condition holds, each between one where it does and one where not.
 
-    `holds` is asked of places (N,), one in each of the N brackets, and answers for each.
+    `holds` is asked of places (N,), one in each of the N brackets, and answers for each. No bracket is
+    halved below that `share` of its places.
     """
-    finest = FINEST * np.maximum(np.abs(inside), np.abs(outside))
+    finest = share * np.maximum(np.abs(inside), np.abs(outside))
     while True:
         middle = (inside + outside) / 2
         if ((middle == inside) | (middle == outside) | (np.abs(outside - inside) <= finest)).all():
@@ -39,10 +40,13 @@ def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array) -> A
         inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
 
 
-def sign_changes(function: Callable[[Array], Array], places: Array) -> Array:
-    """Return where a function changes its sign between neighbouring places; none where it is NaN there."""
+def sign_changes(function: Callable[[Array], Array], places: Array, share: float = FINEST) -> Array:
+    """Return where a function changes its sign between neighbouring places; none where it is NaN there.
+
+    To that `share` of the places.
+    """
     values = function(places)
     positive, known = values > 0, ~np.isnan(values)
     index = np.flatnonzero((positive[:-1] != positive[1:]) & known[:-1] & known[1:])
     start = positive[index]
-    return ends_of(lambda middle: (function(middle) > 0) == start, places[index], places[index + 1])
+    return ends_of(lambda middle: (function(middle) > 0) == start, places[index], places[index + 1], share)

@@ -6,6 +6,7 @@ for an instant; what drives the dyad is at an extreme there, so the place is a z
 
 from __future__ import annotations
 
+from collections.abc import Container, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -28,14 +29,17 @@ AT_END = 1e-6
 Array = NDArray[np.float64]
 
 
-def through_change_points(assembly: Assembly) -> Assembly:
-    """Return the assembly with the zeros of every dyad on moving points, those at its limits known.
+def through_change_points(assembly: Assembly, names: Iterable[str], near: Container[str]) -> Assembly:
+    """Return the assembly with the zeros of the dyads on moving points, those at their limits known.
 
-    In the chain's order: where a dyad passes onto its other closure, what stands on it goes another way.
+    Only the dyads in `near` come near one as long as none is passed. In the chain's order: where one
+    passes onto its other closure, what stands on it goes another way.
     """
-    for name in assembly.walk_at(Graph().input("x"), Slope(1.0)).closings:
-        assembly = _through(assembly, name)
-    return assembly
+    found = assembly
+    for name in names:
+        if name in near or found is not assembly:
+            found = _through(found, name)
+    return found
 
 
 def _through(assembly: Assembly, name: str) -> Assembly:

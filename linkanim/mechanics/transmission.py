@@ -21,6 +21,8 @@ from .program import Batch, batch
 from .search import around, sign_changes
 
 SAMPLES_A_TURN = 1440
+NEARLY = 2.0**-40
+"""How near to an extreme, as a share of the phase: the angle there is off by the square of that."""
 NONE_LEFT = 1e-12
 """A factor below this share of its greatest value, in a dyad whose bars fall into one line, is none."""
 
@@ -54,14 +56,16 @@ def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
 def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
     """Yield U and W of each dyad on moving points where its driver, or that one's rate, changes its sign."""
     assembly = mechanism.assembly
-    found = assembly.walk_at(Graph().input("x"), Slope(1.0))
+    found = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
+    if not found:
+        return
+    parts = [(closing.driver.value, closing.driver.rate, closing.u, closing.w) for closing in found.values()]
+    program = batch({"x": True}, [value for values in parts for value in values])
     places = around(assembly.path.periods, SAMPLES_A_TURN)
-    for name, closing in found.closings.items():
-        driver = closing.driver
-        program = batch({"x": True}, [driver.value, driver.rate, closing.u, closing.w])
+    for row, name in enumerate(found):
         with np.errstate(all="ignore"):
-            turning = [sign_changes(partial(_row, program, row), places) for row in (0, 1)]
-            factors = program(np.concatenate([places[:1], *turning]))[2:]
+            turning = [sign_changes(partial(_row, program, 4 * row + k), places, NEARLY) for k in (0, 1)]
+            factors = program(np.concatenate([places[:1], *turning]))[4 * row + 2 : 4 * row + 4]
         yield name, np.asarray(factors, dtype=np.float64).T
 
 
