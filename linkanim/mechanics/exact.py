@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -95,6 +96,14 @@ def unit(angle: float) -> tuple[float, float]:
     if quarter_turns(count).high == angle:
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[count % 4]
     return direction(angle)
+
+
+def snapped(number: float, marks: Iterable[float], reach: float) -> float:
+    """Return the mark from which a number differs by rounding alone, else the number.
+
+    It was worked out from coordinates that reach so far, with a direction's sine and cosine.
+    """
+    return next((mark for mark in marks if abs(number - mark) <= reach * 2.0**-51), number)
 
 
 def gap(*lengths: float) -> float:

@@ -23,16 +23,19 @@ from .exact import Sum
 from .expression import Graph
 from .fitting import fitted, refined
 from .linkage import Linkage
-from .path import Path, Swing
+from .path import ONE_PLACE, Path, Swing
 from .planar import Slope
 from .program import Batch, batch
 from .search import ends_of
 from .touching import SAMPLES_A_TURN, TOUCHING, through_change_points
+from .walk import AT_ITS_LIMIT
 
 NEAR = 1e-3
 """A margin above this share of its greatest value at all samples has no zero between them."""
 USED_UP = 1e-10
 """A margin below this share of its greatest value is one at its limit."""
+NO_WAY = 1e-5
+"""A swing of less than this is what rounding leaves of one place."""
 STOPPED_SHORT = 1 / 64
 """Share of its range by which a swing stops short of a limit that it cannot pass."""
 
@@ -98,8 +101,10 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     if (values < 0).all():
         name = margins.names[int(whose[values.argmax()])]
         raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart()}")
-    found = _open_interval(assembly, places, values, margins)
-    for path in _smooth_paths(assembly.path.cut(*found)):
+    swing = assembly.path.cut(*_open_interval(assembly, places, values, margins))
+    if swing.amplitude < NO_WAY:
+        raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
+    for path in _smooth_paths(swing):
         limited = resigned(replace(assembly, path=path, chain={}))
         limited = replace(limited, chain=_ends(path, margins.names))
         limited = through_change_points(limited, margins.names, margins.names)
@@ -153,11 +158,10 @@ def _margins(assembly: Assembly) -> _Margins | None:
     with np.errstate(all="ignore"):
         values = program(assembly.path.sampled(SAMPLES_A_TURN))
     scale, size = np.split(np.nanmax(np.abs(values), axis=1, initial=0.0), 2)
-    for name in (name for name, flat in zip(found, scale <= TOUCHING * size, strict=True) if flat):
-        raise AssemblyError(
-            f"joint {name}: it is at its limit at every angle of the input, where rounding alone would "
-            "move it; make one length longer or shorter"
-        )
+    longest = max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
+    nothing = (scale <= TOUCHING * size) | (scale <= (TOUCHING * longest) ** 2)
+    for name in (name for name, flat in zip(found, nothing, strict=True) if flat):
+        raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     return _Margins(tuple(found), program, scale)
 
 

@@ -28,6 +28,13 @@ from .reach import Array, Reach, reach
 from .roots import Kind, LoopRoot
 from .signed import Swinging
 
+NO_RANGE = 1e-12
+"""Ranges that overlap by no more than this, in radians, touch."""
+ONE_PLACE = (
+    "it can be put together at one angle of the input only, so that nothing could move; "
+    "make one length a little longer or shorter"
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Turn:
@@ -263,10 +270,7 @@ def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Arc] | None:
 def _arcs(joint: Joint, root: LoopRoot) -> list[Arc] | None:
     """Return the open ranges of one loop in the crank's own angle."""
     if min(root.u.most, root.w.most) == 0:
-        raise AssemblyError(
-            f"joint {joint.name}: it can be put together at one angle of the input only, so that nothing "
-            "could move; make one length a little longer or shorter"
-        )
+        raise AssemblyError(f"joint {joint.name}: {ONE_PLACE}")
     if min(root.u.most, root.w.most) < 0:
         raise AssemblyError(f"joint {joint.name}: {joint.why_apart()}")
     ends, reference = (joint.name, joint.name), root.reference
@@ -291,7 +295,7 @@ def _common(first: list[Arc], second: list[Arc]) -> Iterator[Arc]:
                 moved = b.shifted(turns)
                 low, low_end = max((a.low, a.ends[0]), (moved.low, moved.ends[0]), key=_size)
                 high, high_end = min((a.high, a.ends[1]), (moved.high, moved.ends[1]), key=_size)
-                if float(high - low) > 0:
+                if float(high - low) > NO_RANGE:
                     yield Arc(low, high, (low_end, high_end))
 
 

@@ -24,6 +24,11 @@ from .planar import Moving, MovingPoint, Slope, Vec, carried
 from .signed import SignedRoot, plain_root
 from .triangle import PinLoop, moving_factors, moving_square
 
+AT_ITS_LIMIT = (
+    "it is at its limit at every angle of the input, where rounding alone would move it; "
+    "make one length longer or shorter"
+)
+
 if TYPE_CHECKING:
     from .assembly import Assembly
 
@@ -110,6 +115,11 @@ class Walk:
 
     def chain_root(self, name: str, closing: Closing) -> SignedRoot:
         """Return the root of a dyad on moving points, and keep what closes it."""
+        margin = closing.u * closing.w
+        if isinstance(margin, float) and margin <= 0:
+            # Its end keeps its distance from the line: what does not change is no formula, but a number.
+            joint = self.linkage.joint(name)
+            raise AssemblyError(f"joint {name}: {joint.why_apart() if margin < 0 else AT_ITS_LIMIT}")
         self.closings[name] = closing
         root = self.assembly.chain.get(name)
         if root is not None:

@@ -5,18 +5,42 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from build import four_bar, rocker_driven, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.kinds import RRR, Pin
-from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 
 Lengths = tuple[float, float, float, float]
 Point = tuple[float, float]
+
+
+def two_sliders(bar: float) -> Linkage:
+    """A slider on a line through O2, and a second one on a line 5 above, a bar away."""
+    line = Line("O2", 0.0, 5.0)
+    return with_joints(
+        slider_crank(3.0, 4.0, 0.0), RRP("S1", "A", 8.0, Line("O2", 0.0)), RRP("S2", "S1", bar, line)
+    )
+
+
+def mirrored_cranks(bars: tuple[float, float]) -> Linkage:
+    """Cranks of 1 on pins 6 apart, each the mirror image of the other, and a dyad between their pins."""
+    gear = Gear("A", Fraction(-1), math.pi)
+    return Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("O5", (6.0, 0.0)),
+            Crank("A", "O2", 1.0),
+            Crank("C", "O5", 1.0, gear),
+            RRR("D", ("A", "C"), bars),
+        ),
+        Drive("A", 1.0),
+    )
 
 
 RIGID = [
@@ -27,6 +51,8 @@ RIGID = [
     ("driven at the rocker", rocker_driven((9.0, 4.0, 3.0, 2.0))),
     ("a rod that just reaches its line", slider_crank(4.1, 2.2, 6.3)),
     ("a rod that just reaches its line, on the other side", slider_crank(4.1, 2.2, -6.3)),
+    # The two crank pins are 4 apart or more: 6 - 2 cos θ.
+    ("bars that just reach from one crank to a geared one", mirrored_cranks((1.5, 2.5))),
     ("a slot as far off as the pin ever is", slotted(2.2, 4.1, 5.0, 6.3)),
 ]
 
@@ -42,6 +68,38 @@ def test_a_factor_that_vanishes_at_the_start_does_not_keep_a_four_bar_from_loadi
     solved = mechanism(four_bar((87.0, 40.1, 24.3 + 1e-12, 22.6)))
     here = solved.pose(1.0, 1.0, 0.0, 2)
     assert math.dist(here.position["A"], here.position["B"]) == pytest.approx(24.3, rel=1e-11)
+
+
+FLAT = [
+    # Bars along the line of the two joints they hang on, however the crank stands.
+    (
+        "bars along the crank",
+        with_joints(four_bar((100.0, 30.0, 90.0, 80.0)), RRR("C", ("O2", "A"), (10.0, 20.0))),
+    ),
+    ("a bar square to two parallel lines", two_sliders(5.0)),
+    # The rod as long as the crank, the slider on the crank's pivot for good.
+    (
+        "a slot whose pin rests on its pivot",
+        with_joints(slider_crank(1.7, 1.7, 0.0, side=-1), RPR("Q", "O2", "B", 2.0)),
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "linkage"), FLAT, ids=[row[0] for row in FLAT])
+def test_what_is_at_its_limit_everywhere_is_refused(name: str, linkage: Linkage) -> None:
+    with pytest.raises(AssemblyError, match=r"at its limit at every angle of the input"):
+        mechanism(linkage)
+
+
+def test_a_slider_that_keeps_out_of_reach_of_the_next_line_is_refused() -> None:
+    with pytest.raises(AssemblyError, match=r"^joint S2: the bar of 4 cannot reach its line of travel"):
+        mechanism(two_sliders(4.0))
+
+
+def test_a_slider_may_carry_another_along_a_parallel_line() -> None:
+    pose = mechanism(two_sliders(13.0)).pose(1.0, 1.0, 0.0, 2)
+    assert pose.position["S2"][0] - pose.position["S1"][0] == pytest.approx(12.0, rel=1e-15)
+    assert pose.velocity["S2"] == pytest.approx(pose.velocity["S1"])
 
 
 LATER_DYADS = [
@@ -128,6 +186,22 @@ def test_where_b_lies_on_one_side_for_both_the_name_is_that_of_the_pin_a() -> No
     assert named_by_a > 20
 
 
+def test_a_tie_through_a_tilted_line_is_a_change_point() -> None:
+    # The line at 45 degrees through [1, 1] passes O2 to 1e-16: the rod is as long as the crank.
+    linkage = Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("G", (1.0, 1.0)),
+            Crank("A", "O2", 0.2),
+            RRP("B", "A", 0.2, Line("G", math.pi / 4)),
+        ),
+        Drive("A", 1.0),
+    )
+    solved = mechanism(linkage)
+    assert solved.assembly.path.full_turn
+    assert solved.assembly.loops["B"].root.u.least == solved.assembly.loops["B"].root.w.least == 0.0
+
+
 REFUSED = [
     ("a ground that is too long", rocker_driven((300.0, 30.0, 90.0, 80.0))),
     (
@@ -139,6 +213,16 @@ REFUSED = [
         ),
     ),
 ]
+
+
+@pytest.mark.parametrize("ground_angle", [0.0, math.pi / 2, 0.7])
+def test_two_loops_that_close_in_one_place_only_are_refused(ground_angle: float) -> None:
+    # A - O4 is 4 at the most for the first two bars, and 4 at the least for the others.
+    bar = four_bar((2.0, 4.0, 2.0, 2.0), ground_angle=ground_angle)
+    with pytest.raises(
+        AssemblyError, match=r"^joint D: the bars of the linkage leave its input no common range"
+    ):
+        mechanism(with_joints(bar, RRR("D", ("A", "O4"), (5.0, 9.0))))
 
 
 @pytest.mark.parametrize(("name", "linkage"), REFUSED, ids=[row[0] for row in REFUSED])

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkanim.mechanics.chain import Closing
-from linkanim.mechanics.exact import exact_angle, quarter_turns, unit
+from linkanim.mechanics.exact import exact_angle, quarter_turns, snapped, unit
 from linkanim.mechanics.joint import Joint, Need
 from linkanim.mechanics.loop import Loop
 from linkanim.mechanics.planar import Moving
@@ -80,6 +80,9 @@ class RRP(Joint):
         along = unit(self.line.angle)
         dx, dy = pivot[0] - through[0], pivot[1] - through[1]
         eccentricity = dy * along[0] - dx * along[1] - self.line.offset
+        tie = self.length - crank.length
+        reach = abs(dx) + abs(dy) + abs(self.line.offset)
+        eccentricity = snapped(eccentricity, (0.0, tie, -tie), reach)
         reference = exact_angle(self.line.angle) - quarter_turns(1)
         root = slider_root(crank.length, self.length, eccentricity, reference)
         return Loop(self.end, crank, gears[self.end], None, root)
