@@ -23,7 +23,7 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("digits", "document", "intake", "units", "whole"),
+            ("bounds", "digits", "document", "intake", "units", "whole"),
             ("mechanics",),
             ("scenes",),
             ("picture",),
@@ -40,6 +40,7 @@ RANK = {
 
 THIRD_PARTIES = {
     "errors": set(),
+    "bounds": set(),
     "digits": set(),
     "document": set(),
     "intake": set(),

@@ -60,11 +60,16 @@ def _code_of(error: BaseException) -> int:
 
 
 def _say(message: str, code: int) -> int:
-    line = " ".join(message.split())
+    line = one_line(message)
     if sys.stderr is not None:  # print would take None for stdout
         with suppress(OSError, ValueError):
             print(f"linkanim: {line}", file=sys.stderr)
     return code
+
+
+def one_line(message: str) -> str:
+    """Return a message on one line, with nothing in it that a terminal would take for an order."""
+    return "".join(c if c.isprintable() else "?" for c in " ".join(message.split()))
 
 
 def _reason(error: OSError) -> str:

@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
+from linkanim.bounds import LARGEST_SIDE
 from linkanim.errors import BadInput
 
 MOST_ROWS = 1_000_000
@@ -50,7 +51,10 @@ def size(text: str) -> tuple[int, int]:
     found = re.fullmatch(r"\s*(\d{1,6})\s*[x×X]\s*(\d{1,6})\s*", text)
     if not found or "0" in (found[1].lstrip("0") or "0", found[2].lstrip("0") or "0"):
         raise BadInput(f"{text!r} is not a size; write width x height in pixels, such as 1280x720")
-    return int(found[1]), int(found[2])
+    width, height = int(found[1]), int(found[2])
+    if max(width, height) > LARGEST_SIDE:
+        raise BadInput(f"{text!r} is too large; a side has {LARGEST_SIDE:,} pixels at the most")
+    return width, height
 
 
 def positive(text: str) -> float:

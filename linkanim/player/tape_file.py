@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from linkanim import intake, whole
+from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS
 from linkanim.document import Section
 from linkanim.errors import BadInput
 from linkanim.intake import Intake
@@ -30,11 +31,9 @@ from linkanim.units import shown
 VERSION = 1
 SUFFIX = ".tape.json"
 TAPE_FILE = Intake("a tape", most_bytes=20_000_000, most_values=1_000_000)
-MOST_ACTIONS = 100_000
 
 _MARK = "linkanim_tape"
 _MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
-_LARGEST_SIDE = 16_384
 
 
 def write(tape: Tape, path: Path) -> None:
@@ -115,7 +114,7 @@ def from_document(document: object, where: str) -> Tape:
 
 def _size(top: Section) -> tuple[int, int]:
     sides = top.listed("size", 2)
-    width, height = (sides.whole(key, 1, _LARGEST_SIDE) for key in sides.values)
+    width, height = (sides.whole(key, 1, LARGEST_SIDE) for key in sides.values)
     return width, height
 
 

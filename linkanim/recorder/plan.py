@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal, NamedTuple
 
+from linkanim.bounds import LARGEST_SIDE, MOST_FRAMES
 from linkanim.digits import rpm, short
 from linkanim.errors import BadInput
 
 Format = Literal["gif", "mp4", "png"]
 
-MOST_FRAMES = 20_000
 FEWEST_PER_PERIOD = 2
-SIDES = (16, 8192)
+SIDES = (16, LARGEST_SIDE)
 """The smallest and the largest width or height, in pixels."""
 
 RATES = (0.01, 1000)

@@ -10,12 +10,10 @@ from fractions import Fraction
 from typing import Any, ClassVar, Self
 
 from linkanim import units
+from linkanim.bounds import MOST_NAMES
 from linkanim.document import Section
 from linkanim.errors import BadInput, SceneError, UnitError
 from linkanim.mechanics.joint import Point
-
-MOST_NAMES = 500
-"""Joints, pins, bodies, springs or dampers of a scene, each."""
 
 _SMALL = 12
 _STEEP = 100

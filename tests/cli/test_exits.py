@@ -59,6 +59,13 @@ def test_a_defect_is_one_line_that_says_where(capsys: pytest.CaptureFixture[str]
     assert err.count("\n") == 1
 
 
+def test_no_order_to_the_terminal_is_repeated(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["info", "\x1b]0;mine\x07\u202e.toml", "a\nb"]) == 2
+    printed = capsys.readouterr().err
+    assert printed.count("\n") == 1
+    assert printed.rstrip("\n").isprintable()
+
+
 def test_work_that_ends_well_is_silent(capsys: pytest.CaptureFixture[str]) -> None:
     assert guarded(lambda: None) == 0
     assert capsys.readouterr() == ("", "")
@@ -113,6 +120,8 @@ USAGE = [
     # a recording's options
     (["record", "press", "--size", "1280"], "1280x720"),
     (["record", "press", "--size", "0x720"], "0x720"),
+    (["record", "press", "--size", "16385x720"], "16,384"),
+    (["play", "press", "--size", "1280x99999"], "16,384"),
     (["record", "press", "--fps", "0"], "--fps"),
     (["record", "press", "--fps", "nan"], "--fps"),
     (["record", "press", "--periods", "0"], "--periods"),

@@ -10,12 +10,13 @@ from typing import Any
 
 import pytest
 
+from linkanim.bounds import MOST_ACTIONS
 from linkanim.errors import BadInput
 from linkanim.player.action import Action
 from linkanim.player.advance import advance
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Tape, starting, taped
-from linkanim.player.tape_file import MOST_ACTIONS, from_document, read, to_document, write
+from linkanim.player.tape_file import from_document, read, to_document, write
 from linkanim.scenes import load
 
 SESSION = (

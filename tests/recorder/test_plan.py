@@ -6,8 +6,9 @@ from itertools import pairwise
 
 import pytest
 
+from linkanim.bounds import LARGEST_SIDE, MOST_FRAMES
 from linkanim.errors import BadInput
-from linkanim.recorder.plan import MOST_FRAMES, Clip, Format, make_plan, refuse_size
+from linkanim.recorder.plan import Clip, Format, make_plan, refuse_size
 
 TURN = 2.0 * math.pi
 RPM = TURN / 60.0
@@ -154,7 +155,14 @@ def test_absurd_clips_are_refused_in_a_sentence(clip: Clip, named: str, form: Fo
         make_plan(clip, form)
 
 
-@pytest.mark.parametrize("size", [(0, 720), (1280, 8), (100_000, 720), (1280, -1)])
+@pytest.mark.parametrize("size", [(0, 720), (1280, 8), (16_385, 720), (1280, -1)])
 def test_sizes_that_cannot_be_recorded_are_refused(size: tuple[int, int]) -> None:
     with pytest.raises(BadInput, match=f"{size[0]}x{size[1]}"):
         refuse_size(size)
+
+
+def test_the_largest_picture_and_the_longest_clip_are_taken() -> None:
+    refuse_size((LARGEST_SIDE, 16))
+    assert make_plan(at(20, seconds=MOST_FRAMES / 25), "mp4").frames == MOST_FRAMES
+    with pytest.raises(BadInput, match="more than 100000"):
+        make_plan(at(20, seconds=(MOST_FRAMES + 1) / 25), "mp4")

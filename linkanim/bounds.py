@@ -1,0 +1,12 @@
+"""The most that is taken of anything, so that no input, by slip or on purpose, brings the machine down."""
+
+from __future__ import annotations
+
+MOST_NAMES = 500
+"""Joints, pins, bodies, springs or dampers of a scene, each."""
+MOST_FRAMES = 100_000
+"""Frames of a recording."""
+MOST_ACTIONS = 100_000
+"""Actions of a tape."""
+LARGEST_SIDE = 16_384
+"""Pixels of a picture's width or height; H.264 has no more."""
