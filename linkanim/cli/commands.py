@@ -144,12 +144,20 @@ def _clip(parser: Parser) -> None:
 
 def _look(parser: Parser) -> None:
     """What is shown."""
-    parser.add_argument(
-        "--trace", action=BooleanOptionalAction, default=True, help="curves of the traced joints"
-    )
+    _shown(parser)
     parser.add_argument("--hud", action=BooleanOptionalAction, default=True, help="the lines of text")
     parser.add_argument(
         "--noted", action="store_true", help="say in them where a limit or a change point is near"
+    )
+    parser.add_argument("--chart", metavar="QTY", help="a quantity over the period, such as rocker.angle")
+    _theme(parser)
+    parser.add_argument("--transparent", action="store_true", help="no background (GIF and PNG)")
+
+
+def _shown(parser: Parser) -> None:
+    """What is shown of the motion itself."""
+    parser.add_argument(
+        "--trace", action=BooleanOptionalAction, default=True, help="curves of the traced joints"
     )
     parser.add_argument(
         "--vectors",
@@ -164,9 +172,6 @@ def _look(parser: Parser) -> None:
         default=0,
         help="name joints and links; twice: their dimensions and the input's angle, too",
     )
-    parser.add_argument("--chart", metavar="QTY", help="a quantity over the period, such as rocker.angle")
-    _theme(parser)
-    parser.add_argument("--transparent", action="store_true", help="no background (GIF and PNG)")
 
 
 def _theme(parser: Parser) -> None:
@@ -264,6 +269,31 @@ def _chart(parser: Parser) -> None:
     _theme(parser)
 
 
+def _draw(parser: Parser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="OUT", help="OUT.svg or OUT.png (default: SCENE.svg here)"
+    )
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--angle", type=valued(units.angle), metavar="ANGLE", help='crank angle, such as "87 deg"'
+    )
+    where.add_argument(
+        "--phase", type=valued(units.angle), metavar="PHASE", help="phase instead (default: the start)"
+    )
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    _shown(parser)
+    parser.add_argument("--ghost", action="store_true", help="the other closure, faintly")
+    parser.add_argument(
+        "--poses", type=valued(values.count), metavar="N", help="N faint poses over the period behind it"
+    )
+    parser.add_argument(
+        "--instant-centres", action="store_true", help="mark the instant centres to the ground"
+    )
+    _theme(parser)
+    parser.add_argument("--transparent", action="store_true", help="no background")
+
+
 def _gallery(parser: Parser) -> None:
     parser.add_argument(
         "--into",
@@ -320,6 +350,15 @@ COMMANDS = {
         "list the built-in scenes by chapter, name first",
         _scenes,
         ("linkanim scenes", "linkanim scenes slider", 'linkanim scenes "six-bars and more"'),
+    ),
+    "draw": Command(
+        "draw one pose as a figure, SVG or PNG",
+        _draw,
+        (
+            "linkanim draw crank-rocker --names --names",
+            'linkanim draw press -o press.png --angle "87 deg" --vectors v --instant-centres',
+            "linkanim draw kite -o kite.svg --poses 12 --no-trace",
+        ),
     ),
     "gallery": Command(
         "record every built-in scene as a small GIF, and draw the chart of bench",

@@ -91,12 +91,13 @@ def _blocks(scene: Scene, asked: Asked, speed: float, acceleration: float) -> It
         return
     motion = solve(np.array([asked.value]))
     if any(np.isnan(points).any() for points in motion.position.values()):
-        raise _beyond(scene, asked.value)
+        raise out_of_range(scene, asked.value)
     where = {"angle": motion.crank_angle, "phase": motion.phase, asked.by: np.array([asked.value])}
     yield Block(np.degrees([asked.value]), {**where, **tree(scene, motion)})
 
 
-def _beyond(scene: Scene, angle: float) -> OutOfRange:
+def out_of_range(scene: Scene, angle: float) -> OutOfRange:
+    """Return the refusal of an angle (rad) that the input does not reach."""
     low, high = (f"{significant(math.degrees(limit), 6)} deg" for limit in scene.info.input_range)
     return OutOfRange(
         f"{scene.name}: --angle {significant(math.degrees(angle), 6)} deg cannot be reached; "

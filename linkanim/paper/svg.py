@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import count
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from linkanim.picture.items import Caption, Item
+from linkanim.picture.items import Caption, Group, Item
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.text import runs, typesetting
 
@@ -16,16 +17,39 @@ _ANCHORS = {"left": "start", "centre": "middle", "right": "end"}
 _SEMIBOLD = 600
 
 
-def svg(size: tuple[int, int], background: Colour | None, items: Iterable[Item], *, title: str) -> str:
-    """Return a picture of so many pixels as an SVG document; None leaves the background open."""
+def svg(
+    size: tuple[int, int], background: Colour | None, items: Iterable[Item | Group], *, title: str
+) -> str:
+    """Return a picture of so many pixels as an SVG document; None leaves the background open.
+
+    A group is a `<g>` whose id is its name, numbered where a group before has it.
+    """
     width, height = size
     body = [f"<title>{escape(title)}</title>"]
     if background is not None:
         body.append(f'<rect width="{width}" height="{height}" fill="{_hex(background)}"/>')
-    body += [_path(item) if isinstance(item, Layer) else _text(item) for item in items if _shows(item)]
+    ids: set[str] = set()
+    for item in items:
+        if not isinstance(item, Group):
+            body += _drawn([item])
+        elif inside := _drawn([*item.layers, *item.captions]):
+            body += [f"<g id={quoteattr(_unused(item.name, ids))}>", *inside, "</g>"]
     head = f'width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family={quoteattr(_FACES)}'
     lines = "\n".join(body)
     return f'<svg xmlns="http://www.w3.org/2000/svg" {head}>\n{lines}\n</svg>\n'
+
+
+def _drawn(items: Iterable[Item]) -> list[str]:
+    return [_path(item) if isinstance(item, Layer) else _text(item) for item in items if _shows(item)]
+
+
+def _unused(name: str, ids: set[str]) -> str:
+    """Return a name as an id of its own, and remember it."""
+    word = "_".join(name.split())
+    choices = (word if n == 1 else f"{word}-{n}" for n in count(1))
+    found = next(choice for choice in choices if choice not in ids)
+    ids.add(found)
+    return found
 
 
 def _shows(item: Item) -> bool:
@@ -49,7 +73,14 @@ def _text(line: Caption) -> str:
     weight = f' font-weight="{_SEMIBOLD}"' if line.strong else ""
     at = f'x="{line.at[0]:.2f}" y="{line.at[1] + how.baseline:.2f}" font-size="{how.em:.2f}"'
     anchor = f'text-anchor="{_ANCHORS[line.anchor]}" fill="{_hex(line.colour)}"'
-    return f"<text {at} {anchor}{weight}>{''.join(_spans(line))}</text>"
+    return f"<text {at} {anchor}{weight}{_rim(line)}>{''.join(_spans(line))}</text>"
+
+
+def _rim(line: Caption) -> str:
+    if line.halo is None:
+        return ""
+    rim = f'stroke="{_hex(line.halo.colour)}" stroke-width="{2 * line.halo.width:.2f}"'
+    return f' {rim} stroke-linejoin="round" paint-order="stroke"'
 
 
 def _spans(line: Caption) -> Iterator[str]:

@@ -96,19 +96,18 @@ class Drawing:
         view = self.scenery.view
         return {name: _somewhere(view.place(point)) for name, point in pose.position.items()}
 
-    def standing(self) -> Iterator[Group]:
-        """Yield what stands still behind everything."""
-        yield Group("wheels", wheel_layers(*self.scenery.known))
-        yield Group("ground", ground_layers(*self.scenery.known))
+    def discs(self) -> Group:
+        """Return what stands still behind everything: the wheels without their teeth, and belts."""
+        return Group("wheels", wheel_layers(*self.scenery.known))
 
     def wheels(self, places: Places) -> Iterator[Group]:
-        """Yield what turns behind the curves."""
+        """Yield what turns on them."""
         for part in self.cast.wheels:
             yield Group(f"wheel-{part.head}", part.placed(places))
 
     @property
     def moves_behind(self) -> bool:
-        """Whether something moves behind the curves."""
+        """Whether something moves behind what else stands still."""
         return bool(self.cast.wheels) or self.scenery.look.ghost
 
     def faint(self, pose: Pose) -> list[Layer]:
@@ -117,16 +116,17 @@ class Drawing:
         layers = (layer for group in self._pinned(self.places(pose)) for layer in group.layers)
         return [Layer(mixed(layer.colour, back, _FAINT), layer.loops, layer.alpha) for layer in layers]
 
-    def curves(self) -> Iterator[Group]:
-        """Yield the ground line and the whole curves."""
+    def standing(self) -> Iterator[Group]:
+        """Yield what else stands still: the ground, its line and the whole curves."""
         figure, look = self.scenery.figure, self.scenery.look
+        yield Group("ground", ground_layers(*self.scenery.known))
         if look.names:
             yield Group("ground-line", ground_line(pivots(figure), *self.scenery.known))
         for trace in self.cast.traces:
             yield Group(f"curve-{trace.joint}", [trace.whole()])
 
     def moving(self, pose: Pose) -> Iterator[Group]:
-        """Yield all that moves over the curves, back to front."""
+        """Yield all that moves before it, back to front."""
         places, cast = self.places(pose), self.cast
         for trace in cast.traces:
             recent = trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)

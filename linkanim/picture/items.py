@@ -8,8 +8,16 @@ from typing import NamedTuple
 
 import pygame
 
+from linkanim.picture.lettering import Lettering
 from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.text import Anchor, Type
+
+
+class Halo(NamedTuple):
+    """A rim round letters that parts them from what is below: its colour and width in pixels."""
+
+    colour: Colour
+    width: float
 
 
 class Caption(NamedTuple):
@@ -21,16 +29,18 @@ class Caption(NamedTuple):
     colour: Colour
     anchor: Anchor = "left"
     strong: bool = False
+    halo: Halo | None = None
 
 
 Item = Layer | Caption
 
 
 class Group(NamedTuple):
-    """Shapes that belong together, under a name."""
+    """Shapes that belong together, under a name, and the words over them."""
 
     name: str
     layers: Sequence[Layer]
+    captions: Sequence[Caption] = ()
 
 
 def flat(groups: Iterable[Group]) -> Iterator[Layer]:
@@ -46,5 +56,15 @@ def draw(surface: pygame.Surface, items: Iterable[Item], type_: Type) -> None:
             continue
         for item in run:
             assert isinstance(item, Caption)
-            text, at, size, colour, anchor, strong = item
-            type_.draw(surface, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
+            _write(surface, item, type_)
+
+
+def _write(surface: pygame.Surface, line: Caption, type_: Type) -> None:
+    """Draw a line of text; one in a halo to a part of a pixel, as labels on a drawing are."""
+    text, at, size, colour, anchor, strong, halo = line
+    if halo is None:
+        type_.draw(surface, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
+        return
+    letters = Lettering(text, type_, size, (colour, halo.colour), halo.width)
+    aside = {"left": 0.5, "centre": 0.0, "right": -0.5}[anchor] * letters.size[0]
+    letters.draw(surface, complex(at[0] + aside, at[1] + letters.drop))

@@ -20,8 +20,11 @@ class Lettering:
 
     def __init__(self, text: str, kind: Type, size: int, colours: tuple[Colour, Colour], halo: float) -> None:
         ink, back = colours
-        self.text = text
-        self._large = _haloed(_letters(text, kind, size), round(_FINE * halo), ink, back)
+        self.text, self.line_height, self.ink, self.halo = text, size, ink, (back, halo)
+        cover, above = _letters(text, kind, size)
+        self._large = _haloed(cover, round(_FINE * halo), ink, back)
+        self.drop = (above + cover.shape[0] / 2) / _FINE
+        """How far the middle lies below the line's top."""
         self._drawn: dict[tuple[int, int], pygame.Surface] = {}
         high, wide = self._large.shape[:2]
         self.size: tuple[float, float] = (wide / _FINE, high / _FINE)
@@ -41,14 +44,18 @@ class Lettering:
         return self._drawn[right, down]
 
 
-def _letters(text: str, kind: Type, size: int) -> NDArray[np.float32]:
-    """Return how far a large line of text covers (height, width), 0 to 1, without empty rows."""
+def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.float32], int]:
+    """Return how far a large line of text covers (height, width), 0 to 1, without empty rows.
+
+    Also how many rows of the line are left out above it.
+    """
     large = _FINE * size
     sheet = pygame.Surface((kind.width(text, large, strong=True) + _FINE, 2 * large), pygame.SRCALPHA, 32)
     kind.draw(sheet, text, (_FINE // 2, large // 2), size=large, colour=(255, 255, 255), strong=True)
     cover = pygame.surfarray.array_alpha(sheet).T.astype(np.float32) / 255
     rows = np.flatnonzero(cover.any(axis=1))
-    return np.asarray(cover[rows[0] : rows[-1] + 1] if rows.size else cover[:1], np.float32)
+    first, last = (int(rows[0]), int(rows[-1])) if rows.size else (0, 0)
+    return np.asarray(cover[first : last + 1], np.float32), first - large // 2
 
 
 def _haloed(cover: NDArray[np.float32], halo: int, ink: Colour, back: Colour) -> NDArray[np.float32]:

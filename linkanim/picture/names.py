@@ -15,6 +15,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.dimensions import Symbols, numbered, written
 from linkanim.picture.figure import SAMPLES, Figure
 from linkanim.picture.ground import away
+from linkanim.picture.items import Caption, Halo
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.lettering import Lettering
 from linkanim.picture.parts import Places
@@ -83,6 +84,18 @@ class Names:
             middle, shown = label.placed(pose.phase / self.period, places)
             if shown:
                 label.lettering.draw(surface, middle, shown)
+
+    def captions(self, pose: Pose, places: Places) -> list[Caption]:
+        """Return every label that shows, as a line of text in its halo."""
+        found = []
+        for label in self.labels:
+            middle, shown = label.placed(pose.phase / self.period, places)
+            words = label.lettering
+            at = (middle.real, middle.imag - words.drop)
+            if shown > 0.5:
+                halo = Halo(*words.halo)
+                found.append(Caption(words.text, at, words.line_height, words.ink, "centre", True, halo))
+        return found
 
 
 @dataclass(frozen=True)

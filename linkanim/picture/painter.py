@@ -134,8 +134,8 @@ class Painter:
         flags = 0 if self.look.background else pygame.SRCALPHA
         still = pygame.Surface(self.size, flags, 32)
         still.fill((*self._theme.background, 255 if self.look.background else 0))
-        curves = () if self.drawing.moves_behind else self.drawing.curves()
-        paint(still, list(self._on_stage(flat((*self.drawing.standing(), *curves)))))
+        standing = () if self.drawing.moves_behind else self.drawing.standing()
+        paint(still, list(self._on_stage(flat((self.drawing.discs(), *standing)))))
         if self._aside:
             still.fill((*self._theme.background, 255 if self.look.background else 0), self._aside)
         if self._legend:
@@ -193,12 +193,12 @@ class Painter:
         """Return all of the scene that moves, back to front."""
         drawing = self.drawing
         behind = [*flat(drawing.wheels(drawing.places(pose))), *(drawing.faint(ghost) if ghost else ())]
-        layers: list[Layer | Stencil] = [*self._on_stage(behind), *self._curves]
+        layers: list[Layer | Stencil] = [*self._on_stage(behind), *self._stencils]
         layers += self._on_stage(flat(drawing.moving(pose)))
         return layers
 
     @cached_property
-    def _curves(self) -> list[Stencil]:
-        """The curves where something moves behind them; else they are part of what stands still."""
-        curves = flat(self.drawing.curves()) if self.drawing.moves_behind else ()
-        return [stencil(layer, self.size) for layer in self._on_stage(curves)]
+    def _stencils(self) -> list[Stencil]:
+        """What stands still with something moving behind it."""
+        standing = flat(self.drawing.standing()) if self.drawing.moves_behind else ()
+        return [stencil(layer, self.size) for layer in self._on_stage(standing)]

@@ -1,0 +1,46 @@
+"""`linkanim draw`: one pose of a scene as a figure."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from math import isnan
+from pathlib import Path
+
+from linkanim.cli.solve import out_of_range
+from linkanim.paper.figure import SUFFIXES, Figured, write
+from linkanim.picture.look import Look
+from linkanim.recorder.plan import refuse_size
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+from linkanim.whole import checked_target
+
+_SIZE = (1280, 720)
+
+
+def run(options: Namespace) -> None:
+    """Write the figure that was asked for, and print its path."""
+    target = checked_target(options.output or f"{Path(options.scene).stem}.svg", SUFFIXES)
+    size = options.size or _SIZE
+    refuse_size(size)
+    scene = load(options.scene)
+    look = Look(
+        theme=options.theme,
+        trace=options.trace,
+        vectors=options.vectors,
+        names=min(options.names, 2),
+        ghost=options.ghost,
+        background=not options.transparent,
+    )
+    phase = _phase(scene, options)
+    write(Figured(scene, size, look, phase, options.poses or 0, options.instant_centres), target)
+    print(target)
+
+
+def _phase(scene: Scene, options: Namespace) -> float:
+    """Return the phase asked for, 0 where none is; OutOfRange for an angle that is not reached."""
+    if options.angle is None:
+        return float(options.phase or 0.0)
+    phase = float(scene.solve(angle=options.angle, derivatives=0).phase)
+    if isnan(phase):
+        raise out_of_range(scene, options.angle)
+    return phase

@@ -1,0 +1,61 @@
+"""`linkanim draw`: the files it writes, and what it refuses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pygame
+import pytest
+
+from linkanim.cli import main
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return an empty folder to work in."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_a_figure_is_written_where_it_was_asked_for(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ["--angle", "87 deg", "--size", "640x360", "--names", "--vectors", "v,a", "--theme", "dark"]
+    assert main(["draw", "press", "-o", "one.png", *asked, "--transparent", "--instant-centres"]) == 0
+    assert main(["draw", "press", "-o", "one.svg", *asked, "--poses", "4", "--ghost", "--no-trace"]) == 0
+    assert capsys.readouterr().out == "one.png\none.svg\n"
+    assert pygame.image.load(folder / "one.png").get_size() == (640, 360)
+    assert ElementTree.parse(folder / "one.svg").getroot().get("width") == "640"
+
+
+def test_without_a_name_it_is_the_scenes(folder: Path) -> None:
+    assert main(["draw", "kite"]) == 0
+    assert [path.name for path in folder.iterdir()] == ["kite.svg"]
+
+
+def test_angle_and_phase_say_the_same_pose(folder: Path) -> None:
+    assert main(["draw", "crank-rocker", "-o", "a.svg", "--angle", "57 deg", "--size", "320x180"]) == 0
+    assert main(["draw", "crank-rocker", "-o", "b.svg", "--phase", "57 deg", "--size", "320x180"]) == 0
+    assert main(["draw", "crank-rocker", "-o", "c.svg", "--phase", "58 deg", "--size", "320x180"]) == 0
+    texts = [(folder / f"{name}.svg").read_text(encoding="utf-8") for name in "abc"]
+    assert texts[0] == texts[1] != texts[2]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["double-rocker", "--angle", "187 deg"], "cannot be reached"),
+        (["kite", "-o", "kite.pdf"], ".svg, .png"),
+        (["kite", "--angle", "87"], "unit"),
+        (["kite", "--angle", "1 rad", "--phase", "1 rad"], "not allowed with"),
+        (["kite", "--size", "3x3"], "16"),
+        (["kite", "--poses", "0"], "--poses"),
+    ],
+)
+def test_bad_input_is_refused_and_nothing_written(
+    options: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["draw", *options]) == 2
+    err = capsys.readouterr().err
+    assert said in err
+    assert err.count("\n") == 1
+    assert list(folder.iterdir()) == []

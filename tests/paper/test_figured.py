@@ -1,0 +1,122 @@
+"""A figure is the window's drawing, the same as PNG and as SVG, in groups that can be taken up again."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import numpy as np
+import pygame
+import pytest
+
+from linkanim.bench.fidelity import psnr
+from linkanim.paper.figure import Figured
+from linkanim.picture.look import Look
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.painter import Painter
+from linkanim.picture.quantities import quantity
+from linkanim.scenes import load
+
+SIZE = (800, 450)
+SVG = "{http://www.w3.org/2000/svg}"
+FULL = Look(names=2, vectors=frozenset("va"), hud=False)
+
+
+def _levels(surface: pygame.Surface) -> np.ndarray:
+    return pygame.surfarray.array3d(surface).astype(float)
+
+
+def _groups(figured: Figured) -> dict[str, ElementTree.Element]:
+    return {
+        group.get("id", ""): group for group in ElementTree.fromstring(figured.document()).iter(f"{SVG}g")
+    }
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("name", ["press", "crank-rocker", "slider-crank", "scotch-yoke", "jansen"])
+def test_svg_as_another_program_renders_it_is_the_png(name: str, theme: str) -> None:
+    """Pygame's reader of SVG is another's (nanosvg); it knows no text."""
+    look = Look(theme=theme, hud=False)  # type: ignore[arg-type]
+    figured = Figured(load(name), SIZE, look, phase=1.0, centres=False, poses=3)
+    theirs = pygame.image.load(io.BytesIO(figured.document().encode()), "f.svg")
+    assert theirs.get_size() == SIZE
+    assert psnr(_levels(figured.surface()), _levels(theirs)) > 30
+
+
+@pytest.mark.parametrize("name", ["press", "kite"])
+def test_the_png_is_what_the_window_draws(name: str) -> None:
+    """Names that fade in the window, being about to lie on something, are whole on a figure."""
+    scene, surface = load(name), offscreen(SIZE)
+    for look, share in ((replace(FULL, names=0), 0.0), (FULL, 0.01)):
+        Painter(scene, SIZE, look).paint(surface, scene.pose(1.0))
+        apart = np.abs(_levels(Figured(scene, SIZE, look, phase=1.0).surface()) - _levels(surface))
+        assert (apart.max(axis=-1) > 2).mean() <= share
+
+
+def test_every_body_and_joint_has_a_group_of_its_name() -> None:
+    scene = load("press")
+    groups = _groups(Figured(scene, SIZE, FULL, phase=1.0, centres=True, poses=2))
+    bodies = {f"body-{body.name}" for body in scene.linkage.bodies if len(body.joints) > 1}
+    joints = {f"joint-{joint.name}" for joint in scene.linkage.joints}
+    assert bodies | joints <= groups.keys()
+    assert {
+        "strut-return",
+        "strut-cushion",
+        "ground",
+        "curve-H",
+        "velocity",
+        "pose-2",
+        "names",
+    } <= groups.keys()
+    assert len(list(groups["joint-A"])) == 2
+
+
+def test_ids_are_unique_and_have_no_spaces() -> None:
+    text = Figured(load("jansen"), SIZE, FULL, phase=1.0, poses=3).document()
+    ids = [group.get("id", "") for group in ElementTree.fromstring(text).iter(f"{SVG}g")]
+    assert len(set(ids)) == len(ids)
+    assert not any(name != "".join(name.split()) for name in ids)
+
+
+def test_names_are_text_in_a_halo_with_their_subscripts() -> None:
+    names = _groups(Figured(load("crank-rocker"), (1280, 720), FULL, phase=1.0))["names"]
+    said = {"".join(text.itertext()) for text in names}
+    assert {"O2", "A", "B", "O4", "P", "crank", "r2 = 50 mm", "θ2"} <= said
+    assert all(text.get("paint-order") == "stroke" for text in names)
+    lowered = [span for text in names for span in text if "".join(text.itertext()) == "O2"]
+    assert [span.text for span in lowered] == ["2"]
+
+
+def test_the_press_is_a_small_file() -> None:
+    figured = Figured(load("press"), (1280, 720), FULL, phase=1.0, centres=True)
+    assert len(figured.document().encode()) < 200_000
+
+
+def test_without_a_background_nothing_is_behind() -> None:
+    figured = Figured(load("kite"), SIZE, replace(FULL, background=False), phase=1.0)
+    assert pygame.surfarray.array_alpha(figured.surface())[0, 0] == 0
+    assert "<rect" not in figured.document()
+    assert "<rect" in Figured(load("kite"), SIZE, FULL).document()
+
+
+def test_faint_poses_stay_behind_and_faint() -> None:
+    scene = load("crank-rocker")
+    bare = Look(hud=False, trace=False)
+    plain = _levels(Figured(scene, SIZE, bare, phase=1.0).surface())
+    many = _levels(Figured(scene, SIZE, bare, phase=1.0, poses=8).surface())
+    changed = (many != plain).any(axis=-1)
+    assert 0.1 < changed.mean() < 0.5
+    assert np.abs(many - plain)[changed].mean() < 60
+
+
+def test_instant_centres_are_where_the_quantity_says_and_pins_are_not_marked() -> None:
+    scene = load("press")
+    figured = Figured(scene, (1280, 720), Look(hud=False), phase=1.0, centres=True)
+    (marked,) = [group for group in figured.groups() if group.name == "instant-centres"]
+    assert [caption.text for caption in marked.captions] == ["P_{13}", "P_{14}", "P_{16}"]
+    pose, view = scene.pose(1.0), figured.drawing.scenery.view
+    for layer, body in zip(marked.layers, "346", strict=True):
+        cross = np.concatenate(layer.loops).mean()
+        wanted = view.place(quantity(scene, f"{body}.pole").read(pose))
+        assert abs(cross - wanted) < 1e-6
