@@ -51,9 +51,10 @@ def _renormalised(high: float, low: float) -> Sum:
 
 
 def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
-    """Return a + b rounded, and what rounding lost (Knuth; no order of magnitude assumed).
+    """Return a + b rounded, and what rounding lost, whichever is the larger.
 
-    Works on floats and on noted expressions alike.
+    Knuth, The Art of Computer Programming, volume 2, on the accuracy of floating-point arithmetic. Works
+    on floats and on noted expressions alike.
     """
     total = a + b
     back = total - a
@@ -61,7 +62,10 @@ def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
 
 
 def two_product(a: Any, b: Any) -> tuple[Any, Any]:
-    """Return a × b rounded, and what rounding lost (Dekker, with Veltkamp's splitting)."""
+    """Return a × b rounded, and what rounding lost, both numbers split into halves first.
+
+    Dekker, A Floating-Point Technique for Extending the Available Precision.
+    """
     product = a * b
     a_high, a_low = _split(a)
     b_high, b_low = _split(b)

@@ -61,8 +61,8 @@ class _Margins:
         values = np.where(np.isnan(values), -np.inf, values) + TOUCHING
         return values.min(axis=0), (values < 0).argmax(axis=0)
 
-    def closed(self, name: str, x: Array) -> bool:
-        """Tell whether a dyad's margin is used up at all the places."""
+    def at_limit(self, name: str, x: Array) -> bool:
+        """Tell whether a dyad is at its limit at all the places: its margin is used up."""
         row = self.names.index(name)
         with np.errstate(all="ignore"):
             values = self.program(x)[row] / self.scale[row]
@@ -74,7 +74,7 @@ class _Margins:
             values = self.program(x)[: len(self.names)] / self.scale[:, None]
         return {name for name, low in zip(self.names, values.min(axis=1), strict=True) if not low > NEAR}
 
-    def all_open(self, x: Array) -> bool:
+    def can_close(self, x: Array) -> bool:
         """Tell whether every dyad can be closed at all the places."""
         return bool((self.lowest(x)[0] >= 0).all())
 
@@ -88,11 +88,11 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     if margins is None:
         return assembly
     around = _around(assembly.path)
-    is_open = margins.all_open(around)
+    closes = margins.can_close(around)
     whole = through_change_points(assembly, margins.names, margins.near_zero(around))
-    if is_open and (whole is assembly or _runs_through(whole)):
+    if closes and (whole is assembly or _runs_through(whole)):
         return fitted(whole)
-    if is_open:
+    if closes:
         # It is on the closures behind a change point that a dyad cannot be closed.
         assembly = whole
         margins = _margins(whole) or margins
@@ -141,8 +141,8 @@ def _runs_through(assembly: Assembly) -> bool:
     if margins is None:
         return True
     visits = np.arange(path.periods, dtype=np.float64) * (2 * math.pi)
-    return margins.all_open(_around(path)) and all(
-        margins.closed(name, places)
+    return margins.can_close(_around(path)) and all(
+        margins.at_limit(name, places)
         for name, places in zip(path.ends, (visits, visits + math.pi), strict=False)
         if name in margins.names
     )

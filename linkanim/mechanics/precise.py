@@ -60,7 +60,8 @@ def sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
 def interpolated(places: list[Decimal], values: list[Decimal]) -> list[float]:
     """Return the coefficients of the polynomial through the values, the constant one first.
 
-    By Newton's divided differences, multiplied out; the digits bear what cancels.
+    By Newton's divided differences, multiplied out (Abramowitz and Stegun, Handbook of Mathematical
+    Functions, on interpolation); fifty digits bear what cancels.
     """
     divided = list(values)
     for step in range(1, len(places)):

@@ -1,12 +1,9 @@
-"""The signed root of a loop that is closed from a crank pin, and where it vanishes.
-
-With ψ the crank's angle from the ground line (or a quarter turn behind the normal of a line of
-travel), each such loop closes with q = ±√(U·W), where
+"""Where the signed root of a loop closed from a crank pin vanishes: its two factors U and W.
 
     U = cU + K cos²(ψ/2)        W = cW + K sin²(ψ/2)
 
-are sums that carry no cancellation. A positive c never vanishes; c = 0 is a change point, whose
-root is the signed √K cos(ψ/2) or √K sin(ψ/2); a negative c limits the swing of the crank.
+with ψ the crank's angle from the ground line (or a quarter turn behind the normal of a line of travel).
+`signed` derives them, and says what a factor does at c > 0, c = 0 and c < 0.
 """
 
 from __future__ import annotations
@@ -59,7 +56,11 @@ ALWAYS = Factor(1.0, 1.0, quarter_turns(2), Sum(0.0))
 
 @dataclass(frozen=True, slots=True)
 class LoopRoot:
-    """U, W and K of one loop. `reference` is the angle of the crank at ψ = 0."""
+    """U, W and K of one loop. `reference` is the angle of the crank at ψ = 0.
+
+    `spread` is K, by which each factor varies over a turn; 1 in a four-bar, whose factors are taken over
+    4 g r.
+    """
 
     spread: float
     u: Factor
@@ -97,22 +98,22 @@ def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
 def four_bar_root(ground: float, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:
     """Return the root of crank pin against fixed pin: ground r1, crank r2, bars r3, r4.
 
-    cU = (r3+r4-r1-r2)(r3+r4+r1+r2), cW = (r1-r2-r3+r4)(r1-r2+r3-r4), K = 4 r1 r2; here all three
-    over K, so that the root is q/K.
+    cU = (r3+r4-r1-r2)(r3+r4+r1+r2) and cW = (r1-r2-r3+r4)(r1-r2+r3-r4), here over 4 r1 r2: so is q, and
+    K is 1.
     """
     coupler, rocker = bars
     g, r, a, b = (Fraction(length) for length in (ground, crank, coupler, rocker))
-    spread = 4 * g * r
+    scale = 4 * g * r
     u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2
     u_least = gap(coupler, rocker, -ground, -crank) * math.fsum((coupler, rocker, ground, crank))
     w_least = gap(ground, -crank, -coupler, rocker) * gap(ground, -crank, coupler, -rocker)
-    size = float(spread)
+    size = float(scale)
     touching_u = gap(coupler, rocker, -ground, crank) == 0
     touching_w = 0 in (gap(ground, crank, -coupler, rocker), gap(ground, crank, coupler, -rocker))
     return LoopRoot(
         1.0,
-        factor(u_least / size, _unless(touching_u, u_most / spread), Fraction(1), u_most / spread),
-        factor(w_least / size, _unless(touching_w, w_most / spread), Fraction(1), w_most / spread),
+        factor(u_least / size, _unless(touching_u, u_most / scale), Fraction(1), u_most / scale),
+        factor(w_least / size, _unless(touching_w, w_most / scale), Fraction(1), w_most / scale),
         reference,
     )
 

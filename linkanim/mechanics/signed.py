@@ -1,8 +1,48 @@
-"""The signed root of a loop closed from a crank pin, through its change points and limits.
+"""Signed roots: how a dyad closes without losing digits, or its way, where its bars fall into one line.
 
-q = √U·√W, each factor's root signed: √U = √K cos(ψ/2) at a change point; at a limit
-U = K sin x sin y with x and y half the ways to the factor's two limits, so √U is √u√v times a
-root that stays positive. ρ = (K/2 sin ψ)ψ'/q has what vanishes in both divided out.
+**Why.** Bars a and b hang on two pins P and Q, L apart. They meet in the corner B of a triangle; with
+D = Q - P and p = L² + a² - b², from the cosine rule and Heron's formula,
+
+    B = P + D (p + i q)/(2 L²)      q = ±√(U·W)      U = (a + b)² - L²      W = L² - (a - b)²
+
+|q| is four times the triangle's area, its sign the side of D on which B lies: the assembly. U vanishes
+where the bars lie stretched in one line, W where they lie folded. Worked out as written, U is there a
+difference of rounded numbers: an error of 1e-16 makes 1e-8 under the root, or a negative U no pose at all,
+and whoever picks the sign pose by pose picks it by chance. So q is not the root of a product here, but the
+product of two roots, each of them a smooth function of the crank's angle that has a sign of its own.
+
+**The two factors.** P is the pin of a crank r on a fixed pivot, Q a fixed pin at g from that pivot, ψ the
+crank's angle from the line of the two. L² = g² + r² - 2 g r cos ψ, in half angles (Uicker, Pennock and
+Shigley, Theory of Machines and Mechanisms, for the loop; the half angles take its cancellation away):
+
+    U = cU + K cos²(ψ/2)      cU = (a + b - g - r)(a + b + g + r)
+    W = cW + K sin²(ψ/2)      cW = (g - r - a + b)(g - r + a - b)      K = 4 g r
+
+The c are products of sums of lengths as they were given, so nothing cancels. A slider (U, W = b ∓ e, with
+e = e₀ - r cos ψ and K = 2 r) and a slot (W alone) have the same form; `roots` has all three, there a
+four-bar's divided by 4 g r, so that its K is 1. What a factor does is the sign of its c:
+
+- c > 0: it never vanishes. Where both are positive the crank turns fully, each closure on its own.
+- c = 0: a **change point**. √U is √K cos(ψ/2), with the cosine's sign: it goes through zero as smoothly as
+  the cosine does, and behind it B lies on the other side, where a linkage with mass would go, too. cos(ψ/2)
+  is back after two turns: so is a linkage with one change point. With two, √U √W = K/2 sin ψ is back after
+  one: the parallelogram is the one sign of that product, the antiparallelogram the other.
+- c < 0: a **limit**. The crank stops at ψm with cos²(ψm/2) = -cU/K, and
+
+      U = K (cos²(ψ/2) - cos²(ψm/2)) = K sin x sin y,      x, y = (ψm - ψ)/2, (ψm + ψ)/2
+
+  are half the ways left to the two limits. The input swings, θ = mid - amp cos φ, so half its ways are
+  u = amp cos²(φ/2) and v = amp sin²(φ/2), and their roots √u = √amp cos(φ/2) and √v = √amp sin(φ/2) have
+  signs. √U = √K √u √v √(sin u/u) √(sin v/v): smooth in φ, through both limits and back on the other
+  closure. (A limit that another dyad keeps the input from gives √sin x, which stays positive.)
+
+**Rates.** The two bars turn differently by ρ = (L²)'/q, and (L²)' = K sin(ψ/2) cos(ψ/2) ψ'. Where q
+vanishes, so does something above it: at a change point the same cosine or sine, at a limit the rate
+ψ' = 2 √u √v φ'. It is divided out before anything is computed (`_Part.left`, `Ends.share_of_rate`), and ρ
+is a quotient of regular functions, finite wherever the phase stands; `Slope` carries its derivative along.
+By angle instead of phase the rate does not vanish at a limit: ρ is infinite there, as it ought to be.
+
+Dyads whose both ends move have no such factors; `chain` says what stands in for them.
 """
 
 from __future__ import annotations
@@ -33,7 +73,7 @@ class Reduced(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SignedRoot:
-    """q, the regular ratio ρ = (K/2 sin ψ)ψ'/q, and the signed √U where q is a product of two roots.
+    """q, the ratio ρ = (L²)'/q, and the signed √U where q is a product of two roots.
 
     `lift` is what a dyad is closed with whose two ends meet on the way.
     """
@@ -221,7 +261,10 @@ def _root_of_sine(x: Slope, supplement: Value, *, divided: bool) -> Slope:
 
 
 def _logarithmic_slope(x: Value, safe: Value, sine: Value) -> Value:
-    """Return cot x - 1/x, by Lambert's continued fraction where the difference would cancel."""
+    """Return cot x - 1/x, by Lambert's continued fraction where the difference would cancel.
+
+    It is that of the tangent, turned over (Abramowitz and Stegun, Handbook of Mathematical Functions).
+    """
     square = x * x
     fraction: Value = float(LAMBERT_DEPTH)
     for odd in range(LAMBERT_DEPTH - 2, 1, -2):

@@ -55,23 +55,23 @@ class PinLoop:
 def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) -> Triangle:
     """Return the triangle of a crank pin and a fixed pin, without cancellation.
 
-    Lengths squared are taken over K = 4 g r, so that L² is sin²(ψ/2) and a constant; so is the root.
+    Lengths squared are taken over 4 g r, so that L² is sin²(ψ/2) and a constant; so is the root.
     """
     (a, b), g, r = lengths, loop.ground, loop.crank
     if g == r and a == b:
         return _kite(loop, root)
     w, wd = loop.pace.value, loop.pace.rate
-    square, k = loop.half.square, 4.0 * g * r
-    share = 0.5 / (square + (g - r) * (g - r) / k)
+    square, unit = loop.half.square, 4.0 * g * r
+    share = 0.5 / (square + (g - r) * (g - r) / unit)
     # (L²)'/(4 L⁴): what the shares of D and e both change with.
     change = loop.half.product * w * share * share
-    excess, outer = 2.0 * (b - a) * (b + a) / k, 2.0 * (g - r) * (g + r) / k
+    excess, outer = 2.0 * (b - a) * (b + a) / unit, 2.0 * (g - r) * (g + r) / unit
     turn = Slope(*(_turn(square, share, (g, r), rate) for rate in (w, wd)))
     across = loop.across()
     return Triangle(
         across=across,
-        near=(square + _near_constant(g - r, a, b) / k) * share,
-        far=(square + _near_constant(g - r, b, a) / k) * share,
+        near=(square + _near_constant(g - r, a, b) / unit) * share,
+        far=(square + _near_constant(g - r, b, a) / unit) * share,
         lift=across.left().scaled(root.q * share),
         turn=turn.plus(0.0, change * (root.ratio.value * excess + w * outer)),
         ratio=root.ratio,
