@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from numpy.typing import NDArray
 from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, meeting, on_line, sign_of, unit
 
 from linkanim.mechanics.chain import Touch
+from linkanim.mechanics.kinds import Crank, Gear, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.path import Swing
@@ -428,3 +431,24 @@ def test_the_six_bar_s_rates_are_slopes_to_more_digits_than_asked() -> None:
         return {"A": a, "B": b, "C": c, "D": meeting(c, mp.mpc(230), mpf(110), mpf(90), 1)}
 
     check(solved, pose, tuple(AROUND), 130.0, position=1e-14, rate=1e-13)
+
+
+# Ratios that are no power of two: ratio × angle has more digits than a float, and far along they count.
+@pytest.mark.parametrize("ratio", [Fraction(1, 3), Fraction(-7, 3), Fraction(5, 12), Fraction(3)], ids=str)
+@pytest.mark.parametrize("turns", [0, 1_000, 1_000_000], ids=lambda turns: f"{turns} turns on")
+def test_a_geared_crank_stands_where_its_gears_put_it_however_far_along(ratio: Fraction, turns: int) -> None:
+    linkage = Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("O5", (6.0, 0.0)),
+            Crank("A", "O2", 1.0),
+            Crank("C", "O5", 1.0, Gear("A", ratio, 0.3)),
+        ),
+        Drive("A", 1.0, 0.7),
+    )
+    phases = 2 * math.pi * turns + np.linspace(0.1, 30.0, 40)
+    places = mechanism(linkage).solve(phase=phases, speed=1.0).position["C"]
+    reference = [
+        6 + unit((mpf(0.7) + mpf(float(x))) * ratio.numerator / ratio.denominator + mpf(0.3)) for x in phases
+    ]
+    assert worst(places, reference, 6.0) <= 2 * EPS
