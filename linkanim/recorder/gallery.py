@@ -22,10 +22,10 @@ from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.whole import made_folder, replacing
 
-SIZE = (480, 270)
+SIZE = (400, 225)
 RATES = (20.0, 100 / 6, 12.5, 10.0)
 """Frames a second, the first that keeps a GIF within `LARGEST`."""
-LARGEST = 200_000
+LARGEST = 150_000
 LOOK = Look(hud=False)
 SHEET = "contact-sheet.png"
 TAPE = ".tape.json"

@@ -61,6 +61,8 @@ _CHAPTERS: Mapping[str, tuple[str, ...]] = {
         "umbrella",
         "geared-five-bar-2-1",
         "geared-five-bar-3-2",
+        "cardan-gears",
+        "epicyclic-hypocycloid",
         "parallel-locomotive",
     ),
     "hard on purpose": (

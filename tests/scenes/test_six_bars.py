@@ -207,3 +207,22 @@ def test_at_grashofs_limit_two_turns_bring_all_back() -> None:
     first = scene.solve(phase=0.0).position["B"]
     assert np.max(np.abs(once - first)) > 10
     assert twice == pytest.approx(first, abs=1e-12)
+
+
+def test_cardans_wheel_draws_a_line_with_its_rim_and_an_ellipse_within() -> None:
+    motion = load("cardan-gears").cycle(720)
+    theta = motion.crank_angle
+    x, y = motion.position["E"].T
+    assert np.max(np.abs(y)) <= 1e-14 * 100
+    assert np.max(np.abs(x - 100 * np.cos(theta))) <= 1e-14 * 100
+    x, y = motion.position["P"].T
+    assert np.max(np.abs((x / 25) ** 2 + (y / 75) ** 2 - 1)) <= 1e-13
+
+
+def test_the_small_wheels_rim_draws_an_astroid_with_four_cusps() -> None:
+    scene = load("epicyclic-hypocycloid")
+    theta = np.linspace(-math.pi, math.pi, 721)
+    cubes = 100 * np.stack((np.cos(theta) ** 3, np.sin(theta) ** 3), axis=1)
+    assert np.max(np.abs(scene.solve(angle=theta).position["E"] - cubes)) <= 1e-14 * 100 * 2
+    cusps = scene.solve(angle=np.arange(4) * (math.pi / 2), speed=1.0)
+    assert np.max(np.abs(cusps.velocity["E"])) <= 1e-12
