@@ -94,6 +94,13 @@ class Section:
             raise self.error(key, "must be a text in quotes")
         return value
 
+    def texts(self, key: str) -> tuple[str, ...]:
+        """Return a list of texts, empty where it is missing."""
+        value = self.values.get(key, [])
+        if not isinstance(value, list) or not all(isinstance(text, str) for text in value):
+            raise self.error(key, 'must be a list of texts, such as ["one", "another"]')
+        return tuple(value)
+
     def choice(self, key: str, options: tuple[Option, ...]) -> Option:
         """Return one of the options, the first where the key is missing."""
         value = self.values.get(key, options[0])

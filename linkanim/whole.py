@@ -132,6 +132,31 @@ def numbering(target: Path) -> Iterator[Path]:
         shutil.rmtree(part, ignore_errors=True)
 
 
+@contextmanager
+def replacing_folder(target: Path) -> Iterator[Path]:
+    """Give a new folder, which takes the target's name when the block ends well; an old one then goes."""
+    whole = target.resolve()
+    clear_stale(whole.parent)
+    part, aside = _part(whole.parent), _part(whole.parent)
+    try:
+        with _saying_why(target):
+            part.mkdir()
+            yield part
+            for path in part.iterdir():
+                _settle(path)
+            if whole.exists():
+                whole.rename(aside)
+            try:
+                part.rename(whole)
+            except OSError:
+                if aside.exists():
+                    aside.rename(whole)
+                raise
+    finally:
+        for left in (part, aside):
+            shutil.rmtree(left, ignore_errors=True)
+
+
 def numbered(target: Path) -> list[Path]:
     """Return the numbered files NAME-0001.png, ... of NAME.png that are there, in order."""
     name = re.compile(re.escape(target.stem) + r"-(\d{4,})" + re.escape(target.suffix))

@@ -28,7 +28,7 @@ def run(options: Namespace) -> None:
     refuse_size(size)
     scene = load(options.scene)
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
-    curves = curves_of(scene, Wanted(tokens, _paces(scene, options.speeds), options.over))
+    curves = curves_of(scene, Wanted(tokens, paces(scene, options.speeds), options.over))
     measured = _measured(curves, options)
     write(Page(curves, size, options.theme, measured), target)
     if measured:
@@ -36,7 +36,7 @@ def run(options: Namespace) -> None:
     print(target)
 
 
-def _paces(scene: Scene, text: str | None) -> tuple[Pace, ...]:
+def paces(scene: Scene, text: str | None) -> tuple[Pace, ...]:
     """Return the speeds asked for, the scene's own where none is; `BadInput` for one that moves nothing."""
     if text is None:
         return (Pace(scene.linkage.drive.speed, "the scene's speed"),)

@@ -294,6 +294,23 @@ def _draw(parser: Parser) -> None:
     parser.add_argument("--transparent", action="store_true", help="no background")
 
 
+def _report(parser: Parser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="DIR", help="the folder to make, or to make anew"
+    )
+    parser.add_argument(
+        "--angles",
+        metavar="ANGLE[,ANGLE...]",
+        help='where to tell every quantity, such as "87 deg,306 deg" (default: the start and the extremes)',
+    )
+    parser.add_argument(
+        "--speeds",
+        metavar="SPEED[,SPEED...]",
+        help='for tables and charts, such as "5 rad/s,10 rad/s" (default: the scene\'s)',
+    )
+
+
 def _gallery(parser: Parser) -> None:
     parser.add_argument(
         "--into",
@@ -339,6 +356,14 @@ COMMANDS = {
             "linkanim chart press --quantity 5.travel_velocity -o ram.svg",
             'linkanim chart press --quantity 3.angular_velocity --speeds "5 rad/s,10 rad/s,20 rad/s"',
             "linkanim chart double-rocker --quantity rocker.angle --over angle -o rocker.csv",
+        ),
+    ),
+    "report": Command(
+        "write a page with a scene's figure, facts, tables and charts, and their SVG and CSV",
+        _report,
+        (
+            "linkanim report press -o press-report",
+            'linkanim report press -o press-report --angles "87 deg,306 deg" --speeds "5 rad/s,10 rad/s"',
         ),
     ),
     "info": Command(

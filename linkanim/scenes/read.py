@@ -19,7 +19,7 @@ from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
 
 _TOP = (
-    "title", "source", "chapter", "look_at", "length_unit",
+    "title", "source", "chapter", "look_at", "notes", "length_unit",
     "drive", "ground", "joints", "bodies", "springs", "dampers", "trace", *SHORTHANDS,
 )  # fmt: skip
 DEFAULT_SPEED = "20 rpm"
@@ -56,6 +56,7 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: S
         trace=_trace(top, joints, short.trace),
         chapter=top.text("chapter", ""),
         look_at=top.text("look_at", ""),
+        notes=top.texts("notes"),
         document=document,
         towards=towards,
     )

@@ -31,6 +31,8 @@ class Scene:
     trace: tuple[str, ...] = ()
     chapter: str = ""
     """Of a collection, the part that it belongs to; the catalogue's are those of `chapters()`."""
+    notes: tuple[str, ...] = ()
+    """What a reader of its figures should know, such as where its source errs."""
     look_at: str = ""
     """What to look at, in a sentence."""
     document: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)

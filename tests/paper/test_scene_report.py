@@ -1,0 +1,186 @@
+"""Reports: what the page and its files say is what is solved."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from linkanim.cli import main
+from linkanim.digits import significant, typeset
+from linkanim.mechanics.register import register
+from linkanim.paper.curves import Pace
+from linkanim.paper.findings import charted, instants_at, sheet, usual_instants
+from linkanim.scenes import load, names
+
+PACES = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (5.0, 10.0, 20.0))
+PRESS = ("report", "press", "--angles", "87 deg,306 deg", "--speeds", "5 rad/s,10 rad/s,20 rad/s")
+
+
+class Parts(HTMLParser):
+    """What a page is made of: its tags, and the address of everything that it loads."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.loaded: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.loaded += [value or "" for name, value in attrs if name in ("src", "href", "srcset", "data")]
+
+
+@pytest.fixture(scope="module")
+def press(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("reports") / "press"
+    assert main([*PRESS, "-o", str(folder)]) == 0
+    return folder
+
+
+def test_the_page_holds_everything_and_loads_nothing(press: Path) -> None:
+    text = (press / "report.html").read_text(encoding="utf-8")
+    page = Parts(text)
+    assert page.loaded == []
+    assert "script" not in page.tags
+    assert page.tags.count("svg") == 1 + len(list(press.glob("chart-*.svg")))
+    assert "@page" in text
+    assert "size: A4" in text
+    assert not re.search(r"url\(|@import|https?://(?!www\.w3\.org)", text)
+
+
+def test_its_pictures_are_well_formed(press: Path) -> None:
+    for path in press.glob("*.svg"):
+        assert ElementTree.parse(path).getroot().tag == "{http://www.w3.org/2000/svg}svg"
+
+
+# What the printed report on the press prints or plots.
+PRINTED = [
+    *(f"{body}.{name}" for body in "346" for name in ("coefficient", "second_coefficient")),
+    "5.coefficient",
+    "5.second_coefficient",
+    *(f"{body}.angular_{name}" for body in "346" for name in ("velocity", "acceleration")),
+    *(f"5.travel{rest}" for rest in ("", "_velocity", "_acceleration")),
+    *(
+        f"{body}.com_{rate}{axis}"
+        for body in "23467"
+        for rate in ("velocity", "acceleration")
+        for axis in ("", ".x", ".y")
+        if (body, axis) not in (("2", ""), ("7", ""))  # a crank's own centre goes at one speed
+    ),
+    *(f"{body}.com_position.{axis}" for body in "23467" for axis in "xy"),
+    *(f"return.{name}" for name in ("length", "rate")),
+    *(f"cushion.{name}" for name in ("length", "rate", "direction", "direction_rate")),
+]
+
+
+def test_the_press_has_a_chart_of_all_that_the_printed_report_plots(press: Path) -> None:
+    shown = {path.stem.split("-", 2)[2] for path in press.glob("chart-*.svg")}
+    assert set(PRINTED) <= shown
+
+
+def test_the_press_notes_where_the_printed_report_errs(press: Path) -> None:
+    scene = load("press")
+    solved = scene.solve(angle=math.radians(306), speed=10.0).angular_acceleration["3"]
+    assert typeset(significant(float(solved), 6)) == "−18.4617"
+    assert "−18.4617" in scene.notes[0]
+    assert scene.notes[0] in (press / "report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", names())
+def test_tables_say_what_is_solved_at_every_speed(name: str) -> None:
+    scene = load(name)
+    for instant in usual_instants(scene):
+        rows = {row.quantity.token: row for _, part in sheet(scene, instant, PACES).sections for row in part}
+        numbers = {token: one for token, one in register(scene.linkage).items() if len(one.columns) == 1}
+        assert rows.keys() == numbers.keys()
+        for pace, n in zip(PACES, range(3), strict=True):
+            motion = scene.solve(phase=instant.phase, speed=pace.speed)
+            for token, row in rows.items():
+                value = float(numbers[token].shown(motion))
+                said = typeset(significant(value, 7)) if math.isfinite(value) else row.values[n]
+                assert row.values[n] == said, token
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_the_table_of_all_quantities_is_that_of_solve(press: Path, n: int) -> None:
+    with (press / f"quantities-{n}.csv").open(encoding="utf-8", newline="") as file:
+        header, *lines = csv.reader(file)
+    columns = [np.array([float(cell or "nan") for cell in cells]) for cells in zip(*lines, strict=True)]
+    found = dict(zip(header, columns, strict=True))
+    scene, pace = load("press"), PACES[n - 1]
+    motion = scene.solve(phase=found["phase"], speed=pace.speed)
+    assert found["time"] == pytest.approx(found["phase"] / pace.speed)
+    assert found["angle"] == pytest.approx(motion.crank_angle)
+    assert len(lines) == 361
+    for token in ("3.angular_acceleration", "5.travel_velocity", "cushion.force", "4.com_velocity.y"):
+        solved = np.asarray(register(scene.linkage)[token].read(motion))
+        assert found[token] == pytest.approx(solved, rel=1e-15)
+
+
+def test_a_slider_s_extremes_are_told_by_themselves() -> None:
+    scene = load("press")
+    start, high, low = usual_instants(scene)
+    assert start.phase == 0.0
+    for instant, degrees in ((high, 71.0), (low, 316.5)):
+        assert math.degrees(instant.phase) == pytest.approx(degrees, abs=1.0)
+        assert scene.pose(instant.phase).travel_velocity["5"] == pytest.approx(0.0, abs=1e-4)
+
+
+def test_what_stands_still_has_no_chart() -> None:
+    tokens = [token for _, token in charted(load("parallelogram"))]
+    assert "coupler.angular_velocity" not in tokens
+    assert "crank.angle" in tokens
+
+
+def test_angles_choose_the_phase_also_of_a_swing() -> None:
+    scene = load("double-rocker")
+    middle = sum(scene.info.input_range) / 2
+    (instant,) = instants_at(scene, (middle,))
+    assert scene.pose(instant.phase).crank_angle == pytest.approx(middle)
+
+
+# Refused in one line, and nothing is written.
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        pytest.param(("--angles", "87"), "no unit", id="an angle without a unit"),
+        pytest.param(("--speeds", "0 rad/s"), "other than zero", id="a speed that moves nothing"),
+        pytest.param(("--angles", ","), "give angles", id="no angle"),
+    ],
+)
+def test_what_cannot_be_reported_is_refused(
+    options: tuple[str, ...], words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["report", "press", "-o", str(tmp_path / "out"), *options]) == 2
+    assert words in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_angle_out_of_range_is_refused_with_the_range(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["report", "double-rocker", "-o", str(tmp_path / "out"), "--angles", "200 deg"]) == 2
+    assert "the crank angle goes from" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_report_takes_the_place_of_an_older_one_and_of_nothing_else(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    target = tmp_path / "out"
+    for _ in range(2):
+        assert main(["report", "scotch-yoke", "-o", str(target)]) == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+    other = tmp_path / "mine"
+    other.mkdir()
+    (other / "thesis.txt").write_text("keep me")
+    assert main(["report", "scotch-yoke", "-o", str(other)]) == 2
+    assert "holds something else" in capsys.readouterr().err
+    assert (other / "thesis.txt").read_text() == "keep me"
