@@ -9,6 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
+from linkanim.digits import degrees
+from linkanim.errors import AssemblyError
+
 from .chain import ChainRoot
 from .clock import Clock
 from .expression import Graph, Value
@@ -18,6 +21,7 @@ from .path import Arc, Path, Swing, Turn, open_arcs
 from .planar import MovingPoint, Slope
 from .program import batch
 from .roots import Kind
+from .stroke import Stroke, stroke
 from .walk import Kinematics, walked
 
 JUST_AFTER = 1e-6
@@ -93,11 +97,31 @@ def _scale(linkage: Linkage) -> float:
 
 def _paths(linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Arc] | None) -> Iterator[Path]:
     """Yield the paths the input may take, the one asked for first."""
+    if linkage.drive.cylinder is not None:
+        yield _driven(linkage, arcs)
+        return
     if arcs is None:
         yield Turn(linkage.drive.start, turns_to_return(linkage, loops))
         return
     for arc in sorted(arcs, key=lambda arc: _rank(arc, linkage.drive.start, loops)):
         yield Swing(arc.low, arc.high, arc.ends)
+
+
+def _driven(linkage: Linkage, arcs: list[Arc] | None) -> Stroke:
+    """Return the path that a cylinder drives; AssemblyError where a loop on the crank leaves it no room."""
+    path = stroke(linkage)
+    low, high = path.input_range
+    if arcs is None or any(float(arc.low) < low and high < float(arc.high) for arc in _around(arcs)):
+        return path
+    within = " or ".join(f"{degrees(float(arc.low))}…{degrees(float(arc.high))}" for arc in arcs)
+    raise AssemblyError(
+        f"joint {arcs[0].ends[0]}: the cylinder would turn the crank {degrees(low)}…{degrees(high)}, "
+        f"and the bars meet at {within} only; change from and to"
+    )
+
+
+def _around(arcs: list[Arc]) -> Iterator[Arc]:
+    return (arc.shifted(turns) for arc in arcs for turns in (-1, 0, 1))
 
 
 def _rank(arc: Arc, start: float, loops: Mapping[str, Loop]) -> tuple[bool, bool]:

@@ -194,6 +194,8 @@ def _class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
 
 def _cranks_name(linkage: Linkage) -> str:
     """Name a linkage without dyads by how its cranks turn."""
+    if linkage.drive.cylinder is not None:
+        return "crank driven by a cylinder"
     geared = [crank for crank in linkage.cranks if crank.gear]
     if any(not linkage.joint(crank.pivot).fixed for crank in geared):
         return "epicyclic gear train"

@@ -211,6 +211,13 @@ sqrt = _unary("sqrt", math.sqrt)
 rint = _unary("rint", nearest_whole)
 
 
+def arctan2(y: Value, x: Value) -> Value:
+    """Return the angle of (x, y) by the C library: for an angle that is told, not for one that is used."""
+    if isinstance(y, Expr):
+        return y.graph.node("arctan2", y, x)
+    return x.graph.node("arctan2", y, x) if isinstance(x, Expr) else math.atan2(y, x)
+
+
 def minimum(a: Value, b: Value) -> Value:
     """Return the smaller of the two."""
     if isinstance(a, Expr):

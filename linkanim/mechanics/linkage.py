@@ -66,12 +66,35 @@ class Damper:
 
 
 @dataclass(frozen=True, slots=True)
+class Cylinder:
+    """A cylinder that drives the linkage: its length runs from `first` to `last` and back.
+
+    `between` is a fixed pin and a joint of the driven crank's body.
+    """
+
+    between: tuple[str, str]
+    first: float
+    last: float
+
+
+@dataclass(frozen=True, slots=True)
 class Drive:
-    """What turns the linkage: the input crank, its speed (rad/s, negative clockwise) and start (rad)."""
+    """What turns the linkage: the input crank, its speed (rad/s, negative clockwise) and start (rad).
+
+    Where a cylinder turns the crank, `speed` is that of the phase, one there-and-back being 2π.
+    """
 
     joint: str
     speed: float
     start: float = 0.0
+    cylinder: Cylinder | None = None
+
+    def scaled(self, factor: float) -> Drive:
+        """Return the drive with its cylinder's lengths times a factor."""
+        if self.cylinder is None:
+            return self
+        first, last = self.cylinder.first * factor, self.cylinder.last * factor
+        return replace(self, cylinder=replace(self.cylinder, first=first, last=last))
 
 
 @dataclass(frozen=True)
@@ -125,4 +148,5 @@ class Linkage:
     def scaled(self, factor: float) -> Linkage:
         """Return the linkage with the lengths of its joints and bodies times a factor."""
         joints = tuple(joint.scaled(factor) for joint in self.joints)
-        return replace(self, joints=joints, bodies=tuple(body.scaled(factor) for body in self.bodies))
+        bodies = tuple(body.scaled(factor) for body in self.bodies)
+        return replace(self, joints=joints, bodies=bodies, drive=self.drive.scaled(factor))

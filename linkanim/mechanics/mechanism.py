@@ -155,7 +155,7 @@ class Mechanism:
         ways = given.reach
         if ways is None:
             return places, program(given.x, *rates)
-        results = program(ways.angle, ways.u, ways.v, *rates)
+        results = program(*self.assembly.path.solved_from(ways), *rates)
         results[:, ways.outside] = np.nan
         if variant.derivatives and ways.at_limit.any():
             snapped = program(ways.angle, *ways.snapped, *rates)

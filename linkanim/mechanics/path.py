@@ -27,6 +27,7 @@ from .precise import context, cosine, exactly, nearest_sum
 from .reach import Array, Reach, reach
 from .roots import Kind, LoopRoot
 from .signed import Swinging
+from .stroke import Stroke
 
 NO_RANGE = 1e-12
 """Ranges that overlap by no more than this, in radians, touch."""
@@ -109,6 +110,10 @@ class Turn:
     def clock_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], Clock]:
         """Return the names of the graph's inputs, and the input's state at its angle."""
         return ("x",), turn(graph.input("x"), pace, Sum(0.0))
+
+    def solved_from(self, reached: Reach) -> tuple[Array, ...]:
+        """Return what the program by angle takes: the angle."""
+        return (reached.angle,)
 
     def swinging(self, clock: Clock) -> Swinging | None:
         """Return None: there is no swing."""
@@ -220,6 +225,10 @@ class Swing:
         x, u, v = (graph.input(name) for name in "xuv")
         return ("x", "u", "v"), swing_by_angle(x, u, v, pace, self.middle)
 
+    def solved_from(self, reached: Reach) -> tuple[Array, ...]:
+        """Return what the program by angle takes: the angle from the middle, and half the ways left."""
+        return reached.angle, reached.u, reached.v
+
     def swinging(self, clock: Clock) -> Swinging | None:
         """Return the swing as the clock has it; None for a clock without ends."""
         return None if clock.ends is None else Swinging(clock.ends, clock.pace, self.low, self.high)
@@ -229,7 +238,7 @@ class Swing:
         return reach(angle, (self.low, self.middle, self.high), self.repeats)
 
 
-Path = Turn | Swing
+Path = Turn | Swing | Stroke
 
 
 def _cosine(angle: Sum) -> Sum:

@@ -27,6 +27,7 @@ INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}",
 FLOAT_CALLS = {
     "sqrt": "sqrt({})",
     "rint": "copysign((abs({0}) + WHOLE) - WHOLE, {0})",
+    "arctan2": "atan2({}, {})",
     "minimum": "min({}, {})",
     "maximum": "max({}, {})",
     "select": "({2} if {0} < {1} else {3})",
@@ -39,6 +40,7 @@ UFUNCS: Mapping[str, Callable[..., Any]] = {
     "neg": np.negative,
     "sqrt": np.sqrt,
     "rint": np.rint,
+    "arctan2": np.arctan2,
     "minimum": np.minimum,
     "maximum": np.maximum,
 }
@@ -81,7 +83,7 @@ def _define(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., A
     return function
 
 
-FLOAT_NAMES = {"sqrt": math.sqrt, "copysign": math.copysign, "WHOLE": WHOLE}
+FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": math.atan2, "copysign": math.copysign, "WHOLE": WHOLE}
 
 
 def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Callable[..., Any]:

@@ -61,7 +61,8 @@ class Report:
         yield html.heading(2, "What it is")
         yield html.facts(scene.info.lines)
         yield html.heading(2, "Dimensions")
-        values = [(item.label, typeset(f"{item.value:.10g} {item.unit}".strip())) for item in dimensions(scene)]
+        stated = ((item.label, f"{item.value:.10g} {item.unit}".strip()) for item in dimensions(scene))
+        values = [(label, typeset(value)) for label, value in stated]
         yield f"<div class='two'>{html.facts(values)}</div>"
         for note in scene.notes:
             yield html.paragraph(note)

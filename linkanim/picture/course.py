@@ -107,6 +107,7 @@ def input_symbol(scene: Scene) -> str:
 
 def _limits(scene: Scene, pace: float) -> list[tuple[float, str]]:
     """Return when in a period a swing is at its limits, each with its angle."""
-    words = [f"{stepped(degrees(limit), 0.1)}°" for limit in scene.info.input_range]
+    ends = scene.mechanism.assembly.path.angles(np.array([0.0, pi])).tolist()
+    words = [f"{stepped(degrees(end), 0.1)}°" for end in ends]
     halves = round(scene.period / pi)
     return [(k * pi / abs(pace), words[k % 2]) for k in range(halves + 1)]

@@ -53,8 +53,14 @@ class Figure:
 
     @cached_property
     def struts(self) -> tuple[Spring | Damper, ...]:
-        """The springs, then the dampers."""
-        return (*self.linkage.springs, *self.linkage.dampers)
+        """The springs, then the dampers, and the cylinder that drives."""
+        return (*self.linkage.springs, *self.cylinders)
+
+    @cached_property
+    def cylinders(self) -> tuple[Damper, ...]:
+        """What is drawn as cylinder and piston: the dampers, and the cylinder that drives."""
+        driving = self.linkage.drive.cylinder
+        return (*self.linkage.dampers, *((Damper("cylinder", driving.between),) if driving else ()))
 
     @cached_property
     def fixed(self) -> tuple[str, ...]:

@@ -123,9 +123,9 @@ def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil,
 
 
 def cushions(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Cushion, ...]:
-    """Return the scene's dampers; the stroke gives a cylinder its length, as far as there is room."""
+    """Return the scene's dampers and driving cylinder, each as long as its stroke needs, if there is room."""
     found = []
-    for item in figure.linkage.dampers:
+    for item in figure.cylinders:
         span = reach(figure, view, item)
         needed = (span.longest - span.shortest) / 0.68
         length = min(max(needed, 5 * gauge.bar), max(0.8 * span.shortest, 2 * gauge.bar))

@@ -108,6 +108,8 @@ def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, DimensionKind]]:
     for section, kinds in (("bodies", _BODY), ("springs", _STRUT), ("dampers", _STRUT)):
         for name, table in document.get(section, {}).items():
             yield from _numbers(table, (section, name), kinds)
+    stroke = document.get("drive", {}).get("cylinder", {})
+    yield from _numbers(stroke, ("drive", "cylinder"), {"from": "length", "to": "length"})
     yield from _numbers({"speed": DEFAULT_SPEED, **document.get("drive", {})}, ("drive",), _DRIVE)
 
 

@@ -59,6 +59,8 @@ def label(key: Key, document: Mapping[str, Any], linkage: Linkage) -> str:
             return f"Pin {pin}, {_of_pin(rest)}"
         case ("bodies", str(body), "com", int(place)):
             return f"{_named(body)} centre of mass, {_PARTS[place]}"
+        case ("drive", "cylinder", str(end)):
+            return {"from": "Cylinder, from", "to": "Cylinder, to"}[end]
         case ("springs" | "dampers", str(strut), str(name)):
             return f"{strut.capitalize()}, {_STRUT.get(name, name)}"
     return ", ".join(str(part).replace("_", " ") for part in key)

@@ -11,7 +11,7 @@ from linkanim.errors import AssemblyError, SceneError
 from linkanim.mechanics.frames import coincide, frames_of, holding
 from linkanim.mechanics.joint import Frame, Joint, Need
 from linkanim.mechanics.kinds import RRR, Crank, Pin
-from linkanim.mechanics.linkage import Body, Damper, Drive, Linkage, Spring
+from linkanim.mechanics.linkage import Body, Cylinder, Damper, Drive, Linkage, Spring
 from linkanim.scenes.check import Table
 from linkanim.scenes.joints import read_joint, read_pin
 from linkanim.scenes.order import circle, solved_order
@@ -178,19 +178,40 @@ def _check_brace(table: Table, joint: RRR, frame: Frame) -> None:
 
 def _drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Drive:
     table = top.table("drive")
-    table.only("joint", "speed", "start")
+    table.only("joint", "speed", "start", "cylinder")
     cranks = [joint for joint in joints if isinstance(joint, Crank)]
     free = [crank.name for crank in cranks if crank.gear is None]
     if not free:
         raise top.table("joints").wrong("no crank is free to be driven; add one without a gear, as the input")
-    name = table.text("joint", usual or free[0])
+    cylinder = table.table("cylinder")
+    cylinder.only("between", "from", "to", "joint")
+    name = cylinder.text("joint", table.text("joint", usual or free[0]))
     if name not in free:
         raise table.error("joint", f"is not a crank that can be driven; that is {free[0]}")
     if len(free) > 1:
         other = next(crank for crank in free if crank != name)
         way_out = f"gear it: gear = {{ with = {units.shown(name)}, ratio = -1 }}"
         raise top.table("joints").wrong(f"{other} is a second input beside {name}; {way_out}")
-    return Drive(name, table.speed("speed", DEFAULT_SPEED), table.angle("start", "0 deg"))
+    speed, start = table.speed("speed", DEFAULT_SPEED), table.angle("start", "0 deg")
+    return Drive(name, speed, start, _cylinder(cylinder, joints, name) if "cylinder" in table else None)
+
+
+def _cylinder(table: Table, joints: tuple[Joint, ...], driven: str) -> Cylinder:
+    """Read a cylinder between a fixed pin and a joint of the driven crank's body, named in either order."""
+    known = {joint.name: joint for joint in joints}
+    first, second = _members(table, "between", known, 2)
+    fixed, moving = (first, second) if known[first].fixed else (second, first)
+    crank = known[driven]
+    assert isinstance(crank, Crank)
+    if not known[fixed].fixed or fixed == crank.pivot:
+        raise table.error("between", f"names no fixed pin beside {crank.pivot}; one end stands on the ground")
+    carried = [frame for frame in frames_of(joints)[1:] if {crank.pivot, driven, moving} <= frame.keys()]
+    if not carried or coincide(carried[0], crank.pivot, moving):
+        raise table.error("between", f"{moving} is no joint of the body that turns with {driven}")
+    start, end = table.length("from"), table.length("to")
+    if start == end:
+        raise table.error("to", "is the same length as from, so nothing would move")
+    return Cylinder((fixed, moving), start, end)
 
 
 def _bodies(

@@ -1,0 +1,217 @@
+"""A cylinder as the input: its length runs to and fro, and turns a crank.
+
+The length ℓ between a fixed pin G and a joint H of the crank's body makes a triangle with the crank's
+pivot, whose sides g and r do not change. With ψ its angle at the pivot the law of cosines is
+
+    4 g r sin²(ψ/2) = (ℓ - g + r)(ℓ + g - r)      4 g r cos²(ψ/2) = (g + r - ℓ)(g + r + ℓ)
+
+without cancellation, so half of ψ has its sine and cosine without an arc function; and ψ' = ℓ ℓ'/(g r sin ψ).
+The length is mid - amp·cos φ: it starts at `first`, is at `last` half a period on, and comes back.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import ClassVar, NoReturn
+
+import numpy as np
+
+from linkanim.errors import AssemblyError
+
+from .circular import Half, direction, half_angle, half_of, sharp_half_angle
+from .clock import Clock, turn
+from .exact import Sum, exact_angle
+from .expression import Graph, Value, arctan2, sqrt
+from .linkage import Cylinder, Linkage
+from .loop import ground_between
+from .planar import Slope, Vec
+from .reach import Array, Reach
+from .signed import Swinging
+
+
+@dataclass(frozen=True, slots=True)
+class HalfClock(Clock):
+    """The input's state where half of its angle from `origin` is known by its sine and cosine."""
+
+    own: Half | None = None
+
+    def half(
+        self,
+        reference: Sum,
+        ratio: Fraction = Fraction(1),
+        *,
+        form: Callable[[Value, Value], Half] = half_angle,
+    ) -> Half:
+        """Return half of ratio × θ - reference, turned from the half that is known where ratio is ±1."""
+        assert self.own is not None
+        if abs(ratio) != 1:
+            return Clock.half(self, reference, ratio, form=form)
+        way = float(ratio)
+        rest = direction(float((self.origin * ratio - reference).times(0.5)))
+        turned = Vec(self.own.cosine, self.own.sine * way).times(Vec(*rest))
+        return half_of(turned.y, turned.x)
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke:
+    """The input's path where a cylinder drives it; θ = base + side × ψ."""
+
+    first: float
+    last: float
+    sides: tuple[float, float]
+    """Of the triangle, from the crank's pivot: to the cylinder's fixed pin, and to its joint on the crank."""
+    base: Sum
+    side: int
+    rounds: int = 1
+
+    full_turn: ClassVar[bool] = False
+    ends: ClassVar[tuple[str, ...]] = ()
+    amplitude: ClassVar[None] = None
+    limits: ClassVar[tuple[float, ...]] = ()
+
+    @property
+    def periods(self) -> int:
+        """One there-and-back, times what a chain that passes a change point needs."""
+        return self.rounds
+
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the crank goes."""
+        low, high = sorted(self.angle_of(length) for length in (self.first, self.last))
+        return low, high
+
+    def angle_of(self, length: float) -> float:
+        """Return the crank's angle at a length of the cylinder."""
+        g, r = self.sides
+        sine, cosine = (length - g + r) * (length + g - r), (g + r - length) * (g + r + length)
+        return float(self.base) + self.side * 2 * math.atan2(math.sqrt(sine), math.sqrt(cosine))
+
+    def holds(self, angle: float, turns: int = 1) -> bool:
+        """Tell whether the crank comes to an angle, or to one that many turns away, or twice as many …"""
+        low, high = self.input_range
+        return abs(math.remainder(angle - (low + high) / 2, 2 * math.pi * turns)) <= (high - low) / 2
+
+    def phase_of(self, angle: float, near: float) -> float:
+        """Return the phase nearest to `near` at which the crank stands at an angle, or at its end."""
+        g, r = self.sides
+        psi = abs(math.remainder(angle - float(self.base), 2 * math.pi))
+        length = math.sqrt(g * g + r * r - 2 * g * r * math.cos(psi))
+        middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
+        rising = math.acos(min(max((middle - length) / half, -1.0), 1.0))
+        ways = (near + math.remainder(phase - near, 2 * math.pi) for phase in (rising, -rising))
+        return min(ways, key=lambda phase: abs(phase - near))
+
+    def angles(self, phases: Array) -> Array:
+        """Return the crank's angle at phases."""
+        g, r = self.sides
+        length = (self.first + self.last) / 2 - (self.last - self.first) / 2 * np.cos(phases)
+        sine, cosine = (length - g + r) * (length + g - r), (g + r - length) * (g + r + length)
+        angles: Array = float(self.base) + self.side * 2 * np.arctan2(np.sqrt(sine), np.sqrt(cosine))
+        return angles
+
+    def phases(self, angles: Array, reached: Reach | None) -> Array:
+        """Return the phase at angles of the crank on the cylinder's way to `last`; NaN out of reach."""
+        assert reached is not None
+        flat = [self.phase_of(angle, 0.0) for angle in angles.reshape(-1).tolist()]
+        return np.where(reached.outside, np.nan, np.abs(flat)).reshape(angles.shape)
+
+    def sampled(self, count: int) -> Array:
+        """Return so many phases from one end to the other, both among them."""
+        return np.linspace(0.0, math.pi, count)
+
+    def beside(self, start: float, places: Array, values: Array) -> tuple[Array, Array, int]:
+        """Return sampled phases and their values, and the index of the one nearest to the start."""
+        return places, values, int(np.abs(self.angles(places) - start).argmin())
+
+    def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> NoReturn:
+        """Refuse to run shorter than asked: AssemblyError with the length that a dyad allows."""
+        phase, dyad = next(end for end in (low, high) if end[1] is not None)
+        length = (self.first + self.last) / 2 - (self.last - self.first) / 2 * math.cos(float(phase))
+        raise AssemblyError(
+            f"joint {dyad}: it stops the cylinder at a length of {length:.6g}; "
+            f"let from and to ({self.first:g} and {self.last:g}) stay on one side of that"
+        )
+
+    def place(self, phase: Sum) -> Sum:
+        """Return the angle at a phase: a place that is passed there and back."""
+        return exact_angle(float(self.angles(np.array([float(phase)]))[0]))
+
+    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
+        """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
+        low, high = sorted(float(Sum(end) * ratio - reference) for end in self.input_range)
+        ends = [math.sin(angle / 2) ** 2 for angle in (low, high)]
+        passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
+        return 0.0 if passes[0] else min(ends), 1.0 if passes[1] else max(ends)
+
+    def clock(self, phase: Value, pace: Slope) -> Clock:
+        """Return the input's state at a phase, in plain floats or noted expressions."""
+        g, r = self.sides
+        whole, reach = sharp_half_angle(phase + phase), (self.last - self.first) / 2
+        length = whole.cosine * -reach + (self.first + self.last) / 2
+        sine = sqrt((length - (g - r)) * (length + (g - r)))
+        cosine = sqrt((g + r - length) * (g + r + length))
+        scale = 0.5 / math.sqrt(g * r)
+        half = half_of(sine * (scale * self.side), cosine * scale)
+        rate = whole.sine * pace.value * reach
+        second = (whole.cosine * (pace.value * pace.value) + whole.sine * pace.rate) * reach
+        product = half.product * (2 * g * r)
+        turning = length * rate / product
+        bend = (rate * rate + length * second - half.difference * (g * r) * turning * turning) / product
+        angle = arctan2(half.sine, half.cosine) * 2.0
+        return HalfClock(angle, self.base, turning, bend, pace, own=half)
+
+    def clock_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], Clock]:
+        """Return the names of the graph's inputs, and the input's state at the crank's angle."""
+        return ("x",), turn(graph.input("x"), pace, Sum(0.0))
+
+    def solved_from(self, reached: Reach) -> tuple[Array, ...]:
+        """Return what the program by angle takes: the angle."""
+        return (reached.angle,)
+
+    def swinging(self, clock: Clock) -> Swinging | None:
+        """Return None: no dyad limits the swing."""
+        return None
+
+    def reach(self, angle: Array) -> Reach | None:
+        """Return which angles the crank comes to."""
+        outside = np.array([not self.holds(float(x)) for x in angle.tolist()], dtype=np.bool_)
+        ways = np.ones_like(angle)
+        return Reach(angle, ways, ways, outside, np.zeros_like(outside))
+
+
+def stroke(linkage: Linkage) -> Stroke:
+    """Return the path of a linkage that a cylinder drives; AssemblyError where its triangle does not close.
+
+    Of the two triangles it is the one whose range contains the drive's start, or else the one in which the
+    cylinder's joint lies left of the line from the crank's pivot to the fixed pin.
+    """
+    drive = linkage.drive
+    cylinder = drive.cylinder
+    assert cylinder is not None
+    crank = linkage.crank(drive.joint)
+    fixed, joint = cylinder.between
+    ground = ground_between(linkage, crank.pivot, fixed)
+    assert ground is not None
+    frame = next(frame for frame in linkage.frames[1:] if {crank.pivot, crank.name, joint} <= frame.keys())
+    arm = (frame[joint] - frame[crank.pivot]) / (frame[crank.name] - frame[crank.pivot]) * crank.length
+    sides = ground.length, abs(arm)
+    _check(cylinder, sides)
+    own = exact_angle(math.atan2(arm.imag, arm.real))
+    paths = [
+        Stroke(cylinder.first, cylinder.last, sides, ground.angle - own, side) for side in (1, -1)
+    ]
+    return next((path for path in paths if path.holds(drive.start)), paths[0])
+
+
+def _check(cylinder: Cylinder, sides: tuple[float, float]) -> None:
+    low, high = abs(sides[0] - sides[1]), sum(sides)
+    for key, length in (("from", cylinder.first), ("to", cylinder.last)):
+        if not low < length < high:
+            raise AssemblyError(
+                f"cylinder {key} = {length:g}: between {' and '.join(cylinder.between)} it can be "
+                f"{low:g} to {high:g} long, ends not included"
+            )
+
