@@ -82,7 +82,7 @@ class Painter:
         """
         canvas = self._canvas(surface)
         self._wipe(canvas, self._still_at(pose.input_speed))
-        self._act(canvas, pose, ghost if self.look.ghost else None)
+        paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
         if self.names:
             self.names.draw(canvas.subsurface(self._layout.reach), pose, self.drawing.places(pose))
         if self._strip:
@@ -136,8 +136,6 @@ class Painter:
         still.fill((*self._theme.background, 255 if self.look.background else 0))
         standing = () if self.drawing.moves_behind else self.drawing.standing()
         paint(still, list(self._on_stage(flat((self.drawing.discs(), *standing)))))
-        if self._aside:
-            still.fill((*self._theme.background, 255 if self.look.background else 0), self._aside)
         if self._legend:
             self._legend.draw(still)
         return still
@@ -162,27 +160,9 @@ class Painter:
         return self._still.copy()
 
     def _on_stage(self, layers: Iterable[Layer]) -> Iterator[Layer]:
-        """Yield the scene's layers, kept to the rows above the chart."""
-        end = int(self._layout.reach.bottom)
-        return (Layer(layer.colour, layer.loops, layer.alpha, end) for layer in layers)
-
-    @cached_property
-    def _aside(self) -> pygame.Rect | None:
-        """The columns beside the stage that the chart has to itself."""
-        reach, (width, height) = self._layout.reach, self.size
-        return pygame.Rect(reach.right, 0, width - reach.right, height) if reach.right < width else None
-
-    def _act(self, canvas: pygame.Surface, pose: Pose, ghost: Pose | None) -> None:
-        """Draw all that moves; what reaches beyond the stage is cut off."""
-        layers, cursor = self._moving(pose, ghost), self._strip.cursor(pose) if self._strip else []
-        if not self._aside:
-            paint(canvas, [*layers, *cursor])
-            return
-        paint(canvas, layers)
-        if canvas.get_flags() & pygame.SRCALPHA:
-            canvas.fill((0, 0, 0, 0), self._aside)
-        canvas.blit(self._still_at(pose.input_speed), self._aside, self._aside)
-        paint(canvas, cursor)
+        """Yield the scene's layers, kept off the chart."""
+        end, right = int(self._layout.reach.bottom), int(self._layout.reach.right)
+        return (Layer(layer.colour, layer.loops, layer.alpha, end, right) for layer in layers)
 
     def _wipe(self, canvas: pygame.Surface, still: pygame.Surface) -> None:
         if canvas.get_flags() & pygame.SRCALPHA:
@@ -190,12 +170,12 @@ class Painter:
         canvas.blit(still, (0, 0))
 
     def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer | Stencil]:
-        """Return all of the scene that moves, back to front."""
+        """Return all that moves, back to front, the chart's cursor last."""
         drawing = self.drawing
         behind = [*flat(drawing.wheels(drawing.places(pose))), *(drawing.faint(ghost) if ghost else ())]
         layers: list[Layer | Stencil] = [*self._on_stage(behind), *self._stencils]
         layers += self._on_stage(flat(drawing.moving(pose)))
-        return layers
+        return layers + (self._strip.cursor(pose) if self._strip else [])
 
     @cached_property
     def _stencils(self) -> list[Stencil]:

@@ -34,13 +34,14 @@ class Layer(NamedTuple):
     """Closed loops of pixel positions x + yi filled with one colour, over the layers before it.
 
     Loops that turn the same way join where they overlap; a loop that turns the other way cuts a hole.
-    Pixel rows from `end` on are left as they are.
+    Pixel rows from `end` on are left as they are, as are columns from `right` on.
     """
 
     colour: Colour
     loops: Sequence[Loop]
     alpha: float = 1.0
     end: int = 1 << 15
+    right: int = 1 << 15
 
 
 class Stencil(NamedTuple):
@@ -109,7 +110,11 @@ def _runs(layers: Sequence[Layer], size: tuple[int, int]) -> tuple[_Runs, _Runs]
         return nothing, nothing
     begin, end, number = _edges(layers)
     lowest = np.array([min(layer.end, size[1]) for layer in layers])[number]
-    pieces = _by_column(*_by_row(begin, end, number, lowest), size[0])
+    line, height, x0, x1 = _by_row(begin, end, number, lowest)
+    rightmost = np.array([min(layer.right, size[0]) for layer in layers])
+    if rightmost.min() < size[0]:
+        x0, x1 = (np.minimum(x, rightmost[line >> _ROW_BITS]) for x in (x0, x1))
+    pieces = _by_column(line, height, x0, x1, size[0])
     return _resolve(pieces, size[0]) if pieces.line.size else (nothing, nothing)
 
 

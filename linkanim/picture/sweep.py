@@ -139,8 +139,9 @@ def _edged(loop: Points) -> Points:
 def _rims(figure: Figure) -> Iterator[Points]:
     """Yield circles over each wheel, wherever it goes."""
     for wheel in wheels(figure):
-        way = np.unique(_path(figure, wheel.centre).round(12))
-        circles, shares = (_ROUND, 9) if way.size == 1 else (_ROUND[::4], 3)
+        way = _path(figure, wheel.centre)
+        still = bool(np.all(np.abs(way - way[0]) <= 1e-9 * wheel.reach))
+        way, circles, shares = (way[:1], _ROUND, 9) if still else (way, _ROUND[::4], 3)
         for share in np.linspace(1.0, 0.2, shares):
             yield (way[:, None] + share * wheel.reach * circles).ravel()
 

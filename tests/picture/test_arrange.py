@@ -56,7 +56,7 @@ def _moments(name: str, count: int) -> Iterator[float]:
     yield from np.linspace(0.0, load(name).period, count, endpoint=False)
 
 
-@pytest.mark.parametrize("size", [(640, 360), (320, 180)])
+@pytest.mark.parametrize("size", [(480, 270), (320, 180)])
 @pytest.mark.parametrize("name", names())
 def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, int]) -> None:
     scene, look = load(name), Look(chart=None)
@@ -64,7 +64,7 @@ def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, 
     words = painter._layout.words
     assert words
     painter._hud = None
-    for phase in _moments(name, 24):
+    for phase in _moments(name, 16):
         painter.paint(surface, scene.pose(float(phase)))
         for rect in words:
             assert (_part(surface, rect) == BACKGROUND).all(), phase
@@ -72,11 +72,11 @@ def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, 
 
 @pytest.mark.parametrize("name", names())
 def test_all_that_is_drawn_lies_in_the_window(name: str) -> None:
-    scene, size = load(name), (640, 360)
+    scene, size = load(name), (480, 270)
     painter, surface = Painter(scene, size, Look(hud=False)), offscreen(size)
     edge = np.ones((size[1], size[0]), bool)
     edge[2:-2, 2:-2] = False
-    for phase in _moments(name, 24):
+    for phase in _moments(name, 16):
         painter.paint(surface, scene.pose(float(phase)))
         assert (pixels(surface)[edge] == BACKGROUND).all(), phase
 
@@ -86,7 +86,7 @@ def _part(surface: pygame.Surface, rect: Rect) -> np.ndarray:
     return pixels(surface)[top : round(rect.bottom), left : round(rect.right)]
 
 
-@pytest.mark.parametrize("size", [(320, 180), (480, 270), (1280, 720), (720, 1280)])
+@pytest.mark.parametrize("size", [(320, 180), (1280, 720), (720, 1280)])
 @pytest.mark.parametrize("name", names())
 def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int, int]) -> None:
     scene = load(name)
@@ -104,7 +104,7 @@ def test_a_title_is_in_one_line_where_it_finds_room(name: str) -> None:
     assert arrangement.block.turns == 0
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (480, 270)])
+@pytest.mark.parametrize("size", [(480, 270)])
 @pytest.mark.parametrize("name", names())
 def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
     name: str, size: tuple[int, int]
@@ -201,7 +201,7 @@ def test_a_toast_does_not_lie_on_the_chart(name: str) -> None:
     assert stage.y <= rows.min() <= rows.max() < stage.bottom
 
 
-@pytest.mark.parametrize("size", [(640, 360), (720, 1280)])
+@pytest.mark.parametrize("size", [(640, 360)])
 @pytest.mark.parametrize("name", names())
 def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) -> None:
     layout = staged(load(name), None, Wanted(size, False, 0, True, False), type_of_words()).arrangement.layout

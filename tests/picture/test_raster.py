@@ -156,3 +156,11 @@ def test_a_layer_leaves_the_rows_from_its_end_on_as_they_are() -> None:
     cover = coverage(filled([Layer(WHITE, [box(20, 20) + 32 + 32j], 1.0, 30)]))
     assert cover[29, 32] == 1
     assert cover[30:].sum() == 0
+
+
+@pytest.mark.parametrize("right", [0, 1, 20, 33, 64])
+def test_columns_from_the_right_end_on_are_left_as_they_are(right: int) -> None:
+    loop = 32 + 30j + 25 * np.exp(2j * np.pi * np.arange(90) / 90)
+    whole, cut = (coverage(filled([Layer(WHITE, [loop], 1.0, 1 << 15, end)])) for end in (64, right))
+    assert np.array_equal(cut[:, : max(right - 1, 0)], whole[:, : max(right - 1, 0)])
+    assert not cut[:, right:].any()
