@@ -20,9 +20,8 @@ def run(options: Namespace) -> None:
 
 def as_words(scene: Scene) -> str:
     """Return a label and a value on each line, the values below each other."""
-    lines = (("scene", f"{scene.name}: {scene.title}"), ("source", scene.source), *scene.info.lines)
-    width = max(len(label) for label, _ in lines)
-    return "\n".join(f"{label:<{width}}  {value}" for label, value in lines if value)
+    width = max(len(label) for label, _ in scene.lines)
+    return "\n".join(f"{label:<{width}}  {value}" for label, value in scene.lines if value)
 
 
 def as_object(scene: Scene) -> dict[str, object]:
@@ -34,7 +33,9 @@ def as_object(scene: Scene) -> dict[str, object]:
     facts: dict[str, object] = {
         "scene": scene.name,
         "title": scene.title,
+        "chapter": scene.chapter,
         "source": scene.source,
+        "look_at": scene.look_at,
         "length_unit": scene.length_unit,
         "class": info.class_name,
         "grashof": info.grashof,

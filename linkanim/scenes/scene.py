@@ -62,6 +62,17 @@ class Scene:
         """The true period in phase: 2π, or a whole multiple where it takes longer to be back."""
         return 2 * math.pi * self.mechanism.periods
 
+    @property
+    def lines(self) -> tuple[tuple[str, str], ...]:
+        """Label and value of what is told of the scene and of its linkage, in words; a value may be empty."""
+        return (
+            ("scene", f"{self.name}: {self.title}"),
+            ("chapter", self.chapter),
+            ("source", self.source),
+            ("look at", self.look_at),
+            *self.info.lines,
+        )
+
     def solve(
         self,
         *,
@@ -116,10 +127,9 @@ class Scene:
         """Return the scene's title and what is told of its linkage, as a notebook shows it."""
         from html import escape
 
-        rows = (("scene", f"{self.name}: {self.title}"), ("source", self.source), *self.info.lines)
         cells = "".join(
             f"<tr><th style='text-align:left'>{escape(label)}</th><td>{escape(value)}</td></tr>"
-            for label, value in rows
+            for label, value in self.lines
             if value
         )
         return f"<table>{cells}</table>"

@@ -70,6 +70,15 @@ def test_the_words_are_a_label_and_a_value_a_line(capsys: pytest.CaptureFixture[
     assert len({len(line) - len(line.split("  ", 1)[1].lstrip()) for line in lines}) == 1
 
 
+def test_info_says_what_to_look_at(capsys: pytest.CaptureFixture[str]) -> None:
+    scene = linkanim.load("hoecken")
+    assert main(["info", "hoecken"]) == 0
+    assert f"look at             {scene.look_at}" in capsys.readouterr().out.splitlines()
+    assert main(["info", "hoecken", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["chapter"], told["look_at"]) == ("four-bars", scene.look_at)
+
+
 def listed(capsys: pytest.CaptureFixture[str], *word: str) -> list[str]:
     """Return the lines that `linkanim scenes` prints, chapters' headings among them."""
     assert main(["scenes", *word]) == 0

@@ -129,5 +129,17 @@ def test_each_scene_names_its_source(scene: Scene) -> None:
     assert len(scene.source) > 20
 
 
+def test_each_scene_says_in_a_sentence_what_to_look_at(scene: Scene) -> None:
+    assert 40 <= len(scene.look_at) <= 140
+    assert scene.look_at[0].isupper()
+    assert scene.look_at.endswith(".")
+    assert scene.trace
+
+
+def test_what_no_source_gives_is_said_to_be_chosen(scene: Scene) -> None:
+    published = ("jansen", "klann", "andrews")
+    assert (scene.name in published) != ("chosen here" in scene.source)
+
+
 def test_the_press_says_what_the_report_does_not() -> None:
     assert "chosen here" in load("press").source
