@@ -43,6 +43,8 @@ class Scenery:
     theme: Theme
     layout: Layout
     look: Look
+    fitted: View
+    """The view before it was zoomed and panned."""
 
     @property
     def known(self) -> tuple[Figure, View, Gauge, Theme]:
@@ -83,13 +85,30 @@ class Drawing:
         """The dimensions' symbols, where the look asks for them."""
         return symbols(self.scenery.figure) if self.scenery.look.names > 1 else None
 
-    def names(self, type_: Type) -> Names | None:
-        """Return the names of joints and links, and their dimensions, where the look asks for them."""
+    def names(self, type_: Type, before: Drawing | None = None, kept: Names | None = None) -> Names | None:
+        """Return the names of joints and links, and their dimensions, where the look asks for them.
+
+        They are placed for the whole scene as it fits the window. Those that were `kept` of a drawing
+        `before` stay, where it differs by its zoom and pan alone, or the scene is on its way to another.
+        """
         set_ = self.scenery
         if not set_.look.names:
             return None
+        if kept and before and self._names_as(before.scenery):
+            return kept
         hand = Hand(type_, set_.layout, set_.theme, set_.gauge)
-        return names_of(set_.figure, set_.view, hand, self.cast.turning, self.symbols)
+        turning = turning_of(set_.figure, set_.fitted, set_.gauge, set_.theme)
+        return names_of(set_.figure, set_.fitted, hand, turning, self.symbols)
+
+    def _names_as(self, other: Scenery) -> bool:
+        """Return whether the names on another scenery are this one's."""
+        mine, theirs = (
+            (set_.layout, set_.theme, set_.look.names, set_.gauge) for set_ in (self.scenery, other)
+        )
+        scene = self.scenery.figure.scene
+        same = scene is other.figure.scene and self.scenery.fitted == other.fitted
+        glides = scene.towards is not None and self.scenery.figure.shown == other.figure.shown
+        return (mine == theirs and same) or (glides and mine[:3] == theirs[:3])
 
     def places(self, pose: Pose) -> Places:
         """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside."""

@@ -53,22 +53,33 @@ class Tag:
     at: str
     head: str
     wish: Wish
+    across: bool = False
+    """Whether it has a place on a plate, not by a bar."""
 
 
 @dataclass(frozen=True)
 class Label:
-    """A label with its place over the cycle."""
+    """A label with its place over the cycle.
+
+    It was placed for a distance of `length` pixels from `at` to `head`. Where that is another, as in an
+    enlarged view, its place moves along by as much, and across where it lies on a plate and not by a bar.
+    """
 
     lettering: Lettering
     at: str
     head: str
     path: Path
+    length: float
+    across: bool
 
     def placed(self, share: float, places: Places) -> tuple[complex, float]:
         """Return its middle in pixels at a share of the cycle, and how far it shows (0 to 1)."""
         offset, shown = self.path.at(share)
-        turn = unit(places[self.head] - places[self.at]) if self.head != self.at else 1
-        return places[self.at] + turn * offset, shown if shown > _UNSEEN else 0.0
+        span = places[self.head] - places[self.at]
+        if self.length:
+            scale = abs(span) / self.length
+            offset = unit(span) * complex(scale * offset.real, (scale if self.across else 1) * offset.imag)
+        return places[self.at] + offset, shown if shown > _UNSEEN else 0.0
 
 
 @dataclass(frozen=True)
@@ -126,7 +137,7 @@ def names_of(figure: Figure, view: View, hand: Hand, turning: Turning | None, kn
         tags += stage.dimensions(known)
     paths = place([tag.wish for tag in tags], stage.clutter())
     labels = [
-        Label(tag.lettering, tag.at, tag.head, path)
+        Label(tag.lettering, tag.at, tag.head, path, stage.length(tag), tag.across)
         for tag, path in zip(tags, paths, strict=True)
         if path.shown.mean() >= _LEAST_SHOWN
     ]
@@ -142,6 +153,10 @@ class _Stage:
         self._paths: dict[str, Loop] = {
             name: np.nan_to_num(figure.path(name, view)[::step], nan=-1e6) for name in figure.shown
         }
+
+    def length(self, tag: Tag) -> float:
+        """Return how far apart the joints of a tag's frame are, 0 where it has one joint only."""
+        return float(np.mean(np.abs(self._paths[tag.head] - self._paths[tag.at])))
 
     def joints(self) -> Iterator[Tag]:
         """Yield the joints' names, those that stand still first."""
@@ -163,7 +178,7 @@ class _Stage:
                 yield Tag(lettering, body.slider, body.slider, wish)
             elif len(body.joints) > 1:
                 first, second = body.joints[:2]
-                yield Tag(lettering, first, second, self._on(body, lettering.size))
+                yield Tag(lettering, first, second, self._on(body, lettering.size), len(body.joints) > 2)
 
     def _long_enough(self) -> bool:
         """Return whether every bar has room for its link's name; else all are called by their numbers."""
@@ -194,7 +209,7 @@ class _Stage:
             lines = (frame[0], corner), (corner, self._paths[legs.point.name])
             for symbol, value, line in zip(legs.symbols, legs.point.at, lines, strict=True):
                 lettering = self._hand.written(written(symbol, value, unit_), size, dim)
-                yield Tag(lettering, first, second, self._beside(line, frame, lettering.size))
+                yield Tag(lettering, first, second, self._beside(line, frame, lettering.size), across=True)
 
     def _corner(self, on: tuple[str, str], along: float) -> Loop:
         begin, end = (self._paths[name] for name in on)

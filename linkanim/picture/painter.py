@@ -62,7 +62,8 @@ class Painter:
         self._strip: Strip | None = self._chart()
         self._hud: Hud | None = self._worded(before)
         self._panels: Panels = self._laid_over(before)
-        self.names: Names | None = self.drawing.names(self._type)
+        last = (before.drawing, before.names) if before else (None, None)
+        self.names: Names | None = self.drawing.names(self._type, *last)
         self._legend = legend_for(self.drawing.cast.arrows, self._layout, self._type, self._theme)
         self._still = self._drawn_once()
         self._charted: pygame.Surface | None = None
@@ -127,7 +128,6 @@ class Painter:
             return None
         pen = pen_for(self._layout, self._type, self._theme)
         return strip(self._figure, self.look.chart, self._layout, pen)
-
 
     def _drawn_once(self) -> pygame.Surface:
         """Return the layer that stands still but for the chart: background, ground, curves, key."""

@@ -66,8 +66,9 @@ class Staging:
         """Return the subject's figure, or one on the way to it, as it is drawn: zoomed and panned."""
         (width, height), pan, arrangement = self.wanted.size, look.pan, self.arrangement
         about, shift = (width / 2, height / 2), (pan[0] * height, pan[1] * height)
-        view = moved(self._view_of(shown), about, zoom=look.zoom, pan=shift)
-        return Scenery(shown, view, arrangement.gauge, theme, arrangement.layout, look)
+        fitted = self._view_of(shown)
+        view = moved(fitted, about, zoom=look.zoom, pan=shift)
+        return Scenery(shown, view, arrangement.gauge, theme, arrangement.layout, look, fitted)
 
     def _view_of(self, shown: Figure) -> View:
         """Return the view of the subject's figure; one on the way to it is as large, in the same place."""

@@ -13,6 +13,8 @@ from PIL import Image
 
 import linkanim
 from linkanim.cli import main
+from linkanim.cli.commands import parse
+from linkanim.cli.record import look_of
 from linkanim.errors import BadInput
 from linkanim.player import tape_file
 from linkanim.player.action import Action
@@ -192,3 +194,10 @@ def test_stopped_in_the_middle_it_leaves_the_old_file_alone(
     assert b"Traceback" not in said
     assert files(tmp_path) == ["press.gif"]
     assert Path("press.gif").read_text() == "the old one"
+
+
+@pytest.mark.parametrize(
+    ("words", "level"), [([], 0), (["--names"], 1), (["--names"] * 2, 2), (["--names"] * 3, 2)]
+)
+def test_names_are_asked_for_once_or_twice(words: list[str], level: int) -> None:
+    assert look_of(parse(["record", "press", *words])).names == level

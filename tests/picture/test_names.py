@@ -224,3 +224,33 @@ def test_words_glide_by_quarters_of_a_pixel() -> None:
     steps = np.diff(centres)
     assert centres[-1] - centres[0] == pytest.approx(1.0, abs=0.02)
     assert steps.max() < 0.3
+
+
+def test_zooming_panning_and_gliding_place_no_name_anew_and_a_theme_does(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene, size, look = load("press"), (640, 360), Look(names=1)
+    first = Painter(scene, size, look)
+    dark = Painter(scene, size, replace(look, theme="dark"), before=first)
+    assert dark.names is not first.names
+    monkeypatch.setattr("linkanim.picture.names.place", lambda *_: pytest.fail("placed again"))
+    near = Painter(scene, size, replace(look, zoom=2.0, pan=(0.1, 0.2)), before=first)
+    assert near.names is first.names
+    on_its_way = Painter(replace(scene, towards=scene), size, look, before=near)
+    assert on_its_way.names is first.names
+
+
+def test_a_name_keeps_its_place_on_its_link_in_an_enlarged_view() -> None:
+    scene, size = load("crank-rocker"), (1280, 720)
+    pose = scene.pose(1.0)
+    shares = []
+    for zoom in (1.0, 2.5):
+        painter = Painter(scene, size, Look(names=1, zoom=zoom))
+        places = painter.drawing.places(pose)
+        (crank,) = [label for label in _names(painter).labels if label.lettering.text == "crank"]
+        middle, _ = crank.placed(pose.phase / scene.period, places)
+        shares.append((middle - places["O2"]) / (places["A"] - places["O2"]))
+    assert shares[0].real == pytest.approx(shares[1].real)
+    assert 0 < shares[0].real < 1
+    joints = {label.lettering.text for label in _names(painter).labels}
+    assert {"O₂", "A", "B", "O₄", "P"} <= joints
