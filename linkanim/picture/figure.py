@@ -34,9 +34,10 @@ class Figure:
 
     @cached_property
     def bodies(self) -> tuple[Body, ...]:
-        """The bodies with joints that are named, and a bar for each length that is in none of them."""
+        """The bodies with named joints, and a bar for each length that neither they nor struts show."""
         named = [body for body in self.linkage.bodies if len(body.joints) > 1]
-        held = [set(body.joints) for body in named]
+        # A length that a spring or damper shows, such as a cylinder's that is held, needs no bar.
+        held = [*(set(body.joints) for body in named), *(set(strut.between) for strut in self.struts)]
         spans = [ends for joint in self.linkage.joints for ends in joint.spans]
         bare = [ends for ends in spans if not any(set(ends) <= joints for joints in held)]
         return (*(Body("", ends) for ends in bare), *named)

@@ -59,6 +59,7 @@ _CHAPTERS: Mapping[str, tuple[str, ...]] = {
         "scissor-lift",
         "landing-gear",
         "umbrella",
+        "excavator",
         "geared-five-bar-2-1",
         "geared-five-bar-3-2",
         "cardan-gears",

@@ -226,3 +226,18 @@ def test_the_small_wheels_rim_draws_an_astroid_with_four_cusps() -> None:
     assert np.max(np.abs(scene.solve(angle=theta).position["E"] - cubes)) <= 1e-14 * 100 * 2
     cusps = scene.solve(angle=np.arange(4) * (math.pi / 2), speed=1.0)
     assert np.max(np.abs(cusps.velocity["E"])) <= 1e-12
+
+
+def test_the_excavators_arm_swings_as_its_one_cylinder_says() -> None:
+    scene = load("excavator")
+    motion = scene.cycle(720)
+    length = np.hypot(*(motion.position["H"] - motion.position["G"]).T)
+    assert length == pytest.approx(206 - 56 * np.cos(motion.phase), rel=1e-14)
+    # The law of cosines on pivot, pin and the cylinder's joint on the boom gives the boom's angle.
+    ground, arm, own = math.hypot(60, 40), math.hypot(200, 12), math.atan2(-12, 200)
+    lean = np.arccos((ground**2 + arm**2 - length**2) / (2 * ground * arm))
+    assert motion.angle["boom"] == pytest.approx(math.atan2(-40, 60) + lean - own, abs=1e-13)
+    for strut in ("stick", "bucket"):
+        assert np.ptp(motion.damper[strut].length) <= 1e-14 * 460 * 2
+    tip = np.hypot(*motion.position["N"].T)
+    assert np.ptp(tip) <= 1e-14 * 460 * 4
