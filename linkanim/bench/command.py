@@ -53,13 +53,28 @@ def _speed_and_error(options: Namespace, progress: Progress | None) -> int:
 
     require_extra()
     into = made_folder(options.into)
-    from linkanim.bench import drawing, report, result
+    from linkanim.bench import again, drawing, report, result
 
     found = result.run(progress)
-    form = report.as_json if options.json else report.as_markdown if options.markdown else report.as_text
-    print(form(found))
+    without = again.wide(found.machine.features)
+    if options.json:
+        print(_both_objects(report.as_json(found), without))
+    else:
+        form, flags = (report.as_markdown, ["--markdown"]) if options.markdown else (report.as_text, [])
+        print("\n\n".join([form(found), *([again.printed(without, flags)] if without else [])]))
     print(drawing.draw(found, into / CHART), file=sys.stderr)
     return 0
+
+
+def _both_objects(found: str, without: tuple[str, ...]) -> str:
+    """Return the object of a run, that of one without AVX-512 in it where there is any to leave alone."""
+    import json
+
+    from linkanim.bench import again
+
+    if not without:
+        return found
+    return _json({**json.loads(found), "without_avx512": json.loads(again.printed(without, ["--json"]))})
 
 
 def _drawing(options: Namespace) -> int:

@@ -5,28 +5,39 @@ from __future__ import annotations
 import os
 import platform
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 
 class Machine(NamedTuple):
-    """The processor, how many cores of it there are, and the versions that count."""
+    """The processor, how many cores of it there are, the versions that count.
+
+    `features` are the vector units beyond the least that this numpy runs on and uses, by its names.
+    """
 
     cpu: str
     cores: int
     python: str
     numpy: str
+    features: tuple[str, ...] = ()
 
     @property
     def line(self) -> str:
         """The same in one line."""
-        return f"{self.cpu}, {self.cores} cores, Python {self.python}, numpy {self.numpy}, one thread"
+        units = ", ".join(self.features) or "no further vector units"
+        versions = f"Python {self.python}, numpy {self.numpy} with {units}"
+        return f"{self.cpu}, {self.cores} cores, {versions}, one thread"
 
 
 def this_machine() -> Machine:
     """Return what this process runs on."""
-    return Machine(_cpu(), os.cpu_count() or 1, platform.python_version(), np.__version__)
+    return Machine(_cpu(), os.cpu_count() or 1, platform.python_version(), np.__version__, _features())
+
+
+def _features() -> tuple[str, ...]:
+    built: Any = np.show_config(mode="dicts")
+    return tuple(built.get("SIMD Extensions", {}).get("found", ()))
 
 
 def _cpu() -> str:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 from made_result import result
 
-from linkanim.bench import command, drawing, extra, recording, window
+from linkanim.bench import again, command, drawing, extra, recording, window
 from linkanim.bench import result as results
 from linkanim.bench.cost import Cost, Memory
 from linkanim.bench.machine import this_machine
 from linkanim.cli import main
-from linkanim.errors import BadInput
+from linkanim.errors import BadInput, WorkFailed
 
 
 def options(*words: str) -> Namespace:
@@ -84,8 +87,57 @@ def test_json_is_all_that_is_on_stdout(
     assert set(json.loads(capsys.readouterr().out)) == {"machine", "rows", "targets"}
 
 
+@pytest.fixture
+def with_avx512(measured: None, monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, ...]]:
+    """Let the machine have AVX-512, and the run without it be another made by hand; tell how it was asked."""
+    asked: list[tuple[str, ...]] = []
+
+    def printed(features: Sequence[str], form: Sequence[str]) -> str:
+        asked.append((*features, *form))
+        return "{}" if "--json" in form else "the run without it"
+
+    monkeypatch.setattr(results, "run", lambda progress: result(("X86_V3", "X86_V4", "AVX512_ICL")))
+    monkeypatch.setattr(again, "printed", printed)
+    return asked
+
+
+@pytest.mark.parametrize("form", [(), ("--markdown",), ("--json",)])
+def test_a_machine_with_avx512_shows_the_run_without_it_too(
+    form: tuple[str, ...],
+    with_avx512: list[tuple[str, ...]],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    command.run(options(*form, "--into", str(tmp_path)))
+    out = capsys.readouterr().out
+    assert with_avx512 == [("X86_V4", "AVX512_ICL", *form)]
+    if form == ("--json",):
+        assert json.loads(out)["without_avx512"] == {}
+    else:
+        assert out.endswith("\n\nthe run without it\n")
+
+
+def test_a_process_of_its_own_leaves_the_features_alone() -> None:
+    asked = again.wide(this_machine().features)
+    tell = "from linkanim.bench.machine import this_machine; print(*this_machine().features)"
+    run = [sys.executable, "-W", "ignore", "-c", tell]
+    left = subprocess.run(
+        run, env=again.environment(asked), capture_output=True, text=True, check=True
+    ).stdout
+    assert again.wide(left.split()) == ()
+    assert not set(asked) & set(left.split())
+
+
+def test_a_run_without_it_that_fails_is_told_in_its_own_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    failed = subprocess.CompletedProcess([], 2, "", "some\nlinkanim: no such thing\n")
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: failed)
+    with pytest.raises(WorkFailed, match="no such thing"):
+        again.printed(("X86_V4",), ())
+
+
 def test_the_machine_is_told() -> None:
     machine = this_machine()
+    assert all(feature in machine.line for feature in machine.features)
     assert machine.cpu
     assert machine.cores >= 1
     assert machine.line.startswith(machine.cpu)

@@ -15,7 +15,7 @@ from linkanim.bench.result import targets
 
 def test_the_table_has_a_line_for_each_method_and_target() -> None:
     text = report.as_text(result())
-    assert text.startswith("A processor, 2 cores, Python 3.11.7, numpy 2.4.6")
+    assert text.startswith("A processor, 2 cores, Python 3.11.7, numpy 2.4.6 with X86_V3")
     assert "batch by name" in text
     lines = {line.split("  ")[0]: line.split() for line in text.splitlines()}
     assert lines["batch by name"][3:] == ["9.3", "22.5", "3.0e-16", "8.5e-16", "0", "0"]
@@ -33,7 +33,7 @@ def test_the_readmes_table_is_markdown_with_its_machine() -> None:
     assert head == f"| {' | '.join(report.TITLES)} |"
     assert rule.count("---:") == len(report.TITLES) - 1
     assert body[0] == "| batch by name | 9.3 | 22.5 | 3.0e-16 | 8.5e-16 | 0 | 0 |"
-    assert body[-1].endswith("numpy 2.4.6, one thread.")
+    assert body[-1].endswith("numpy 2.4.6 with X86_V3, one thread.")
 
 
 def test_the_readme_shows_such_a_table() -> None:

@@ -83,7 +83,7 @@ def _alone(scene: Scene, places: Mapping[str, Array], size: float) -> Iterator[s
     for index in ALONE:
         pose = scene.pose(index * (2 * math.pi / STEPS), derivatives=0)
         apart = max(np.abs(pose.position[name] - place[index]).max() for name, place in places.items())
-        if not apart == 0:
+        if apart != 0:
             yield f"a pose alone lies {apart / size:.1e} of the longest link beside that of the batch"
             return
 
