@@ -31,26 +31,35 @@ class Section:
 
     where: str
     values: Mapping[str, Any]
-    path: str = ""
+    keys: tuple[str, ...] = ()
+
+    @property
+    def path(self) -> str:
+        """The keys as TOML writes them."""
+        return ".".join(map(_written, self.keys))
 
     def __contains__(self, key: str) -> bool:
         return key in self.values
 
     def key(self, key: str) -> str:
         """Return the key's full path, as TOML writes it."""
-        last = key if _BARE_KEY.fullmatch(key) else shown(key)
-        return f"{self.path}.{last}" if self.path else last
+        return ".".join(map(_written, (*self.keys, key)))
 
     def error(self, key: str, reason: str) -> BadInput:
         """Return (not raise) the error about one key: file, key, value if it has one, and the reason."""
         value = self.values.get(key)
         said = "" if value is None or isinstance(value, Mapping | list) else f" = {shown(value)}"
-        return self.refusal(f"{self.where}: {self.key(key)}{said}: {reason}")
+        return self.at(f"{self.key(key)}{said}: {reason}", key)
 
     def wrong(self, reason: str) -> BadInput:
         """Return (not raise) the error about this table as a whole."""
-        place = f"{self.where}: {self.path}" if self.path else self.where
-        return self.refusal(f"{place}: {reason}")
+        return self.at(f"{self.path}: {reason}" if self.path else reason)
+
+    def at(self, message: str, *keys: str) -> BadInput:
+        """Return (not raise) an error about what stands at keys under this table."""
+        error = self.refusal(f"{self.where}: {message}")
+        error.keys = (*self.keys, *keys)
+        return error
 
     def only(self, *known: str) -> None:
         """Refuse keys that are not `known`, each with the nearest known one."""
@@ -61,7 +70,8 @@ class Section:
     def need(self, key: str) -> Any:
         """Return the key's value, whatever it is."""
         if key not in self.values:
-            raise self.wrong(f'"{key}" is missing')
+            place = f"{self.path}: " if self.path else ""
+            raise self.at(f'{place}"{key}" is missing', key)
         return self.values[key]
 
     def table(self, key: str) -> Self:
@@ -73,7 +83,7 @@ class Section:
 
     def under(self, key: str, values: Mapping[str, Any]) -> Self:
         """Return a table that stands under a key."""
-        return type(self)(self.where, values, self.key(key))
+        return type(self)(self.where, values, (*self.keys, key))
 
     def items(self, key: str, count: int | None = None) -> list[Any]:
         """Return a list, of `count` items if given."""
@@ -128,6 +138,10 @@ class Section:
         if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
             raise self.error(key, f"must be a whole number from {low} to {high}")
         return value
+
+
+def _written(key: str) -> str:
+    return key if _BARE_KEY.fullmatch(key) else shown(key)
 
 
 def meant(name: str, known: Iterable[str]) -> str:

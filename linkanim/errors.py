@@ -12,9 +12,10 @@ class LinkanimError(Exception):
 
 
 class BadInput(LinkanimError):
-    """What was asked for cannot be done as asked."""
+    """What was asked for cannot be done as asked; `keys` lead to where in a document, if it is in one."""
 
     exit_code = 2
+    keys: tuple[str, ...] = ()
 
 
 class UnitError(BadInput):

@@ -225,6 +225,12 @@ def _info(parser: Parser) -> None:
     parser.add_argument("--json", action="store_true", help="one object; angles in radians, time in s")
 
 
+def _check(parser: Parser) -> None:
+    parser.add_argument("files", nargs="*", metavar="FILE", help="scene files")
+    parser.add_argument("--json", action="store_true", help="a list of objects, one for each file")
+    parser.add_argument("--schema", action="store_true", help="print the JSON Schema of scene files")
+
+
 def _scenes(parser: Parser) -> None:
     parser.add_argument(
         "word",
@@ -370,6 +376,11 @@ COMMANDS = {
         "print class, input range, toggles, change points, transmission angle, stroke",
         _info,
         ("linkanim info crank-rocker", "linkanim info my-linkage.toml --json"),
+    ),
+    "check": Command(
+        "name every problem of scene files at once, with their lines",
+        _check,
+        ("linkanim check my-linkage.toml", "linkanim check *.toml --json", "linkanim check --schema"),
     ),
     "scenes": Command(
         "list the built-in scenes by chapter, name first",

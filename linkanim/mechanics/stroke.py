@@ -200,9 +200,7 @@ def stroke(linkage: Linkage) -> Stroke:
     sides = ground.length, abs(arm)
     _check(cylinder, sides)
     own = exact_angle(math.atan2(arm.imag, arm.real))
-    paths = [
-        Stroke(cylinder.first, cylinder.last, sides, ground.angle - own, side) for side in (1, -1)
-    ]
+    paths = [Stroke(cylinder.first, cylinder.last, sides, ground.angle - own, side) for side in (1, -1)]
     return next((path for path in paths if path.holds(drive.start)), paths[0])
 
 
@@ -214,4 +212,3 @@ def _check(cylinder: Cylinder, sides: tuple[float, float]) -> None:
                 f"cylinder {key} = {length:g}: between {' and '.join(cylinder.between)} it can be "
                 f"{low:g} to {high:g} long, ends not included"
             )
-

@@ -91,4 +91,3 @@ def _csv(scene: Scene, pace: Pace) -> str:
     writer.writerow(names)
     writer.writerows([finite_text(value) for value in row] for row in columns.T.tolist())
     return text.getvalue()
-

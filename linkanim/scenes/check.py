@@ -125,7 +125,7 @@ class Table(Section):
         try:
             number = parse(value)
         except UnitError as error:
-            raise SceneError(f"{self.where}: {self.key(key)}: {error}") from None
+            raise self.at(f"{self.key(key)}: {error}", key) from None
         if abs(number) > _LARGEST:
             raise self.error(key, f"is beyond what can be computed; write less than {_LARGEST:g}")
         return number

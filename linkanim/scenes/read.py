@@ -7,7 +7,7 @@ from typing import Any
 
 from linkanim import units
 from linkanim.document import few, meant
-from linkanim.errors import AssemblyError, SceneError
+from linkanim.errors import AssemblyError, BadInput
 from linkanim.mechanics.frames import coincide, frames_of, holding
 from linkanim.mechanics.joint import Frame, Joint, Need
 from linkanim.mechanics.kinds import RRR, Crank, Pin
@@ -26,13 +26,20 @@ DEFAULT_SPEED = "20 rpm"
 
 
 def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
-    """Return the scene that a document describes.
+    """Return the scene that a document describes, put together.
 
     `where` names the file in errors. Lengths come out in the document's `length_unit` (mm if it has none),
     angles in radians; joints in the order in which they can be solved. SceneError for whatever is unknown,
     missing or contradictory; AssemblyError for lengths that cannot be assembled. `towards` is the scene that
     this one is on the way to, where it is shown for an instant.
     """
+    scene = drafted(document, name=name, where=where, towards=towards)
+    _check_assembly(Table(where, document), scene)
+    return scene
+
+
+def drafted(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
+    """Return the scene that a document describes before it is known whether it can be put together."""
     top = Table(where, document, unit=_length_unit(Table(where, document)))
     top.only(*_TOP)
     short = expand(top, _origin(top))
@@ -47,7 +54,7 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: S
         dampers=tuple(_damper(name, table, joints) for name, table in top.tables("dampers")),
         metre=units.metre(top.unit),
     )
-    scene = Scene(
+    return Scene(
         name=name,
         title=top.text("title", name),
         source=top.text("source", ""),
@@ -60,8 +67,6 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: S
         document=document,
         towards=towards,
     )
-    _check_assembly(top, scene)
-    return scene
 
 
 def _check_assembly(top: Table, scene: Scene) -> None:
@@ -70,7 +75,13 @@ def _check_assembly(top: Table, scene: Scene) -> None:
         _ = scene.mechanism
     except AssemblyError as error:
         section = next((key for key in SHORTHANDS if key in top), "joints")
-        raise AssemblyError(f"{top.where}: {section}: {error}") from None
+        raise _unassembled(top.table(section), str(error)) from None
+
+
+def _unassembled(table: Table, reason: str) -> AssemblyError:
+    error = AssemblyError(f"{table.where}: {table.path}: {reason}")
+    error.keys = table.keys
+    return error
 
 
 def _length_unit(top: Table) -> str:
@@ -114,18 +125,22 @@ def _check_needs(top: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
     """Refuse a joint found from one that is not there, from itself, or held by one that is not fixed."""
     table = top.table("joints").table(joint.name)
     for need in joint.needs:
-        key = f"{table.where}: {table.path}.{need.key}"
         if need.joint not in joints:
-            raise SceneError(f"{key}: {_no_joint(need.joint, joints)}")
+            raise _at(table, need.key, _no_joint(need.joint, joints))
         if need.joint == joint.name:
-            raise SceneError(f"{key}: a joint cannot be found from itself")
+            raise _at(table, need.key, "a joint cannot be found from itself")
     for need in joint.needs:
         if (reason := _unfit(need, joints)) is not None:
-            raise SceneError(f"{table.where}: {table.path}.{need.key}: {reason}")
+            raise _at(table, need.key, reason)
     if joint.moved_by and all(joints[need.joint].fixed for need in joint.moved_by):
         key, still, _ = joint.moved_by[0]
         reason = f"{still} is fixed, so nothing would move; name a joint that moves"
-        raise SceneError(f"{table.where}: {table.path}.{key}: {reason}")
+        raise _at(table, key, reason)
+
+
+def _at(table: Table, way: str, reason: str) -> BadInput:
+    """Return the error about what a joint is found from; `way` is the key in its table, as "gear.with"."""
+    return table.at(f"{table.path}.{way}: {reason}", *way.split("."))
 
 
 def _unfit(need: Need, joints: Mapping[str, Joint]) -> str | None:
@@ -170,9 +185,10 @@ def _check_brace(table: Table, joint: RRR, frame: Frame) -> None:
     a, b = joint.lengths
     distance = abs(frame[first] - frame[second])
     if coincide(frame, first, second) or not abs(a - b) <= distance <= a + b:
-        raise AssemblyError(
-            f"{table.where}: {table.path}: the bars of {a:g} and {b:g} cannot meet: {first} and {second} are "
-            f"{distance:g} apart on one rigid body, and {abs(a - b):g} to {a + b:g} would do"
+        raise _unassembled(
+            table,
+            f"the bars of {a:g} and {b:g} cannot meet: {first} and {second} are "
+            f"{distance:g} apart on one rigid body, and {abs(a - b):g} to {a + b:g} would do",
         )
 
 

@@ -1,0 +1,68 @@
+"""`linkanim check`: what is printed, as words and as JSON, and the exit code."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from linkanim.cli import main
+from linkanim.scenes.schema import SCHEMA
+
+GOOD = "title = 'Mine'\n[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
+BAD = GOOD.replace("crank = 30", "crank = -30") + "[drive]\nspeed = '0 rpm'\n"
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "good.toml").write_text(GOOD)
+    (tmp_path / "bad.toml").write_text(BAD)
+    return tmp_path
+
+
+def test_a_good_file_is_told_for_what_it_is(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "good.toml"]) == 0
+    printed = capsys.readouterr()
+    assert printed.out == "good.toml: good: Mine: Grashof crank-rocker\n"
+    assert printed.err == ""
+
+
+def test_problems_are_printed_a_line_each_as_editors_read_them(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", "good.toml", "bad.toml", "none.toml"]) == 2
+    printed = capsys.readouterr()
+    good, *lines = printed.out.splitlines()
+    assert good.startswith("good.toml: good: ")
+    assert [line.split(": ")[:2] for line in lines] == [
+        ["bad.toml:4", "four-bar.crank = -30"],
+        ["bad.toml:8", 'drive.speed = "0 rpm"'],
+        ["none.toml", "no such file"],
+    ]
+    assert printed.err == "linkanim: 3 problems in 2 of 3 files\n"
+
+
+def test_json_tells_the_same(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "good.toml", "bad.toml", "--json"]) == 2
+    good, bad = json.loads(capsys.readouterr().out)
+    assert good == {
+        "file": "good.toml",
+        "good": True,
+        "problems": [],
+        "scene": {"title": "Mine", "class": "Grashof crank-rocker"},
+    }
+    assert (bad["good"], bad["scene"]) == (False, None)
+    assert [problem["line"] for problem in bad["problems"]] == [4, 8]
+    assert bad["problems"][0]["message"] == "four-bar.crank = -30: must be above zero"
+
+
+def test_the_schema_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "--schema"]) == 0
+    assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(SCHEMA))
+
+
+def test_without_a_file_there_is_nothing_to_check(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check"]) == 2
+    assert "name the scene files" in capsys.readouterr().err

@@ -1,0 +1,229 @@
+"""Every problem of a file at once: each the reader's own words, with its line, and none of them twice."""
+
+from __future__ import annotations
+
+import contextlib
+import tomllib
+from typing import Any
+
+import pytest
+import tomli_w
+from jsonschema import Draft202012Validator
+from test_refusals import FOUR_BAR, LONG, REFUSED
+
+from linkanim.errors import BadInput
+from linkanim.scenes import load, names
+from linkanim.scenes.lines import lines_of
+from linkanim.scenes.problems import Problem, problems
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.schema import JOINTS, SCHEMA
+from linkanim.scenes.shorthand import SHORTHANDS
+from linkanim.scenes.toml import parse
+
+MANY = """\
+title = "x"
+lenght_unit = "mm"
+[drive]
+speed = "20"
+[ground]
+O2 = [0, 0]
+O4 = [100, "a"]
+
+[joints.A]
+crank = "O2"
+length = -3
+
+[joints.B]
+from = ["A", "Q"]
+length = [90,
+  0]
+side = "up"
+
+[joints.H]      # what B lacks is not H's fault
+on = ["A", "B"]
+at = [1, 2]
+
+[bodies]
+3 = { joints = ["A", "B", "H"], con = [1, 2] }
+
+[springs.s]
+between = ["A", "Z"]
+
+[dampers.d]
+coefficient = "3 N"
+"""
+FOUND = [
+    (2, 'lenght_unit = "mm": unknown key'),
+    (4, 'drive.speed: "20" has no unit'),
+    (7, 'ground.O4[1]: "a" is not a length'),
+    (11, "joints.A.length = -3: must be above zero"),
+    (14, 'joints.B.from: no joint is called "Q"'),
+    (15, "joints.B.length[1] = 0: must be above zero"),
+    (17, 'joints.B.side = "up": must be'),
+    (24, "bodies.3.con: unknown key"),
+    (27, 'springs.s.between: no joint is called "Z"'),
+    (29, 'dampers.d: "between" is missing'),
+    (30, 'dampers.d.coefficient: "3 N" is not'),
+]
+
+
+def said(found: list[Problem]) -> list[tuple[int | None, str]]:
+    return [(problem.line, problem.message) for problem in found]
+
+
+def test_all_problems_are_found_at_once_each_at_its_line() -> None:
+    found = said(problems(MANY, name="my", where="my.toml"))
+    assert [line for line, _ in found] == [line for line, _ in FOUND]
+    for (_, message), (_, start) in zip(found, FOUND, strict=True):
+        assert message.startswith(f"my.toml: {start}")
+
+
+@pytest.mark.parametrize("name", names())
+def test_a_good_scene_has_none(name: str) -> None:
+    text = tomli_w.dumps(dict(load(name).document))
+    assert problems(text, name=name, where=name) == []
+
+
+# What the reader says of a file with one problem is the first thing, and the only one, that is said.
+@pytest.mark.parametrize("text", [row[1] for row in REFUSED], ids=[row[0] for row in REFUSED])
+def test_a_file_with_one_problem_has_that_one(text: str) -> None:
+    with pytest.raises(BadInput) as refusal:
+        scene_from(parse(text, "my.toml"), name="my", where="my.toml")
+    found = problems(text, name="my", where="my.toml")
+    assert str(refusal.value) in [problem.message for problem in found]
+    assert len(found) <= 3
+
+
+def test_lengths_that_cannot_be_put_together_are_a_problem_too() -> None:
+    text = FOUR_BAR.replace("ground = 100", "ground = 1000")
+    (found,) = problems(text, name="my", where="my.toml")
+    assert found.line == 1
+    assert "four-bar" in found.message
+
+
+def test_a_broken_joint_is_not_held_against_what_hangs_on_it() -> None:
+    text = LONG.replace('from = ["A", "O4"]', "from = 3") + (
+        "[joints.C]\nfrom = ['B', 'O2']\nlength = [300, 300]\n[bodies]\nx = { joints = ['A', 'B'] }\n"
+    )
+    assert said(problems(text, name="my", where="my.toml")) == [
+        (9, 'my.toml: joints.B.from = 3: must be a list of 2 names, such as ["A", "B"]')
+    ]
+
+
+def test_what_is_not_toml_is_told_with_its_line() -> None:
+    (found,) = problems(FOUR_BAR + "crank 30\n", name="my", where="my.toml")
+    assert found.line == 6
+
+
+TEXT = '''\
+# a comment
+title = """
+two
+lines"""
+[a]
+"b c".d = { e = 1, f = [1,
+  2] }
+[[g]]
+h = 1
+[i . "j.k"]
+l = 2
+'''
+
+
+def test_every_key_has_the_line_it_begins_at() -> None:
+    assert tomllib.loads(TEXT)
+    assert lines_of(TEXT) == {
+        ("title",): 2,
+        ("a",): 5,
+        ("a", "b c"): 6,
+        ("a", "b c", "d"): 6,
+        ("a", "b c", "d", "e"): 6,
+        ("a", "b c", "d", "f"): 6,
+        ("g",): 8,
+        ("g", "h"): 9,
+        ("i", "j.k"): 10,
+        ("i", "j.k", "l"): 11,
+    }
+
+
+def test_a_list_over_very_many_lines_ends_the_search_for_lines() -> None:
+    assert ("a",) in lines_of("a = 1\nb = [\n" + "1,\n" * 20_000 + "]\nc = 1\n")
+
+
+VALIDATOR = Draft202012Validator(SCHEMA)
+
+
+def fits(document: Any) -> bool:
+    fit: bool = VALIDATOR.is_valid(document)
+    return fit
+
+
+def test_the_schema_is_one() -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_scene_of_the_catalogue_fits_the_schema(name: str) -> None:
+    assert [error.message for error in VALIDATOR.iter_errors(dict(load(name).document))] == []
+
+
+# What depends on more than one place, or on numbers, no schema says.
+BEYOND = (
+    "no joint is called", "cannot be found from itself", "cannot depend on itself",
+    "moves; name a fixed pin", "is not a crank", "is fixed, so nothing", "rigid body", "one point",
+    "already a joint", "cannot meet", "second input", "free to be driven", "can be driven",
+    "small fraction", "times as fast", "has both", "itself; ", "beyond what can be computed",
+    "does not travel", "not a finite", "speed of zero", "is not TOML", "nested deeper",
+    "two joints or more", "too large", "never crosses", "or a fraction", "printable", "above zero",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", [row[1] for row in REFUSED], ids=[row[0] for row in REFUSED])
+def test_the_schema_refuses_what_is_refused_for_its_form(text: str) -> None:
+    with pytest.raises(BadInput) as refusal:
+        scene_from(parse(text, "my.toml"), name="my", where="my.toml")
+    with contextlib.suppress(BadInput):
+        assert any(words in str(refusal.value) for words in BEYOND) or not fits(parse(text, "my.toml"))
+
+
+# (what stands before a key that nothing knows; the schema's table that holds it)
+TABLES: dict[str, tuple[str, Any]] = {
+    "the file": ("", SCHEMA),
+    "drive": ("[drive]\n", SCHEMA["properties"]["drive"]),
+    "cylinder": ("[drive.cylinder]\n", SCHEMA["properties"]["drive"]["properties"]["cylinder"]),
+    "spring": ("[springs.s]\n", SCHEMA["properties"]["springs"]["additionalProperties"]),
+    "damper": ("[dampers.d]\n", SCHEMA["properties"]["dampers"]["additionalProperties"]),
+    "trace": ("[trace]\n", SCHEMA["properties"]["trace"]),
+    "bar": ("[bodies.b]\n", SCHEMA["properties"]["bodies"]["additionalProperties"]["anyOf"][0]),
+    "slider": (
+        "[bodies.b]\nslider = 'B'\n",
+        SCHEMA["properties"]["bodies"]["additionalProperties"]["anyOf"][1],
+    ),
+    **{
+        f"joint {mark}": (f"[joints.J]\n{mark} = ''\n", table)
+        for mark, table in JOINTS.items()
+        if mark != "line"
+    },
+}
+
+
+@pytest.mark.parametrize(("text", "table"), TABLES.values(), ids=TABLES)
+def test_the_schema_knows_the_keys_that_the_reader_knows(text: str, table: Any) -> None:
+    document = tomllib.loads(FOUR_BAR + text)
+    inside = document
+    for key in filter(None, text.partition("\n")[0].strip("[]").split(".")):
+        inside = inside[key]
+    inside["nobody"] = 1
+    with pytest.raises(BadInput, match="nobody") as refusal:
+        scene_from(document, name="my", where="my.toml")
+    known = str(refusal.value).split("known here: ")[1].split(", ")
+    assert set(known) == set(table["properties"])
+
+
+@pytest.mark.parametrize("name", SHORTHANDS)
+def test_the_schema_knows_the_keys_of_a_shorthand(name: str) -> None:
+    with pytest.raises(BadInput, match="nobody") as refusal:
+        scene_from({name: {"nobody": 1}}, name="my", where="my.toml")
+    assert set(str(refusal.value).split("known here: ")[1].split(", ")) == set(
+        SCHEMA["properties"][name]["properties"]
+    )
