@@ -29,7 +29,7 @@ from linkanim.picture.course import Course, Floats, course
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Item, draw
 from linkanim.picture.layout import Layout
-from linkanim.picture.quantities import Series, quantity, rounded, series_of
+from linkanim.picture.quantities import Series, cleared, quantity, series_of
 from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import segments
 from linkanim.picture.view import Rect
@@ -63,6 +63,10 @@ class Strip:
     def series(self) -> Series:
         """The quantity over one true period."""
         return series_of(self.figure.scene, self.quantity, self._cycle)
+
+    @cached_property
+    def _rounding(self) -> float:
+        return self.quantity.rounding(self._cycle)
 
     @cached_property
     def _cycle(self) -> Motion:
@@ -123,7 +127,7 @@ class Strip:
 
     def values_at(self, pose: Pose) -> Floats:
         """Return the pose's own values; of an angle the turn in which the curve stands there."""
-        found = rounded(np.atleast_1d(self.quantity.shown(pose)), self.quantity, self._cycle)
+        found = cleared(np.atleast_1d(self.quantity.shown(pose)), self._rounding)
         if self.series.unit != "°":
             return found
         x, values = self.curves

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -128,6 +129,19 @@ def test_another_speed_costs_no_solving(name: str, monkeypatch: pytest.MonkeyPat
     )
     after = chart.at(-2 * chart.speed).curves[1]
     assert np.nanmax(after) == pytest.approx(4 * np.nanmax(before), rel=1e-9)
+
+
+@pytest.mark.parametrize("speed", [1.5, -1.5])
+@pytest.mark.parametrize("token", ["rocker.angle", "P.velocity.x"])
+def test_the_ends_of_a_curve_are_the_values_there_wherever_the_drive_starts(token: str, speed: float) -> None:
+    scene = load("crank-rocker")
+    drive = replace(scene.linkage.drive, start=0.1234, speed=speed)
+    scene = replace(scene, linkage=replace(scene.linkage, drive=drive))
+    chart = strip(figure(scene), token, WINDOW, pen_for(WINDOW, Type(), LIGHT))
+    x, values = chart.curves
+    for end in (0, -1):
+        exact = chart.quantity.shown(scene.pose(float(chart.course.phase_of(x[end]))))
+        assert values[end, 0] == pytest.approx(exact, abs=1e-4 * np.ptp(values))
 
 
 def test_an_angle_that_grows_by_a_turn_runs_from_end_to_end() -> None:
