@@ -17,7 +17,7 @@ from linkanim.picture.view import View, moved
 from linkanim.picture.words import Said, blocks, said_of
 from linkanim.scenes.scene import Scene
 
-_BETTER = 1.1
+_BETTER = 1.25
 """So much larger a scene must be with its chart beside it, for the chart to stand there."""
 _WIDE_ENOUGH = 420
 """The least width of a window that has its chart beside the scene, in pixels."""

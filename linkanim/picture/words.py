@@ -26,7 +26,7 @@ _SHRUNK = 0.72
 """The rows' least size, in pixels and in the size that a window's is as a rule."""
 _CLASS_RANK = 4
 """The class goes after the rows of higher ranks."""
-_CLASS_WIDTH = 13.0
+_CLASS_WIDTH = 17.0
 """As wide as this, in sizes, a class is not broken."""
 _GAP = 0.9
 """Between the name and the value of a row, in sizes."""

@@ -26,6 +26,10 @@ SIZE = (400, 225)
 RATES = (20.0, 100 / 6, 12.5, 10.0)
 """Frames a second, the first that keeps a GIF within `LARGEST`."""
 LARGEST = 150_000
+MOST = 400_000
+"""A GIF that is larger even at its lowest rate is recorded at a smaller size."""
+SHARES = (1.0, 0.8, 0.6)
+"""The sizes, in shares of `SIZE`."""
 LOOK = Look(hud=False)
 SHEET = "contact-sheet.png"
 TAPE = ".tape.json"
@@ -81,19 +85,26 @@ def contact_sheet(path: Path, scenes: Iterable[Scene]) -> Path:
 
 
 def _recorded(into: Path, name: str, progress: Progress | None) -> Recording:
-    """Record a scene at the highest of the rates that keep it small; at the lowest where none does."""
-    for fps in rates(load(name)):
-        made = _recorded_at(fps, into, name, progress)
-        if made.file_bytes <= LARGEST:
+    """Record a scene at the highest of the rates that keep it small; at the lowest where none does.
+
+    One that is too large even so is recorded at a smaller size.
+    """
+    for share in SHARES:
+        for fps in rates(load(name)):
+            made = _recorded_at(fps, share, into, name, progress)
+            if made.file_bytes <= LARGEST:
+                break
+        if made.file_bytes <= MOST:
             break
     return made
 
 
-def _recorded_at(fps: float, into: Path, name: str, progress: Progress | None) -> Recording:
+def _recorded_at(fps: float, share: float, into: Path, name: str, progress: Progress | None) -> Recording:
     target, tape = into / f"{name}.gif", into / f"{name}{TAPE}"
+    size = round(share * SIZE[0]), round(share * SIZE[1])
     if tape.is_file():
-        return record_tape(tape, target, size=SIZE, fps=fps, progress=progress)
-    return record(load(name), target, size=SIZE, fps=fps, look=LOOK, progress=progress)
+        return record_tape(tape, target, size=size, fps=fps, progress=progress)
+    return record(load(name), target, size=size, fps=fps, look=LOOK, progress=progress)
 
 
 def _tile(scene: Scene) -> Bytes:

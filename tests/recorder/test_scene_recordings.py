@@ -231,6 +231,19 @@ def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
     assert smaller.file_bytes < largest.file_bytes
 
 
+def test_a_gallery_recording_that_is_too_large_at_any_rate_is_smaller(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gallery, "SIZE", (160, 90))
+    monkeypatch.setattr(gallery, "LARGEST", 0)
+    (large,) = make_gallery(tmp_path, ["kite"]).recordings
+    monkeypatch.setattr(gallery, "MOST", large.file_bytes - 1)
+    (smaller,) = make_gallery(tmp_path, ["kite"]).recordings
+    assert smaller.frames == large.frames
+    with Image.open(smaller.path) as image:
+        assert image.size == (128, 72)
+
+
 def test_the_gallery_shows_no_wheel_turning_backwards() -> None:
     """Between two frames a tooth moves less than a third of its pitch, so that the eye follows it."""
     for name in names():
