@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 from decimal import Decimal, localcontext
 from typing import NamedTuple
 
+from linkanim.errors import AssemblyError
+
 from .assembly import Assembly
 from .chain import ChainRoot, Closing, End, Fit, Near, Zero
 from .clock import swing_by_angle
@@ -91,7 +93,10 @@ def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
 
 
 def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
-    """Fit on the widest stretch where a polynomial holds to the last digit; None where there is none."""
+    """Fit on the widest stretch where a polynomial holds to the last digit; None where there is none.
+
+    AssemblyError where the dyad's ends meet without passing each other: D has no direction to go on in.
+    """
     sampled, width = _sampler(assembly, name, zero)
     zeroth = sampled(Decimal(0))
     for _ in range(TRIES):
@@ -106,6 +111,11 @@ def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
         if last <= LAST:
             return Near(root, (fits[1], fits[2]) if meeting else None)
         width *= max(min(0.8 * (LAST / last) ** (1 / POINTS), 0.8), 0.1)
+    if meeting:
+        raise AssemblyError(
+            f"joint {name}: the two ends of its equal bars meet and part the way they came, so that it could "
+            "go on in any direction; make one of the bars longer or shorter"
+        )
     return None
 
 

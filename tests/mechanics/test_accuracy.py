@@ -436,19 +436,24 @@ def test_the_six_bar_s_rates_are_slopes_to_more_digits_than_asked() -> None:
 # Ratios that are no power of two: ratio × angle has more digits than a float, and far along they count.
 @pytest.mark.parametrize("ratio", [Fraction(1, 3), Fraction(-7, 3), Fraction(5, 12), Fraction(3)], ids=str)
 @pytest.mark.parametrize("turns", [0, 1_000, 1_000_000], ids=lambda turns: f"{turns} turns on")
-def test_a_geared_crank_stands_where_its_gears_put_it_however_far_along(ratio: Fraction, turns: int) -> None:
+@pytest.mark.parametrize(
+    ("start", "offset"), [(0.7, 0.3), (0.0, 0.0)], ids=["set off", "from the ground line"]
+)
+def test_a_geared_crank_stands_where_its_gears_put_it_however_far_along(
+    ratio: Fraction, turns: int, start: float, offset: float
+) -> None:
     linkage = Linkage(
         (
             Pin("O2", (0.0, 0.0)),
             Pin("O5", (6.0, 0.0)),
             Crank("A", "O2", 1.0),
-            Crank("C", "O5", 1.0, Gear("A", ratio, 0.3)),
+            Crank("C", "O5", 1.0, Gear("A", ratio, offset)),
         ),
-        Drive("A", 1.0, 0.7),
+        Drive("A", 1.0, start),
     )
     phases = 2 * math.pi * turns + np.linspace(0.1, 30.0, 40)
     places = mechanism(linkage).solve(phase=phases, speed=1.0).position["C"]
     reference = [
-        6 + unit((mpf(0.7) + mpf(float(x))) * ratio.numerator / ratio.denominator + mpf(0.3)) for x in phases
+        6 + unit((start + mpf(float(x))) * ratio.numerator / ratio.denominator + offset) for x in phases
     ]
     assert worst(places, reference, 6.0) <= 2 * EPS

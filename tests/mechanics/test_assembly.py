@@ -91,6 +91,22 @@ def test_what_is_at_its_limit_everywhere_is_refused(name: str, linkage: Linkage)
         mechanism(linkage)
 
 
+def test_ends_that_meet_and_part_the_way_they_came_are_refused() -> None:
+    # At its highest point the slider just comes to G2, where the dyad's other end is.
+    linkage = Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("G2", (0.0, 3.0)),
+            Crank("A", "O2", 2.0),
+            RRP("S1", "A", 1.0, Line("O2", math.pi / 2)),
+            RRR("D1", ("G2", "S1"), (4.0, 4.0), -1),
+        ),
+        Drive("A", 1.0, 1.5),
+    )
+    with pytest.raises(AssemblyError, match=r"^joint D1: the two ends of its equal bars meet and part"):
+        mechanism(linkage)
+
+
 def test_a_slider_that_keeps_out_of_reach_of_the_next_line_is_refused() -> None:
     with pytest.raises(AssemblyError, match=r"^joint S2: the bar of 4 cannot reach its line of travel"):
         mechanism(two_sliders(4.0))
