@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from build import six_bar
 
+from linkanim.mechanics.chain import Touch
+from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.path import Swing
 from linkanim.scenes import load
@@ -76,3 +81,41 @@ def test_the_dyad_that_limits_is_named_not_the_one_that_stands_on_it() -> None:
     path = with_dimension(load("press"), ("joints", "B", "length", 0), 261.11).mechanism.assembly.path
     assert isinstance(path, Swing)
     assert path.ends == ("B", "B")
+
+
+def two_limits_and_a_change_point() -> Linkage:
+    """S1 stops the input at one end, D1 at the other, so it is back after two; S2 passes change points."""
+    return Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("G1", (0.1, 0.4)),
+            Pin("G2", (1.3, 0.0)),
+            Crank("A", "O2", 1.3),
+            RRR("D1", ("G1", "A"), (1.6, 2.8)),
+            RRP("S1", "A", 0.9, Line("G2"), -1),
+            RRP("S2", "D1", 2.0, Line("G2", math.pi), -1),
+        ),
+        Drive("A", 1.0, -math.pi / 3),
+    )
+
+
+def test_a_swing_that_passes_change_points_on_one_of_its_two_ways_runs_smoothly() -> None:
+    solved = mechanism(two_limits_and_a_change_point())
+    path = solved.assembly.path
+    assert (path.ends, path.periods) == (("S1", "D1"), 2)
+    touches = [zero for zero in solved.assembly.chain["S2"].zeros if isinstance(zero, Touch)]
+    assert [zero.place.high // (2 * math.pi) for zero in touches] == [0.0, 1.0]
+    runs_smoothly(solved)
+
+
+def test_by_angle_a_swing_gives_what_its_first_way_up_gives_by_phase() -> None:
+    solved = mechanism(two_limits_and_a_change_point())
+    phases = np.linspace(0.2, math.pi - 0.2, 101)
+    by_phase = solved.solve(phase=phases, speed=1.0)
+    by_angle = solved.solve(
+        angle=by_phase.crank_angle, speed=by_phase.crank_rate, acceleration=by_phase.crank_second
+    )
+    for kind in ("position", "velocity", "acceleration"):
+        for joint, values in getattr(by_phase, kind).items():
+            found = getattr(by_angle, kind)[joint]
+            assert found == pytest.approx(values, abs=1e-11 * max(1.0, np.abs(values).max())), (kind, joint)
