@@ -26,6 +26,7 @@ _Ints = NDArray[np.int64]
 
 _NOTHING = 1 / 1024
 _SOLID = 1 - _NOTHING
+_LEAN = 1e-6
 _ROW_BITS = 16
 _COLUMN_BITS = 14
 
@@ -132,32 +133,35 @@ def _edges(layers: Sequence[Layer]) -> tuple[Loop, Loop, _Ints]:
 
 def _by_row(begin: Loop, end: Loop, number: _Ints, lowest: _Ints) -> tuple[_Ints, _Floats, _Floats, _Floats]:
     """Cut edges at pixel rows; return each piece's line, its signed height, and x at both ends."""
-    falls = end.imag > begin.imag
-    top, bottom = np.where(falls, begin, end), np.where(falls, end, begin)
-    first = np.floor(np.minimum(np.maximum(top.imag, 0), lowest)).astype(np.int64)
-    last = np.ceil(np.minimum(np.maximum(bottom.imag, 0), lowest)).astype(np.int64)
-    height = bottom.imag - top.imag
-    edge, row = _expand(np.where(height > 0, np.maximum(last - first, 0), 0), first)
-    slope = (bottom.real - top.real) / np.where(height > 0, height, 1)
-    above = np.maximum(top.imag[edge], row)
-    below = np.minimum(bottom.imag[edge], row + 1)
-    slopes, shift = slope[edge], (top.real - top.imag * slope)[edge]
-    signed = (below - above) * np.where(falls, 1.0, -1.0)[edge]
-    return number[edge] << _ROW_BITS | row, signed, shift + above * slopes, shift + below * slopes
+    x0, y0, y1 = begin.real.copy(), begin.imag.copy(), end.imag.copy()
+    height = y1 - y0
+    first = np.minimum(np.maximum(np.minimum(y0, y1), 0), lowest).astype(np.int64)
+    last = np.ceil(np.minimum(np.maximum(np.maximum(y0, y1), 0), lowest)).astype(np.int64)
+    edge, row = _expand(np.where(height != 0, last - first, 0), first)
+    slope = (end.real - x0) / np.where(height != 0, height, 1)
+    above = row.astype(np.float64)
+    below = above + 1
+    starts, ends = (np.minimum(np.maximum(y[edge], above), below) for y in (y0, y1))
+    slopes, shift = slope[edge], (x0 - y0 * slope)[edge]
+    return number[edge] << _ROW_BITS | row, ends - starts, shift + starts * slopes, shift + ends * slopes
 
 
 def _by_column(line: _Ints, height: _Floats, x0: _Floats, x1: _Floats, width: int) -> _Pieces:
     """Cut what lies in one row at pixel columns; column `width` collects what lies further right."""
     left = np.minimum(np.maximum(np.minimum(x0, x1), 0), width)
     right = np.minimum(np.maximum(np.maximum(x0, x1), 0), width)
-    first = np.floor(left).astype(np.int64)
-    reach = right - left
-    steep = height / np.where(reach > 0, reach, 1)
-    piece, column = _expand(np.maximum(np.ceil(right).astype(np.int64) - first, 1), first)
-    near = np.maximum(left[piece], column)
-    far = np.minimum(right[piece], column + 1)
-    part = np.where((reach > 0)[piece], (far - near) * steep[piece], height[piece])
-    return _Pieces(line[piece], column, part, part * (1 + column - 0.5 * (near + far)))
+    # upright pieces lean by less than can be seen, so that all are cut in one way
+    right = np.maximum(right, left + _LEAN)
+    first = left.astype(np.int64)
+    steep = height / (right - left)
+    piece, column = _expand(np.ceil(right).astype(np.int64) - first, first)
+    edge = column.astype(np.float64)
+    beyond = edge + 1
+    near, far = np.maximum(left[piece], edge), np.minimum(right[piece], beyond)
+    part = (far - near) * steep[piece]
+    near += far
+    near *= 0.5
+    return _Pieces(line[piece], column, part, part * (beyond - near))
 
 
 def _expand(count: _Ints, first: _Ints) -> tuple[_Ints, _Ints]:
