@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from linkanim.mechanics.joint import Point
 from linkanim.picture.look import ThemeName
 from linkanim.scenes.scene import Scene
 
@@ -57,6 +58,22 @@ class Shelf:
     still: bool = False
 
 
+@dataclass(frozen=True)
+class Fading:
+    """Words that come and go: shown as strongly as so many eighths say."""
+
+    text: str
+    eighths: int = 8
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A bar between two places of the scene, and its length in words."""
+
+    ends: tuple[Point, Point]
+    words: str
+
+
 Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 """Subjects, each with its lines of (key, what it does)."""
 
@@ -65,7 +82,9 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    With `noted` the HUD says where a limit or a change point is near.
+    With `noted` the HUD says where a limit or a change point is near. `chip` answers a key, `strip` says what
+    there is to press. `measured` are two joints and the words for their distance, `glow` the joint under the
+    mouse; with `grip` the chart's cursor has one. `shutter` is how white the picture is, in eighths.
     """
 
     paused: bool = False
@@ -75,4 +94,10 @@ class Overlay:
     panel: Panel | None = None
     quantities: Quantities | None = None
     shelf: Shelf | None = None
+    chip: Fading | None = None
+    strip: Fading | None = None
+    measured: tuple[str, str, str] | None = None
+    glow: str | None = None
+    grip: bool = False
+    shutter: int = 0
     noted: bool = False

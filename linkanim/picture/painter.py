@@ -17,8 +17,9 @@ from linkanim.picture.items import flat
 from linkanim.picture.layout import Layout
 from linkanim.picture.legend import legend_for
 from linkanim.picture.look import Look
+from linkanim.picture.marks import draw_measure, glow, grip
 from linkanim.picture.names import Names
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.overlay import Measured, Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.raster import Layer, Stencil, paint, paints, stencil
 from linkanim.picture.staging import Staging, staged, wanted_of
@@ -92,9 +93,23 @@ class Painter:
             self._hud.draw(canvas, pose, noted=overlay.noted, backed=self.look.framed)
         if self._legend:
             self._legend.draw_values(canvas, pose.input_speed)
+        self._handled(canvas, pose, overlay)
         self._panels.draw(canvas, overlay)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
+
+    def _handled(self, canvas: pygame.Surface, pose: Pose, overlay: Overlay) -> None:
+        """Draw what is there for the hand: the chosen bar, the joint and the cursor to be dragged."""
+        board, gauge = self._panels.board, self.drawing.scenery.gauge
+        if overlay.measured:
+            begin, end, words = overlay.measured
+            shown = Measured((pose.position[begin], pose.position[end]), words)
+            draw_measure(canvas, board, self.view, gauge, shown)
+        layers = list(glow(self.view, pose, overlay.glow, gauge)) if overlay.glow else []
+        if overlay.grip and self._strip:
+            layers += grip(self._strip.foot(pose), board)
+        if layers:
+            paint(canvas, layers)
 
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
         """Return where the pin that the phase drives lies, in pixels."""

@@ -10,6 +10,7 @@ import numpy as np
 import pygame
 
 from linkanim.picture.board import Board
+from linkanim.picture.chips import chip, put, strip
 from linkanim.picture.edit_list import edit_list
 from linkanim.picture.help_sheet import help_sheet
 from linkanim.picture.layout import Layout
@@ -56,10 +57,24 @@ class Panels:
             drawn = self._keep("help", (overlay.help, room), partial(help_sheet, self.board))
             at = (left + (room - drawn.get_width()) // 2, (self.layout.size[1] - drawn.get_height()) // 2)
             surface.blit(drawn, at)
+        self._passing(surface, overlay)
         if overlay.toast:
             drawn = self._keep("toast", overlay.toast, self._toast)
             across = stage.x + (stage.width - drawn.get_width()) / 2
             surface.blit(drawn, (round(across), round(stage.bottom - drawn.get_height() - self.board.margin)))
+
+    def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw the chip at the top right, below the marks, and the strip below the scene."""
+        room, unit, size = self.layout.scene, self.layout.unit, self.layout.text_size
+        if overlay.chip:
+            marks = bool(overlay.recording) + overlay.paused
+            drawn = self._keep("chip", overlay.chip.text, partial(chip, self.board))
+            at = (self.layout.size[0] - 16 * unit - drawn.get_width(), 16 * unit + 1.5 * size * marks)
+            put(surface, drawn, at, overlay.chip)
+        if overlay.strip:
+            drawn = self._keep("strip", overlay.strip.text, partial(strip, self.board))
+            at = (room.x + (room.width - drawn.get_width()) / 2, room.bottom - drawn.get_height() + 8 * unit)
+            put(surface, drawn, at, overlay.strip)
 
     def _keep(self, kind: str, value: Any, make: Any) -> pygame.Surface:
         if kind not in self._kept or self._kept[kind][0] != value:

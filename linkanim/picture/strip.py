@@ -134,10 +134,13 @@ class Strip:
         near = np.array([np.interp(self.course.x_of(pose.phase), x, column) for column in values.T])
         return found + 360.0 * np.nan_to_num(np.rint((near - found) / 360.0))
 
+    def foot(self, pose: Pose) -> complex:
+        """Return where the cursor stands on the axis at a pose, in pixels."""
+        return complex(self.plot.place(float(self.course.x_of(pose.phase)), self.plot.y.low))
+
     def cursor(self, pose: Pose) -> list[Layer]:
         """Return the line at a pose and the dots where it meets the curves."""
-        x = float(self.course.x_of(pose.phase))
-        foot = complex(self.plot.place(x, self.plot.y.low))
+        x, foot = float(self.course.x_of(pose.phase)), self.foot(pose)
         head = foot - 1j * self.plot.area.height
         layers = [Layer(self.pen.theme.ink, segments(foot, head, 0.8 * self.pen.line))]
         for n, value in enumerate(self.values_at(pose)):

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from linkanim.player import answers
 from linkanim.player.action import Action
 from linkanim.player.handlers import browse, clock, edits, looks, outside, shelf
 from linkanim.player.state import State
@@ -14,12 +15,14 @@ from linkanim.player.state import State
 class Rule(NamedTuple):
     """One action: the test that its value must pass, and what it makes of a state.
 
-    `taped` is False for what is done outside the picture, which no tape keeps.
+    `taped` is False for what is done outside the picture, which no tape keeps. `answer` says in a word or two
+    what has come of it, from the states before and after.
     """
 
     check: Callable[[object], bool]
     handle: Callable[[State, Any], State]
     taped: bool = True
+    answer: Callable[[State, State], str | None] | None = None
 
 
 def _nothing(value: object) -> bool:
@@ -49,26 +52,26 @@ def _numbers(count: int) -> Callable[[object], bool]:
 ACTIONS: Mapping[str, Rule] = {
     "pause": Rule(_nothing, clock.pause),
     "step": Rule(_whole, clock.step),  # degrees of phase, along the way the crank runs
-    "speed": Rule(_whole, clock.speed),  # steps of the speed ladder
-    "direction": Rule(_nothing, clock.direction),
+    "speed": Rule(_whole, clock.speed, answer=answers.speed),  # steps of the speed ladder
+    "direction": Rule(_nothing, clock.direction, answer=answers.direction),
     "start": Rule(_nothing, clock.start),
     "scrub": Rule(_number, clock.scrub),  # the phase to go to, rad
-    "mechanism": Rule(_whole, shelf.mechanism),  # places further on the shelf
-    "select": Rule(_whole, shelf.select),  # the place in the catalogue, from 0
-    "put": Rule(_whole, browse.put),  # the place on the shelf, from 0
-    "closure": Rule(_nothing, shelf.closure),
-    "trace": Rule(_nothing, looks.trace),
-    "vectors": Rule(_one_of("v", "a"), looks.vectors),
-    "ghost": Rule(_nothing, looks.ghost),
-    "chart": Rule(_whole, looks.chart),  # quantities further
-    "plot": Rule(_text, browse.plot),  # a quantity's token
-    "names": Rule(_nothing, looks.names),
-    "theme": Rule(_nothing, looks.theme),
+    "mechanism": Rule(_whole, shelf.mechanism, answer=answers.place),  # places further on the shelf
+    "select": Rule(_whole, shelf.select, answer=answers.place),  # the place in the catalogue, from 0
+    "put": Rule(_whole, browse.put, answer=answers.place),  # the place on the shelf, from 0
+    "closure": Rule(_nothing, shelf.closure, answer=answers.closure),
+    "trace": Rule(_nothing, looks.trace, answer=answers.trace),
+    "vectors": Rule(_one_of("v", "a"), looks.vectors, answer=answers.vectors),
+    "ghost": Rule(_nothing, looks.ghost, answer=answers.ghost),
+    "chart": Rule(_whole, looks.chart, answer=answers.chart),  # quantities further
+    "plot": Rule(_text, browse.plot, answer=answers.chart),  # a quantity's token
+    "names": Rule(_nothing, looks.names, answer=answers.names),
+    "theme": Rule(_nothing, looks.theme, answer=answers.theme),
     "help": Rule(_nothing, looks.help_),
     # notches, about the point (x, y): window heights from the picture's middle, y down
-    "zoom": Rule(_numbers(3), looks.zoom),
+    "zoom": Rule(_numbers(3), looks.zoom, answer=answers.zoom),
     "pan": Rule(_numbers(2), looks.pan),  # window heights, right and down
-    "fit": Rule(_nothing, looks.fit),
+    "fit": Rule(_nothing, looks.fit, answer=answers.zoom),
     "edit": Rule(_nothing, edits.edit),
     "choose": Rule(_whole, edits.choose),
     "pass_on": Rule(_whole, edits.pass_on),
@@ -79,8 +82,8 @@ ACTIONS: Mapping[str, Rule] = {
     "grab": Rule(_text, edits.grab),  # a joint
     "carry": Rule(_numbers(3), edits.carry),  # to (x, y) in the scene's unit, in such parts of a nudge's step
     "drop": Rule(_nothing, edits.drop),
-    "undo": Rule(_nothing, edits.undo),
-    "redo": Rule(_nothing, edits.redo),
+    "undo": Rule(_nothing, edits.undo, answer=answers.undo),
+    "redo": Rule(_nothing, edits.redo, answer=answers.undo),
     "back": Rule(_nothing, outside.back),
     "list": Rule(_nothing, browse.list_, taped=False),
     "shelf": Rule(_nothing, browse.shelf, taped=False),
@@ -89,7 +92,7 @@ ACTIONS: Mapping[str, Rule] = {
     "sift": Rule(_text, browse.sift, taped=False),
     "unsift": Rule(_nothing, browse.unsift, taped=False),
     "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),
-    "screenshot": Rule(_nothing, outside.effect("screenshot"), taped=False),
+    "screenshot": Rule(_nothing, outside.screenshot, taped=False),
     "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),
     "save": Rule(_nothing, outside.effect("save"), taped=False),
     "quit": Rule(_nothing, outside.effect("quit"), taped=False),

@@ -14,10 +14,13 @@ from linkanim.player.actions import ACTIONS
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.fault import refused
 from linkanim.player.glide import followed
-from linkanim.player.state import FLASH_FRAMES, State
+from linkanim.player.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, answered
 
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND
+
+_LIVES = {"turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
+"""For how many frames after the one that the state holds something is to be seen."""
 
 
 def advance(state: State, actions: Iterable[Action] = ()) -> State:
@@ -32,22 +35,29 @@ def advance(state: State, actions: Iterable[Action] = ()) -> State:
 
 
 def aged(state: State) -> State:
-    """Return the state a frame older: a toast whose time is up goes, a changing length is followed."""
+    """Return the state a frame older: what has had its time goes, a changing length is followed."""
     state = replace(state, frame=state.frame + 1, effects=())
     if state.toast and state.frame >= state.toast.until:
         state = replace(state, toast=None)
-    if state.turned is not None and state.frame >= state.turned + FLASH_FRAMES:
-        state = replace(state, turned=None)
+    if state.chip and state.frame >= state.chip.until:
+        state = replace(state, chip=None)
+    over = [name for name, life in _LIVES.items() if _is_over(getattr(state, name), life, state.frame)]
+    state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
     return _followed(state) if state.glide else state
+
+
+def _is_over(since: int | None, life: int, frame: int) -> bool:
+    return since is not None and frame >= since + life
 
 
 def carried(state: State, action: Action) -> State:
     """Return the state with one action carried out; one that a solver fails at changes nothing."""
-    handle = ACTIONS[action.name].handle
+    rule = ACTIONS[action.name]
     if action.name != "note":
         state = replace(state, touched=state.frame)
     try:
-        return handle(state, action.value)
+        after = rule.handle(state, action.value)
+        return answered(after, rule.answer(state, after)) if rule.answer else after
     except Exception as error:
         return refused(state, action, error)
 

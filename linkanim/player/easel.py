@@ -9,6 +9,7 @@ from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
 from linkanim.picture.shelf import Grid, ShelfPainter, grid
 from linkanim.player import display
+from linkanim.player.fade import Fade
 from linkanim.player.state import State
 from linkanim.scenes.handles import handles
 from linkanim.scenes.scene import Scene
@@ -28,6 +29,7 @@ class Easel:
         self._state = state
         self._titled: str | None = None
         self._shelf = ShelfPainter()
+        self._fade = Fade()
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
@@ -36,15 +38,20 @@ class Easel:
             return
         self._state = state
         self._name(state.scene.title)
-        canvas = self._fitting(state, surface.get_size())
-        picture = (canvas, state.phase, state.clock.speed, over)
+        canvas, veiled = self._fitting(state, surface.get_size()), self._fade.strength(state, surface)
+        picture = (canvas, state.phase, state.clock.speed, over, veiled)
         if picture != self._shown:
-            if over.shelf:
-                self._shelf.draw(surface, over.shelf)
-            else:
-                canvas.paint(surface, state.phase, state.clock.speed, over)
+            self._paint(surface, state, over)
+            self._fade.draw(surface, veiled, over.shutter)
             pygame.display.flip()
             self._shown = picture
+
+    def _paint(self, surface: pygame.Surface, state: State, over: Overlay) -> None:
+        if over.shelf:
+            self._shelf.draw(surface, over.shelf)
+        else:
+            canvas = self._fitting(state, surface.get_size())
+            canvas.paint(surface, state.phase, state.clock.speed, over)
 
     def _name(self, title: str) -> None:
         """Let the window bear the scene's title; the system is told only what is new to it."""
@@ -59,8 +66,7 @@ class Easel:
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
         """Return the state painted on a surface of its own, as large as the window."""
         surface = display.surface().copy()
-        canvas = self._fitting(state, surface.get_size())
-        canvas.paint(surface, state.phase, state.clock.speed, over)
+        self._paint(surface, state, over)
         return surface
 
     def _fitting(self, state: State, size: tuple[int, int]) -> Canvas:

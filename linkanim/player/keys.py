@@ -145,6 +145,7 @@ EDIT_KEYS: tuple[Row, ...] = (
         "type a value, with or without a unit; take all that is typed",
         (*_every("return kp_enter", "take"), _held("backspace", "erase")),
     ),
+    Row("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
 )
 """What the keys do while the dimensions are being edited."""
 

@@ -63,9 +63,11 @@ class Mouse:
     def __init__(self) -> None:
         self._drag: Literal["pan", "crank", "chart", "joint"] | None = None
         self._at = (0.0, 0.0)
+        self._moved_yet = False
 
     def actions(self, event: Event, stage: Stage) -> tuple[Action, ...]:
         """Return what a mouse event asks for."""
+        self._moved_yet = self._moved_yet or event.type == pygame.MOUSEMOTION
         if stage.is_shelf_open:
             return self._on_the_shelf(event, stage)
         match event.type:
@@ -86,6 +88,18 @@ class Mouse:
                 return self._panned(before, stage) if self._drag == "pan" else self._moved(stage)
         return ()
 
+    def hovered(self, stage: Stage) -> str | None:
+        """Return the joint under the mouse that can be dragged; None before the mouse has moved."""
+        if not self._moved_yet or stage.is_shelf_open or self._drag in ("pan", "chart"):
+            return None
+        return stage.handle_at(*self._at, _REACH * stage.size[1]) or (
+            stage.scene.linkage.drive.joint if self._is_at_pin(stage) else None
+        )
+
+    def _is_at_pin(self, stage: Stage) -> bool:
+        pin = stage.crank_pin()
+        return max(abs(self._at[0] - pin[0]), abs(self._at[1] - pin[1])) <= _REACH * stage.size[1]
+
     def _on_the_shelf(self, event: Event, stage: Stage) -> tuple[Action, ...]:
         """Choose the mechanism under the mouse; a click puts it on, and one beside closes the shelf."""
         self._drag = None
@@ -98,8 +112,7 @@ class Mouse:
         return () if place is None else (Action("point", place),)
 
     def _grabbed(self, stage: Stage) -> Literal["pan", "crank", "chart"]:
-        pin = stage.crank_pin()
-        if max(abs(self._at[0] - pin[0]), abs(self._at[1] - pin[1])) <= _REACH * stage.size[1]:
+        if self._is_at_pin(stage):
             return "crank"
         return "pan" if stage.charted(*self._at) is None else "chart"
 

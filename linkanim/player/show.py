@@ -6,29 +6,46 @@ import re
 from dataclasses import replace
 
 from linkanim.digits import significant, typeset
-from linkanim.picture.overlay import EditRow, Overlay, Panel, Quantities, Shelf
+from linkanim.picture.overlay import EditRow, Fading, Overlay, Panel, Quantities, Shelf
 from linkanim.picture.quantities import quantity
 from linkanim.picture.text import subscripted
 from linkanim.player.browsing import Browsing, Listing, listed
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.editing import chosen
 from linkanim.player.keys import help_groups
-from linkanim.player.state import FLASH_FRAMES, State
+from linkanim.player.state import FLASH_FRAMES, SHUTTER_FRAMES, State
 from linkanim.scenes.edit import Dimension, dimensions
+from linkanim.scenes.handles import span
 
 _HINT = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
 _LIST_HINT = "↑ ↓ choose   letters sift   Enter charts   Esc closes"
+_STRIP = "Space pause · Tab next · drag the pin · H keys"
+_STRIP_FRAMES = 6 * FRAMES_PER_SECOND
+_IDLE = 45 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
 _STEPS = 12
 """So many shades of a flash: each is drawn once."""
 
 
-def overlay(state: State) -> Overlay:
-    """Return all that the window shows beside the scene at this state."""
+def overlay(state: State, hover: str | None = None) -> Overlay:
+    """Return all that the window shows beside the scene; `hover` is the joint under the mouse."""
+    return replace(
+        kept(state),
+        toast=state.toast.text if state.toast else None,
+        chip=_chip(state),
+        strip=_strip(state),
+        measured=_measured(state) if state.editing.open else None,
+        glow=state.held.joint if state.held else hover,
+        grip=state.look.chart is not None,
+        shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
+    )
+
+
+def kept(state: State) -> Overlay:
+    """Return what of it belongs on a screenshot: all that does not come and go."""
     return Overlay(
         paused=state.clock.paused,
         noted=True,
-        toast=state.toast.text if state.toast else None,
         recording=_recording(state),
         help=help_groups(state.mode) if state.help else None,
         panel=panel(state) if state.editing.open else None,
@@ -47,6 +64,30 @@ def _quantities(state: State, listing: Listing) -> Quantities:
 def _shelf(state: State, browsing: Browsing) -> Shelf:
     frame, still = state.frame - browsing.since, state.clock.paused
     return Shelf(browsing.scenes, browsing.chosen, frame, state.look.theme, still=still)
+
+
+def _chip(state: State) -> Fading | None:
+    return Fading(state.chip.text, min(state.chip.until - state.frame, 8)) if state.chip else None
+
+
+def _strip(state: State) -> Fading | None:
+    """Return the strip: in the first seconds until a key is pressed, and now and then when none is."""
+    busy = state.clock.paused or state.mode != "play" or state.help or state.recording or state.attract
+    idle = state.frame - state.touched
+    if busy or state.toast or state.chip or 0 < state.touched > state.frame - _IDLE:
+        return None
+    since = idle % _IDLE
+    eighths = min(since, _STRIP_FRAMES - since, 32) // 4
+    return Fading(_STRIP, eighths) if eighths > 0 else None
+
+
+def _measured(state: State) -> tuple[str, str, str] | None:
+    """Return the bar that the chosen dimension measures, and its length in words."""
+    item = chosen(state.editing, state.scene)
+    ends = span(state.scene, item.key) if item else None
+    if item is None or ends is None:
+        return None
+    return (*ends, typeset(f"{significant(item.value, 10)} {item.unit}"))
 
 
 def _recording(state: State) -> str | None:

@@ -22,7 +22,10 @@ from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 
 TOAST_FRAMES = 3 * FRAMES_PER_SECOND
+CHIP_FRAMES = 66
 FLASH_FRAMES = FRAMES_PER_SECOND
+FADE_FRAMES = 14
+SHUTTER_FRAMES = 12
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,8 @@ class State:
 
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
     `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf.
+    `chip` is the answer to the last key; `faded` is the frame
+    at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
     `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
     which an edit made another class of the linkage, while the list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "fullscreen",
@@ -67,6 +72,9 @@ class State:
     glide: Glide | None = None
     turned: int | None = None
     toast: Toast | None = None
+    chip: Toast | None = None
+    faded: int | None = None
+    shot: int | None = None
     recording: Take | None = None
     attract: bool = False
     touched: int = 0
@@ -120,6 +128,11 @@ def fresh(scene: Scene) -> Clock:
 def told(state: State, text: str) -> State:
     """Return the state with a toast."""
     return replace(state, toast=Toast(text, state.frame + TOAST_FRAMES))
+
+
+def answered(state: State, text: str | None) -> State:
+    """Return the state with a chip that says the text; without, as it was."""
+    return replace(state, chip=Toast(text, state.frame + CHIP_FRAMES)) if text else state
 
 
 def asking(state: State, name: str, value: str | None = None) -> State:

@@ -20,7 +20,7 @@ from linkanim.player.fault import recovered, report
 from linkanim.player.keyboard import Keyboard
 from linkanim.player.keys import bind_of
 from linkanim.player.mouse import Mouse, latest
-from linkanim.player.show import overlay
+from linkanim.player.show import kept, overlay
 from linkanim.player.state import State
 from linkanim.player.tape import Reel, Tape, Taping
 from linkanim.scenes.write import save
@@ -50,6 +50,7 @@ class Window:
         self._told: list[str] = []
         self._windowed = display.frame()
         self._open = True
+        self._now = state.frame
         self._good: State | None = None
         self._reported: set[str] = set()
 
@@ -58,7 +59,7 @@ class Window:
 
         What happened since the last tick comes at its first frame.
         """
-        events = pygame.event.get()
+        events, self._now = pygame.event.get(), self.state.frame + frames
         for frame in range(frames):
             self._advance(events if frame == 0 else [])
         self._show()
@@ -123,8 +124,9 @@ class Window:
 
     def _show(self) -> None:
         """Paint and flip; a scene that cannot be painted gives way to the last that could."""
+        hover = self._mouse.hovered(self.easel) if self._good else None
         try:
-            self.easel.show(self.state, overlay(self.state))
+            self.easel.show(self.state, overlay(self.state, hover))
         except Exception as error:
             if self._good is None:
                 raise
@@ -158,7 +160,7 @@ class Window:
             case "render":
                 self._render(str(effect.value))
             case "screenshot":
-                picture = self.easel.picture(self.state, overlay(self.state))
+                picture = self.easel.picture(self.state, kept(self.state))
                 self._told.append(str(files.screenshot(picture, self.state.scene.name)))
             case "report":
                 self._report(str(effect.value))
@@ -197,5 +199,5 @@ class Window:
             return ()
         press = self._keyboard.press(event)
         bind = bind_of(press, self.state.mode, typing=self.state.typing) if press else None
-        self._keyboard.hold(event, bind, self.state.frame)
+        self._keyboard.hold(event, bind, self._now)
         return (bind.action,) if bind else ()

@@ -21,6 +21,17 @@ def other_closure(scene: Scene) -> Scene:
     return scene_from(document, name=scene.name, where=scene.name)
 
 
+def closure_name(scene: Scene) -> str | None:
+    """Return what the first loop's closure is called (open, crossed, ...); None where it has no other."""
+    document = scene.document
+    for table, shorthand in SHORTHANDS.items():
+        if table in document:
+            return str(document[table].get("assembly", shorthand.assemblies[0]))
+    joints = document.get("joints", {})
+    sides = ((joint.name, joint.sides) for joint in scene.linkage.joints if joint.name in joints)
+    return next((str(joints[name].get("side", found[0])) for name, found in sides if found), None)
+
+
 def ghost_of(scene: Scene) -> Scene | None:
     """Return the other closure, to be drawn behind this one; None where there is none."""
     try:

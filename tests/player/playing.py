@@ -8,7 +8,7 @@ from typing import Any
 import pygame
 
 from linkanim.player import display
-from linkanim.player.state import State
+from linkanim.player.state import CHIP_FRAMES, State
 from linkanim.player.window import Window
 
 SIZE = (320, 180)
@@ -41,6 +41,11 @@ class Player:
     def type(self, text: str) -> None:
         for letter in text:
             self.press(ord(letter), 0, letter)
+
+    def settle(self) -> bytes:
+        """Let go by what answers a key for a while, and return the pixels then."""
+        self.tick(CHIP_FRAMES)
+        return self.pixels
 
     def mouse(self, kind: int, at: tuple[float, float], **more: Any) -> bool:
         pygame.event.post(pygame.event.Event(kind, pos=(round(at[0]), round(at[1])), **more))

@@ -132,6 +132,8 @@ TOGGLES = {
     "v": "v",
     "a": "a",
     "c": "shift+c",
+    "k": "k",
+    "o": "o",
     "e": "e",
     "plus": "minus",
     "minus": "Home",
@@ -243,6 +245,70 @@ def test_dimensions_are_edited(screen: Screen) -> None:
     screen.until(lambda: screen.picture().tobytes() == taken.tobytes(), "Esc lets go of the value")
     screen.press("Escape")
     screen.still()
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_names_are_shown_then_dimensions_then_neither(screen: Screen) -> None:
+    first = screen.still()
+    seen = [first]
+    for _ in range(2):
+        seen.append(screen.changed_by("n", seen[-1]))
+    screen.press("n")
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "N a third time shows none")
+    assert len({picture.tobytes() for picture in seen}) == 3
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_a_quantity_is_found_in_the_list_and_charted(screen: Screen) -> None:
+    first = screen.still()
+    shown = screen.changed_by("k", first)
+    for key in ("Down", "Up", "c", "u", "r", "v", "x", "BackSpace"):
+        shown = screen.changed_by(key, shown)
+    screen.changed_by("Return", shown)
+    screen.press("c")
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "C puts the chart away")
+    screen.changed_by("c", first)
+    screen.press("shift+c")
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "Shift+C goes back to no chart")
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_the_shelf_is_walked_with_arrows_and_with_the_mouse(screen: Screen) -> None:
+    first = screen.still()
+    shelf = screen.changed_by("o", first)
+    for key in ("Right", "Down", "Left", "Up"):
+        shelf = screen.changed_by(key, shelf)
+    other = screen.changed_by("Right", shelf)
+    screen.changed_by("Return", other)
+    screen.press("shift+Tab")
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "Shift+Tab goes back to the press")
+    screen.changed_by("o", first)
+    xdotool("getwindowfocus", "mousemove", "--window", "%1", "120", "100", "click", "1")
+    screen.until(lambda: screen.picture().tobytes() != first.tobytes(), "a click puts a mechanism on")
+    screen.still()
+    screen.press("q")
+    assert screen.ends() == (0, "")
+
+
+def test_nonsense_typed_in_the_list_is_refused_there_and_tab_goes_on(screen: Screen) -> None:
+    closed = screen.still()
+    first = screen.changed_by("e", closed)
+    shown = first
+    for key in ("a", "b", "c", "Return"):
+        shown = screen.changed_by(key, shown)
+    screen.press("Escape")
+    screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "Esc lets go of the nonsense")
+    shown = first
+    for key in ("5", "6", "Tab", "6", "2", "Return"):
+        shown = screen.changed_by(key, shown)
+    screen.press("ctrl+z")
+    screen.until(lambda: screen.picture().tobytes() != shown.tobytes(), "both are undone at once")
+    screen.still()
+    screen.press("Escape")
+    screen.until(lambda: screen.picture().tobytes() == closed.tobytes(), "the press is as it was")
     screen.press("q")
     assert screen.ends() == (0, "")
 

@@ -74,10 +74,10 @@ def test_a_key_changes_state_and_picture_and_changes_back(
     state, pixels = read(player.state), player.pixels
     player.press(*there)
     assert read(player.state) != state
-    assert player.pixels != pixels
+    assert player.settle() != pixels
     player.press(*back)
     assert read(player.state) == state
-    assert player.pixels == pixels
+    assert player.settle() == pixels
 
 
 def test_space_plays_and_pauses(player: Player) -> None:
@@ -124,6 +124,16 @@ def test_a_late_frame_repeats_a_held_key_as_often_as_time_went_by(
     assert player.state.phase - before == pytest.approx(4 * STEP)
 
 
+def test_a_key_pressed_in_a_late_frame_is_not_held_yet(
+    player: Player, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pygame.key, "get_pressed", lambda: {pygame.K_RIGHT: True})
+    before = player.state.phase
+    pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_RIGHT, mod=0, unicode=""))
+    player.tick(50)
+    assert player.state.phase - before == pytest.approx(STEP)
+
+
 def test_a_key_that_is_not_held_on_happens_once(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pygame.key, "get_pressed", lambda: {pygame.K_t: True})
     player.press(*plain("t"))
@@ -133,14 +143,14 @@ def test_a_key_that_is_not_held_on_happens_once(player: Player, monkeypatch: pyt
 
 def test_tab_and_numbers_walk_the_catalogue(player: Player) -> None:
     player.press(*plain("r"))
-    first = player.pixels
+    first = player.settle()
     player.press(pygame.K_TAB, 0, "\t")
     assert player.state.scene == load(names()[1])
-    second = player.pixels
+    second = player.settle()
     player.press(pygame.K_TAB, SHIFT, "\t")
-    assert (player.state.scene, player.pixels) == (load(names()[0]), first)
+    assert (player.state.scene, player.settle()) == (load(names()[0]), first)
     player.press(*plain("2"))
-    assert (player.state.scene, player.pixels) == (load(names()[1]), second)
+    assert (player.state.scene, player.settle()) == (load(names()[1]), second)
 
 
 @pytest.mark.parametrize("number", range(1, 10))
@@ -339,7 +349,7 @@ def test_the_wheel_zooms_about_the_mouse(player: Player) -> None:
     assert player.state.look.zoom == 1.25**2
     assert player.window.easel.world(200, 60) == pytest.approx(before)
     player.mouse(pygame.MOUSEWHEEL, (200, 60), x=0, y=-2)
-    assert player.pixels == pixels
+    assert player.settle() == pixels
 
 
 def test_a_drag_pans(player: Player) -> None:

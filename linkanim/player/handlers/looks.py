@@ -47,7 +47,8 @@ def ghost(state: State, _: None) -> State:
 
 def theme(state: State, _: None) -> State:
     """Go from light to dark, or back."""
-    return replace(state, look=replace(state.look, theme="light" if state.look.theme == "dark" else "dark"))
+    other = replace(state.look, theme="light" if state.look.theme == "dark" else "dark")
+    return replace(state, look=other, faded=state.frame)
 
 
 def zoom(state: State, about: tuple[float, float, float]) -> State:

@@ -34,6 +34,11 @@ def record(state: State, form: Literal["gif", "mp4"]) -> State:
     return replace(asking(state, "render", state.recording.format), recording=None)
 
 
+def screenshot(state: State, _: None) -> State:
+    """Ask for a screenshot; the shutter is seen to go."""
+    return replace(asking(state, "screenshot"), shot=state.frame)
+
+
 def effect(name: str) -> Callable[[State, None], State]:
     """Return the handler of what changes nothing in the picture."""
     return lambda state, _: asking(state, name)

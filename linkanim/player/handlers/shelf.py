@@ -59,7 +59,7 @@ def put_on(state: State, place: int) -> State:
     scene = proved(load(entry) if isinstance(entry, str) else entry, 0.0)
     clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
-    bare = replace(state, listing=None, held=None, glide=None, turned=None)
+    bare = replace(state, listing=None, held=None, glide=None, turned=None, faded=state.frame)
     editing = Editing(open=state.editing.open)
     return replace(bare, editing=editing, scene=scene, place=place, clock=clock, look=look)
 

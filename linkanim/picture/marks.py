@@ -1,0 +1,68 @@
+"""What only the window shows on the picture: the bar being edited with its dimension line, and handles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pygame
+
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.board import Board
+from linkanim.picture.layout import Gauge
+from linkanim.picture.overlay import Measured
+from linkanim.picture.raster import Layer, paint
+from linkanim.picture.shapes import arrows, box, disc, segments, unit
+from linkanim.picture.theme import ORANGE
+from linkanim.picture.view import View
+
+_LIT = 0.45
+"""How strongly the bar being edited is lit."""
+
+
+def draw_measure(surface: pygame.Surface, board: Board, view: View, gauge: Gauge, shown: Measured) -> None:
+    """Draw the light on a bar, its dimension line beside it, and the value on the line."""
+    begin, end = (view.place(place) for place in shown.ends)
+    if abs(end - begin) < 1.0:
+        return
+    away = 1j * unit(end - begin)
+    away *= (2.0 * gauge.bar + 14 * board.layout.unit) * (-1 if away.imag > 0 else 1)
+    middle, size = (begin + end) / 2 + away, board.layout.small_size
+    paint(surface, [*_lit(begin, end, gauge), *_line(begin, end, away, board, gauge)])
+    wide = board.type.width(shown.words, size, strong=True)
+    back = middle + box(wide + 0.7 * size, 1.35 * size, 0.3 * size)
+    paint(surface, [Layer(board.theme.panel, [back], 0.9)])
+    at = (middle.real, middle.imag - 0.52 * size)
+    board.write(surface, shown.words, at, size=size, anchor="centre", strong=True)
+
+
+def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:
+    reach = 1.5 * gauge.bar
+    loops = [*segments(begin, end, 2 * reach), begin + disc(reach), end + disc(reach)]
+    yield Layer(ORANGE, loops, _LIT)
+
+
+def _line(begin: complex, end: complex, away: complex, board: Board, gauge: Gauge) -> Iterator[Layer]:
+    """Yield the line with an arrow at both ends, and those that lead to it from the joints."""
+    middle, width = (begin + end) / 2 + away, 0.9 * gauge.line
+    leads = [one for foot in (begin, end) for one in segments(foot + 0.35 * away, foot + 1.15 * away, width)]
+    ways = arrows([middle, middle], [begin + away - middle, end + away - middle], 1.6 * width)
+    yield Layer(board.theme.ink, [*leads, *ways])
+
+
+def glow(view: View, pose: Pose, joint: str, gauge: Gauge) -> Iterator[Layer]:
+    """Yield the light round a joint that can be dragged."""
+    middle = view.place(pose.position[joint])
+    for reach, alpha in ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4)):
+        yield Layer(ORANGE, [middle + disc(reach * gauge.bar)], alpha)
+
+
+def grip(foot: complex, board: Board) -> Iterator[Layer]:
+    """Yield the grip at the foot of the chart's cursor."""
+    unit_ = board.layout.unit
+    yield Layer(board.theme.ink, [foot + box(11 * unit_, 15 * unit_, 4 * unit_)])
+    ribs = segments(
+        [foot + (side - 3.5j) * unit_ for side in (-1.8, 1.8)],
+        [foot + (side + 3.5j) * unit_ for side in (-1.8, 1.8)],
+        1.2 * unit_,
+    )
+    yield Layer(board.theme.background, ribs)

@@ -1,0 +1,220 @@
+"""The window is alive: chips answer keys, pictures fade over, a strip says what there is to press."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import pygame
+import pytest
+from playing import SIZE, Player
+
+from linkanim.picture.overlay import Overlay
+from linkanim.player import display
+from linkanim.player.action import Action
+from linkanim.player.advance import advance
+from linkanim.player.show import kept, overlay
+from linkanim.player.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
+from linkanim.player.window import Window
+from linkanim.scenes import load, names
+from linkanim.scenes.closure import closure_name
+
+
+def after(state: State, *asked: Action | str) -> State:
+    for one in asked:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+def run(state: State, frames: int) -> State:
+    for _ in range(frames):
+        state = advance(state)
+    return state
+
+
+@pytest.fixture
+def rocker() -> State:
+    return begin(load("crank-rocker"))
+
+
+# What the window answers to what is asked of it; nothing where the picture itself answers.
+ANSWERS: dict[str, tuple[tuple[Action | str, ...], str | None]] = {
+    "direction": (("direction",), "reverse"),
+    "and back": (("direction", "direction"), "forward"),
+    "speed": ((Action("speed", 3),), "40 rpm"),
+    "speed backwards": (("direction", Action("speed", 3)), "−40 rpm"),
+    "another mechanism": ((Action("mechanism", 2),), f"3 / {len(names())}"),
+    "a number": ((Action("select", 4),), f"5 / {len(names())}"),
+    "a place of the shelf": ((Action("put", 1),), f"2 / {len(names())}"),
+    "the other closure": (("closure",), "crossed"),
+    "and the first again": (("closure", "closure"), "open"),
+    "no trace": (("trace",), "no trace"),
+    "velocity": ((Action("vectors", "v"),), "velocity"),
+    "no acceleration": ((Action("vectors", "a"), Action("vectors", "a")), "no acceleration"),
+    "ghost": (("ghost",), "both closures"),
+    "a chart": ((Action("plot", "rocker.angular_velocity"),), "Rocker: angular velocity"),
+    "no chart": ((Action("chart", 1), Action("chart", -1)), "no chart"),
+    "names": (("names", "names"), "names and dimensions"),
+    "theme": (("theme",), "dark"),
+    "zoom": ((Action("zoom", (2.0, 0.0, 0.0)),), "156 %"),
+    "fit": ((Action("zoom", (2.0, 0.0, 0.0)), "fit"), "100 %"),
+    "nothing to undo": (("undo",), "nothing there"),
+    "pause": (("pause",), None),
+    "the start": (("start",), None),
+    "a step": ((Action("step", 1),), None),
+    "the list": (("edit",), None),
+}
+
+
+@pytest.mark.parametrize(("asked", "words"), ANSWERS.values(), ids=ANSWERS)
+def test_a_chip_answers(rocker: State, asked: tuple[Action | str, ...], words: str | None) -> None:
+    chip = overlay(after(rocker, *asked)).chip
+    assert (chip.text if chip else None) == words
+
+
+def test_a_refusal_is_told_and_not_answered() -> None:
+    state = after(begin(load("scotch-yoke")), "closure")
+    assert (state.chip, state.toast is not None) == (None, True)
+
+
+def test_a_chip_fades_and_goes(rocker: State) -> None:
+    state, seen = after(rocker, "direction"), []
+    for _ in range(CHIP_FRAMES):
+        chip = overlay(state).chip
+        seen.append(chip.eighths if chip else 0)
+        state = advance(state)
+    assert (seen[0], seen[-1]) == (8, 1)
+    assert seen == sorted(seen, reverse=True)
+    assert overlay(state).chip is None
+
+
+# The name of a closure, where a shorthand, a long form or nothing says it.
+CLOSURES = {"crank-rocker": "open", "slider-crank": "forward", "press": "left", "six-bar": "open"}
+
+
+@pytest.mark.parametrize("name", CLOSURES)
+def test_a_closure_has_a_name(name: str) -> None:
+    assert closure_name(load(name)) == CLOSURES[name]
+
+
+def test_a_strip_says_what_to_press_until_a_key_is(rocker: State) -> None:
+    strips = [overlay(run(rocker, frame)).strip for frame in (0, 40, 320, 360, 600)]
+    assert [strip is not None for strip in strips] == [False, True, True, False, False]
+    assert strips[1] is not None
+    assert "Space pause" in strips[1].text
+    assert overlay(run(after(rocker, "trace"), 100)).strip is None
+
+
+def test_a_strip_comes_in_and_goes_out_gently(rocker: State) -> None:
+    shown = [strip.eighths if (strip := overlay(run(rocker, n)).strip) else 0 for n in range(0, 370, 2)]
+    assert max(shown) == 8
+    assert max(abs(a - b) for a, b in pairwise(shown)) <= 1
+
+
+def test_a_strip_comes_back_when_nothing_is_pressed_for_long(rocker: State) -> None:
+    state = replace(after(rocker, "trace"), frame=1000, touched=1, chip=None)
+    seen = [overlay(replace(state, frame=frame)).strip is not None for frame in range(100, 12_000, 50)]
+    assert any(seen)
+    assert not all(seen)
+
+
+@pytest.mark.parametrize("quiet", ["pause", "help", "list", "shelf", "edit", Action("record", "gif")])
+def test_there_is_no_strip_over_anything_else(rocker: State, quiet: str | Action) -> None:
+    state = replace(after(rocker, quiet), touched=0)
+    assert all(overlay(replace(state, frame=frame, chip=None)).strip is None for frame in range(0, 360, 20))
+
+
+def test_nothing_that_comes_and_goes_is_on_a_screenshot(rocker: State) -> None:
+    state = after(rocker, "direction", "screenshot", Action("note", "told"))
+    shown = kept(state)
+    assert (shown.chip, shown.strip, shown.toast, shown.shutter) == (None, None, None, 0)
+
+
+def test_a_screenshots_shutter_flashes_and_goes(rocker: State) -> None:
+    state = after(rocker, "screenshot")
+    assert overlay(state).shutter == 8
+    assert overlay(run(state, SHUTTER_FRAMES)).shutter == 0
+    assert run(state, SHUTTER_FRAMES).shot is None
+
+
+def test_another_mechanism_fades_over(player: Player) -> None:
+    crank = player.pixels
+    player.press(pygame.K_TAB, 0, "\t")
+    first = player.pixels
+    seen = {player.pixels for _ in range(FADE_FRAMES) if player.tick()}
+    settled = player.settle()
+    assert len(seen) > FADE_FRAMES // 2
+    near = sum(abs(a - b) for a, b in zip(first, crank, strict=True))
+    far = sum(abs(a - b) for a, b in zip(first, settled, strict=True))
+    assert near < far
+    assert player.state.faded is None
+    assert settled not in {crank, first}
+
+
+def test_a_fade_ends_where_the_window_changes_its_size(player: Player) -> None:
+    player.type("l")
+    pygame.display.set_mode((400, 300), pygame.RESIZABLE)
+    assert player.tick()
+    pygame.display.set_mode(SIZE, pygame.RESIZABLE)
+
+
+def test_a_pin_glows_under_the_mouse(player: Player) -> None:
+    plain = player.pixels
+    x, y = player.window.easel.crank_pin()
+    player.mouse(pygame.MOUSEMOTION, (x, y), rel=(1, 1), buttons=(0, 0, 0))
+    assert player.pixels != plain
+    player.mouse(pygame.MOUSEMOTION, (1, 1), rel=(1, 1), buttons=(0, 0, 0))
+    assert player.pixels == plain
+
+
+def test_a_mouse_that_moves_before_the_first_picture_is_waited_for(here: Path) -> None:
+    with display.opened(SIZE):
+        window = Window(begin(load("crank-rocker")))
+        pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=(5, 5), rel=(1, 1), buttons=(0, 0, 0)))
+        assert window.tick()
+
+
+def test_with_the_list_open_what_can_be_dragged_glows(player: Player) -> None:
+    player.type("e")
+    easel = player.window.easel
+    pose = player.state.scene.pose(player.state.phase, 0)
+    for joint, glows in (("B", True), ("O2", False)):
+        player.mouse(pygame.MOUSEMOTION, easel.pixel(*pose.position[joint]), rel=(1, 1), buttons=(0, 0, 0))
+        hovered = player.window._mouse.hovered(easel)
+        assert (hovered == joint) == glows
+
+
+def test_a_charts_cursor_has_a_grip(player: Player) -> None:
+    assert not overlay(player.state).grip
+    assert overlay(after(player.state, Action("chart", 1))).grip
+
+
+def test_the_chosen_bar_is_measured_on_the_picture(rocker: State) -> None:
+    state = after(rocker, "edit", Action("choose", 1))
+    assert overlay(state).measured == ("O2", "A", "50 mm")
+    assert overlay(after(state, Action("choose", -2))).measured is None
+    assert overlay(after(state, "edit")).measured is None
+
+
+# Everything that only the window shows changes the picture, and nothing of it stays.
+MARKS = {
+    "a measure": Overlay(measured=("O2", "A", "50 mm")),
+    "a glow": Overlay(glow="B"),
+    "a grip": Overlay(grip=True),
+}
+
+
+@pytest.mark.parametrize("size", [(320, 180), (640, 360)])
+@pytest.mark.parametrize("over", MARKS.values(), ids=MARKS)
+def test_a_mark_is_drawn_and_goes(over: Overlay, size: tuple[int, int]) -> None:
+    with display.opened(size):
+        player = Player(after(begin(load("crank-rocker")), Action("chart", 1), "pause"))
+        easel, plain = player.window.easel, player.pixels
+        easel.show(player.state, replace(kept(player.state), **vars(over) | {"paused": True, "noted": True}))
+        marked = player.pixels
+        easel.show(player.state, kept(player.state))
+        bare = player.pixels
+        player.window.close()
+    assert marked != bare
+    assert plain
