@@ -21,7 +21,7 @@ def chip(board: Board, text: str) -> pygame.Surface:
 def strip(board: Board, text: str) -> pygame.Surface:
     """Return the strip, as many of its parts as there is room for."""
     size, parts = board.layout.small_size, text.split(" · ")
-    room = board.layout.scene.width - 2 * size
+    room = board.layout.stage.width - 2 * size
     while len(parts) > 1 and board.type.width(_GAP.join(parts), size) > room:
         parts.pop()
     words = _GAP.join(parts)

@@ -64,17 +64,23 @@ class Panels:
             surface.blit(drawn, (round(across), round(stage.bottom - drawn.get_height() - self.board.margin)))
 
     def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw the chip at the top right, below the marks, and the strip below the scene."""
-        room, unit, size = self.layout.scene, self.layout.unit, self.layout.text_size
+        """Draw the chip below the marks, and the strip below the scene."""
+        room, unit, place = self.layout.stage, self.layout.unit, self.layout.marks
         if overlay.chip:
-            marks = bool(overlay.recording) + overlay.paused
             drawn = self._keep("chip", overlay.chip.text, partial(chip, self.board))
-            at = (self.layout.size[0] - 16 * unit - drawn.get_width(), 16 * unit + 1.5 * size * marks)
-            put(surface, drawn, at, overlay.chip)
+            marks = 1.5 * self.layout.text_size * (bool(overlay.recording) + overlay.paused)
+            left = place.x if self._marks_lead else place.right - drawn.get_width()
+            put(surface, drawn, (left, place.y + marks), overlay.chip)
         if overlay.strip:
             drawn = self._keep("strip", overlay.strip.text, partial(strip, self.board))
-            at = (room.x + (room.width - drawn.get_width()) / 2, room.bottom - drawn.get_height() + 8 * unit)
+            at = (room.x + (room.width - drawn.get_width()) / 2, room.bottom - drawn.get_height() - 6 * unit)
             put(surface, drawn, at, overlay.strip)
+
+    @property
+    def _marks_lead(self) -> bool:
+        """Whether the marks stand at the left of the scene's room."""
+        place, stage = self.layout.marks, self.layout.stage
+        return place.x - stage.x < stage.right - place.right
 
     def _keep(self, kind: str, value: Any, make: Any) -> pygame.Surface:
         if kind not in self._kept or self._kept[kind][0] != value:
@@ -89,8 +95,8 @@ class Panels:
 
     def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw the marks of recording and pause, words and signs."""
-        size, place, stage = self.layout.text_size, self.layout.marks, self.layout.stage
-        leads, top = place.x - stage.x < stage.right - place.right, place.y
+        size, place = self.layout.text_size, self.layout.marks
+        leads, top = self._marks_lead, place.y
         marks = [(overlay.recording, self.theme.warning, [0.36 * size * disc(1.0)])]
         marks.append(("paused" if overlay.paused else None, self.theme.ink, _bars(size)))
         for words, colour, sign in marks:
