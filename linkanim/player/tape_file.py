@@ -150,7 +150,15 @@ def _scene(part: Section) -> Scene:
     document = part.need("document")
     if not isinstance(document, dict):
         raise part.error("document", "must be a scene file's table")
-    return scene_from(document, name=part.text("name"), where=part.where)
+    return scene_from(document, name=_file_name(part), where=part.where)
+
+
+def _file_name(part: Section) -> str:
+    """Return a scene's name, which screenshots and recordings are called by: no way out of their folder."""
+    name = part.text("name")
+    if not 1 <= len(name) <= 200 or not name.isprintable() or name.startswith(".") or set(name) & set("/\\:"):
+        raise part.error("name", "must be a name without a folder; record the tape again")
+    return name
 
 
 def _scenes(part: Section, key: str) -> tuple[Scene, ...]:

@@ -100,7 +100,7 @@ def _ffmpeg_to(stream: Stream, form: Format, part: Path) -> list[str]:
     pixels = "bgra" if stream.alpha else "bgr0"
     raw = f"-f rawvideo -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
     into = [*_png(stream), _numbered(part)] if form == "png" else [*_mp4(stream), f"file:{part}"]
-    quiet = ["-hide_banner", "-loglevel", "error", "-y"]
+    quiet = ["-hide_banner", "-nostdin", "-loglevel", "error", "-y"]
     return [ffmpeg(), *quiet, *raw.split(), *_EXACT, *_TELLING, *into]
 
 

@@ -161,6 +161,10 @@ SPOILT: dict[str, tuple[Spoil, str]] = {
     "a place off the shelf": (lambda d: d["start"].update(place=99), "start.place = 99"),
     "an unknown scene on the shelf": (lambda d: d["shelf"].append("nothing"), r"shelf\[\d+\] = \"nothing\""),
     "a broken scene": (lambda d: d["scene"]["document"].update(speed=1), "speed"),
+    "a name that leads elsewhere": (lambda d: d["scene"].update(name="../../mine"), r"scene.name = "),
+    "a name of another drive": (lambda d: d["scene"].update(name="C:mine"), r"scene.name = "),
+    "a hidden name": (lambda d: d["scene"].update(name=".mine"), r"scene.name = "),
+    "no name": (lambda d: d["scene"].update(name=""), r"scene.name = "),
     "a size of one number": (lambda d: d.update(size=[3]), "size"),
     "a size of nothing": (lambda d: d.update(size=[0, 720]), r"size\[0\] = 0"),
 }
