@@ -108,13 +108,18 @@ def _subject(scene: Scene, beside: Scene | None, type_: Type) -> Subject:
 
 
 def _arranged(subject: Subject, wanted: Wanted, type_: Type) -> Arrangement:
-    """Return the arrangement with the chart where it leaves the scene larger."""
+    """Return the arrangement with the chart where it leaves the scene larger, and room for most words."""
     below = _with_chart(subject, wanted, type_, beside=False)
     if not wanted.chart or wanted.size[0] < _WIDE_ENOUGH:
         return below
     aside = _with_chart(subject, wanted, type_, beside=True)
-    told = aside.block is not None or below.block is None
+    told = 2 * _told(aside) >= _told(below)
     return aside if told and aside.view.scale > _BETTER * below.view.scale else below
+
+
+def _told(arrangement: Arrangement) -> int:
+    """Return how many rows of words there are, and one for the title."""
+    return 1 + len(arrangement.block.rows) if arrangement.block else 0
 
 
 def _with_chart(subject: Subject, wanted: Wanted, type_: Type, *, beside: bool) -> Arrangement:

@@ -117,16 +117,18 @@ def blocks(
 ) -> Iterator[list[Block]]:
     """Yield the words in groups, each with the title in ever more lines; those to be preferred first.
 
-    First all that is `said`, ever smaller, then ever less of it. `arrows` is how many the key has. The words
-    are the first scene's; there is room for those of the others in their place.
+    First all that is `said`, ever smaller, then ever less of it, then without the key. `arrows` is how many
+    the key has. The words are the first scene's; there is room for those of the others in their place.
     """
     setter = _Setter(scenes, layout, arrows, type_)
     smallest = max(_SMALLEST, round(_SHRUNK * layout.text_size))
     for size in range(layout.text_size, smallest, -1):
         yield setter.group(size, said, True)
     ranks = sorted({one.rank for one in said}, reverse=True)
-    for rank in (*ranks, -1):
-        yield setter.group(smallest, tuple(one for one in said if one.rank <= rank), rank >= _CLASS_RANK)
+    bare = _Setter(scenes, layout, 0, type_)
+    ways = [(setter, rank) for rank in ranks] + [(bare, rank) for rank in (*ranks, -1)]
+    for way, rank in ways:
+        yield way.group(smallest, tuple(one for one in said if one.rank <= rank), rank >= _CLASS_RANK)
 
 
 class _Setter:

@@ -227,3 +227,11 @@ def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) ->
 )
 def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, rest: str) -> None:
     assert unsaid(title, class_name) == rest
+
+
+def test_a_chart_does_not_drive_out_the_words() -> None:
+    wanted = Wanted((480, 270), True, 2, True, False)
+    for name in names():
+        block = staged(load(name), None, wanted, type_of_words()).arrangement.block
+        assert block is not None
+        assert block.rows, name
