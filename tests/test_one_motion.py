@@ -129,7 +129,8 @@ def test_the_hud_says_what_solve_prints_and_where_the_cursor_stands(
             for strut, found in struts.items():
                 main_value = found["length"] if kind == "spring" else found["rate"]
                 assert _number(told[f"{kind} {strut}"]) == pytest.approx(main_value, abs=0.051)
-                assert _number(told[f"{kind} force"]) == pytest.approx(found["force"], abs=0.051)
+                if found["force"] is not None:
+                    assert _number(told[f"{kind} force"]) == pytest.approx(found["force"], abs=0.051)
 
 
 @pytest.mark.parametrize("name", names())

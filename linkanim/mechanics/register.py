@@ -293,9 +293,9 @@ def _quantities(linkage: Linkage) -> Iterator[Quantity]:
             for measure in CENTRE_PATH:
                 yield _bound(measure, body.name, indexed(measure.symbol, label), words)
     for spring in linkage.springs:
-        yield from _of_strut(spring)
+        yield from _of_strut(spring, shared=spring.name in labels)
     for damper in linkage.dampers:
-        yield from _of_strut(damper)
+        yield from _of_strut(damper, shared=damper.name in labels)
     for body in linkage.bodies:
         if body.slider is None and len(body.joints) > 1:
             yield from _of_pole(body, labels[body.name])
@@ -393,9 +393,10 @@ def _size(vector: Any) -> Any:
     return math.hypot(x, y) if isinstance(vector, tuple) else np.hypot(x, y)
 
 
-def _of_strut(strut: Spring | Damper) -> Iterator[Quantity]:
+def _of_strut(strut: Spring | Damper, *, shared: bool) -> Iterator[Quantity]:
+    """Yield a strut's quantities; one that has a body's name is told from it in symbols."""
     kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
     for measure in (*measures, *DIRECTIONS[kind]):
         if measure.name != "force" or strut.forceful:
-            symbol = indexed(measure.symbol, strut.name)
+            symbol = indexed(measure.symbol, f"{kind} {strut.name}" if shared else strut.name)
             yield _bound(measure, strut.name, symbol, f"{kind.capitalize()} {strut.name}")

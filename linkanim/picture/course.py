@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import degrees, pi, radians
 from typing import Literal
@@ -105,9 +106,8 @@ def input_symbol(scene: Scene) -> str:
     return indexed("θ", link_labels(scene.linkage)[body.name] if body else "2")
 
 
-def _limits(scene: Scene, pace: float) -> list[tuple[float, str]]:
-    """Return when in a period a swing is at its limits, each with its angle."""
-    ends = scene.mechanism.assembly.path.angles(np.array([0.0, pi])).tolist()
-    words = [f"{stepped(degrees(end), 0.1)}°" for end in ends]
-    halves = round(scene.period / pi)
-    return [(k * pi / abs(pace), words[k % 2]) for k in range(halves + 1)]
+def _limits(scene: Scene, pace: float) -> Iterator[tuple[float, str]]:
+    """Yield when in a period a swing is at its limits, each with its angle."""
+    for half in range(round(scene.period / pi) + 1):
+        angle = scene.pose(half * pi, 0).crank_angle
+        yield half * pi / abs(pace), f"{stepped(degrees(angle), 0.1)}°"

@@ -97,6 +97,17 @@ def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:
     assert _strip("crank-rocker", "rocker.angle").course.marks == ()
 
 
+@pytest.mark.parametrize("name", [name for name in names() if not load(name).info.full_turn])
+def test_every_limit_is_marked_where_the_input_turns_back(name: str) -> None:
+    chart = _strip(name, f"{load(name).linkage.drive.joint}.velocity", -1.0)
+    low, high = (f"{math.degrees(limit):.1f}°" for limit in load(name).info.input_range)
+    for place, label in chart.course.marks:
+        pose = _pose(chart, float(chart.course.phase_of(place)))
+        assert label.replace("−", "-") == f"{math.degrees(pose.crank_angle) + 0.0:.1f}°"
+        assert label.replace("−", "-") in (low, high)
+        assert abs(pose.crank_rate) < 1e-9
+
+
 @pytest.mark.parametrize("speed", [0.5, -0.5, 4.0, -9.0])
 @pytest.mark.parametrize(
     ("name", "token"),
