@@ -64,7 +64,7 @@ class Panels:
             surface.blit(drawn, (round(across), round(stage.bottom - drawn.get_height() - self.board.margin)))
 
     def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw the chip below the marks, and the strip below the scene."""
+        """Draw the chip below the marks, and the strip at the bottom, where the HUD is not."""
         room, unit, place = self.layout.stage, self.layout.unit, self.layout.marks
         if overlay.chip:
             drawn = self._keep("chip", overlay.chip.text, partial(chip, self.board))
@@ -73,8 +73,11 @@ class Panels:
             put(surface, drawn, (left, place.y + marks), overlay.chip)
         if overlay.strip:
             drawn = self._keep("strip", overlay.strip.text, partial(strip, self.board))
-            at = (room.x + (room.width - drawn.get_width()) / 2, room.bottom - drawn.get_height() - 6 * unit)
-            put(surface, drawn, at, overlay.strip)
+            wide, high = drawn.get_size()
+            top, right = room.bottom - high - 6 * unit, room.right - wide - 6 * unit
+            hud = self.layout.hud
+            worded = hud is not None and hud.bottom > top and hud.right > right
+            put(surface, drawn, (room.x + 6 * unit if worded else right, top), overlay.strip)
 
     @property
     def _marks_lead(self) -> bool:
