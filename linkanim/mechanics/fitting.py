@@ -43,9 +43,15 @@ NEARBY = 1e-6
 """How far a zero may lie from where floats have found it."""
 POINTS = 20
 WIDEST = 0.5
+NARROWEST = 1e-4
+"""Beyond a narrower stretch than this the margin itself would have lost its digits."""
 TRIES = 12
 LAST = 1e-17
-"""What the last coefficients of a fit may be, beside the first one."""
+TOLERABLE = 1e-13
+"""What the last coefficients of a fit should be beside the first one, and what they may be.
+
+Rounded constants leave kinks of 1e-16 in the margin, where the formula of a loop changes its side.
+"""
 
 
 def refined(assembly: Assembly, name: str, phase: float, *, touching: bool) -> Sum:
@@ -93,12 +99,12 @@ def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
 
 
 def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
-    """Fit on the widest stretch where a polynomial holds to the last digit; None where there is none.
+    """Fit on the widest stretch where a polynomial holds to the last digit, or nearly; None where none does.
 
     AssemblyError where the dyad's ends meet without passing each other: D has no direction to go on in.
     """
     sampled, width = _sampler(assembly, name, zero)
-    zeroth = sampled(Decimal(0))
+    zeroth, best, least = sampled(Decimal(0)), None, TOLERABLE
     for _ in range(TRIES):
         half = width / 2 if isinstance(zero, End) else width
         stretch = _Stretch(width, half if isinstance(zero, End) else 0.0, half)
@@ -108,15 +114,17 @@ def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
         shares = [_shares(samples, zeroth, k) for k in (0, 1)] if meeting else []
         fits = [root, *(stretch.fit(samples, values) for values in shares)]
         last = max(_last(fits[:1]), _last(fits[1:]))
-        if last <= LAST:
-            return Near(root, (fits[1], fits[2]) if meeting else None)
+        if last <= least and width >= NARROWEST:
+            best, least = Near(root, (fits[1], fits[2]) if meeting else None), last
+        if last <= LAST or width < NARROWEST:
+            break
         width *= max(min(0.8 * (LAST / last) ** (1 / POINTS), 0.8), 0.1)
-    if meeting:
+    if best is None and meeting:
         raise AssemblyError(
             f"joint {name}: the two ends of its equal bars meet and part the way they came, so that it could "
             "go on in any direction; make one of the bars longer or shorter"
         )
-    return None
+    return best
 
 
 @dataclass(frozen=True, slots=True)

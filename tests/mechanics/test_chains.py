@@ -15,6 +15,7 @@ from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.path import Swing
 from linkanim.scenes import load
 from linkanim.scenes.edit import with_dimension
+from linkanim.scenes.read import scene_from
 
 Lengths = tuple[float, float, float, float]
 Key = tuple[str | int, ...]
@@ -119,3 +120,16 @@ def test_by_angle_a_swing_gives_what_its_first_way_up_gives_by_phase() -> None:
         for joint, values in getattr(by_phase, kind).items():
             found = getattr(by_angle, kind)[joint]
             assert found == pytest.approx(values, abs=1e-11 * max(1.0, np.abs(values).max())), (kind, joint)
+
+
+def test_a_change_point_where_the_loop_before_it_turns_is_passed_to_the_last_digit() -> None:
+    # A kite in the middle of its swing: the first loop's formula goes over from one limit to the other there.
+    bars = {"lengths": [4, 4, 3, 3, 2, 3, 3, 2], "assembly": "crossed"}
+    solved = scene_from({"six-bar": bars, "drive": {"start": "-60 deg"}}, name="kite", where="here").mechanism
+    zeros = solved.assembly.chain["D"].zeros
+    assert len(zeros) == 2
+    assert all(zero.near for zero in zeros)
+    for zero in zeros:
+        assert isinstance(zero, Touch)
+        around = solved.solve(phase=zero.place.high + np.linspace(-1e-5, 1e-5, 21), speed=1.0, derivatives=0)
+        assert np.abs(np.diff(around.position["D"], 2, axis=0)).max() <= 1e-10
