@@ -126,7 +126,7 @@ def watch(event, words):
     if event == "subprocess.Popen":
         seen.extend([] if isinstance(words[1], list) else ["a shell"])
         quiet = {"-nostdin", "-version"} & set(words[1])
-        seen.extend([] if quiet or "ffmpeg" not in words[1][0] else ["an ffmpeg that listens to the keys"])
+        seen.extend([] if quiet or "ffmpeg" not in words[1][0] else [f"{words[1]} listens to the keys"])
 sys.addaudithook(watch)
 from linkanim.cli import main
 small = ["--size", "64x36", "--seconds", "0.1"]

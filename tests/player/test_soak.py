@@ -1,0 +1,158 @@
+"""Long runs: every key and mouse action at random, over all scenes; it never fails, and never grows.
+
+A short one as a rule; a million frames of states and twenty thousand painted ones with `pytest -m long`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+
+import pygame
+import pytest
+from playing import SIZE, Player, fake_start
+
+from linkanim.player import display, rendering
+from linkanim.player.action import Action
+from linkanim.player.advance import advance
+from linkanim.player.state import State, begin
+from linkanim.scenes import load, names
+
+SEED = 20261121
+
+KEYS = [
+    *(ord(letter) for letter in "abcdehiklnoprtv0123456789+-=.?gm"),
+    *(pygame.K_SPACE, pygame.K_TAB, pygame.K_RETURN, pygame.K_BACKSPACE, pygame.K_ESCAPE, pygame.K_HOME),
+    *(pygame.K_LEFT, pygame.K_RIGHT, pygame.K_UP, pygame.K_DOWN, pygame.K_F1),
+]
+MODS = [0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL]
+
+
+PLAIN = [
+    "pause", "direction", "start", "closure", "trace", "ghost", "names", "theme", "help", "fit", "edit",
+    "erase", "take", "undo", "redo", "back", "drop", "list", "shelf",
+]  # fmt: skip
+COUNTED = ["step", "speed", "mechanism", "chart", "choose", "nudge", "pass_on", "move"]
+
+
+def asked(chance: random.Random) -> Action:
+    """Return anything that keys and mouse can ask of a state."""
+    far = chance.choice([-1e9, -3.0, -0.5, 0.0, 0.25, 1.0, 40.0, 1e9])
+    return chance.choice(
+        [
+            *map(
+                Action, ("pause", "direction", "start", "closure", "trace", "ghost", "names", "theme", "help")
+            ),
+            *map(Action, ("fit", "edit", "erase", "take", "undo", "redo", "back", "drop", "list", "shelf")),
+            *(
+                Action(name, chance.choice([-10, -1, 1, 1, 3]))
+                for name in ("step", "speed", "mechanism", "chart")
+            ),
+            *(Action(name, chance.choice([-7, -1, 1, 5])) for name in ("choose", "nudge", "pass_on", "move")),
+            Action("select", chance.randrange(9)),
+            Action("scrub", far),
+            Action("vectors", chance.choice("va")),
+            Action("type", chance.choice(["1", "9", ".", "-", "e", " mm", "deg", "x", "é"])),
+            Action("zoom", (chance.uniform(-3, 3), chance.uniform(-1, 1), chance.uniform(-1, 1))),
+            Action("pan", (chance.uniform(-1, 1), chance.uniform(-1, 1))),
+            Action("grab", chance.choice(["A", "B", "P"])),
+            Action("carry", (far, chance.uniform(-200, 200), 1.0)),
+        ]
+    )
+
+
+def finite(state: State) -> None:
+    """Hold a state to having a place on the screen for every joint."""
+    assert math.isfinite(state.phase)
+    pose = state.shown.pose(state.phase, 0)
+    assert all(math.isfinite(x) and math.isfinite(y) for x, y in pose.position.values())
+
+
+def states(frames: int) -> Iterator[State]:
+    """Iterate the states of a run in which something is asked for in every other frame."""
+    chance = random.Random(SEED)
+    state = begin(load("crank-rocker"))
+    for frame in range(frames):
+        if frame % 500 == 0:
+            state = begin(load(chance.choice(names())))
+        wanted = [asked(chance)] if chance.random() < 0.5 else []
+        state = advance(state, wanted)
+        yield state
+
+
+def pressed(player: Player, chance: random.Random) -> bool:
+    """Press a key or use the mouse; return whether the window is still open."""
+    at = (chance.randrange(SIZE[0]), chance.randrange(SIZE[1]))
+    match chance.randrange(5):
+        case 0:
+            player.drag(at, (chance.randrange(SIZE[0]), chance.randrange(SIZE[1])))
+        case 1:
+            wheel = pygame.event.Event(
+                pygame.MOUSEWHEEL, x=0, y=chance.choice([-2, 1]), precise_y=1.0, flipped=False
+            )
+            pygame.event.post(wheel)
+        case _:
+            key = chance.choice(KEYS)
+            return player.press(key, chance.choice(MODS), chr(key) if key < 127 else "")
+    return player.tick(chance.choice([1, 1, 5, 120]))
+
+
+def painted(frames: int, folder: Path) -> None:
+    """Play a window for so many frames that are painted, over all scenes; hold it to no fault and no NaN."""
+    chance = random.Random(SEED)
+    for number, name in enumerate(names()):
+        with display.opened(SIZE):
+            player = Player(begin(load(name)))
+            for _ in range(frames // len(names()) + 1):
+                if not pressed(player, chance):
+                    break
+                finite(player.state)
+            player.window.close()
+        faults = list(folder.glob("recordings/*fault*.json"))
+        assert not faults, (number, name, [json.loads(path.read_text())["error"] for path in faults])
+
+
+def resident_mb() -> float:
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * 4096 / 1e6
+
+
+def test_states_stay_finite_whatever_is_asked() -> None:
+    for state in states(1_000):
+        finite(state)
+
+
+def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rendering, "_start", fake_start([]))
+    painted(120, here)
+
+
+@pytest.mark.long
+def test_a_million_frames() -> None:
+    for frame, state in enumerate(states(1_000_000)):
+        if frame % 10 == 0:
+            finite(state)
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read through /proc")
+def test_twenty_thousand_painted_frames_take_no_more_memory(
+    here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(rendering, "_start", fake_start([]))
+    painted(2_000, here)
+    before = resident_mb()
+    painted(20_000, here)
+    assert resident_mb() - before < 5
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "press", "double-rocker"])
+def test_the_phase_is_right_after_a_day_of_frames(name: str) -> None:
+    clock = begin(load(name)).clock
+    day = 24 * 3600
+    exact = Fraction(clock.phase) + Fraction(clock.speed) * day
+    assert abs(Fraction(clock.at(60 * day)) - exact) <= Fraction(1, 10**9)
