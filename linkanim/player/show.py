@@ -11,7 +11,6 @@ from linkanim.picture.quantities import quantity
 from linkanim.picture.text import subscripted
 from linkanim.player.browsing import Browsing, Listing, listed
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.editing import chosen
 from linkanim.player.keys import help_groups
 from linkanim.player.state import FLASH_FRAMES, SHUTTER_FRAMES, State
 from linkanim.scenes.edit import Dimension, dimensions
@@ -29,12 +28,13 @@ _STEPS = 12
 
 def overlay(state: State, hover: str | None = None) -> Overlay:
     """Return all that the window shows beside the scene; `hover` is the joint under the mouse."""
+    items = _items(state)
     return replace(
-        kept(state),
+        _kept(state, items),
         toast=state.toast.text if state.toast else None,
         chip=_chip(state),
         strip=_strip(state),
-        measured=_measured(state) if state.editing.open else None,
+        measured=_measured(state, items),
         glow=state.held.joint if state.held else hover,
         grip=state.look.chart is not None,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
@@ -43,12 +43,21 @@ def overlay(state: State, hover: str | None = None) -> Overlay:
 
 def kept(state: State) -> Overlay:
     """Return what of it belongs on a screenshot: all that does not come and go."""
+    return _kept(state, _items(state))
+
+
+def _items(state: State) -> tuple[Dimension, ...]:
+    """Return the dimensions of the open list."""
+    return dimensions(state.scene) if state.editing.open else ()
+
+
+def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
     return Overlay(
         paused=state.clock.paused,
         noted=True,
         recording=_recording(state),
         help=help_groups(state.mode) if state.help else None,
-        panel=panel(state) if state.editing.open else None,
+        panel=_panel(state, items) if state.editing.open else None,
         quantities=_quantities(state, state.listing) if state.listing else None,
         shelf=_shelf(state, state.browsing) if state.browsing else None,
     )
@@ -81,13 +90,13 @@ def _strip(state: State) -> Fading | None:
     return Fading(_STRIP, eighths) if eighths > 0 else None
 
 
-def _measured(state: State) -> tuple[str, str, str] | None:
+def _measured(state: State, items: tuple[Dimension, ...]) -> tuple[str, str, str] | None:
     """Return the bar that the chosen dimension measures, and its length in words."""
-    item = chosen(state.editing, state.scene)
-    ends = span(state.scene, item.key) if item else None
-    if item is None or ends is None:
+    if not items:
         return None
-    return (*ends, typeset(f"{significant(item.value, 10)} {item.unit}"))
+    item = items[state.editing.chosen % len(items)]
+    ends = span(state.scene, item.key)
+    return ends and (*ends, typeset(f"{significant(item.value, 10)} {item.unit}"))
 
 
 def _recording(state: State) -> str | None:
@@ -97,11 +106,11 @@ def _recording(state: State) -> str | None:
     return f"REC {state.recording.format.upper()} {seconds // 60}:{seconds % 60:02d}"
 
 
-def panel(state: State) -> Panel:
+def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
     """Return the list of dimensions, the values begun in their places."""
     editing, info = state.editing, state.scene.info
-    at, begun = chosen(editing, state.scene), dict(editing.drafts)
-    rows = (_row(item, begun.get(item.key), chosen=item == at) for item in dimensions(state.scene))
+    at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
+    rows = (_row(item, begun.get(item.key), chosen=n == at) for n, item in enumerate(items))
     typed = f"{editing.typed}_" if editing.typed else None
     return Panel(
         tuple(replace(row, value=typed, draft=True) if typed and row.chosen else row for row in rows),
