@@ -12,7 +12,7 @@ from linkanim.errors import AssemblyError
 
 from .circular import Half, half_angle, sharp_half_angle
 from .clock import Clock
-from .exact import HALF_TURN, Sum, exact_angle, unit
+from .exact import HALF_TURN, Sum, exact_angle, gap, unit
 from .expression import Value
 from .planar import Slope, Vec
 from .roots import Kind, LoopRoot
@@ -116,19 +116,23 @@ def find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop
     return {name: loop for name, loop in found if loop and (loop.pin == own or not loop.limits)}
 
 
-def ground_between(linkage: Linkage, start: str, end: str) -> Ground | None:
-    """Return the ground link from one fixed pin to another, as exactly as it was written.
+def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
+    """Return the ground link from a crank's pivot to another fixed pin, as exactly as it was written.
 
-    None where they are one point, and no direction leads from one to the other.
+    None where they are one point, and no direction leads from one to the other. A length that was
+    rounded from coordinates is the crank's own where rounding is all that tells them apart.
     """
-    first, second = linkage.pin(start), linkage.pin(end)
+    first, second = linkage.pin(crank.pivot), linkage.pin(end)
     if _written_from(second, first):
         return _written(second, turned=False)
     if _written_from(first, second):
         return _written(first, turned=True)
     dx, dy = second.position[0] - first.position[0], second.position[1] - first.position[1]
     length = math.hypot(dx, dy)
-    return Ground(length, Vec(dx / length, dy / length), exact_angle(math.atan2(dy, dx))) if length else None
+    if not length:
+        return None
+    direction, angle = Vec(dx / length, dy / length), exact_angle(math.atan2(dy, dx))
+    return Ground(length if gap(length, -crank.length) else crank.length, direction, angle)
 
 
 def _written_from(pin: Pin, base: Pin) -> bool:

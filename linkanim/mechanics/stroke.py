@@ -193,7 +193,7 @@ def stroke(linkage: Linkage) -> Stroke:
     assert cylinder is not None
     crank = linkage.crank(drive.joint)
     fixed, joint = cylinder.between
-    ground = ground_between(linkage, crank.pivot, fixed)
+    ground = ground_between(linkage, crank, fixed)
     assert ground is not None
     frame = next(frame for frame in linkage.frames[1:] if {crank.pivot, crank.name, joint} <= frame.keys())
     arm = (frame[joint] - frame[crank.pivot]) / (frame[crank.name] - frame[crank.pivot]) * crank.length

@@ -59,20 +59,30 @@ class Draft:
         return self.pin(self.fresh("G"), [self.signed(), self.signed()])
 
 
-def linkages(seed: int, count: int) -> Iterator[tuple[str, Document]]:
-    """Yield `count` linkages, each as its kind and its document; the same ones for the same seed."""
+def linkages(
+    seed: int,
+    count: int,
+    *,
+    extras: tuple[int, ...] = (0, 0, 1, 1, 2),
+    weights: Mapping[str, float] | None = None,
+) -> Iterator[tuple[str, Document]]:
+    """Yield `count` linkages, each as its kind and its document; the same ones for the same seed.
+
+    `extras` are how many joints more a linkage may have, each as likely as the others; `weights` say
+    how likely a kind is beside the others.
+    """
     rng = Random(seed)
+    shares = [(weights or {}).get(kind, 1.0) for kind in BASES]
     for _ in range(count):
-        draft = _begun(rng)
-        for _ in range(rng.choice((0, 0, 1, 1, 2))):
+        draft = _begun(rng, rng.choices(tuple(BASES), shares)[0])
+        for _ in range(rng.choice(extras)):
             extra = rng.choice(tuple(EXTRAS))
             draft.kind += f" + {extra}"
             EXTRAS[extra](draft)
         yield draft.kind, draft.document
 
 
-def _begun(rng: Random) -> Draft:
-    kind = rng.choice(tuple(BASES))
+def _begun(rng: Random, kind: str) -> Draft:
     document: Document = {
         "drive": {"speed": rng.choice(("20 rpm", "-20 rpm", "3 rad/s")), "start": rng.choice(STARTS)}
     }

@@ -78,7 +78,7 @@ class RPR(Joint):
         for swapped, (moving, fixed) in enumerate(((self.through, self.pivot), (self.pivot, self.through))):
             crank = linkage.crank(moving) if moving in gears else None
             if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
-                ground = ground_between(linkage, crank.pivot, fixed)
+                ground = ground_between(linkage, crank, fixed)
                 if ground is None:
                     return None
                 root = slot_root(ground.length, crank.length, self.offset, ground.angle)

@@ -80,7 +80,7 @@ class RRR(Joint):
             (moving, fixed), bars = _turned(self, swapped)
             crank = linkage.crank(moving) if moving in gears else None
             if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
-                ground = ground_between(linkage, crank.pivot, fixed)
+                ground = ground_between(linkage, crank, fixed)
                 if ground is None:
                     return None
                 root = four_bar_root(ground.length, crank.length, bars, ground.angle)
