@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -133,3 +134,22 @@ def test_a_change_point_where_the_loop_before_it_turns_is_passed_to_the_last_dig
         assert isinstance(zero, Touch)
         around = solved.solve(phase=zero.place.high + np.linspace(-1e-5, 1e-5, 21), speed=1.0, derivatives=0)
         assert np.abs(np.diff(around.position["D"], 2, axis=0)).max() <= 1e-10
+
+
+# Which of a double-rocker's limits the dyad that stands on it cannot pass: there the input turns back before.
+STOPS = [
+    ("below", (120, 60, 116, 50), 1.0, 1, ("", "D")),
+    ("above", (120, 60, 116, 50), -1.0, -1, ("D", "")),
+    ("at both ends", (120, 60, 100, 70), 1.0, 1, ("", "")),
+]
+
+
+@pytest.mark.parametrize(("name", "second", "start", "side", "ends"), STOPS, ids=[row[0] for row in STOPS])
+def test_a_swing_turns_back_only_before_a_limit_that_cannot_be_passed(
+    name: str, second: Lengths, start: float, side: int, ends: tuple[str, str]
+) -> None:
+    linkage = six_bar((100, 80, 30, 90), second, start=start)
+    joints = (replace(joint, side=side) if joint.name == "B" else joint for joint in linkage.joints)  # type: ignore[call-arg]
+    solved = mechanism(replace(linkage, joints=tuple(joints)))
+    assert solved.assembly.path.ends == ends
+    runs_smoothly(solved)
