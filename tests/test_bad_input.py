@@ -53,7 +53,24 @@ HOSTILE = (
     "\u202e",
 )
 NUMBERS = st.sampled_from(
-    [0, -0.0, 1, -1, 12, 30, 100, 5e-324, 1e-300, 1e308, -1e308, math.inf, -math.inf, math.nan, 2**63, 10**40]
+    [
+        0,
+        -0.0,
+        1,
+        -1,
+        12,
+        30,
+        100,
+        5e-324,
+        1e-300,
+        1e308,
+        -1e308,
+        math.inf,
+        -math.inf,
+        math.nan,
+        2**63,
+        10**400,
+    ]
 )
 TEXTS = st.sampled_from([*HOSTILE, "20 rpm", "90 deg", "3 mm", "1e999 deg", "nan rpm"]) | st.text(max_size=8)
 VALUES = st.recursive(

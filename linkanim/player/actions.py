@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
@@ -25,16 +24,20 @@ class Rule(NamedTuple):
     answer: Callable[[State, State], str | None] | None = None
 
 
+MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
+"""The most of an action's value: no key or mouse gives more, and no float holds whatever a tape may say."""
+
+
 def _nothing(value: object) -> bool:
     return value is None
 
 
 def _whole(value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool)
+    return isinstance(value, int) and not isinstance(value, bool) and abs(value) <= MOST_STEPS
 
 
 def _number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_NUMBER
 
 
 def _text(value: object) -> bool:
