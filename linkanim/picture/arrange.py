@@ -64,7 +64,8 @@ class _Bench:
         self.room = parts.stage.inset(_EDGE * parts.unit)
         box = sweep.box
         self._wide, self._high = max(box.right - box.left, 1e-12), max(box.high - box.low, 1e-12)
-        bare = min(self.room.width / self._wide, self.room.height / self._high)
+        extended = max(self._wide, self._high) > 1e-12
+        bare = min(self.room.width / self._wide, self.room.height / self._high) if extended else 1.0
         share = min(parts.stage.width / parts.size[0], parts.stage.height / parts.size[1])
         self.gauge = gauge(parts.unit * max(share, _THINNEST), shortest * bare)
         self._reaches = [(box, self.gauge.around[kind]) for box, kind in sweep.parts]

@@ -42,11 +42,6 @@ class Layout:
         return Rect(0, 0, self.size[0], int(self.chart.y))
 
     @property
-    def title_size(self) -> int:
-        """The height of the scene's title in whole pixels."""
-        return round(1.43 * self.text_size)
-
-    @property
     def text_size(self) -> int:
         """The height of text that must read from the back row."""
         return max(round(21 * self.unit), 13)

@@ -14,6 +14,7 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.vectors import Arrows
 from linkanim.picture.view import Rect
+from linkanim.picture.words import KEY_STEP
 
 _SMALLEST = 8
 
@@ -63,7 +64,7 @@ class Legend:
         return 2.6 * self.size
 
     def _top(self, line: int) -> float:
-        return self.column.y + 1.5 * self.size * line
+        return self.column.y + KEY_STEP * self.size * line
 
 
 def legend_for(kinds: tuple[Arrows, ...], layout: Layout, type_: Type, theme: Theme) -> Legend | None:

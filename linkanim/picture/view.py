@@ -84,21 +84,6 @@ class View:
         return complex(self.x + self.scale * point[0], self.y - self.scale * point[1])
 
 
-def fit(box: Box, into: Rect) -> View:
-    """Return the view in which the box fills the rectangle as far as it can, centred.
-
-    A box without extent is centred at one pixel a unit.
-    """
-    width, height = box.right - box.left, box.high - box.low
-    across = into.width / width if width > 0 else float("inf")
-    up = into.height / height if height > 0 else float("inf")
-    scale = min(across, up)
-    scale = scale if 0 < scale < float("inf") else 1.0
-    middle = (box.left + width / 2, box.low + height / 2)
-    x = into.x + into.width / 2 - scale * middle[0]
-    return View(scale, x, into.y + into.height / 2 + scale * middle[1])
-
-
 def moved(view: View, about: tuple[float, float], *, zoom: float, pan: tuple[float, float]) -> View:
     """Return the view enlarged `zoom` times about a pixel, then shifted right and down in pixels."""
     x = about[0] + (view.x - about[0]) * zoom + pan[0]

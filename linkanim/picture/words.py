@@ -136,7 +136,7 @@ class _Setter:
 
     def __init__(self, scenes: Sequence[Scene], layout: Layout, arrows: int, type_: Type) -> None:
         self._scene, self._layout, self._arrows, self._type = scenes[0], layout, arrows, type_
-        shown = type_.width(self._scene.title, layout.title_size)
+        shown = type_.width(self._scene.title, round(_TITLE * layout.text_size))
         self._title = self._scene.title if shown else self._scene.name
         self._classes = [unsaid(self._title, scene.info.class_name) for scene in scenes]
         self._notes = [words for scene in scenes for words in notes(scene)]

@@ -11,12 +11,15 @@ import pygame
 import pytest
 from pictures import pixels
 
+from linkanim.picture.arrange import arranged
+from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import EditRow, Overlay, Panel
 from linkanim.picture.painter import Painter
 from linkanim.picture.quantities import quantities
 from linkanim.picture.staging import Wanted, staged
+from linkanim.picture.sweep import Sweep
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
@@ -124,10 +127,10 @@ def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
 def test_a_tall_scene_has_its_chart_beside_it_and_a_wide_one_below() -> None:
     for name, beside in (("press", True), ("slider-crank", False)):
         wanted = Wanted((1280, 720), True, 0, True, False)
-        layout = staged(load(name), None, wanted, type_of_words()).arrangement.layout
-        assert layout.chart is not None
-        assert (layout.chart.x >= layout.stage.right) == beside
-        assert (layout.chart.y >= layout.stage.bottom) != beside
+        parts = staged(load(name), None, wanted, type_of_words()).arrangement.layout
+        assert parts.chart is not None
+        assert (parts.chart.x >= parts.stage.right) == beside
+        assert (parts.chart.y >= parts.stage.bottom) != beside
 
 
 def test_a_scene_that_is_zoomed_does_not_reach_into_a_chart_beside_it() -> None:
@@ -235,3 +238,22 @@ def test_a_chart_does_not_drive_out_the_words() -> None:
         block = staged(load(name), None, wanted, type_of_words()).arrangement.block
         assert block is not None
         assert block.rows, name
+
+
+@pytest.mark.parametrize(
+    ("points", "scale"),
+    [
+        # a single point has no scale of its own
+        ([3 + 4j], 1.0),
+        # a level line fills the width beside what is drawn about its ends, an upright one the height
+        ([0j, 100 + 0j], (1280 - 2 * 9 - 2 * 12.2) / 100),
+        ([0j, 100j], (720 - 2 * 9 - 2 * 12.2) / 100),
+    ],
+)
+def test_what_has_no_extent_is_still_in_the_middle(points: list[complex], scale: float) -> None:
+    none = np.zeros(0, complex)
+    sweep = Sweep(np.array(points), none, none)
+    arrangement = arranged(layout((1280, 720)), sweep, 50.0, ())
+    assert arrangement.view.scale == pytest.approx(scale)
+    middle = sum(points) / len(points)
+    assert arrangement.view.to_pixel(middle.real, middle.imag) == pytest.approx((640, 360))

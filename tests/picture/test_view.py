@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkanim.picture.view import Box, Rect, View, fit, moved
+from linkanim.picture.view import View, moved
 
 lengths = st.floats(-1e4, 1e4)
 scales = st.floats(1e-3, 1e3)
@@ -23,32 +23,6 @@ def test_up_in_the_scene_is_up_in_the_window() -> None:
     assert view.to_pixel(0, 0) == (100, 50)
     assert view.to_pixel(3, 4) == (106, 42)
     assert view.place((3, 4)) == 106 + 42j
-
-
-@given(lengths, lengths, st.floats(0.1, 1e4), st.floats(0.1, 1e4))
-def test_what_is_fitted_lies_in_its_rectangle_and_touches_it(
-    left: float, low: float, width: float, height: float
-) -> None:
-    into = Rect(30, 40, 600, 300)
-    view = fit(Box(left, low, left + width, low + height), into)
-    near, far = view.to_pixel(left, low + height), view.to_pixel(left + width, low)
-    assert into.x - 1e-6 <= near[0] <= far[0] <= into.right + 1e-6
-    assert into.y - 1e-6 <= near[1] <= far[1] <= into.bottom + 1e-6
-    assert far[0] - near[0] == pytest.approx(600) or far[1] - near[1] == pytest.approx(300)
-
-
-@pytest.mark.parametrize(
-    ("box", "scale"),
-    [
-        (Box(0, 0, 10, 0), 60.0),  # a horizontal line fills the width
-        (Box(0, 0, 0, 10), 30.0),  # an upright one the height
-        (Box(5, 5, 5, 5), 1.0),  # a single point has no scale of its own
-    ],
-)
-def test_a_box_without_extent_is_still_centred(box: Box, scale: float) -> None:
-    view = fit(box, Rect(0, 0, 600, 300))
-    assert view.scale == pytest.approx(scale)
-    assert view.to_pixel((box.left + box.right) / 2, (box.low + box.high) / 2) == pytest.approx((300, 150))
 
 
 def test_zoom_keeps_the_point_it_is_about() -> None:
