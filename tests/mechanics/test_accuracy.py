@@ -433,8 +433,8 @@ def test_the_six_bar_s_rates_are_slopes_to_more_digits_than_asked() -> None:
     check(solved, pose, tuple(AROUND), 130.0, position=1e-14, rate=1e-13)
 
 
-# Ratios that are no power of two: ratio × angle has more digits than a float, and far along they count.
-@pytest.mark.parametrize("ratio", [Fraction(1, 3), Fraction(-7, 3), Fraction(5, 12), Fraction(3)], ids=str)
+# Ratio × angle has more digits than a float, and far along they count.
+@pytest.mark.parametrize("ratio", [Fraction(1, 3), Fraction(-7, 3), Fraction(7, 4), Fraction(3)], ids=str)
 @pytest.mark.parametrize("turns", [0, 1_000, 1_000_000], ids=lambda turns: f"{turns} turns on")
 @pytest.mark.parametrize(
     ("start", "offset"), [(0.7, 0.3), (0.0, 0.0)], ids=["set off", "from the ground line"]
