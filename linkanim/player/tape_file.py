@@ -205,8 +205,14 @@ def _drafts(part: Section) -> tuple[tuple[Key, str], ...]:
     if "drafts" not in part:
         return ()
     entries = part.listed("drafts")
-    found = (entries.items(key) for key in entries.values)
-    return tuple((tuple(path), str(text)[:40]) for text, *path in found if path)
+    return tuple(_draft(entries, key) for key in entries.values)
+
+
+def _draft(entries: Section, key: str) -> tuple[Key, str]:
+    match entries.items(key):
+        case [str(text), *path] if path and all(isinstance(step, str | int) for step in path):
+            return tuple(path), text[:40]
+    raise entries.error(key, "must be a list of what was typed and the keys of its value")
 
 
 def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:

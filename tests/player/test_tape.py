@@ -168,6 +168,8 @@ SPOILT: dict[str, tuple[Spoil, str]] = {
     "a name of another drive": (lambda d: d["scene"].update(name="C:mine"), r"scene.name = "),
     "a hidden name": (lambda d: d["scene"].update(name=".mine"), r"scene.name = "),
     "no name": (lambda d: d["scene"].update(name=""), r"scene.name = "),
+    "a draft of nothing": (lambda d: d["start"]["editing"].update(drafts=[[]]), r"drafts\[0\]: must be"),
+    "a draft nowhere": (lambda d: d["start"]["editing"].update(drafts=[["1"]]), r"drafts\[0\]: must be"),
     "a size of one number": (lambda d: d.update(size=[3]), "size"),
     "a size of nothing": (lambda d: d.update(size=[0, 720]), r"size\[0\] = 0"),
 }
