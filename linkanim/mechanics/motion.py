@@ -162,7 +162,7 @@ class Derived:
     def _strut(self, item: Spring | Damper) -> Strut:
         (x0, y0), (x1, y1) = (parts(self.position[joint]) for joint in item.between)
         dx, dy = x1 - x0, y1 - y0
-        length = (dx * dx + dy * dy) ** 0.5
+        length = _root(dx * dx + dy * dy)
         rate = turning = None
         if self.velocity:
             (u0, v0), (u1, v1) = (parts(self.velocity[joint]) for joint in item.between)
@@ -170,6 +170,11 @@ class Derived:
             rate, turning = (dx * du + dy * dv) / length, (dx * dv - dy * du) / (length * length)
         force = _force(item, self.setting.linkage.metre, length, rate)
         return Strut(length, rate, force, self._continuous(dy, dx, turning), turning)
+
+
+def _root(square: Any) -> Any:
+    """Return the square root, which IEEE 754 rounds in one way; a power of one half is the C library's."""
+    return math.sqrt(square) if isinstance(square, float) else np.sqrt(square)
 
 
 def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:

@@ -42,6 +42,11 @@ def rows(motion: Any) -> Iterator[tuple[str, NDArray[np.float64]]]:
     for kind in KINDS:
         for name, values in getattr(motion, kind).items():
             yield f"{kind} of {name}", np.asarray(values, dtype=np.float64)
+    for name, strut in (*motion.spring.items(), *motion.damper.items()):
+        for what in ("length", "rate", "force"):
+            values = getattr(strut, what)
+            if values is not None:
+                yield f"{what} of {name}", np.asarray(values, dtype=np.float64)
 
 
 def hash_of(scene: Scene) -> str:
