@@ -64,11 +64,6 @@ class Recording:
         return self.plan.seconds
 
     @property
-    def speed_asked(self) -> float:
-        """The dφ/dt that was asked for, rad/s."""
-        return self.plan.clip.speed
-
-    @property
     def speed(self) -> float:
         """The dφ/dt as recorded, rad/s, signed."""
         return self.plan.speed
