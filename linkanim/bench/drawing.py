@@ -10,7 +10,7 @@ from typing import NamedTuple
 from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Measured, Result
 from linkanim.picture.offscreen import offscreen, png_bytes
-from linkanim.picture.scatter import Names, Point, scatter
+from linkanim.picture.scatter import Point, ScatterTitles, scatter
 from linkanim.whole import checked_target, replacing
 
 SIZE = (1280, 640)
@@ -37,7 +37,7 @@ def draw(result: Result, path: Path) -> Path:
     width, height = SIZE
     sheet = offscreen((width, 2 * height))
     for number, (title, points) in enumerate(panels(result)):
-        sheet.blit(scatter(points, Names(title, ACROSS, UP), size=SIZE), (0, number * height))
+        sheet.blit(scatter(points, ScatterTitles(title, ACROSS, UP), size=SIZE), (0, number * height))
     with replacing(target) as part:
         part.write_bytes(png_bytes(sheet))
     return target

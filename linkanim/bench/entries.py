@@ -10,7 +10,7 @@ import numpy as np
 from linkanim.bench import methods, others, solver
 from linkanim.bench.accuracy import Solve
 from linkanim.bench.cases import EASY_LENGTHS
-from linkanim.bench.question import TURN, Bars, Points, Question, joined, scene_of
+from linkanim.bench.question import TURN, FourBarLengths, Points, Question, joined, scene_of
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
@@ -44,7 +44,7 @@ class Entry:
 
 def easy(count: int) -> Question:
     """Return one turn of the easy linkage in so many poses."""
-    bars, angles = Bars(*EASY_LENGTHS), np.arange(count, dtype=np.float64) * (TURN / count)
+    bars, angles = FourBarLengths(*EASY_LENGTHS), np.arange(count, dtype=np.float64) * (TURN / count)
     start = joined(scene_of(bars, 1).solve(angle=angles[:1], derivatives=0).position["B"])[0]
     return Question(bars, 1, angles, np.ones(count), complex(start), angles)
 

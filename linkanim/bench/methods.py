@@ -15,9 +15,9 @@ import numpy as np
 
 from linkanim.bench.question import (
     TURN,
-    Bars,
     Complexes,
     Floats,
+    FourBarLengths,
     Points,
     Question,
     coupler_point,
@@ -48,7 +48,7 @@ def half_angle(question: Question) -> Points:
     return coupler_point(bars, crank_pin(bars, question.angles), b)
 
 
-def _rocker_angle(bars: Bars, angles: Floats, sides: Floats) -> Floats:
+def _rocker_angle(bars: FourBarLengths, angles: Floats, sides: Floats) -> Floats:
     d, a, b, c = bars[:4]
     k1, k2, k3 = d / a, d / c, (a * a - b * b + c * c + d * d) / (2 * a * c)
     cosine = np.cos(angles)
@@ -134,7 +134,7 @@ def _floats(question: Question) -> list[float]:
     return angles
 
 
-def _newton(bars: Bars, angle: float, state: _Angles, iterations: int) -> _Angles:
+def _newton(bars: FourBarLengths, angle: float, state: _Angles, iterations: int) -> _Angles:
     """Return the angles after so many iterations; a singular Jacobian gives NaN."""
     d, r, a, b = bars[:4]
     x, y = r * math.cos(angle) - d, r * math.sin(angle)
@@ -172,7 +172,7 @@ def _integrated(question: Question) -> Iterator[_Angles]:
         yield state
 
 
-def _step(bars: Bars, angle: float, state: _Angles, h: float) -> _Angles:
+def _step(bars: FourBarLengths, angle: float, state: _Angles, h: float) -> _Angles:
     k1 = _velocity(bars, angle, state)
     k2 = _velocity(bars, angle + h / 2, _moved(state, k1, h / 2))
     k3 = _velocity(bars, angle + h / 2, _moved(state, k2, h / 2))
@@ -185,7 +185,7 @@ def _moved(state: _Angles, rate: _Angles, h: float) -> _Angles:
     return _Angles(state.coupler + h * rate.coupler, state.rocker + h * rate.rocker)
 
 
-def _velocity(bars: Bars, angle: float, state: _Angles) -> _Angles:
+def _velocity(bars: FourBarLengths, angle: float, state: _Angles) -> _Angles:
     """Return dθ3/dθ2 and dθ4/dθ2; NaN where coupler and rocker are in one line."""
     coupler, rocker = state
     sine = math.sin(coupler - rocker)

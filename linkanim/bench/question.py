@@ -18,7 +18,7 @@ Complexes = NDArray[np.complex128]
 TURN = 2 * math.pi
 
 
-class Bars(NamedTuple):
+class FourBarLengths(NamedTuple):
     """The bars of a four-bar and its coupler point, measured along A -> B and to the left of it.
 
     O2 is the origin, O4 lies on the real axis; A is the crank's pin, B joins coupler and rocker.
@@ -55,7 +55,7 @@ class Question:
     turning input's are its angles. `by_angle` where an input that swings is given by its angle.
     """
 
-    bars: Bars
+    bars: FourBarLengths
     side: int
     angles: Floats
     sides: Floats
@@ -70,7 +70,7 @@ class Question:
         return scene_of(self.bars, self.side)
 
 
-def scene_of(bars: Bars, side: int) -> Scene:
+def scene_of(bars: FourBarLengths, side: int) -> Scene:
     """Return the four-bar as a scene; its drive starts at angle 0 with a speed of 1 rad/s."""
     ground, crank, coupler, rocker, point = bars
     joints = (
@@ -83,12 +83,12 @@ def scene_of(bars: Bars, side: int) -> Scene:
     return Scene("bench", "four-bar", "bench", "m", Linkage(joints, Drive("A", 1.0)), ("P",))
 
 
-def coupler_point(bars: Bars, a: Complexes, b: Complexes) -> Points:
+def coupler_point(bars: FourBarLengths, a: Complexes, b: Complexes) -> Points:
     """Return B and the coupler point of the coupler from A to B."""
     return Points(b, a + (b - a) * bars.point)
 
 
-def crank_pin(bars: Bars, angles: Floats) -> Complexes:
+def crank_pin(bars: FourBarLengths, angles: Floats) -> Complexes:
     """Return where the crank's pin A lies."""
     pins: Complexes = bars.crank * np.exp(1j * angles)
     return pins

@@ -14,7 +14,7 @@ import numpy as np
 from mpmath import mp, mpc, mpf, workdps
 
 from linkanim.bench.cases import Case
-from linkanim.bench.question import Bars, Complexes, Floats, Points, Question
+from linkanim.bench.question import Complexes, Floats, FourBarLengths, Points, Question
 
 DIGITS = 50
 
@@ -64,7 +64,7 @@ def answer(case: Case) -> Answer:
             np.array([float(getattr(pose, name)) for pose in poses]) for name in ("angle", "phase")
         )
         named = np.array([float(case.side if case.turns else pose.sign) for pose in poses])
-    bars = Bars(*(float(length) for length in case.lengths))
+    bars = FourBarLengths(*(float(length) for length in case.lengths))
     start = complex(b.high[0])
     by_angle = not (case.turns or case.by_phase)
     question = Question(bars, case.side, angles, named, start, phases, case.periods, by_angle)
@@ -78,7 +78,7 @@ def closures(case: Case) -> Iterator[Closures]:
         angle, phase = (given, given) if case.turns else _swing(case, lengths, given)
         a, sign = crank * mp.expj(angle), _sign(case, lengths, phase)
         b, other = (crossing(a, ground, coupler, rocker, side) for side in (sign, -sign))
-        point = mpc(Bars(1, 1, 1, 1).point)
+        point = mpc(FourBarLengths(1, 1, 1, 1).point)
         yield Closures(angle, phase, sign, b, a + (b - a) * point, other, a + (other - a) * point)
 
 

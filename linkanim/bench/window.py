@@ -77,7 +77,7 @@ class FrameTimes:
 
 
 @dataclass(frozen=True)
-class Drawing:
+class WindowRun:
     """What a run found.
 
     `first` is the time from the start of the process to its first frame, s; `decibels` the worst frame's
@@ -91,12 +91,12 @@ class Drawing:
     jitter: float
 
 
-def run() -> Drawing:
+def run() -> WindowRun:
     """Measure the press with trace, vectors, chart and HUD at both sizes."""
     with _dummy():
         frames = tuple(measured(size) for size in SIZES)
         true = frame_decibels(load(SCENE)), jitter()
-        return Drawing(this_machine(), frames, first_frame(), *true)
+        return WindowRun(this_machine(), frames, first_frame(), *true)
 
 
 def measured(size: tuple[int, int], *, frames: int = FRAMES) -> FrameTimes:
@@ -156,7 +156,7 @@ def _dummy() -> Iterator[None]:
             os.environ["SDL_VIDEODRIVER"] = before
 
 
-def as_text(drawing: Drawing) -> str:
+def as_text(drawing: WindowRun) -> str:
     """Return the figures in aligned columns, each beside its bound."""
     rows = [TITLES]
     for found in drawing.frames:
@@ -173,7 +173,7 @@ def as_text(drawing: Drawing) -> str:
     return f"{drawing.machine.line}\n\n{columns(rows)}"
 
 
-def as_object(drawing: Drawing) -> dict[str, Any]:
+def as_object(drawing: WindowRun) -> dict[str, Any]:
     """Return the figures for JSON."""
     return {
         "machine": drawing.machine._asdict(),

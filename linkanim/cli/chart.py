@@ -10,8 +10,8 @@ from linkanim import units
 from linkanim.digits import stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import Curves, Pace, Wanted, curves_of
-from linkanim.paper.measured import Measured, beside, read_table
+from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of
+from linkanim.paper.measured import MeasuredCurve, beside, read_table
 from linkanim.paper.write import SUFFIXES, write
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
@@ -28,7 +28,7 @@ def run(options: Namespace) -> None:
     refuse_size(size)
     scene = load(options.scene)
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
-    curves = curves_of(scene, Wanted(tokens, paces(scene, options.speeds), options.over))
+    curves = curves_of(scene, ChartRequest(tokens, paces(scene, options.speeds), options.over))
     measured = _measured(curves, options)
     write(Page(curves, size, options.theme, measured), target)
     if measured:
@@ -47,7 +47,7 @@ def paces(scene: Scene, text: str | None) -> tuple[Pace, ...]:
     return paces
 
 
-def _measured(curves: Curves, options: Namespace) -> Measured | None:
+def _measured(curves: Curves, options: Namespace) -> MeasuredCurve | None:
     if options.data is None:
         if options.label is not None:
             raise BadInput("--label names the table of --data; add --data OTHER.csv")
@@ -55,7 +55,7 @@ def _measured(curves: Curves, options: Namespace) -> Measured | None:
     return beside(curves, read_table(options.data), options.label or options.data.stem)
 
 
-def _difference(curves: Curves, measured: Measured) -> str:
+def _difference(curves: Curves, measured: MeasuredCurve) -> str:
     unit = measured.curve.quantity.shown_unit(curves.scene.length_unit)
     return (
         f"largest difference of {measured.label} from {measured.curve.quantity.token}: "

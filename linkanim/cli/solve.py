@@ -16,7 +16,7 @@ import numpy as np
 from linkanim.cli import table
 from linkanim.cli.commands import EVERY_ANGLE
 from linkanim.cli.strict import json_text
-from linkanim.cli.sweeping import Block, Steps, blocks
+from linkanim.cli.sweeping import RowBlock, Steps, blocks
 from linkanim.cli.tree import Leaf, Tree, leaves, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
@@ -80,7 +80,7 @@ def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Aske
     return Asked(*given[0])
 
 
-def _blocks(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Iterator[Block]:
+def _blocks(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Iterator[RowBlock]:
     """Yield what was asked for, row by row in blocks; `OutOfRange` where one angle cannot be reached."""
 
     def solve(inputs: Leaf) -> Motion:
@@ -93,7 +93,7 @@ def _blocks(scene: Scene, asked: Asked, speed: float, acceleration: float) -> It
     if any(np.isnan(points).any() for points in motion.position.values()):
         raise out_of_range(scene, asked.value)
     where = {"angle": motion.crank_angle, "phase": motion.phase, asked.by: np.array([asked.value])}
-    yield Block(np.degrees([asked.value]), {**where, **tree(scene, motion)})
+    yield RowBlock(np.degrees([asked.value]), {**where, **tree(scene, motion)})
 
 
 def out_of_range(scene: Scene, angle: float) -> OutOfRange:
@@ -122,7 +122,7 @@ def _target(name: str | None) -> Path | None:
     return None if name in (None, "-") else checked_target(str(name), (".csv",))
 
 
-def _write_csv(target: Path | None, by: str, found: Iterator[Block]) -> None:
+def _write_csv(target: Path | None, by: str, found: Iterator[RowBlock]) -> None:
     if target is None:
         _csv_rows(sys.stdout, by, found)
         return
@@ -130,7 +130,7 @@ def _write_csv(target: Path | None, by: str, found: Iterator[Block]) -> None:
         _csv_rows(file, by, found)
 
 
-def _csv_rows(file: TextIO, by: str, found: Iterator[Block]) -> None:
+def _csv_rows(file: TextIO, by: str, found: Iterator[RowBlock]) -> None:
     """Write the input in degrees and then every quantity; what is not known is an empty cell."""
     for number, block in enumerate(found):
         names, columns = zip(*leaves(block.found), strict=True)

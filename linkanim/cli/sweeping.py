@@ -12,7 +12,7 @@ import numpy as np
 
 from linkanim import units
 from linkanim.cli.tree import Leaf, Tree, mapped, tree
-from linkanim.cli.values import Sweep
+from linkanim.cli.values import SweepSteps
 from linkanim.mechanics.exact import two_product
 from linkanim.mechanics.motion import Motion
 from linkanim.scenes.scene import Scene
@@ -22,7 +22,7 @@ _WHOLE = 2**53
 """Below this every whole number is a float."""
 
 
-class Block(NamedTuple):
+class RowBlock(NamedTuple):
     """Neighbouring rows: the inputs in degrees, and what is known at each; leaves are arrays (N,)."""
 
     degrees: Leaf
@@ -39,7 +39,7 @@ class Steps:
     rows: int
 
     @staticmethod
-    def of(sweep: Sweep) -> Steps:
+    def of(sweep: SweepSteps) -> Steps:
         """Return a sweep's decimals in whole numbers of their last digit."""
         first, step = Fraction(sweep.first), Fraction(sweep.step)
         scale = max(math.lcm(first.denominator, step.denominator), 1)
@@ -76,7 +76,7 @@ class Steps:
 
 def blocks(
     scene: Scene, steps: Steps, by: str, speed: float, solve: Callable[[Leaf], Motion]
-) -> Iterator[Block]:
+) -> Iterator[RowBlock]:
     """Yield a sweep's rows; `by` is "angle" or "phase", which runs at `speed` from time 0 in the first row.
 
     Bodies' angles run on from block to block, which share a row for it.
@@ -90,7 +90,7 @@ def blocks(
         where = {"angle": motion.crank_angle, "phase": motion.phase, by: inputs, "time": time}
         found = _continued({**where, **tree(scene, motion)}, last)
         last = found
-        yield Block(steps.degrees(row, stop), _without(found, shared))
+        yield RowBlock(steps.degrees(row, stop), _without(found, shared))
 
 
 def _continued(found: Tree, last: Tree | None) -> Tree:

@@ -15,7 +15,7 @@ VECTORS = ("v", "a")
 
 
 @dataclass(frozen=True)
-class Sweep:
+class SweepSteps:
     """Angles `first`, `first + step`, ... in degrees, `rows` of them; exact decimals as they were typed."""
 
     first: Decimal
@@ -23,7 +23,7 @@ class Sweep:
     rows: int
 
 
-def sweep(text: str) -> Sweep:
+def sweep(text: str) -> SweepSteps:
     """Read `a:b:step` in degrees; b is included where it falls on a step."""
     parts = text.split(":")
     if len(parts) != 3:
@@ -33,7 +33,7 @@ def sweep(text: str) -> Sweep:
         raise BadInput(f"the step of {text!r} does not lead from {first} to {last}; give one that does")
     if abs(last - first) >= abs(step) * MOST_ROWS:
         raise BadInput(f"{text!r} has more than {MOST_ROWS:,} rows; take a longer step")
-    return Sweep(first, step, int((last - first) / step) + 1)
+    return SweepSteps(first, step, int((last - first) / step) + 1)
 
 
 def _decimal(part: str, text: str) -> Decimal:

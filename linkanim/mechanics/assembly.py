@@ -13,8 +13,8 @@ from linkanim.digits import degrees
 from linkanim.errors import AssemblyError
 
 from .chain import ChainRoot
-from .clock import Clock
 from .expression import Graph, Value
+from .input_state import InputState
 from .linkage import Linkage
 from .loop import Gearing, Loop, find_loops, gearings
 from .path import Arc, Path, Swing, Turn, open_arcs
@@ -49,13 +49,13 @@ class Assembly:
         """How each crank turns with the input."""
         return gearings(self.linkage)
 
-    def walk(self, clock: Clock) -> Kinematics:
-        """Return the motion of everything at the clock's instant."""
-        return walked(self, clock)
+    def walk(self, state: InputState) -> Kinematics:
+        """Return the motion of everything at the state's instant."""
+        return walked(self, state)
 
     def walk_at(self, phase: Value, pace: Slope) -> Kinematics:
         """Return the motion of everything at a phase that runs at `pace`: floats, or noted expressions."""
-        return walked(self, self.path.clock(phase, pace))
+        return walked(self, self.path.state(phase, pace))
 
 
 def assemble(linkage: Linkage) -> Assembly:
@@ -160,7 +160,7 @@ def _just_after_start(loop: Loop | None, path: Path) -> int:
     """Return the sign that the loop's own root has just after the start: the named closure holds there."""
     if loop is None:
         return 1
-    return loop.sign(path.clock(JUST_AFTER, Slope(1.0)))
+    return loop.sign(path.state(JUST_AFTER, Slope(1.0)))
 
 
 def _is_as_named(assembly: Assembly) -> bool:

@@ -19,9 +19,9 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from .circular import sharp_half_angle
-from .clock import Clock
 from .exact import Sum
 from .expression import Value, maximum, select, sqrt
+from .input_state import InputState
 from .planar import Moving, MovingPoint, Slope, Vec
 from .signed import Reduced, SignedRoot, plain_root
 
@@ -75,10 +75,10 @@ class End:
     upper: bool
     near: Near | None = None
 
-    def way(self, clock: Clock) -> Way:
+    def way(self, state: InputState) -> Way:
         """Return the way to the limit."""
-        assert clock.ends is not None
-        ends = clock.ends
+        assert state.ends is not None
+        ends = state.ends
         z, half = (ends.root_u, ends.u) if self.upper else (ends.root_v, ends.v)
         return Way(z, Moving(half.value, half.rate, (z * z).second))
 
@@ -101,24 +101,24 @@ class Touch:
     amplitude: float | None
     near: Near | None = None
 
-    def way(self, clock: Clock) -> Way:
+    def way(self, state: InputState) -> Way:
         """Return the way from the change point."""
-        turn = self._on_turn(clock) if self.amplitude is None else self._on_swing(clock, self.amplitude)
+        turn = self._on_turn(state) if self.amplitude is None else self._on_swing(state, self.amplitude)
         sine, cosine = turn
         return Way(sine, (sine * cosine).scaled(2.0), 0.5 / cosine.value)
 
-    def _on_turn(self, clock: Clock) -> Turning:
+    def _on_turn(self, state: InputState) -> Turning:
         share = Fraction(1, self.turns)
-        half = clock.half(self.place * share, share)
-        return _turning(half.sine, half.cosine, Slope(clock.rate, clock.second).scaled(0.5 / self.turns))
+        half = state.half(self.place * share, share)
+        return _turning(half.sine, half.cosine, Slope(state.rate, state.second).scaled(0.5 / self.turns))
 
-    def _on_swing(self, clock: Clock, amplitude: float) -> Turning:
-        assert clock.ends is not None
-        if clock.phase is not None and self.turns > 1:
-            half = sharp_half_angle((clock.phase - self.place.high) * (1.0 / self.turns))
-            return _turning(half.sine, half.cosine, clock.pace.scaled(0.5 / self.turns))
+    def _on_swing(self, state: InputState, amplitude: float) -> Turning:
+        assert state.ends is not None
+        if state.phase is not None and self.turns > 1:
+            half = sharp_half_angle((state.phase - self.place.high) * (1.0 / self.turns))
+            return _turning(half.sine, half.cosine, state.pace.scaled(0.5 / self.turns))
         scale = 1.0 / math.sqrt(amplitude)
-        sine, cosine = clock.ends.root_v.scaled(scale), clock.ends.root_u.scaled(scale)
+        sine, cosine = state.ends.root_v.scaled(scale), state.ends.root_u.scaled(scale)
         for _ in range(self.turns.bit_length() - 1):
             sine, cosine = _halved(sine, cosine)
         half_way = float(self.place) / (2 * self.turns)
@@ -202,29 +202,31 @@ class ChainRoot:
     least: float
     sign: float = 1.0
 
-    def side(self, clock: Clock) -> Value:
+    def side(self, state: InputState) -> Value:
         """Return the sign of the closure on the smooth path."""
         side: Value = self.sign
         for zero in self.zeros:
-            side = side * _sign(zero.way(clock).z.value)
+            side = side * _sign(zero.way(state).z.value)
         return side
 
-    def root(self, closing: Closing, clock: Clock) -> SignedRoot:
+    def root(self, closing: Closing, state: InputState) -> SignedRoot:
         """Return q and ρ, signed and finite through every zero."""
         margin = maximum(closing.u * closing.w, self.least)
         plain = plain_root(margin, 1.0, closing.driver, closing.half_difference)
-        side = self.side(clock)
+        side = self.side(state)
         found = SignedRoot(plain.q * side, Slope(plain.ratio.value * side, plain.ratio.rate * side))
         if any(zero.near and zero.near.across for zero in self.zeros) and closing.across:
             found = found.with_lift(Reduced(closing.across, found.q))
         for zero in self.zeros:
             if zero.near is not None:
-                found = self._beside(zero, zero.near, closing, clock, found)
+                found = self._beside(zero, zero.near, closing, state, found)
         return found
 
-    def _beside(self, zero: Zero, near: Near, closing: Closing, clock: Clock, far: SignedRoot) -> SignedRoot:
+    def _beside(
+        self, zero: Zero, near: Near, closing: Closing, state: InputState, far: SignedRoot
+    ) -> SignedRoot:
         """Return the root from its fit next to a zero, else the one from `far` of it."""
-        way, others = zero.way(clock), self._others(zero, clock)
+        way, others = zero.way(state), self._others(zero, state)
         fitted = near.root.at(way.argument)
         q = way.z * fitted
         rho = closing.rates(q)
@@ -249,12 +251,12 @@ class ChainRoot:
             Reduced(MovingPoint(*points), chosen(fitted.value * way.share * others, far.lift.q))
         )
 
-    def _others(self, zero: Zero, clock: Clock) -> Value:
+    def _others(self, zero: Zero, state: InputState) -> Value:
         """Return the sign of the closure without that zero's."""
         others: Value = self.sign
         for other in self.zeros:
             if other is not zero:
-                others = others * _sign(other.way(clock).z.value)
+                others = others * _sign(other.way(state).z.value)
         return others
 
 

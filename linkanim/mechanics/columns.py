@@ -26,7 +26,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Layout:
+class ResultLayout:
     """The places of all quantities by kind and name, and the kind that each row holds."""
 
     places: Mapping[str, Mapping[str, Place]]
@@ -36,7 +36,7 @@ class Layout:
 
 def layout(
     rows: Mapping[str, Mapping[str, tuple[Value, ...]]], fixed: Mapping[str, Pair], vectors: tuple[str, ...]
-) -> Layout:
+) -> ResultLayout:
     """Lay the quantities out in rows, one for each component; what is fixed takes none.
 
     `fixed` gives where pins stand, `vectors` the kinds of quantity that pins have: their position,
@@ -54,7 +54,7 @@ def layout(
             places[kind][name] = Place(len(outputs), len(components))
             outputs.extend(components)
             kinds.extend([kind] * len(components))
-    return Layout(places, tuple(outputs), tuple(kinds))
+    return ResultLayout(places, tuple(outputs), tuple(kinds))
 
 
 class Columns(Mapping[str, Array]):

@@ -16,9 +16,9 @@ from linkanim.errors import AssemblyError
 
 from .assembly import Assembly
 from .chain import ChainRoot, Closing, End, Fit, Near, Zero
-from .clock import swing_by_angle
 from .exact import Sum
 from .expression import Graph, Value
+from .input_state import swing_by_angle
 from .path import Swing
 from .planar import Slope
 from .precise import context, exactly, interpolated, nearest_sum, nodes, sine
@@ -188,8 +188,8 @@ def _by_way(assembly: Assembly, path: Swing, name: str, *, upper: bool) -> Calla
     """Return the margin as a function of half the way to a limit."""
     graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
-    clock = swing_by_angle(v - u, u, v, Slope(0.0), path.middle)
-    run = decimals(("u", "v"), _outputs(assembly.walk(clock).closings[name])[:1])
+    state = swing_by_angle(v - u, u, v, Slope(0.0), path.middle)
+    run = decimals(("u", "v"), _outputs(assembly.walk(state).closings[name])[:1])
     amplitude = (exactly(path.high) - exactly(path.low)) / 2
 
     def sampled(way: Decimal) -> Sample:

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 from linkanim.errors import AssemblyError
 
 from .circular import Half, half_angle, sharp_half_angle
-from .clock import Clock
 from .exact import HALF_TURN, Sum, exact_angle, gap, unit
 from .expression import Value
+from .input_state import InputState
 from .planar import Slope, Vec
 from .roots import Kind, LoopRoot
 from .signed import SignedRoot, sharpened, sign_of_root, signed_root
@@ -63,19 +63,19 @@ class Loop:
         """Whether the loop keeps its crank from turning fully."""
         return Kind.LIMIT in (self.root.u.kind, self.root.w.kind)
 
-    def closed(self, clock: Clock, path: Path, pace: Slope) -> tuple[SignedRoot, Half]:
-        """Return the loop's root and ψ/2 at the clock's instant, ψ running at `pace`."""
-        swing = path.swinging(clock)
-        half = sharpened(self.root, self._half(clock), swing)
+    def closed(self, state: InputState, path: Path, pace: Slope) -> tuple[SignedRoot, Half]:
+        """Return the loop's root and ψ/2 at the state's instant, ψ running at `pace`."""
+        swing = path.swinging(state)
+        half = sharpened(self.root, self._half(state), swing)
         return signed_root(self.root, half, pace, swing), half
 
-    def sign(self, clock: Clock) -> int:
+    def sign(self, state: InputState) -> int:
         """Return the sign of the loop's root at an instant between its limits, in plain floats."""
-        return sign_of_root(self.root, self._half(clock))
+        return sign_of_root(self.root, self._half(state))
 
-    def _half(self, clock: Clock) -> Half:
+    def _half(self, state: InputState) -> Half:
         reference = self.root.reference - self.gearing.offset
-        return clock.half(reference, self.gearing.ratio, form=self.form)
+        return state.half(reference, self.gearing.ratio, form=self.form)
 
     @property
     def form(self) -> Callable[[Value, Value], Half]:

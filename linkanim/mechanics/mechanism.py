@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .assembly import Assembly, assemble
-from .clock import Clock
-from .columns import Columns, Floats, Layout, layout
+from .columns import Columns, Floats, ResultLayout, layout
 from .expression import Graph, Value
+from .input_state import InputState
 from .limits import restricted
 from .linkage import Linkage
 from .motion import Array, Motion, Pose, Setting
 from .planar import MovingPoint, Slope
 from .program import Batch, batch, scalar
-from .reach import Reach
+from .reach import WaysLeft
 from .register import DERIVATIVE_OF, NUMBERS, VECTORS
 from .walk import Kinematics
 
@@ -68,7 +68,7 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _programs(self) -> dict[Variant, tuple[Batch, Layout]]:
+    def _programs(self) -> dict[Variant, tuple[Batch, ResultLayout]]:
         return {}
 
     def pose(self, phase: float, speed: float, acceleration: float, derivatives: int) -> Pose:
@@ -93,16 +93,16 @@ class Mechanism:
         uniform = not variant.varying_rate
         second = graph.input("a", uniform=uniform) if variant.accelerates else 0.0
         pace = Slope(graph.input("w", uniform=uniform), second)
-        names, clock = self._clock(graph, pace, by_phase=variant.by_phase)
-        kinematics = self.assembly.walk(clock)
-        angle = clock.angle + float(clock.origin)
-        return names, (angle, clock.rate, clock.second), _rows(kinematics, self.assembly.unscale, variant)
+        names, state = self._state(graph, pace, by_phase=variant.by_phase)
+        kinematics = self.assembly.walk(state)
+        angle = state.angle + float(state.origin)
+        return names, (angle, state.rate, state.second), _rows(kinematics, self.assembly.unscale, variant)
 
-    def _clock(self, graph: Graph, pace: Slope, *, by_phase: bool) -> tuple[tuple[str, ...], Clock]:
+    def _state(self, graph: Graph, pace: Slope, *, by_phase: bool) -> tuple[tuple[str, ...], InputState]:
         path = self.assembly.path
         if by_phase:
-            return ("x",), path.clock(graph.input("x"), pace)
-        return path.clock_by_angle(graph, pace)
+            return ("x",), path.state(graph.input("x"), pace)
+        return path.state_by_angle(graph, pace)
 
     def _scalar(self, variant: Variant) -> Any:
         names, crank, rows = self._trace(variant)
@@ -149,7 +149,7 @@ class Mechanism:
         with np.errstate(all="ignore"):
             return self._motion(variant, asked, *self._run(variant, asked))
 
-    def _run(self, variant: Variant, given: _Given) -> tuple[Layout, Floats]:
+    def _run(self, variant: Variant, given: _Given) -> tuple[ResultLayout, Floats]:
         program, places = self.program(variant)
         rates = (given.w, given.a) if variant.accelerates else (given.w,)
         ways = given.reach
@@ -162,7 +162,7 @@ class Mechanism:
             _mark_limits(places, results, snapped, ways.at_limit)
         return places, results
 
-    def program(self, variant: Variant) -> tuple[Batch, Layout]:
+    def program(self, variant: Variant) -> tuple[Batch, ResultLayout]:
         """Return the program over arrays for one way of asking, and where its results lie."""
         found = self._programs.get(variant)
         if found is None:
@@ -175,7 +175,7 @@ class Mechanism:
             found = self._programs[variant] = (batch(varying, (*places.outputs, *swinging)), places)
         return found
 
-    def _motion(self, variant: Variant, given: _Given, places: Layout, results: Floats) -> Motion:
+    def _motion(self, variant: Variant, given: _Given, places: ResultLayout, results: Floats) -> Motion:
         results.flags.writeable = False
         kinds = places.places.items()
         found: dict[str, Any] = {kind: Columns(names, results, given.shape) for kind, names in kinds}
@@ -209,10 +209,10 @@ class _Given:
     w: Any
     a: Any
     shape: tuple[int, ...]
-    reach: Reach | None
+    reach: WaysLeft | None
 
 
-def _mark_limits(places: Layout, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
+def _mark_limits(places: ResultLayout, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
     """Give rates the values they have at the limit itself: infinite where they are unbounded."""
     for row, kind in enumerate(places.kinds):
         if DERIVATIVE_OF[kind]:

@@ -246,11 +246,11 @@ class Motion(Derived):
         """Return about how far what turns at `rate` gets at each step; 0 where that is not known."""
         # Driven by its angle a swing has no uniform phase, driven by its phase no uniform angle.
         by_angle = np.ndim(self.crank_rate) == 0
-        clock, pace = (self.crank_angle, self.crank_rate) if by_angle else (self.phase, self.input_speed)
+        course, pace = (self.crank_angle, self.crank_rate) if by_angle else (self.phase, self.input_speed)
         if rate is None or np.ndim(pace) or not pace:
             return np.zeros_like(like)
         rates = np.nan_to_num(rate / pace, posinf=0.0, neginf=0.0)
-        steps: Array = np.nan_to_num(np.diff(clock, axis=0)) * (rates[1:] + rates[:-1]) / 2
+        steps: Array = np.nan_to_num(np.diff(course, axis=0)) * (rates[1:] + rates[:-1]) / 2
         return steps
 
 

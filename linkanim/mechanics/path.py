@@ -16,15 +16,15 @@ import numpy as np
 
 from linkanim.errors import AssemblyError
 
-from .clock import Clock, swing_by_angle, swing_by_phase, turn
 from .exact import FULL_TURN, HALF_TURN, Sum, exact_angle
 from .expression import Graph, Value
+from .input_state import InputState, swing_by_angle, swing_by_phase, turn
 from .joint import Joint
 from .linkage import Linkage
 from .loop import Loop
 from .planar import Slope
 from .precise import context, cosine, exactly, nearest_sum
-from .reach import Array, Reach, reach
+from .reach import Array, WaysLeft, reach
 from .roots import Kind, LoopRoot
 from .signed import Swinging
 from .stroke import Stroke
@@ -76,7 +76,7 @@ class Turn:
         """Return the input's angle at phases."""
         return phases + self.start if self.start else phases
 
-    def phases(self, angles: Array, reached: Reach | None) -> Array:
+    def phases(self, angles: Array, reached: WaysLeft | None) -> Array:
         """Return the phase at angles of the input."""
         return angles - self.start if self.start else angles
 
@@ -103,23 +103,23 @@ class Turn:
         """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
         return 0.0, 1.0
 
-    def clock(self, phase: Value, pace: Slope) -> Clock:
+    def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or noted expressions."""
         return turn(phase, pace, exact_angle(self.start))
 
-    def clock_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], Clock]:
+    def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state at its angle."""
         return ("x",), turn(graph.input("x"), pace, Sum(0.0))
 
-    def solved_from(self, reached: Reach) -> tuple[Array, ...]:
+    def solved_from(self, reached: WaysLeft) -> tuple[Array, ...]:
         """Return what the program by angle takes: the angle."""
         return (reached.angle,)
 
-    def swinging(self, clock: Clock) -> Swinging | None:
+    def swinging(self, state: InputState) -> Swinging | None:
         """Return None: there is no swing."""
         return None
 
-    def reach(self, angle: Array) -> Reach | None:
+    def reach(self, angle: Array) -> WaysLeft | None:
         """Return None: no angle is out of reach."""
         return None
 
@@ -182,7 +182,7 @@ class Swing:
         angles: Array = float(self.middle) - self.amplitude * np.cos(phases)
         return angles
 
-    def phases(self, angles: Array, reached: Reach | None) -> Array:
+    def phases(self, angles: Array, reached: WaysLeft | None) -> Array:
         """Return the phase at angles of the input, on its way up; NaN for those out of reach."""
         assert reached is not None
         phases = 2 * np.arctan2(np.sqrt(reached.v), np.sqrt(reached.u))
@@ -216,24 +216,24 @@ class Swing:
         passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
         return 0.0 if passes[0] else min(ends), 1.0 if passes[1] else max(ends)
 
-    def clock(self, phase: Value, pace: Slope) -> Clock:
+    def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or noted expressions."""
         return swing_by_phase(phase, pace, self.middle, self.amplitude)
 
-    def clock_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], Clock]:
+    def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state: its angle and half the ways left."""
         x, u, v = (graph.input(name) for name in "xuv")
         return ("x", "u", "v"), swing_by_angle(x, u, v, pace, self.middle)
 
-    def solved_from(self, reached: Reach) -> tuple[Array, ...]:
+    def solved_from(self, reached: WaysLeft) -> tuple[Array, ...]:
         """Return what the program by angle takes: the angle from the middle, and half the ways left."""
         return reached.angle, reached.u, reached.v
 
-    def swinging(self, clock: Clock) -> Swinging | None:
-        """Return the swing as the clock has it; None for a clock without ends."""
-        return None if clock.ends is None else Swinging(clock.ends, clock.pace, self.low, self.high)
+    def swinging(self, state: InputState) -> Swinging | None:
+        """Return the swing as the state has it; None for a state without ends."""
+        return None if state.ends is None else Swinging(state.ends, state.pace, self.low, self.high)
 
-    def reach(self, angle: Array) -> Reach | None:
+    def reach(self, angle: Array) -> WaysLeft | None:
         """Return how far angles are from the limits."""
         return reach(angle, (self.low, self.middle, self.high), self.repeats)
 

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Reach:
+class WaysLeft:
     """Angles from the middle of a swing, half the ways to its limits, which lie outside or are a limit."""
 
     angle: Array
@@ -34,7 +34,7 @@ class Reach:
         return (self.u, self.v), (self.v, self.u)
 
 
-def reach(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> Reach:
+def reach(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> WaysLeft:
     """Return how far angles are from a swing's low end, middle and high end, whole turns aside.
 
     After `repeats` turns of the input the linkage is the same; they are taken off without rounding.
@@ -49,7 +49,7 @@ def reach(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> Reach:
     nearest = np.spacing(np.maximum(np.abs(angle), 0.25)) / 2
     at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
     outside = ~((np.minimum(u, v) >= 0) | at_limit)
-    return Reach(
+    return WaysLeft(
         _way(high, low, middle, 1.0), np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2, outside, at_limit
     )
 

@@ -52,9 +52,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from .circular import Half, cosine_within, half_of, sine_within
-from .clock import Ends
 from .exact import FULL_TURN, HALF_TURN, Sum
 from .expression import Value, maximum, minimum, select, sqrt
+from .input_state import Ends
 from .planar import Moving, MovingPoint, Slope
 from .roots import Factor, Kind, LoopRoot
 
@@ -143,7 +143,7 @@ def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value, Value]:
 
 @dataclass(frozen=True, slots=True)
 class Swinging:
-    """The ends of a swing as the clock has them, and the angles at which they lie."""
+    """The ends of a swing as the input has them, and the angles at which they lie."""
 
     ends: Ends
     pace: Slope

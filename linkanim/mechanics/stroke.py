@@ -22,18 +22,18 @@ import numpy as np
 from linkanim.errors import AssemblyError
 
 from .circular import Half, direction, half_angle, half_of, sharp_half_angle
-from .clock import Clock, turn
 from .exact import Sum, exact_angle
 from .expression import Graph, Value, arctan2, sqrt
+from .input_state import InputState, turn
 from .linkage import Cylinder, Linkage
 from .loop import ground_between
 from .planar import Slope, Vec
-from .reach import Array, Reach
+from .reach import Array, WaysLeft
 from .signed import Swinging
 
 
 @dataclass(frozen=True, slots=True)
-class HalfClock(Clock):
+class HalfState(InputState):
     """The input's state where half of its angle from `origin` is known by its sine and cosine."""
 
     own: Half | None = None
@@ -48,7 +48,7 @@ class HalfClock(Clock):
         """Return half of ratio × θ - reference, turned from the half that is known where ratio is ±1."""
         assert self.own is not None
         if abs(ratio) != 1:
-            return Clock.half(self, reference, ratio, form=form)
+            return InputState.half(self, reference, ratio, form=form)
         way = float(ratio)
         rest = direction(float((self.origin * ratio - reference).times(0.5)))
         turned = Vec(self.own.cosine, self.own.sine * way).times(Vec(*rest))
@@ -112,7 +112,7 @@ class Stroke:
         angles: Array = float(self.base) + self.side * 2 * np.arctan2(np.sqrt(sine), np.sqrt(cosine))
         return angles
 
-    def phases(self, angles: Array, reached: Reach | None) -> Array:
+    def phases(self, angles: Array, reached: WaysLeft | None) -> Array:
         """Return the phase at angles of the crank on the cylinder's way to `last`; NaN out of reach."""
         assert reached is not None
         flat = [self.phase_of(angle, 0.0) for angle in angles.reshape(-1).tolist()]
@@ -146,7 +146,7 @@ class Stroke:
         passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
         return 0.0 if passes[0] else min(ends), 1.0 if passes[1] else max(ends)
 
-    def clock(self, phase: Value, pace: Slope) -> Clock:
+    def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or noted expressions."""
         g, r = self.sides
         whole, reach = sharp_half_angle(phase + phase), (self.last - self.first) / 2
@@ -161,25 +161,25 @@ class Stroke:
         turning = length * rate / product
         bend = (rate * rate + length * second - half.difference * (g * r) * turning * turning) / product
         angle = arctan2(half.sine, half.cosine) * 2.0
-        return HalfClock(angle, self.base, turning, bend, pace, own=half)
+        return HalfState(angle, self.base, turning, bend, pace, own=half)
 
-    def clock_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], Clock]:
+    def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state at the crank's angle."""
         return ("x",), turn(graph.input("x"), pace, Sum(0.0))
 
-    def solved_from(self, reached: Reach) -> tuple[Array, ...]:
+    def solved_from(self, reached: WaysLeft) -> tuple[Array, ...]:
         """Return what the program by angle takes: the angle."""
         return (reached.angle,)
 
-    def swinging(self, clock: Clock) -> Swinging | None:
+    def swinging(self, state: InputState) -> Swinging | None:
         """Return None: no dyad limits the swing."""
         return None
 
-    def reach(self, angle: Array) -> Reach | None:
+    def reach(self, angle: Array) -> WaysLeft | None:
         """Return which angles the crank comes to."""
         outside = np.array([not self.holds(float(x)) for x in angle.tolist()], dtype=np.bool_)
         ways = np.ones_like(angle)
-        return Reach(angle, ways, ways, outside, np.zeros_like(outside))
+        return WaysLeft(angle, ways, ways, outside, np.zeros_like(outside))
 
 
 def stroke(linkage: Linkage) -> Stroke:

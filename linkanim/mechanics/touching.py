@@ -50,7 +50,7 @@ def _through(assembly: Assembly, name: str) -> Assembly:
     root = ChainRoot((*known.zeros, *touches), scale * LEAST)
     if not root.zeros:
         return assembly
-    side = root.side(path.clock(JUST_AFTER, Slope(1.0)))
+    side = root.side(path.state(JUST_AFTER, Slope(1.0)))
     assert isinstance(side, float)
     if len(touches) % 2:
         path = replace(path, rounds=2 * path.rounds)

@@ -14,9 +14,9 @@ from linkanim.errors import AssemblyError
 
 from .chain import Closing
 from .circular import Half
-from .clock import Clock
 from .expression import Value, sqrt
 from .frames import holding, share_of
+from .input_state import InputState
 from .joint import Point
 from .linkage import Linkage
 from .loop import Gearing, Loop
@@ -66,7 +66,7 @@ class Walk:
     """
 
     assembly: Assembly
-    clock: Clock
+    state: InputState
     points: dict[str, MovingPoint] = field(default_factory=dict)
     pieces: list[Piece] = field(default_factory=lambda: [Piece()])
     travels: dict[str, Moving] = field(default_factory=dict)
@@ -80,7 +80,7 @@ class Walk:
     def pace(self, gearing: Gearing) -> Slope:
         """Return how fast a geared crank turns, with its derivative."""
         ratio = float(gearing.ratio)
-        return Slope(self.clock.rate * ratio, self.clock.second * ratio)
+        return Slope(self.state.rate * ratio, self.state.second * ratio)
 
     def add_piece(self, turning: Slope, ends: tuple[str, str], arm: Vec) -> None:
         """Add the bar between two joints, the vector from the first to the second known as `arm`."""
@@ -89,7 +89,7 @@ class Walk:
     def loop_root(self, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
         """Return the root of a loop on a crank pin, ψ/2, and ψ' with its derivative."""
         pace = self.pace(loop.gearing)
-        root, half = loop.closed(self.clock, self.assembly.path, pace)
+        root, half = loop.closed(self.state, self.assembly.path, pace)
         return root.times(sign), half, pace
 
     def pin_loop(self, loop: Loop, sign: int) -> tuple[SignedRoot, PinLoop]:
@@ -123,7 +123,7 @@ class Walk:
         self.closings[name] = closing
         root = self.assembly.chain.get(name)
         if root is not None:
-            return root.root(closing, self.clock)
+            return root.root(closing, self.state)
         return plain_root(closing.u, closing.w, closing.driver, closing.half_difference)
 
     def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
@@ -175,9 +175,9 @@ class Walk:
         )
 
 
-def walked(assembly: Assembly, clock: Clock) -> Kinematics:
-    """Return the motion of everything in the linkage at the clock's instant."""
-    walk = Walk(assembly, clock)
+def walked(assembly: Assembly, state: InputState) -> Kinematics:
+    """Return the motion of everything in the linkage at the state's instant."""
+    walk = Walk(assembly, state)
     for joint in assembly.linkage.joints:
         joint.close(walk)
     return walk.kinematics()

@@ -12,7 +12,7 @@ import pygame
 
 from linkanim.digits import stepped
 from linkanim.paper.curves import Curve, Curves, Peak, extremes
-from linkanim.paper.measured import Measured
+from linkanim.paper.measured import MeasuredCurve
 from linkanim.picture.axis import Axis, around
 from linkanim.picture.chart import (
     Pen,
@@ -53,7 +53,7 @@ class Page:
     curves: Curves
     size: tuple[int, int]
     theme: ThemeName = "light"
-    measured: Measured | None = None
+    measured: MeasuredCurve | None = None
 
     @cached_property
     def pen(self) -> Pen:

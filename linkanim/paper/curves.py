@@ -31,7 +31,7 @@ class Pace(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Wanted:
+class ChartRequest:
     """What a chart is to show: tokens of quantities, over what, at which speeds."""
 
     tokens: tuple[str, ...]
@@ -94,7 +94,7 @@ class Curves:
         return ", ".join(part for part in (said, curve.label, curve.pace.words if paces else "") if part)
 
 
-def curves_of(scene: Scene, wanted: Wanted) -> Curves:
+def curves_of(scene: Scene, wanted: ChartRequest) -> Curves:
     """Return the curves that are wanted; BadInput where the scene has no such quantity, or none is named."""
     quantities = tuple(dict.fromkeys(wanted.tokens))
     if not quantities:

@@ -14,7 +14,7 @@ from linkanim.errors import OutOfRange
 from linkanim.mechanics.derived import output_body
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.register import Quantity, register
-from linkanim.paper.curves import Pace, Wanted, curves_of, extremes
+from linkanim.paper.curves import ChartRequest, Pace, curves_of, extremes
 from linkanim.picture.course import input_symbol
 from linkanim.scenes.scene import Scene
 
@@ -29,7 +29,7 @@ class Instant(NamedTuple):
     words: str
 
 
-class Row(NamedTuple):
+class Finding(NamedTuple):
     """A quantity at one instant: its words and symbol, its unit, and a value for each speed."""
 
     quantity: Quantity
@@ -42,7 +42,7 @@ class Sheet:
     """All quantities at one instant, by the sort of thing that they are told of."""
 
     title: str
-    sections: tuple[tuple[str, tuple[Row, ...]], ...]
+    sections: tuple[tuple[str, tuple[Finding, ...]], ...]
 
 
 def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
@@ -66,7 +66,7 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
     token = f"{slider}.travel" if slider else f"{output.name}.angle" if output else None
     if token is not None and (slider or output is None or output.name not in scene.info.turning_links):
         pace = Pace(abs(scene.linkage.drive.speed), "")
-        curve = curves_of(scene, Wanted((token,), (pace,), "phase")).curves[0]
+        curve = curves_of(scene, ChartRequest((token,), (pace,), "phase")).curves[0]
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
             found.append(Instant(np.radians(peak.x), f"{words} {curve.quantity.words.lower()}"))
     return tuple(found)
@@ -78,7 +78,7 @@ def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
     angle = degrees(float(motions[0].crank_angle))
     turned = angle % 360 if scene.info.full_turn else angle
     said = f"{input_symbol(scene)} = {stepped(turned, 0.01)}°"
-    sections: dict[str, list[Row]] = {}
+    sections: dict[str, list[Finding]] = {}
     for quantity in register(scene.linkage).values():
         rows = sections.setdefault(_section(quantity), [])
         rows += _rows(scene, quantity, motions)
@@ -86,11 +86,11 @@ def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
     return Sheet(f"{said} ({instant.words})" if instant.words else said, found)
 
 
-def _rows(scene: Scene, quantity: Quantity, motions: list[Motion]) -> Iterator[Row]:
+def _rows(scene: Scene, quantity: Quantity, motions: list[Motion]) -> Iterator[Finding]:
     """Yield the row of a number; a vector is told by its components, which have tokens of their own."""
     if len(quantity.columns) == 1:
         values = tuple(_told(float(quantity.shown(motion))) for motion in motions)
-        yield Row(quantity, quantity.shown_unit(scene.length_unit), values)
+        yield Finding(quantity, quantity.shown_unit(scene.length_unit), values)
 
 
 def _told(value: float) -> str:

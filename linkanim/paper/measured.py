@@ -14,7 +14,7 @@ from linkanim.paper.curves import Curve, Curves
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredCurve:
     """Points of a table beside a curve, and the largest difference from it in words."""
 
     label: str
@@ -53,7 +53,7 @@ def _are_numbers(line: list[str]) -> bool:
         return False
 
 
-def beside(curves: Curves, table: NDArray[np.float64], label: str) -> Measured:
+def beside(curves: Curves, table: NDArray[np.float64], label: str) -> MeasuredCurve:
     """Return a table beside the first curve, each of its angles solved exactly.
 
     OutOfRange for an angle that the input does not reach.
@@ -76,4 +76,4 @@ def beside(curves: Curves, table: NDArray[np.float64], label: str) -> Measured:
     worst = int(np.nanargmax(np.where(np.isfinite(differences), np.abs(differences), np.nan)))
     places = curves.places(curve, motion)
     points = [(float(x), float(value)) for x, value in zip(places, table[:, 1], strict=True)]
-    return Measured(label, curve, points, float(differences[worst]), float(table[worst, 0]))
+    return MeasuredCurve(label, curve, points, float(differences[worst]), float(table[worst, 0]))

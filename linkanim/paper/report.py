@@ -12,7 +12,7 @@ from itertools import groupby
 from linkanim.digits import rpm, typeset
 from linkanim.paper import html
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import Pace, Wanted, curves_of, finite_text
+from linkanim.paper.curves import ChartRequest, Pace, curves_of, finite_text
 from linkanim.paper.figure import Figured
 from linkanim.paper.findings import Instant, charted, paces_of, sheet, table
 from linkanim.paper.svg import svg
@@ -47,7 +47,7 @@ class Report:
     def _charts(self) -> Iterator[tuple[str, str, str]]:
         """Yield (heading, token, SVG) of each chart."""
         for title, token in charted(self.scene):
-            found = curves_of(self.scene, Wanted((token,), paces_of(self.scene, token, self.paces)))
+            found = curves_of(self.scene, ChartRequest((token,), paces_of(self.scene, token, self.paces)))
             drawn = Page(found, _CHART)
             yield title, token, svg(_CHART, drawn.background, drawn.items(), title=drawn.about)
 

@@ -15,7 +15,7 @@ from itertools import product
 from linkanim.picture.layout import Gauge, Layout, gauge
 from linkanim.picture.sweep import Sweep
 from linkanim.picture.view import Box, Rect, View
-from linkanim.picture.words import Block
+from linkanim.picture.words import WordBlock
 
 HIGH, WIDE = 0.86, 0.61
 """The least share of the stage that a scene takes, of its height or of its width."""
@@ -41,10 +41,12 @@ class Arrangement:
     layout: Layout
     view: View
     gauge: Gauge
-    block: Block | None
+    block: WordBlock | None
 
 
-def arranged(parts: Layout, sweep: Sweep, shortest: float, blocks: Iterable[Sequence[Block]]) -> Arrangement:
+def arranged(
+    parts: Layout, sweep: Sweep, shortest: float, blocks: Iterable[Sequence[WordBlock]]
+) -> Arrangement:
     """Return the arrangement of a scene that sweeps this, its `shortest` bar in the scene's unit.
 
     `blocks` are the words, set in several ways: the first group of which one finds its place is taken.
@@ -72,7 +74,7 @@ class _Bench:
         self.largest = self._largest(bare)
         self.least = min(HIGH * parts.stage.height / self._high, WIDE * parts.stage.width / self._wide)
 
-    def ways(self, group: Sequence[Block]) -> list[tuple[float, float, Block, tuple[int, int]]]:
+    def ways(self, group: Sequence[WordBlock]) -> list[tuple[float, float, WordBlock, tuple[int, int]]]:
         """Return cost, scale, words and corner, the cheapest first."""
         share = min(self.least / self.largest, 1.0)
         scales = [1.0 - (1.0 - share) * step / _STEPS for step in range(_STEPS + 1)]
@@ -82,7 +84,7 @@ class _Bench:
         ]
         return sorted(ways, key=lambda way: way[0])
 
-    def placed(self, scale: float, block: Block, corner: tuple[int, int]) -> Arrangement | None:
+    def placed(self, scale: float, block: WordBlock, corner: tuple[int, int]) -> Arrangement | None:
         """Return the arrangement with the words in a corner, None where they would lie on the scene."""
         place = self._corner(block, corner)
         if place is None:
@@ -129,7 +131,7 @@ class _Bench:
             away = (across * (1 - 2 * corner[0]), down * (1 - 2 * corner[1]))
             yield self.view(scale, (0.5 + away[0], 0.5 + away[1]))
 
-    def _corner(self, block: Block, corner: tuple[int, int]) -> tuple[float, float] | None:
+    def _corner(self, block: WordBlock, corner: tuple[int, int]) -> tuple[float, float] | None:
         stage, wide, high = self.parts.stage.inset(self.parts.margin), block.width, block.height
         if wide > stage.width or high > stage.height:
             return None

@@ -22,7 +22,7 @@ from linkanim.picture.view import View
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
-class Dimension(NamedTuple):
+class Distance(NamedTuple):
     """The distance between two joints of one body, or of the ground, in the scene's unit."""
 
     symbol: str
@@ -41,7 +41,7 @@ class Legs(NamedTuple):
 class Symbols(NamedTuple):
     """A figure's dimensions and the angle of its input."""
 
-    dimensions: tuple[Dimension, ...]
+    dimensions: tuple[Distance, ...]
     legs: tuple[Legs, ...]
     input: str
 
@@ -96,12 +96,12 @@ def pivots(figure: Figure) -> list[str]:
     return sorted((name for name in figure.fixed if name in ends), key=lambda name: name != first)
 
 
-def _ground(figure: Figure) -> Iterator[Dimension]:
+def _ground(figure: Figure) -> Iterator[Distance]:
     for first, second in zip(pivots(figure)[:1], pivots(figure)[1:2], strict=False):
         yield _bar(figure, "1", first, second)
 
 
-def _numbered(figure: Figure, bodies: list[Body], numbers: Iterator[str]) -> Iterator[Dimension]:
+def _numbered(figure: Figure, bodies: list[Body], numbers: Iterator[str]) -> Iterator[Distance]:
     others = pivots(figure)[1:]
     for body in bodies:
         first, *rest = [name for n, name in enumerate(body.joints) if n < 2 or name in figure.pins]
@@ -118,14 +118,14 @@ def _points(figure: Figure) -> list[Rigid]:
     return [joint for joint in joints if isinstance(joint, Rigid) and joint.name not in figure.pins]
 
 
-def _bar(figure: Figure, number: str, begin: str, end: str) -> Dimension:
+def _bar(figure: Figure, number: str, begin: str, end: str) -> Distance:
     stated = {
         frozenset((joint.name, start)): length
         for joint in figure.linkage.joints
         for start, length in joint.bars
     }
     apart = abs(figure.start(end) - figure.start(begin))
-    return Dimension(_symbol(number), begin, end, stated.get(frozenset((begin, end)), apart))
+    return Distance(_symbol(number), begin, end, stated.get(frozenset((begin, end)), apart))
 
 
 def _angle(figure: Figure) -> str:

@@ -14,7 +14,7 @@ from linkanim.picture.shapes import box
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
-from linkanim.picture.words import STEP, Block
+from linkanim.picture.words import STEP, WordBlock
 from linkanim.scenes.scene import Scene
 
 _BACKING = 0.82
@@ -26,7 +26,7 @@ class Hud:
     """The words about a scene where they stand: what keeps still is drawn once, values at every frame."""
 
     scene: Scene
-    block: Block
+    block: WordBlock
     place: Rect
     type: Type
     theme: Theme

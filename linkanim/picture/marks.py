@@ -9,7 +9,7 @@ import pygame
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.board import Board
 from linkanim.picture.layout import Gauge
-from linkanim.picture.overlay import Measured
+from linkanim.picture.overlay import DimensionLine
 from linkanim.picture.raster import Layer, paint
 from linkanim.picture.shapes import arrows, box, disc, segments, unit
 from linkanim.picture.theme import ORANGE
@@ -19,7 +19,9 @@ _LIT = 0.45
 """How strongly the bar being edited is lit."""
 
 
-def draw_measure(surface: pygame.Surface, board: Board, view: View, gauge: Gauge, shown: Measured) -> None:
+def draw_measure(
+    surface: pygame.Surface, board: Board, view: View, gauge: Gauge, shown: DimensionLine
+) -> None:
     """Draw the light on a bar, its dimension line beside it, and the value on the line."""
     begin, end = (view.place(place) for place in shown.ends)
     if abs(end - begin) < 1.0:

@@ -19,7 +19,7 @@ from linkanim.picture.items import Caption, Halo
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.lettering import Lettering
 from linkanim.picture.parts import Places
-from linkanim.picture.placing import MOMENTS, Bars, Clutter, Path, Wish, place
+from linkanim.picture.placing import MOMENTS, Clutter, Obstacles, Path, Wish, place
 from linkanim.picture.raster import Colour, Loop
 from linkanim.picture.shapes import hull, unit
 from linkanim.picture.text import Type, subscripted
@@ -300,7 +300,7 @@ class _Stage:
             for n in range(len(body.joints) if len(body.joints) > 2 else 1)
         ]
 
-    def _bars(self) -> Bars:
+    def _bars(self) -> Obstacles:
         """Return the sides of bodies, springs and dampers, pedestals."""
         gauge, figure = self._hand.gauge, self._figure
         rows = []
@@ -317,8 +317,8 @@ class _Stage:
         begin, end, half, weight = zip(*rows, strict=True) if rows else ((), (), (), ())
         if not rows:
             none = np.zeros((1, 0))
-            return Bars(none.astype(np.complex128), none.astype(np.complex128), none[0], none[0])
-        return Bars(np.stack(begin, axis=1), np.stack(end, axis=1), np.array(half), np.array(weight))
+            return Obstacles(none.astype(np.complex128), none.astype(np.complex128), none[0], none[0])
+        return Obstacles(np.stack(begin, axis=1), np.stack(end, axis=1), np.array(half), np.array(weight))
 
 
 def _off(turns: Loop, size: tuple[float, float], radius: float) -> Loop:

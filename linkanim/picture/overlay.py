@@ -67,7 +67,7 @@ class Fading:
 
 
 @dataclass(frozen=True)
-class Measured:
+class DimensionLine:
     """A bar between two places of the scene, and its length in words."""
 
     ends: tuple[Point, Point]

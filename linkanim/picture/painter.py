@@ -19,7 +19,7 @@ from linkanim.picture.legend import legend_for
 from linkanim.picture.look import Look
 from linkanim.picture.marks import draw_measure, glow, grip
 from linkanim.picture.names import Names
-from linkanim.picture.overlay import Measured, Overlay
+from linkanim.picture.overlay import DimensionLine, Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.raster import Layer, Stencil, paint, paints, stencil
 from linkanim.picture.staging import Staging, staged, wanted_of
@@ -103,7 +103,7 @@ class Painter:
         board, gauge = self._panels.board, self.drawing.scenery.gauge
         if overlay.measured:
             begin, end, words = overlay.measured
-            shown = Measured((pose.position[begin], pose.position[end]), words)
+            shown = DimensionLine((pose.position[begin], pose.position[end]), words)
             draw_measure(canvas, board, self.view, gauge, shown)
         layers = list(glow(self.view, pose, overlay.glow, gauge)) if overlay.glow else []
         if overlay.grip and self._strip:

@@ -36,7 +36,7 @@ _REACH = 6
 """How many moments either way the smoothing looks."""
 
 
-class Bars(NamedTuple):
+class Obstacles(NamedTuple):
     """Lines (n moments, m) that labels had better not lie on, each so thick and so much in the way."""
 
     begin: Loop
@@ -53,7 +53,7 @@ class Clutter:
     radii: _Floats
     rects: tuple[Rect, ...]
     inside: Rect
-    bars: Bars
+    bars: Obstacles
 
 
 class Wish(NamedTuple):
@@ -185,7 +185,7 @@ def _over(away: Loop, width: float, height: float) -> _Bools:
     return np.asarray((2 * np.abs(away.real) < width) & (2 * np.abs(away.imag) < height))
 
 
-def _lying(wish: Wish, bars: Bars) -> _Floats:
+def _lying(wish: Wish, bars: Obstacles) -> _Floats:
     """Return how much each place lies over bars: 0 for none, 1 for right on one, more for more."""
     wide, high = wish.size
     weight = bars.weight.copy()

@@ -20,14 +20,14 @@ _READ = 0.36
 """A note is not read where the next follows in this time (s), and well where it does in twice of it."""
 
 
-class Row(NamedTuple):
+class Reading(NamedTuple):
     """A name and its value; the name stays while the value moves."""
 
     label: str
     value: str
 
 
-def rows(scene: Scene, pose: Pose) -> tuple[Row, ...]:
+def rows(scene: Scene, pose: Pose) -> tuple[Reading, ...]:
     """Return the numbers of a pose: the same names in the same order at every pose of a scene.
 
     The input's speed is the pose's: of an input that swings, how often it does and its angular velocity
@@ -37,25 +37,25 @@ def rows(scene: Scene, pose: Pose) -> tuple[Row, ...]:
     return tuple(row for _, row in ranked(scene, pose))
 
 
-def ranked(scene: Scene, pose: Pose) -> Iterator[tuple[int, Row]]:
+def ranked(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
     """Yield the rows, each with its rank: those of the highest are the first to go where there is no room."""
     yield from _input_rows(scene, pose)
     yield from _strut_rows(scene, pose)
 
 
-def _input_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Row]]:
+def _input_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
     info, name = scene.info, f"{driven_name(scene)} angle"
     if info.full_turn:
-        yield 0, Row(name, _turned(pose.crank_angle))
-        yield 1, Row("input speed", speed_words(scene, pose.input_speed))
+        yield 0, Reading(name, _turned(pose.crank_angle))
+        yield 1, Reading("input speed", speed_words(scene, pose.input_speed))
     else:
         low, high = info.input_range
-        yield 0, Row(name, _deg(pose.crank_angle))
-        yield 5, Row("input range", f"{_deg(low)}…{_deg(high)}")
-        yield 1, Row("input rate", speed_words(scene, pose.input_speed))
-        yield 3, Row("angular velocity", _live(scene, pose))
+        yield 0, Reading(name, _deg(pose.crank_angle))
+        yield 5, Reading("input range", f"{_deg(low)}…{_deg(high)}")
+        yield 1, Reading("input rate", speed_words(scene, pose.input_speed))
+        yield 3, Reading("angular velocity", _live(scene, pose))
     if info.true_period != 1:
-        yield 6, Row("true period", f"{info.true_period} turns")
+        yield 6, Reading("true period", f"{info.true_period} turns")
 
 
 def _live(scene: Scene, pose: Pose) -> str:
@@ -66,16 +66,16 @@ def _live(scene: Scene, pose: Pose) -> str:
     return f"{stepped(speed_in(unit, pose.crank_rate), step)} {sign_of(unit)}"
 
 
-def _strut_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Row]]:
+def _strut_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
     unit = scene.length_unit
     for name, spring in pose.spring.items():
-        yield 4, Row(f"spring {name}", f"{stepped(spring.length, 0.1)} {unit}")
+        yield 4, Reading(f"spring {name}", f"{stepped(spring.length, 0.1)} {unit}")
         if spring.force is not None:
-            yield 2, Row("spring force", f"{stepped(spring.force, 0.1)} N")
+            yield 2, Reading("spring force", f"{stepped(spring.force, 0.1)} N")
     for name, damper in pose.damper.items():
-        yield 4, Row(f"damper {name}", f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s")
+        yield 4, Reading(f"damper {name}", f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s")
         if damper.force is not None:
-            yield 2, Row("damper force", f"{stepped(damper.force, 0.1)} N")
+            yield 2, Reading("damper force", f"{stepped(damper.force, 0.1)} N")
 
 
 class Note(NamedTuple):

@@ -27,7 +27,7 @@ class Point(NamedTuple):
     ours: bool = False
 
 
-class Names(NamedTuple):
+class ScatterTitles(NamedTuple):
     """What the picture, its horizontal and its vertical axis are called."""
 
     title: str
@@ -36,7 +36,11 @@ class Names(NamedTuple):
 
 
 def scatter(
-    points: Sequence[Point], names: Names, *, size: tuple[int, int] = (1280, 720), theme: str = "light"
+    points: Sequence[Point],
+    names: ScatterTitles,
+    *,
+    size: tuple[int, int] = (1280, 720),
+    theme: str = "light",
 ) -> pygame.Surface:
     """Return the picture: log-log, its axes over whole decades, labels beside the points.
 
@@ -67,7 +71,7 @@ def _plot(points: Sequence[Point], size: tuple[int, int], pen: Pen) -> Plot:
     return Plot(plot_area(area, y, pen), x, y)
 
 
-def _draw_names(surface: pygame.Surface, plot: Plot, names: Names, pen: Pen) -> None:
+def _draw_names(surface: pygame.Surface, plot: Plot, names: ScatterTitles, pen: Pen) -> None:
     """Draw the title, the vertical axis' name under it, and the horizontal one's below the ticks."""
     area, draw = plot.area, pen.type.draw
     draw(surface, names.title, (area.x, area.y - 3.0 * pen.text), size=pen.text, colour=pen.theme.ink)

@@ -23,7 +23,7 @@ _WIDE_ENOUGH = 420
 """The least width of a window that has its chart beside the scene, in pixels."""
 
 
-class Wanted(NamedTuple):
+class Staged(NamedTuple):
     """What of a window and a look an arrangement depends on."""
 
     size: tuple[int, int]
@@ -34,9 +34,9 @@ class Wanted(NamedTuple):
     """Whether it leaves room for the edit list."""
 
 
-def wanted_of(size: tuple[int, int], look: Look, *, listed: bool) -> Wanted:
+def wanted_of(size: tuple[int, int], look: Look, *, listed: bool) -> Staged:
     """Return what an arrangement for a look depends on."""
-    return Wanted(size, look.chart is not None, len(look.vectors), look.hud, listed)
+    return Staged(size, look.chart is not None, len(look.vectors), look.hud, listed)
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Staging:
     """A subject, and how it is arranged as it is wanted."""
 
     subject: Subject
-    wanted: Wanted
+    wanted: Staged
     arrangement: Arrangement
 
     def scenery(self, shown: Figure, theme: Theme, look: Look) -> Scenery:
@@ -85,7 +85,7 @@ class Staging:
 
 
 def staged(
-    scene: Scene, beside: Scene | None, wanted: Wanted, type_: Type, *, before: Staging | None = None
+    scene: Scene, beside: Scene | None, wanted: Staged, type_: Type, *, before: Staging | None = None
 ) -> Staging:
     """Return the staging of a scene, and of one that must fit into its view too.
 
@@ -107,7 +107,7 @@ def _subject(scene: Scene, beside: Scene | None, type_: Type) -> Subject:
     return Subject(shown, beside, sweep, said_of((scene, beside) if beside else (scene,), type_))
 
 
-def _arranged(subject: Subject, wanted: Wanted, type_: Type) -> Arrangement:
+def _arranged(subject: Subject, wanted: Staged, type_: Type) -> Arrangement:
     """Return the arrangement with the chart where it leaves the scene larger, and room for most words."""
     below = _with_chart(subject, wanted, type_, beside=False)
     if not wanted.chart or wanted.size[0] < _WIDE_ENOUGH:
@@ -122,7 +122,7 @@ def _told(arrangement: Arrangement) -> int:
     return 1 + len(arrangement.block.rows) if arrangement.block else 0
 
 
-def _with_chart(subject: Subject, wanted: Wanted, type_: Type, *, beside: bool) -> Arrangement:
+def _with_chart(subject: Subject, wanted: Staged, type_: Type, *, beside: bool) -> Arrangement:
     parts = layout(wanted.size, chart=wanted.chart, beside=beside, listed=wanted.listed)
     worded = wanted.hud and not wanted.listed
     words = blocks(subject.scenes, subject.said, parts, wanted.arrows, type_) if worded else ()

@@ -24,18 +24,18 @@ _TILT = 0.35
 """How far a coil's front stands forward of its side, as a share of its radius."""
 
 
-class Reach(NamedTuple):
+class StrutSpan(NamedTuple):
     """The shortest and the longest distance between two joints over a cycle, in pixels."""
 
     shortest: float
     longest: float
 
 
-def reach(figure: Figure, view: View, item: Spring | Damper) -> Reach:
+def reach(figure: Figure, view: View, item: Spring | Damper) -> StrutSpan:
     """Return how short and how long a spring or damper becomes."""
     one, other = (figure.path(name, view) for name in item.between)
     length = np.abs(one - other)
-    return Reach(float(np.nanmin(length)), float(np.nanmax(length)))
+    return StrutSpan(float(np.nanmin(length)), float(np.nanmax(length)))
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Cushion:
     """
 
     between: tuple[str, str]
-    reach: Reach
+    reach: StrutSpan
     length: float
     rod: float
     cylinder: tuple[Layer, Layer]

@@ -10,7 +10,7 @@ from itertools import groupby, zip_longest
 from typing import NamedTuple
 
 from linkanim.picture.layout import Layout
-from linkanim.picture.readings import Row, notes, ranked
+from linkanim.picture.readings import Reading, notes, ranked
 from linkanim.picture.text import Type
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
@@ -38,7 +38,7 @@ _FASTEST = -10.0
 """The fastest that a scene is run at, backwards for the minus sign."""
 
 
-class Line(NamedTuple):
+class WordLine(NamedTuple):
     """A line that stands still: its text, how far down, size, whether it is a title, how wide it is."""
 
     text: str
@@ -52,15 +52,15 @@ class Said(NamedTuple):
     """A row as it needs the most room, with its rank."""
 
     rank: int
-    row: Row
+    row: Reading
 
 
 @dataclass(frozen=True)
-class Block:
+class WordBlock:
     """Words at one size, all places from the block's top left corner."""
 
     size: int
-    lines: tuple[Line, ...]
+    lines: tuple[WordLine, ...]
     """The title's and the class's."""
     turns: int
     """How many lines more than one the title takes."""
@@ -114,7 +114,7 @@ def _ever_said(scene: Scene) -> Iterator[Said]:
 
 def blocks(
     scenes: Sequence[Scene], said: tuple[Said, ...], layout: Layout, arrows: int, type_: Type
-) -> Iterator[list[Block]]:
+) -> Iterator[list[WordBlock]]:
     """Yield the words in groups, each with the title in ever more lines; those to be preferred first.
 
     First all that is `said`, ever smaller, then ever less of it, then without the key. `arrows` is how many
@@ -141,19 +141,19 @@ class _Setter:
         self._classes = [unsaid(self._title, scene.info.class_name) for scene in scenes]
         self._notes = [words for scene in scenes for words in notes(scene)]
 
-    def group(self, size: int, said: tuple[Said, ...], classed: bool) -> list[Block]:
+    def group(self, size: int, said: tuple[Said, ...], classed: bool) -> list[WordBlock]:
         """Return the block with the title in one line, in two, and so on."""
         big = round(_TITLE * size)
         titles = [self._broken(count, big) for count in range(1, _MOST_LINES + 1)]
         return [self._block(size, title, said, classed) for title, _ in groupby(titles)]
 
-    def _block(self, size: int, title: tuple[str, ...], said: tuple[Said, ...], classed: bool) -> Block:
+    def _block(self, size: int, title: tuple[str, ...], said: tuple[Said, ...], classed: bool) -> WordBlock:
         big, column = round(_TITLE * size), self._column(size, said)
         lines = [self._line(text, 1.12 * big * n, big, strong=True) for n, text in enumerate(title)]
         y, wide = 1.12 * big * len(title) + 0.1 * size, max(line.width for line in lines)
         for told in self._classed(size, max(column, wide, _CLASS_WIDTH * size)) if classed else ():
             widest = max(self._type.width(text, size) for text in told)
-            lines.append(Line(told[0], y, size, False, widest))
+            lines.append(WordLine(told[0], y, size, False, widest))
             y += 1.2 * size
         first = y + 0.5 * size if said else y
         note = first + STEP * size * len(said) + (0.3 * size if said else 0.0)
@@ -163,7 +163,8 @@ class _Setter:
         high = KEY_STEP * self._layout.small_size * self._arrows if said else 0.0
         width = max(column, *(line.width for line in lines))
         shown = frozenset(one.row.label for one in said)
-        return Block(size, tuple(lines), len(title) - 1, shown, first, note, key, column, width, key + high)
+        last, tall = len(title) - 1, key + high
+        return WordBlock(size, tuple(lines), last, shown, first, note, key, column, width, tall)
 
     def _classed(self, size: int, width: float) -> Iterator[tuple[str, ...]]:
         """Yield the lines of the scenes' classes, the first scene's first."""
@@ -186,8 +187,8 @@ class _Setter:
             wide.append(3.2 * small + width(unit, small))
         return round(max(wide, default=0.0))
 
-    def _line(self, text: str, y: float, size: int, *, strong: bool) -> Line:
-        return Line(text, y, size, strong, self._type.width(text, size, strong=strong))
+    def _line(self, text: str, y: float, size: int, *, strong: bool) -> WordLine:
+        return WordLine(text, y, size, strong, self._type.width(text, size, strong=strong))
 
     def _broken(self, count: int, big: int) -> tuple[str, ...]:
         """Return the title in at most so many lines, between its words, as narrow as they can be."""

@@ -26,7 +26,7 @@ class Bind(NamedTuple):
     repeats: bool = False
 
 
-class Row(NamedTuple):
+class KeyRow(NamedTuple):
     """One line of the help: its subject, the keys as they are written, what they do, what they ask for."""
 
     subject: str
@@ -57,18 +57,18 @@ def _both(less: str, more: str, name: str, by: int = 1) -> tuple[Bind, Bind]:
 
 _IN, _OUT = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
 
-KEYS: tuple[Row, ...] = (
-    Row("play", "Space", "play / pause", _every("space", "pause")),
-    Row(
+KEYS: tuple[KeyRow, ...] = (
+    KeyRow("play", "Space", "play / pause", _every("space", "pause")),
+    KeyRow(
         "play",
         "← → (Shift: ×10)",
         "pause, and step the crank",
         (*_both("left", "right", "step"), *_both("shift+left", "shift+right", "step", 10)),
     ),
-    Row("play", "↑ ↓", "speed", _both("down", "up", "speed")),
-    Row("play", "D", "direction", _every("d", "direction")),
-    Row("play", "R", "back to the start", _every("r", "start")),
-    Row(
+    KeyRow("play", "↑ ↓", "speed", _both("down", "up", "speed")),
+    KeyRow("play", "D", "direction", _every("d", "direction")),
+    KeyRow("play", "R", "back to the start", _every("r", "start")),
+    KeyRow(
         "play",
         "Tab, Shift+Tab, 1–9",
         "mechanism",
@@ -79,11 +79,11 @@ KEYS: tuple[Row, ...] = (
             *(_on(f"kp{place + 1}", "select", place) for place in range(9)),
         ),
     ),
-    Row("play", "O", "the shelf: all mechanisms", _every("o", "shelf")),
-    Row("play", "drag pin, drag cursor", "move the crank; the chart's cursor, too"),
-    Row("look", "T", "coupler trace", _every("t", "trace")),
-    Row("look", "N", "names: off, joints and links, with dimensions", _every("n", "names")),
-    Row(
+    KeyRow("play", "O", "the shelf: all mechanisms", _every("o", "shelf")),
+    KeyRow("play", "drag pin, drag cursor", "move the crank; the chart's cursor, too"),
+    KeyRow("look", "T", "coupler trace", _every("t", "trace")),
+    KeyRow("look", "N", "names: off, joints and links, with dimensions", _every("n", "names")),
+    KeyRow(
         "look",
         "+, −, wheel, drag",
         "zoom, pan",
@@ -92,87 +92,87 @@ KEYS: tuple[Row, ...] = (
             *(_held(key, "zoom", _OUT) for key in ("-", "kp_minus")),
         ),
     ),
-    Row("look", "0, Home", "fit", _every("0 kp0 home", "fit")),
-    Row("look", "L", "light / dark", _every("l", "theme")),
-    Row("look", "F11", "full screen", _every("f11", "fullscreen")),
-    Row("look", "H, F1, ?", "help", _every("h f1 ? shift+/", "help")),
-    Row(
+    KeyRow("look", "0, Home", "fit", _every("0 kp0 home", "fit")),
+    KeyRow("look", "L", "light / dark", _every("l", "theme")),
+    KeyRow("look", "F11", "full screen", _every("f11", "fullscreen")),
+    KeyRow("look", "H, F1, ?", "help", _every("h f1 ? shift+/", "help")),
+    KeyRow(
         "look",
         "Esc, Q",
         "close an open overlay (Esc); quit",
         (_on("escape", "back"), _on("q", "quit")),
     ),
-    Row("measure", "V, A", "velocity, acceleration vectors", _two("v", "a", "vectors", ("v", "a"))),
-    Row("measure", "C (Shift: back)", "chart: next quantity, off", _two("c", "shift+c", "chart", (1, -1))),
-    Row("measure", "K", "the list of quantities", _every("k", "list")),
-    Row("edit", "E", "edit dimensions (H there: how)", _every("e", "edit")),
-    Row(
+    KeyRow("measure", "V, A", "velocity, acceleration vectors", _two("v", "a", "vectors", ("v", "a"))),
+    KeyRow("measure", "C (Shift: back)", "chart: next quantity, off", _two("c", "shift+c", "chart", (1, -1))),
+    KeyRow("measure", "K", "the list of quantities", _every("k", "list")),
+    KeyRow("edit", "E", "edit dimensions (H there: how)", _every("e", "edit")),
+    KeyRow(
         "edit",
         "B (Shift: ghost)",
         "assembly: the other closure",
         (_on("b", "closure"), _on("shift+b", "ghost")),
     ),
-    Row(
+    KeyRow(
         "edit",
         "Ctrl+Z, Ctrl+Y",
         "undo, redo",
         (_held("ctrl+z", "undo"), _held("ctrl+y", "redo"), _held("ctrl+shift+z", "redo")),
     ),
-    Row("keep", "S, F12", "screenshot", _every("s f12", "screenshot")),
-    Row("keep", "G", "record GIF: start, stop", _every("g", "record", "gif")),
-    Row("keep", "M", "record MP4: start, stop", _every("m", "record", "mp4")),
-    Row("keep", "Ctrl+S", "write the scene as a new file", _every("ctrl+s", "save")),
+    KeyRow("keep", "S, F12", "screenshot", _every("s f12", "screenshot")),
+    KeyRow("keep", "G", "record GIF: start, stop", _every("g", "record", "gif")),
+    KeyRow("keep", "M", "record MP4: start, stop", _every("m", "record", "mp4")),
+    KeyRow("keep", "Ctrl+S", "write the scene as a new file", _every("ctrl+s", "save")),
 )
 """Every key of the window, by subject, in the order in which the help shows them."""
 
-EDIT_KEYS: tuple[Row, ...] = (
-    Row("in E", "↑ ↓", "choose a dimension", _both("up", "down", "choose")),
-    Row(
+EDIT_KEYS: tuple[KeyRow, ...] = (
+    KeyRow("in E", "↑ ↓", "choose a dimension", _both("up", "down", "choose")),
+    KeyRow(
         "in E",
         "← → (Shift: ×10)",
         "nudge it",
         (*_both("left", "right", "nudge"), *_both("shift+left", "shift+right", "nudge", 10)),
     ),
-    Row(
+    KeyRow(
         "in E",
         "Tab, Shift+Tab",
         "on with the value typed, to be judged with the others",
         (_on("tab", "pass_on", 1), _on("shift+tab", "pass_on", -1)),
     ),
-    Row(
+    KeyRow(
         "in E",
         "digits, Enter",
         "type a value, with or without a unit; take all that is typed",
         (*_every("return kp_enter", "take"), _held("backspace", "erase")),
     ),
-    Row("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
+    KeyRow("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
 )
 """What the keys do while the dimensions are being edited."""
 
-LIST_KEYS: tuple[Row, ...] = (
-    Row(
+LIST_KEYS: tuple[KeyRow, ...] = (
+    KeyRow(
         "in K",
         "↑ ↓",
         "choose a quantity",
         (*_both("up", "down", "move"), *_both("pageup", "pagedown", "move", 10)),
     ),
-    Row("in K", "letters", "show what has them in its name", (_held("backspace", "unsift"),)),
-    Row("in K", "Enter", "chart it", _every("return kp_enter", "pick")),
+    KeyRow("in K", "letters", "show what has them in its name", (_held("backspace", "unsift"),)),
+    KeyRow("in K", "Enter", "chart it", _every("return kp_enter", "pick")),
 )
 """What the keys do while the list of quantities is open."""
 
-SHELF_KEYS: tuple[Row, ...] = (
-    Row(
+SHELF_KEYS: tuple[KeyRow, ...] = (
+    KeyRow(
         "in O",
         "arrows, mouse",
         "choose a mechanism",
         (*_both("left", "right", "move"), *_both("up", "down", "row")),
     ),
-    Row("in O", "Enter, click", "put it on", _every("return kp_enter", "pick")),
+    KeyRow("in O", "Enter, click", "put it on", _every("return kp_enter", "pick")),
 )
 """What the keys do while the shelf is open."""
 
-_OPEN: Mapping[Mode, tuple[Row, ...]] = {"edit": EDIT_KEYS, "list": LIST_KEYS, "shelf": SHELF_KEYS}
+_OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {"edit": EDIT_KEYS, "list": LIST_KEYS, "shelf": SHELF_KEYS}
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),
     "list": ("sift", frozenset({"space", "h", "k"})),
@@ -208,7 +208,7 @@ def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
     return typing or press.key not in _TYPED[mode][1]
 
 
-def _binds(table: tuple[Row, ...]) -> Iterator[Bind]:
+def _binds(table: tuple[KeyRow, ...]) -> Iterator[Bind]:
     return (bind for row in table for bind in row.binds)
 
 

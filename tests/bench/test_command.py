@@ -156,7 +156,7 @@ def test_the_first_frame_comes_from_the_command_itself() -> None:
 
 def test_the_figures_of_drawing_stand_beside_their_bounds() -> None:
     frames = tuple(window.FrameTimes(size, 5.25, 7.0, 5.0) for size in window.SIZES)
-    found = window.Drawing(this_machine(), frames, 0.25, 51.3, 0.002)
+    found = window.WindowRun(this_machine(), frames, 0.25, 51.3, 0.002)
     lines = {line.split()[0]: line.split() for line in window.as_text(found).splitlines() if line}
     assert lines["1280x720"][1:5] == ["5.2", "ms", "≤", "6"]
     assert lines["1920x1080"][1:5] == ["5.2", "ms", "≤", "10"]

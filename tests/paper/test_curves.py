@@ -10,7 +10,7 @@ import pytest
 
 from linkanim.errors import BadInput
 from linkanim.mechanics.register import register
-from linkanim.paper.curves import Curves, Pace, Wanted, curves_of, extremes, table
+from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of, extremes, table
 from linkanim.picture.course import Over
 from linkanim.scenes import load
 
@@ -18,7 +18,7 @@ FIVE, TEN = Pace(5.0, "5 rad/s"), Pace(-10.0, "-10 rad/s")
 
 
 def _curves(name: str, *tokens: str, paces: tuple[Pace, ...] = (FIVE,), over: Over | None = None) -> Curves:
-    return curves_of(load(name), Wanted(tokens, paces, over))
+    return curves_of(load(name), ChartRequest(tokens, paces, over))
 
 
 # scene, over, title, from, to

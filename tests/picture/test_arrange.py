@@ -18,7 +18,7 @@ from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import EditRow, Overlay, Panel
 from linkanim.picture.painter import Painter
 from linkanim.picture.quantities import quantities
-from linkanim.picture.staging import Wanted, staged
+from linkanim.picture.staging import Staged, staged
 from linkanim.picture.sweep import Sweep
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
@@ -45,7 +45,7 @@ def test_what_a_scene_sweeps_fills_the_height_or_the_width(
     """At least 85 % of the one or 60 % of the other, of what a chart leaves; with the other closure, too."""
     scene = load(name)
     for other in (None, ghost_of(scene)):
-        staging = staged(scene, other, Wanted(size, chart, 0, True, False), type_of_words())
+        staging = staged(scene, other, Staged(size, chart, 0, True, False), type_of_words())
         arrangement, box = staging.arrangement, staging.subject.sweep.box
         left, low = arrangement.view.to_pixel(box.left, box.low)
         right, high = arrangement.view.to_pixel(box.right, box.high)
@@ -93,7 +93,7 @@ def _part(surface: pygame.Surface, rect: Rect) -> np.ndarray:
 @pytest.mark.parametrize("name", names())
 def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int, int]) -> None:
     scene = load(name)
-    block = staged(scene, None, Wanted(size, False, 0, True, False), type_of_words()).arrangement.block
+    block = staged(scene, None, Staged(size, False, 0, True, False), type_of_words()).arrangement.block
     assert block is not None
     assert " ".join(line.text for line in block.lines if line.strong) == scene.title
     assert block.size >= max(10, 0.7 * min(21 * size[1] / 720, 21))
@@ -102,7 +102,7 @@ def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int
 
 @pytest.mark.parametrize("name", ["press", "six-bar", "rocker-driven"])
 def test_a_title_is_in_one_line_where_it_finds_room(name: str) -> None:
-    arrangement = staged(load(name), None, Wanted((1280, 720), False, 0, True, False), Type()).arrangement
+    arrangement = staged(load(name), None, Staged((1280, 720), False, 0, True, False), Type()).arrangement
     assert arrangement.block is not None
     assert arrangement.block.turns == 0
 
@@ -116,7 +116,7 @@ def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
     other = ghost_of(scene)
     if other is None:
         return
-    wanted = Wanted(size, False, 0, True, False)
+    wanted = Staged(size, False, 0, True, False)
     one = staged(scene, other, wanted, type_of_words()).arrangement
     two = staged(other, ghost_of(other), wanted, type_of_words()).arrangement
     views = [(view.scale, view.x, view.y) for view in (one.view, two.view)]
@@ -126,7 +126,7 @@ def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
 
 def test_a_tall_scene_has_its_chart_beside_it_and_a_wide_one_below() -> None:
     for name, beside in (("press", True), ("slider-crank", False)):
-        wanted = Wanted((1280, 720), True, 0, True, False)
+        wanted = Staged((1280, 720), True, 0, True, False)
         parts = staged(load(name), None, wanted, type_of_words()).arrangement.layout
         assert parts.chart is not None
         assert (parts.chart.x >= parts.stage.right) == beside
@@ -165,7 +165,7 @@ def test_words_over_a_zoomed_scene_have_a_backing() -> None:
 
 def test_the_view_makes_room_for_the_edit_list() -> None:
     for name in names():
-        staging = staged(load(name), None, Wanted((1280, 720), False, 0, True, True), type_of_words())
+        staging = staged(load(name), None, Staged((1280, 720), False, 0, True, True), type_of_words())
         box, layout = staging.subject.sweep.box, staging.arrangement.layout
         assert staging.arrangement.view.to_pixel(box.left, 0.0)[0] > layout.list_width + 10
 
@@ -207,7 +207,7 @@ def test_a_toast_does_not_lie_on_the_chart(name: str) -> None:
 @pytest.mark.parametrize("size", [(640, 360)])
 @pytest.mark.parametrize("name", names())
 def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) -> None:
-    layout = staged(load(name), None, Wanted(size, False, 0, True, False), type_of_words()).arrangement.layout
+    layout = staged(load(name), None, Staged(size, False, 0, True, False), type_of_words()).arrangement.layout
     assert not any(layout.marks.meets(rect) for rect in layout.words)
 
 
@@ -233,7 +233,7 @@ def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, r
 
 
 def test_a_chart_does_not_drive_out_the_words() -> None:
-    wanted = Wanted((480, 270), True, 2, True, False)
+    wanted = Staged((480, 270), True, 2, True, False)
     for name in names():
         block = staged(load(name), None, wanted, type_of_words()).arrangement.block
         assert block is not None

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from linkanim.picture.readings import Row, note, rows
-from linkanim.picture.staging import Wanted, staged
+from linkanim.picture.readings import Reading, note, rows
+from linkanim.picture.staging import Staged, staged
 from linkanim.picture.text import Type
 from linkanim.scenes import load, names
 from linkanim.scenes.read import scene_from
@@ -38,12 +38,12 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
 
 def test_a_swinging_input_tells_its_two_limits() -> None:
     scene = load("double-rocker")
-    assert Row("input range", "13.8°…108.4°") in rows(scene, scene.pose(1.0))
+    assert Reading("input range", "13.8°…108.4°") in rows(scene, scene.pose(1.0))
 
 
 def test_a_linkage_that_needs_two_turns_says_so() -> None:
     scene = load("kite")
-    assert Row("true period", "2 turns") in rows(scene, scene.pose(1.0))
+    assert Reading("true period", "2 turns") in rows(scene, scene.pose(1.0))
 
 
 @pytest.mark.parametrize("name", names())
@@ -76,7 +76,7 @@ def test_the_crank_angle_is_within_one_turn(angle_deg: float, told: str) -> None
 @pytest.mark.parametrize("name", names())
 def test_names_and_values_never_touch_at_any_speed(name: str, size: tuple[int, int]) -> None:
     scene, type_ = load(name), Type()
-    arrangement = staged(scene, None, Wanted(size, True, 2, True, False), type_).arrangement
+    arrangement = staged(scene, None, Staged(size, True, 2, True, False), type_).arrangement
     block, key = arrangement.block, arrangement.layout.legend
     assert block is not None
     for speed in (1.0, -10.0):
@@ -126,12 +126,12 @@ def test_the_angle_is_that_of_the_driven_bar_by_its_name(name: str, driven: str)
 )
 def test_the_speed_is_told_in_the_unit_that_the_scene_states(speed: str, told: str) -> None:
     scene = stated(speed)
-    assert Row("input speed", told) in rows(scene, scene.pose(1.0))
+    assert Reading("input speed", told) in rows(scene, scene.pose(1.0))
 
 
 def test_the_speed_is_the_pose_s_own() -> None:
     scene = stated("2.5 rad/s")
-    assert Row("input speed", "−5 rad/s") in rows(scene, scene.pose(0.0, speed=-5.0))
+    assert Reading("input speed", "−5 rad/s") in rows(scene, scene.pose(0.0, speed=-5.0))
 
 
 @pytest.mark.parametrize("speed", ["15 rpm", "-15 rpm", "90 deg/s"])

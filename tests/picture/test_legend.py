@@ -10,7 +10,7 @@ from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
 from linkanim.picture.legend import Legend, legend_for
 from linkanim.picture.look import ACCELERATION, VELOCITY
-from linkanim.picture.staging import Wanted, staged
+from linkanim.picture.staging import Staged, staged
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.vectors import arrows_of
@@ -37,7 +37,7 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
     shown, type_ = figure(load("press")), Type()
     measure = gauge(1.0, 100.0)
     kinds = tuple(arrows_of(shown, kind, size[1], measure, LIGHT) for kind in (VELOCITY, ACCELERATION))
-    parts = staged(load("press"), None, Wanted(size, False, 2, True, False), type_).arrangement.layout
+    parts = staged(load("press"), None, Staged(size, False, 2, True, False), type_).arrangement.layout
     legend = legend_for(kinds, parts, type_, LIGHT)
     assert legend is not None
     for kind in kinds:

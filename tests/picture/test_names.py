@@ -19,7 +19,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.names import Names
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
-from linkanim.picture.placing import Bars, Clutter, Wish, place
+from linkanim.picture.placing import Clutter, Obstacles, Wish, place
 from linkanim.picture.text import Type
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
@@ -187,7 +187,7 @@ def test_a_label_keeps_still_where_nothing_comes_in_its_way_and_is_gone_where_it
     none = np.zeros((count, 0), np.complex128)
     disc = np.full((count, 1), 500 + 500j)
     disc[30:33] = 100 + 100j
-    bars = Bars(none, none, np.zeros(0), np.zeros(0))
+    bars = Obstacles(none, none, np.zeros(0), np.zeros(0))
     clutter = Clutter(disc, np.array([5.0]), (), Rect(0, 0, 400, 400), bars)
     frame = np.zeros(count, np.complex128), np.ones(count, np.complex128)
     only = Wish((20.0, 10.0), np.full((count, 1), 100 + 100j), np.zeros(1), frame)

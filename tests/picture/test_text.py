@@ -12,7 +12,7 @@ from pictures import pixels
 from linkanim.bench.fidelity import Pixels
 from linkanim.picture import fonts
 from linkanim.picture.offscreen import offscreen
-from linkanim.picture.staging import Wanted, staged
+from linkanim.picture.staging import Staged, staged
 from linkanim.picture.text import Type, runs, subscripted
 from linkanim.scenes import load
 
@@ -169,6 +169,6 @@ def test_lines_are_no_wider_than_they_may_be_and_lose_nothing(text: str, width: 
 
 def test_a_title_that_no_font_has_gives_way_to_the_scene_s_name(alone: Type) -> None:
     scene = replace(load("crank-rocker"), name="mine", title="曲柄")
-    block = staged(scene, None, Wanted((640, 360), False, 0, True, False), alone).arrangement.block
+    block = staged(scene, None, Staged((640, 360), False, 0, True, False), alone).arrangement.block
     assert block is not None
     assert block.lines[0].text == "mine"

@@ -17,9 +17,9 @@ from linkanim.player.keys import (
     SHELF_KEYS,
     SUBJECTS,
     Bind,
+    KeyRow,
     Mode,
     Press,
-    Row,
     as_markdown,
     as_text,
     bind_of,
@@ -188,7 +188,7 @@ def test_every_key_asks_for_a_known_action(bind: Bind) -> None:
 
 
 @pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)
-def test_no_key_is_bound_twice_in_a_table(table: tuple[Row, ...]) -> None:
+def test_no_key_is_bound_twice_in_a_table(table: tuple[KeyRow, ...]) -> None:
     keys = [bind.key for row in table for bind in row.binds]
     assert len(keys) == len(set(keys))
 

@@ -62,7 +62,7 @@ class Crank(Joint):
         """
         gearing = walk.assembly.gears[self.name]
         form = form_of(self.name, walk.assembly.loops)
-        half = walk.clock.half(-gearing.offset, gearing.ratio, form=form)
+        half = walk.state.half(-gearing.offset, gearing.ratio, form=form)
         arm = Vec(half.difference * self.length, half.product * (2.0 * self.length))
         pace = walk.pace(gearing)
         walk.points[self.name] = walk.points[self.pivot] + carried(arm, pace)

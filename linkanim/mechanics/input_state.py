@@ -39,7 +39,7 @@ class Ends:
 
 
 @dataclass(frozen=True, slots=True)
-class Clock:
+class InputState:
     """What the input does at one instant.
 
     `angle` is θ without `origin`; `rate` and `second` are its derivatives in time; `pace` is the
@@ -84,13 +84,13 @@ def _scaled(x: Value, ratio: Fraction) -> tuple[Value, Value]:
     return quotient, ((product - back) - error + lost) / q
 
 
-def turn(x: Value, pace: Slope, origin: Sum) -> Clock:
-    """Return the clock of an input that turns fully: θ = origin + x."""
-    return Clock(x, origin, pace.value, pace.rate, pace)
+def turn(x: Value, pace: Slope, origin: Sum) -> InputState:
+    """Return the state of an input that turns fully: θ = origin + x."""
+    return InputState(x, origin, pace.value, pace.rate, pace)
 
 
-def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> Clock:
-    """Return the clock of a swing driven by its phase."""
+def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> InputState:
+    """Return the state of a swing driven by its phase."""
     half = sharp_half_angle(phase)
     scale = math.sqrt(amplitude)
     root_u, root_v = half.cosine * scale, half.sine * scale
@@ -107,15 +107,15 @@ def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> 
     rate = (both + both) * pace.value
     second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
     # A cosine of its own, not v - u: near the middle of the swing it keeps all its digits.
-    return Clock(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase)
+    return InputState(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase)
 
 
-def swing_by_angle(angle: Value, u: Value, v: Value, pace: Slope, middle: Sum) -> Clock:
-    """Return the clock of a swing driven by its angle from the middle; u and v are half the ways left."""
+def swing_by_angle(angle: Value, u: Value, v: Value, pace: Slope, middle: Sum) -> InputState:
+    """Return the state of a swing driven by its angle from the middle; u and v are half the ways left."""
     root_u, root_v = (_root_of_way(way, sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
     half_rate = pace.value * 0.5
     ends = Ends(Slope(u, -half_rate), Slope(v, half_rate), root_u, root_v, by_phase=False)
-    return Clock(angle, middle, pace.value, pace.rate, pace, ends)
+    return InputState(angle, middle, pace.value, pace.rate, pace, ends)
 
 
 def _root_of_way(way: Value, sign: float, pace: Slope) -> Moving:
