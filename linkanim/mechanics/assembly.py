@@ -17,10 +17,11 @@ from .expression import Graph, Value
 from .input_state import InputState
 from .linkage import Linkage
 from .loop import Gearing, Loop, find_loops, gearings
-from .path import Arc, Path, Swing, Turn, open_arcs
+from .path import Arc, Path, Swing, Turn, arcs_of, open_arcs
 from .planar import MovingPoint, Slope
 from .program import batch
 from .roots import Kind
+from .signed import OWN_LIMIT
 from .stroke import Stroke, stroke
 from .walk import Kinematics, walked
 
@@ -104,7 +105,23 @@ def _paths(linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Arc] | None) 
         yield Turn(linkage.drive.start, turns_to_return(linkage, loops))
         return
     for arc in sorted(arcs, key=lambda arc: _rank(arc, linkage.drive.start, loops)):
-        yield Swing(arc.low, arc.high, arc.ends)
+        yield Swing(arc.low, arc.high, arc.ends, rounds=_rounds(linkage, loops, arc))
+
+
+def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Arc) -> int:
+    """Return 2 where one loop sets both ends of a range and another is at its limit at one of them, too."""
+    first, last = arc.ends
+    others = {name: loop for name, loop in loops.items() if name != first and loop.pin == linkage.drive.joint}
+    if first != last:
+        return 1
+    for name, loop in others.items():
+        arcs = arcs_of(linkage.joint(name), loop.root) or ()
+        own = [other.shifted(turns) for other in arcs for turns in (-1, 0, 1)]
+        low = any(abs(float(other.low - arc.low)) <= OWN_LIMIT for other in own)
+        high = any(abs(float(other.high - arc.high)) <= OWN_LIMIT for other in own)
+        if low != high:
+            return 2
+    return 1
 
 
 def _driven(linkage: Linkage, arcs: list[Arc] | None) -> Stroke:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from linkanim.errors import AssemblyError
 
 from .assembly import Assembly
-from .chain import ChainRoot, Closing, End, Fit, Near, Zero
+from .chain import ChainRoot, Closing, End, Fit, Near, Touch, Zero
 from .exact import Sum
 from .expression import Graph, Value
 from .input_state import swing_by_angle
@@ -123,6 +123,11 @@ def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
         raise AssemblyError(
             f"joint {name}: the two ends of its equal bars meet and part the way they came, so that it could "
             "go on in any direction; make one of the bars longer or shorter"
+        )
+    if best is None and isinstance(zero, Touch):
+        raise AssemblyError(
+            f"joint {name}: it falls into one line just where it turns back, so that it could go on either "
+            "way; make one of its lengths a little longer or shorter"
         )
     return best
 

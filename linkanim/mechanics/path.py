@@ -269,14 +269,14 @@ def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Arc] | None:
     arcs: list[Arc] | None = None
     for name, loop in loops.items():
         if loop.pin == linkage.drive.joint:
-            own = _arcs(linkage.joint(name), loop.root)
+            own = arcs_of(linkage.joint(name), loop.root)
             arcs = own if arcs is None else arcs if own is None else list(_common(arcs, own))
             if arcs == []:
                 raise AssemblyError(f"joint {name}: the bars of the linkage leave its input no common range")
     return arcs
 
 
-def _arcs(joint: Joint, root: LoopRoot) -> list[Arc] | None:
+def arcs_of(joint: Joint, root: LoopRoot) -> list[Arc] | None:
     """Return the open ranges of one loop in the crank's own angle."""
     if min(root.u.most, root.w.most) == 0:
         raise AssemblyError(f"joint {joint.name}: {ONE_PLACE}")

@@ -12,7 +12,7 @@ import pytest
 from build import four_bar, rocker_driven, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin
+from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 
@@ -244,4 +244,40 @@ def test_two_loops_that_close_in_one_place_only_are_refused(ground_angle: float)
 @pytest.mark.parametrize(("name", "linkage"), REFUSED, ids=[row[0] for row in REFUSED])
 def test_bars_that_never_meet_are_still_refused(name: str, linkage: Linkage) -> None:
     with pytest.raises(AssemblyError, match="cannot meet at any angle"):
+        mechanism(linkage)
+
+
+def test_a_loop_at_its_limit_at_one_end_of_anothers_range_doubles_the_period() -> None:
+    # The first slider's rod sets both ends; the second one's is at its limit at the upper end alone.
+    pin = Pin("G", (2.598076211353316, -1.5), Polar(3.0, -math.pi / 6))
+    linkage = Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            pin,
+            Crank("A", "O2", 5.0),
+            RRP("S", "A", 1.0, Line("G", math.pi)),
+            RRP("T", "A", 5.0, Line("G", math.pi, -4.0)),
+        ),
+        Drive("A", -1.0, math.radians(30)),
+    )
+    solved = mechanism(linkage)
+    assert solved.periods == 2
+    place = solved.solve(phase=np.array([0.4, 0.4 + 2 * math.pi, 0.4 + 4 * math.pi]), speed=1.0).position["T"]
+    assert place[2] == pytest.approx(place[0], abs=1e-13)
+    assert np.hypot(*(place[1] - place[0])) > 1.0
+
+
+def test_a_dyad_in_line_just_where_it_turns_back_is_refused() -> None:
+    # The slotted bar's furthest direction is square to the line: the rod, as long as the bar, falls into it.
+    linkage = Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("G", (-1.0, -1.0)),
+            Crank("A", "O2", 1.0),
+            RPR("E", "G", "A", 3.0),
+            RRP("S", "E", 3.0, Line("G", 0.0)),
+        ),
+        Drive("A", 1.0, math.pi),
+    )
+    with pytest.raises(AssemblyError, match="just where it turns back"):
         mechanism(linkage)
