@@ -126,9 +126,7 @@ def _changes(quantity: Quantity, cycle: Motion) -> bool:
 
 def paces_of(scene: Scene, token: str, paces: tuple[Pace, ...]) -> tuple[Pace, ...]:
     """Return the speeds at which a quantity is charted: one where the speed makes no difference."""
-    quantity = register(scene.linkage)[token]
-    depends = quantity.order > 0 or "torque" in token or "force" in token
-    return paces if depends else paces[:1]
+    return paces if register(scene.linkage)[token].order else paces[:1]
 
 
 def table(scene: Scene, pace: Pace, step_deg: float = 1.0) -> tuple[list[str], np.ndarray]:

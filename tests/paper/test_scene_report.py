@@ -16,7 +16,7 @@ from linkanim.cli import main
 from linkanim.digits import significant, typeset
 from linkanim.mechanics.register import register
 from linkanim.paper.curves import Pace
-from linkanim.paper.findings import charted, instants_at, sheet, usual_instants
+from linkanim.paper.findings import charted, instants_at, paces_of, sheet, usual_instants
 from linkanim.scenes import load, names
 
 PACES = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (5.0, 10.0, 20.0))
@@ -131,6 +131,14 @@ def test_a_slider_s_extremes_are_told_by_themselves() -> None:
     for instant, degrees in ((high, 71.0), (low, 316.5)):
         assert math.degrees(instant.phase) == pytest.approx(degrees, abs=1.0)
         assert scene.pose(instant.phase).travel_velocity["5"] == pytest.approx(0.0, abs=1e-4)
+
+
+def test_what_no_speed_changes_has_one_curve() -> None:
+    press = load("press")
+    counts = {"3.coefficient": 1, "H.position.x": 1, "return.force": 1}
+    counts |= {"cushion.force": 3, "3.angular_velocity": 3, "input.torque": 3}
+    for token, count in counts.items():
+        assert len(paces_of(press, token, PACES)) == count, token
 
 
 def test_what_stands_still_has_no_chart() -> None:
