@@ -167,7 +167,9 @@ def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
     phase, reach = float(curve.phases[index]), float(np.abs(np.diff(curve.phases)).max())
     for _ in range(_ROUNDS):
         near = np.clip(phase + reach * np.linspace(-1, 1, 21), *ends)
-        phase, reach = float(near[(sign * curve.solved(scene, near)).argmax()]), reach / 10
+        values = sign * curve.solved(scene, near)
+        # Where a point rests for an instant its path has no direction there, and nothing along it a value.
+        phase, reach = float(near[np.where(np.isfinite(values), values, -np.inf).argmax()]), reach / 10
     value = float(curve.solved(scene, np.array([phase]))[0])
     if curve.quantity.unit == "rad":
         value += 360 * round((curve.values[index] - value) / 360)

@@ -134,3 +134,12 @@ def test_the_table_holds_what_is_solved_in_radians() -> None:
     assert np.degrees(by_name["angle"]) == pytest.approx(by_name["angle_deg"])
     single, _ = table(_curves("press", "3.angle"))
     assert single == ["angle_deg", "angle", "phase", "time", "3.angle"]
+
+
+def test_an_extreme_beside_a_cusp_has_a_value() -> None:
+    # The astroid's point rests in its cusps, and its path has no direction there.
+    scene = load("epicyclic-hypocycloid")
+    curve = curves_of(scene, ChartRequest(("E.tangential_acceleration",), (Pace(1.0, "1 rad/s"),))).curves[0]
+    peaks = extremes(scene, curve)
+    assert len(peaks) == 2
+    assert all(np.isfinite([peak.value, peak.x, peak.angle]).all() for peak in peaks)
