@@ -119,5 +119,8 @@ class Joint(ABC):
         return None
 
     def transmission_at(self, place: Callable[[str], Any]) -> Any:
-        """Return a dyad's transmission angle where `place` gives joints as x + yi, floats or arrays."""
-        raise NotImplementedError
+        """Return a dyad's transmission angle where `place` gives joints as x + yi, floats or arrays.
+
+        None of other joints.
+        """
+        return None

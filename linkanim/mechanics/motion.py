@@ -7,6 +7,7 @@ scene's unit, angles in radians, time in seconds, forces in newtons (tension pos
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -88,7 +89,7 @@ class Lazy(Mapping[str, Any]):
         return len(self._names)
 
 
-class Derived:
+class Derived(ABC):
     """What a motion and a pose tell besides what is solved; vectors are (x, y) or (..., 2)."""
 
     setting: Setting
@@ -121,9 +122,9 @@ class Derived:
         (x0, y0), (x1, y1) = (parts(self.position[joint]) for joint in body.joints[:2])
         return self._continuous(y1 - y0, x1 - x0, self.angular_velocity.get(name))
 
+    @abstractmethod
     def _continuous(self, dy: Any, dx: Any, rate: Any) -> Any:
         """Return the angle of a way, which turns at `rate` as far as that is known."""
-        raise NotImplementedError
 
     @cached_property
     def coefficient(self) -> Mapping[str, tuple[Any, Any]]:
