@@ -23,7 +23,7 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("bounds", "digits", "document", "intake", "units", "whole"),
+            ("bounds", "cells", "digits", "document", "intake", "units", "whole"),
             ("mechanics",),
             ("scenes",),
             ("picture",),
@@ -41,6 +41,7 @@ RANK = {
 THIRD_PARTIES = {
     "errors": set(),
     "bounds": set(),
+    "cells": {"numpy", "orjson"},
     "digits": set(),
     "document": set(),
     "intake": set(),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import sys
 from argparse import Namespace
@@ -13,17 +12,21 @@ from typing import TextIO
 
 import numpy as np
 
+from linkanim.cells import csv_head, csv_rows, lines
 from linkanim.cli import table
 from linkanim.cli.commands import EVERY_ANGLE
 from linkanim.cli.strict import json_text
 from linkanim.cli.sweeping import RowBlock, Steps, blocks
-from linkanim.cli.tree import Leaf, Tree, leaves, rows, tree
+from linkanim.cli.tree import Leaf, Tree, leaves, mapped, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.motion import Motion
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.whole import checked_target, replacing
+
+_NUMBER = "\0"
+"""Stands for a number in the text that the rows share: no name holds it."""
 
 
 @dataclass(frozen=True)
@@ -52,12 +55,12 @@ def run(options: Namespace) -> None:
     head: Tree = {"scene": scene.name, "angle": None, "phase": None}
     head |= {"time": None} if asked.steps else {}
     head |= {"speed": speed, "acceleration": options.acceleration, "length_unit": scene.length_unit}
-    poses = ({**head, **row} for block in found for row in rows(block.found))
+    trees = ({**head, **block.found} for block in found)
     if options.json:
-        _print_json(poses, asked.steps is not None)
+        _print_json(trees, asked.steps is not None)
     else:
         words = table.of_sweep if asked.steps else table.of_pose
-        print(words(scene, poses))
+        print(words(scene, (row for block in trees for row in rows(block))))
 
 
 def _asked(options: Namespace) -> Asked:
@@ -105,16 +108,25 @@ def out_of_range(scene: Scene, angle: float) -> OutOfRange:
     )
 
 
-def _print_json(objects: Iterator[Tree], sweep: bool) -> None:
+def _print_json(trees: Iterator[Tree], sweep: bool) -> None:
     """Print one object, or a list of them with a line for each."""
+    objects = (text for block in trees for text in _objects(block))
     if not sweep:
-        print(json_text(next(objects)))
+        print(next(objects))
         return
     separator = "["
-    for found in objects:
-        print(separator, json_text(found), sep="", end="")
+    for text in objects:
+        print(separator, text, sep="", end="")
         separator = ",\n "
     print("]")
+
+
+def _objects(block: Tree) -> Iterator[str]:
+    """Yield each row's tree as JSON: the text that all rows share, and their own numbers in it."""
+    marked = json_text(mapped(lambda leaf: _NUMBER if isinstance(leaf, np.ndarray) else leaf, block))
+    form = marked.replace("%", "%%").replace(json_text(_NUMBER), "%s")
+    columns = [leaf for _, leaf in leaves(block) if isinstance(leaf, np.ndarray)]
+    return (form % tuple(line.split(",")) for line in lines(columns))
 
 
 def _target(name: str | None) -> Path | None:
@@ -135,13 +147,5 @@ def _csv_rows(file: TextIO, by: str, found: Iterator[RowBlock]) -> None:
     for number, block in enumerate(found):
         names, columns = zip(*leaves(block.found), strict=True)
         if number == 0:
-            csv.writer(file, lineterminator="\n").writerow([f"{by}_deg", *names])
-        cells = zip(*map(_cells, (block.degrees, *columns)), strict=True)
-        file.write("".join(f"{','.join(row)}\n" for row in cells))
-
-
-def _cells(column: Leaf) -> Iterator[str]:
-    """Return a column's cells: every digit, and nothing where there is no finite value."""
-    if np.isfinite(column).all():
-        return map(repr, column.tolist())
-    return (repr(value) if math.isfinite(value) else "" for value in column.tolist())
+            file.write(csv_head([f"{by}_deg", *names]))
+        file.write(csv_rows([block.degrees, *columns]))

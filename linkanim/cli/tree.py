@@ -74,11 +74,11 @@ def leaves(node: Any, name: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def rows(node: Tree) -> Iterator[Tree]:
-    """Yield the tree of each row, its leaves plain floats."""
-    # a tuple is a leaf; a list would be a pair
-    plain = mapped(lambda leaf: tuple(leaf.tolist()), node)
+    """Yield the tree of each row, its leaves plain floats; what is no array is every row's."""
+    plain = mapped(lambda leaf: tuple(leaf.tolist()) if isinstance(leaf, np.ndarray) else leaf, node)
     yield from (_row(plain, row) for row in range(len(plain["phase"])))
 
 
 def _row(plain: Tree, row: int) -> Tree:
-    return mapped(lambda leaf: leaf[row], plain)  # type: ignore[no-any-return]
+    # a tuple is a column; a list is a pair
+    return mapped(lambda leaf: leaf[row] if isinstance(leaf, tuple) else leaf, plain)  # type: ignore[no-any-return]

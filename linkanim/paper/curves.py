@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import degrees, isfinite, tau
+from math import degrees, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -202,8 +202,3 @@ def table(curves: Curves) -> tuple[list[str], list[Floats]]:
                 names.append(".".join(filter(None, (one.token, label))) + said)
                 columns.append(column)
     return names, columns
-
-
-def finite_text(value: float) -> str:
-    """Return a number for a CSV cell, empty where it is unbounded or not known."""
-    return repr(float(value)) if isfinite(value) else ""

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from io import StringIO
 from itertools import groupby
 
+from linkanim.cells import csv_head, csv_rows
 from linkanim.digits import rpm, typeset
 from linkanim.paper import html
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import ChartRequest, Pace, curves_of, finite_text
+from linkanim.paper.curves import ChartRequest, Pace, curves_of
 from linkanim.paper.figure import Figured
 from linkanim.paper.findings import Instant, charted, paces_of, sheet, table
 from linkanim.paper.svg import svg
@@ -86,8 +85,4 @@ def _speed(pace: Pace) -> str:
 def _csv(scene: Scene, pace: Pace) -> str:
     """Return every quantity at steps of a degree of phase, as CSV; what is not known is an empty cell."""
     names, columns = table(scene, pace)
-    text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(names)
-    writer.writerows([finite_text(value) for value in row] for row in columns.T.tolist())
-    return text.getvalue()
+    return csv_head(names) + csv_rows([*columns])

@@ -245,6 +245,15 @@ def test_csv_holds_the_numbers_of_the_json(
     assert [path.name for path in tmp_path.iterdir()] == ["press.csv"]
 
 
+def test_names_stand_in_json_as_they_are(solved: Callable[..., Any], tmp_path: Path) -> None:
+    path = tmp_path / "a 100%s.toml"
+    text = (Path(linkanim.__file__).parent / "scenes/catalogue/four-bars/crank-rocker.toml").read_text()
+    path.write_text(text + '\n[bodies]\n"50 % \\"x\\" %d" = { joints = ["A", "B"] }\n', encoding="utf-8")
+    (pose,) = solved(str(path), "--sweep", "60:60:1")
+    assert pose["scene"] == "a 100%s"
+    assert pose["bodies"]['50 % "x" %d']["angle"] == pose["bodies"]["coupler"]["angle"]
+
+
 def test_csv_goes_to_stdout_and_leaves_unknown_cells_empty(solve: Solve) -> None:
     lines = solve("double-rocker", "--sweep", "60:180:120", "--csv", "-").splitlines()
     head, reached, beyond = (line.split(",") for line in lines)

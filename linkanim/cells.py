@@ -1,0 +1,38 @@
+"""Columns of numbers as text, for CSV and JSON alike: every digit that a float has, and no more."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from io import StringIO
+
+import numpy as np
+import orjson
+from numpy.typing import ArrayLike
+
+NULL = "null"
+"""What stands where a number is not finite."""
+
+
+def lines(columns: Sequence[ArrayLike]) -> list[str]:
+    """Return the numbers of each row with commas between, each in the fewest digits that read back as it is.
+
+    What is not finite is `null`.
+    """
+    block = np.stack([np.asarray(column, np.float64) for column in columns], axis=1)
+    if not block.size:
+        return []
+    return orjson.dumps(block, option=orjson.OPT_SERIALIZE_NUMPY).decode()[2:-2].split("],[")
+
+
+def csv_head(names: Iterable[str]) -> str:
+    """Return a table's first line: what its columns are called."""
+    text = StringIO()
+    csv.writer(text, lineterminator="\n").writerow(names)
+    return text.getvalue()
+
+
+def csv_rows(columns: Sequence[ArrayLike]) -> str:
+    """Return a table's rows; what is not finite is an empty cell."""
+    text = "".join(f"{line}\n" for line in lines(columns))
+    return text if all(np.isfinite(column).all() for column in columns) else text.replace(NULL, "")
