@@ -4,29 +4,21 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from pathlib import Path
 
 from linkanim import units
+from linkanim.cli.sheet import sheet
 from linkanim.digits import stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of
 from linkanim.paper.measured import MeasuredCurve, beside, read_table
 from linkanim.paper.write import SUFFIXES, write
-from linkanim.recorder.plan import refuse_size
-from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
-from linkanim.whole import checked_target
-
-_SIZE = (1280, 720)
 
 
 def run(options: Namespace) -> None:
     """Write the chart that was asked for; print its path, and of a table beside it the largest difference."""
-    target = checked_target(options.output or f"{Path(options.scene).stem}.png", SUFFIXES)
-    size = options.size or _SIZE
-    refuse_size(size)
-    scene = load(options.scene)
+    scene, size, target = sheet(options, SUFFIXES, ".png")
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, ChartRequest(tokens, paces(scene, options.speeds), options.over))
     measured = _measured(curves, options)

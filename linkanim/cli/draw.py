@@ -4,25 +4,17 @@ from __future__ import annotations
 
 from argparse import Namespace
 from math import isnan
-from pathlib import Path
 
+from linkanim.cli.sheet import sheet
 from linkanim.cli.solve import out_of_range
 from linkanim.paper.figure import SUFFIXES, Figured, write
 from linkanim.picture.look import Look
-from linkanim.recorder.plan import refuse_size
-from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
-from linkanim.whole import checked_target
-
-_SIZE = (1280, 720)
 
 
 def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path."""
-    target = checked_target(options.output or f"{Path(options.scene).stem}.svg", SUFFIXES)
-    size = options.size or _SIZE
-    refuse_size(size)
-    scene = load(options.scene)
+    scene, size, target = sheet(options, SUFFIXES, ".svg")
     look = Look(
         theme=options.theme,
         trace=options.trace,

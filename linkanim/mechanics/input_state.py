@@ -17,6 +17,9 @@ from .exact import Sum, two_product, two_sum
 from .expression import Value, sqrt
 from .planar import Moving, Slope
 
+HalfForm = Callable[[Value, Value], Half]
+"""Returns half of an angle that is the sum of two numbers."""
+
 
 @dataclass(frozen=True, slots=True)
 class Ends:
@@ -55,15 +58,12 @@ class InputState:
     ends: Ends | None = None
     phase: Value | None = None
 
-    def half(
-        self,
-        reference: Sum,
-        ratio: Fraction = Fraction(1),
-        *,
-        form: Callable[[Value, Value], Half] = half_angle,
-    ) -> Half:
+    def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, form: HalfForm = half_angle) -> Half:
         """Return half of ratio × θ - reference, to the last digit at any number of turns."""
-        shift = self.origin * ratio - reference
+        return self.half_shifted(ratio, self.origin * ratio - reference, form)
+
+    def half_shifted(self, ratio: Fraction, shift: Sum, form: HalfForm) -> Half:
+        """Return half of ratio × angle + shift."""
         scaled, low = _scaled(self.angle, ratio)
         if shift.high == 0 and shift.low == 0:
             return form(scaled, low)

@@ -18,6 +18,7 @@ from linkanim.errors import AssemblyError
 
 from .exact import FULL_TURN, HALF_TURN, Sum, exact_angle
 from .expression import Graph, Value
+from .input_path import ThereAndBack, Unlimited, half_squares, nearer_way
 from .input_state import InputState, swing_by_angle, swing_by_phase, turn
 from .joint import Joint
 from .linkage import Linkage
@@ -38,7 +39,7 @@ ONE_PLACE = (
 
 
 @dataclass(frozen=True, slots=True)
-class Turn:
+class Turn(Unlimited):
     """The input turns fully from `start`; every joint is back after `turns` turns.
 
     `rounds` is how often that takes to bring back a chain that passes a change point.
@@ -49,10 +50,6 @@ class Turn:
     rounds: int = 1
 
     full_turn: ClassVar[bool] = True
-    ends: ClassVar[tuple[str, ...]] = ()
-    amplitude: ClassVar[None] = None
-    limits: ClassVar[tuple[float, ...]] = ()
-    """The angles at which a dyad stops the input."""
 
     @property
     def periods(self) -> int:
@@ -107,25 +104,13 @@ class Turn:
         """Return the input's state at a phase, in plain floats or noted expressions."""
         return turn(phase, pace, exact_angle(self.start))
 
-    def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
-        """Return the names of the graph's inputs, and the input's state at its angle."""
-        return ("x",), turn(graph.input("x"), pace, Sum(0.0))
-
-    def solved_from(self, reached: WaysLeft) -> tuple[Array, ...]:
-        """Return what the program by angle takes: the angle."""
-        return (reached.angle,)
-
-    def swinging(self, state: InputState) -> Swinging | None:
-        """Return None: there is no swing."""
-        return None
-
     def reach(self, angle: Array) -> WaysLeft | None:
         """Return None: no angle is out of reach."""
         return None
 
 
 @dataclass(frozen=True, slots=True)
-class Swing:
+class Swing(ThereAndBack):
     """The input swings between two limits; `ends` names the dyad that limits it at each.
 
     An end without a name is no limit: the input turns back there, and every closure holds.
@@ -138,8 +123,6 @@ class Swing:
     ends: tuple[str, str]
     repeats: int = 1
     rounds: int = 1
-
-    full_turn: ClassVar[bool] = False
 
     @property
     def periods(self) -> int:
@@ -174,8 +157,7 @@ class Swing:
         """Return the phase nearest to `near` at which the input stands at an angle, or at its limit."""
         away = math.remainder(angle - float(self.middle), 2 * math.pi)
         rising = math.acos(min(max(-away / self.amplitude, -1.0), 1.0))
-        ways = (near + math.remainder(phase - near, 2 * math.pi) for phase in (rising, -rising))
-        return min(ways, key=lambda phase: abs(phase - near))
+        return nearer_way(rising, near)
 
     def angles(self, phases: Array) -> Array:
         """Return the input's angle at phases."""
@@ -187,14 +169,6 @@ class Swing:
         assert reached is not None
         phases = 2 * np.arctan2(np.sqrt(reached.v), np.sqrt(reached.u))
         return np.where(reached.outside, np.nan, phases).reshape(angles.shape)
-
-    def sampled(self, count: int) -> Array:
-        """Return so many phases from the lower limit to the upper one, both among them."""
-        return np.linspace(0.0, math.pi, count)
-
-    def beside(self, start: float, places: Array, values: Array) -> tuple[Array, Array, int]:
-        """Return sampled phases and their values, and the index of the one nearest to the start."""
-        return places, values, int(np.abs(self.angles(places) - start).argmin())
 
     def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> Swing:
         """Return the swing between two phases; at one without a dyad the input goes to its own limit."""
@@ -210,11 +184,7 @@ class Swing:
 
     def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
         """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
-        low, high = sorted(float(end * ratio - reference) for end in (self.low, self.high))
-        ends = [math.sin(angle / 2) ** 2 for angle in (low, high)]
-        # An angle whole turns from ψ = 0, or from ψ = π, lies between them.
-        passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
-        return 0.0 if passes[0] else min(ends), 1.0 if passes[1] else max(ends)
+        return half_squares((self.low, self.high), reference, ratio)
 
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or noted expressions."""

@@ -12,24 +12,23 @@ The length is mid - amp·cos φ: it starts at `first`, is at `last` half a perio
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import ClassVar, NoReturn
+from typing import NoReturn
 
 import numpy as np
 
 from linkanim.errors import AssemblyError
 
-from .circular import Half, direction, half_angle, half_of, sharp_half_angle
+from .circular import Half, direction, half_of, sharp_half_angle
 from .exact import Sum, exact_angle
-from .expression import Graph, Value, arctan2, sqrt
-from .input_state import InputState, turn
+from .expression import Value, arctan2, sqrt
+from .input_path import ThereAndBack, Unlimited, half_squares, nearer_way
+from .input_state import HalfForm, InputState
 from .linkage import Cylinder, Linkage
 from .loop import ground_between
 from .planar import Slope, Vec
 from .reach import Array, WaysLeft
-from .signed import Swinging
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,25 +37,19 @@ class HalfState(InputState):
 
     own: Half | None = None
 
-    def half(
-        self,
-        reference: Sum,
-        ratio: Fraction = Fraction(1),
-        *,
-        form: Callable[[Value, Value], Half] = half_angle,
-    ) -> Half:
-        """Return half of ratio × θ - reference, turned from the half that is known where ratio is ±1."""
+    def half_shifted(self, ratio: Fraction, shift: Sum, form: HalfForm) -> Half:
+        """Return half of ratio × angle + shift, turned from the half that is known where ratio is ±1."""
         assert self.own is not None
         if abs(ratio) != 1:
-            return InputState.half(self, reference, ratio, form=form)
+            return InputState.half_shifted(self, ratio, shift, form)
         way = float(ratio)
-        rest = direction(float((self.origin * ratio - reference).times(0.5)))
+        rest = direction(float(shift.times(0.5)))
         turned = Vec(self.own.cosine, self.own.sine * way).times(Vec(*rest))
         return half_of(turned.y, turned.x)
 
 
 @dataclass(frozen=True, slots=True)
-class Stroke:
+class Stroke(ThereAndBack, Unlimited):
     """The input's path where a cylinder drives it; θ = base + side × ψ."""
 
     first: float
@@ -66,11 +59,6 @@ class Stroke:
     base: Sum
     side: int
     rounds: int = 1
-
-    full_turn: ClassVar[bool] = False
-    ends: ClassVar[tuple[str, ...]] = ()
-    amplitude: ClassVar[None] = None
-    limits: ClassVar[tuple[float, ...]] = ()
 
     @property
     def periods(self) -> int:
@@ -101,8 +89,7 @@ class Stroke:
         length = math.sqrt(g * g + r * r - 2 * g * r * math.cos(psi))
         middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
         rising = math.acos(min(max((middle - length) / half, -1.0), 1.0))
-        ways = (near + math.remainder(phase - near, 2 * math.pi) for phase in (rising, -rising))
-        return min(ways, key=lambda phase: abs(phase - near))
+        return nearer_way(rising, near)
 
     def angles(self, phases: Array) -> Array:
         """Return the crank's angle at phases."""
@@ -117,14 +104,6 @@ class Stroke:
         assert reached is not None
         flat = [self.phase_of(angle, 0.0) for angle in angles.reshape(-1).tolist()]
         return np.where(reached.outside, np.nan, np.abs(flat)).reshape(angles.shape)
-
-    def sampled(self, count: int) -> Array:
-        """Return so many phases from one end to the other, both among them."""
-        return np.linspace(0.0, math.pi, count)
-
-    def beside(self, start: float, places: Array, values: Array) -> tuple[Array, Array, int]:
-        """Return sampled phases and their values, and the index of the one nearest to the start."""
-        return places, values, int(np.abs(self.angles(places) - start).argmin())
 
     def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> NoReturn:
         """Refuse to run shorter than asked: AssemblyError with the length that a dyad allows."""
@@ -141,10 +120,8 @@ class Stroke:
 
     def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
         """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
-        low, high = sorted(float(Sum(end) * ratio - reference) for end in self.input_range)
-        ends = [math.sin(angle / 2) ** 2 for angle in (low, high)]
-        passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
-        return 0.0 if passes[0] else min(ends), 1.0 if passes[1] else max(ends)
+        low, high = self.input_range
+        return half_squares((Sum(low), Sum(high)), reference, ratio)
 
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or noted expressions."""
@@ -162,18 +139,6 @@ class Stroke:
         bend = (rate * rate + length * second - half.difference * (g * r) * turning * turning) / product
         angle = arctan2(half.sine, half.cosine) * 2.0
         return HalfState(angle, self.base, turning, bend, pace, own=half)
-
-    def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
-        """Return the names of the graph's inputs, and the input's state at the crank's angle."""
-        return ("x",), turn(graph.input("x"), pace, Sum(0.0))
-
-    def solved_from(self, reached: WaysLeft) -> tuple[Array, ...]:
-        """Return what the program by angle takes: the angle."""
-        return (reached.angle,)
-
-    def swinging(self, state: InputState) -> Swinging | None:
-        """Return None: no dyad limits the swing."""
-        return None
 
     def reach(self, angle: Array) -> WaysLeft | None:
         """Return which angles the crank comes to."""

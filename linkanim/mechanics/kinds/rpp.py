@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from linkanim.mechanics.exact import unit
-from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.joint import Need
 from linkanim.mechanics.planar import Moving
 from linkanim.mechanics.rail import Line
+
+from .slider import SliderDyad
 
 if TYPE_CHECKING:
     from linkanim.mechanics.assembly import Assembly
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class RPP(Joint):
+class RPP(SliderDyad):
     """A bar sliding along `line`, the joint `pin` in its slot; the joint is where the slot crosses the line.
 
     `slot` is the slot's direction from the line's, in radians; it must not lie along the line.
@@ -31,23 +33,10 @@ class RPP(Joint):
     line: Line
     slot: float = math.pi / 2
 
-    dyad: ClassVar[bool] = True
-    travels: ClassVar[bool] = True
-
     @property
     def needs(self) -> tuple[Need, ...]:
         """The pin in the slot, and the joints of the line."""
         return Need("slide.pin", self.pin), *self.line.needs("slide.line")
-
-    @property
-    def moved_by(self) -> tuple[Need, ...]:
-        """The pin in the slot, or a line that is carried."""
-        return self.needs
-
-    @property
-    def body(self) -> tuple[str, ...]:
-        """The joints of the body that carries its line."""
-        return self.line.body
 
     @property
     def pins(self) -> tuple[str, ...]:

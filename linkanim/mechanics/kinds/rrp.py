@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkanim.mechanics.chain import Closing
 from linkanim.mechanics.exact import exact_angle, quarter_turns, snapped, unit
-from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.joint import Need
 from linkanim.mechanics.loop import Loop
 from linkanim.mechanics.planar import Moving
 from linkanim.mechanics.rail import Line
 from linkanim.mechanics.roots import slider_root
 from linkanim.mechanics.signed import SignedRoot
+
+from .slider import SliderDyad
 
 if TYPE_CHECKING:
     from linkanim.mechanics.assembly import Assembly
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class RRP(Joint):
+class RRP(SliderDyad):
     """A bar from `end` to a slider on `line`; `side` +1 is the closure further forward, -1 back."""
 
     end: str
@@ -34,23 +36,11 @@ class RRP(Joint):
     side: int = 1
 
     sides: ClassVar[tuple[str, str]] = ("forward", "backward")
-    dyad: ClassVar[bool] = True
-    travels: ClassVar[bool] = True
 
     @property
     def needs(self) -> tuple[Need, ...]:
         """The bar's far end, and the joints of its line."""
         return Need("from", self.end), *self.line.needs("line")
-
-    @property
-    def moved_by(self) -> tuple[Need, ...]:
-        """The bar's far end, or a line that is carried."""
-        return self.needs
-
-    @property
-    def body(self) -> tuple[str, ...]:
-        """The joints of the body that carries its line."""
-        return self.line.body
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
