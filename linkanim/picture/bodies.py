@@ -7,11 +7,12 @@ import numpy as np
 from linkanim.mechanics.frames import holding
 from linkanim.mechanics.linkage import Body
 from linkanim.picture.figure import Figure
-from linkanim.picture.fittings import Bench, fittings
+from linkanim.picture.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, Bench, fittings
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts import Part, Stamp, glazed, lined
+from linkanim.picture.parts import Part, Stamp, glazed, lined, slotted
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import disc, hull, unit
+from linkanim.picture.struts import piston
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
@@ -25,10 +26,12 @@ def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[
     placed = {body: _local(body, figure, view) for body in figure.bodies}
     plates = [body for body, points in placed.items() if len(hull(points)) > 2]
     bars = [body for body in placed if body not in plates]
-    fitted = fittings(Bench(figure, view, gauge, theme))
+    bench = Bench(figure, view, gauge, theme)
+    fitted = fittings(bench)
     behind = [part for fitting in fitted for part in fitting.behind]
     before = [part for fitting in fitted for part in fitting.before]
-    solid = [_body(body, placed[body], gauge, (theme.outline, colours[body.name])) for body in plates + bars]
+    worked = [fitting.bar for fitting in fitted if fitting.bar]
+    solid = [_body(body, placed[body], worked, bench, colours[body.name]) for body in plates + bars]
     return (*behind, *solid, *before)
 
 
@@ -55,17 +58,35 @@ def _local(body: Body, figure: Figure, view: View) -> list[complex]:
     return [(place - places[0]) / turn for place in places]
 
 
-def _body(body: Body, points: list[complex], gauge: Gauge, colours: tuple[Colour, Colour]) -> Part:
-    shaped = glazed if len(hull(points)) > 2 else lined
-    layers = shaped(points, gauge.bar, gauge.outline, colours)
-    return Part(
-        body.joints[0],
-        body.joints[0],
-        body.joints[1],
-        tuple(layers),
-        body.joints,
-        body.name or "-".join(body.joints),
-    )
+def _body(body: Body, points: list[complex], worked: list[Bar], bench: Bench, colour: Colour) -> Part:
+    bar = next((bar for bar in worked if set(bar.ends) <= set(body.joints)), None)
+    plate, gauge, colours = len(hull(points)) > 2, bench.gauge, (bench.theme.outline, colour)
+    layers: list[Layer] = []
+    if plate or bar is None:
+        layers += (glazed if plate else lined)(points, gauge.bar, gauge.outline, colours)
+    if bar:
+        ends = [points[body.joints.index(name)] for name in bar.ends]
+        layers += _worked(bar, ends if plate else [*ends, *points], bench, colours)
+    first, second = body.joints[:2]
+    pinned = (*body.joints, *bench.figure.riding(body))
+    return Part(first, first, second, tuple(layers), pinned, body.name or "-".join(body.joints))
+
+
+def _worked(bar: Bar, points: list[complex], bench: Bench, colours: tuple[Colour, Colour]) -> list[Layer]:
+    """Return a slotted bar, or a rod with an eye where it begins; its two ends are the first points."""
+    gauge, (begin, end) = bench.gauge, points[:2]
+    along, edge = unit(end - begin), gauge.outline
+    if bar.slot:
+        near, far = (begin + along * place for place in bar.slot)
+        widths = SLOTTED * gauge.bar, SLOT * gauge.bar
+        return slotted([*points, near, far], (near, far), widths, edge, colours)
+    rod = lined(points, ROD * gauge.bar, edge, colours)
+    eye = lined([begin], gauge.bar, edge, colours)
+    layers = [Layer(one.colour, [*one.loops, *other.loops]) for one, other in zip(rod, eye, strict=True)]
+    if bar.piston:
+        head = piston(PISTON * gauge.bar, BARREL * gauge.bar, gauge, bench.theme)
+        layers.append(Layer(head.colour, [end + along * loop for loop in head.loops]))
+    return layers
 
 
 def pin_stamp(gauge: Gauge, theme: Theme) -> Stamp:

@@ -16,6 +16,7 @@ from linkanim.scenes.scene import Scene
 
 SAMPLES = 720
 _MOST_PERIODS = 4
+_STILL = 1e-9
 DOWN = np.array([1, -1j])
 """Times a vector (x, y) with y up: x + yi with y down, as pixels count."""
 
@@ -51,6 +52,23 @@ class Figure:
         fixed = {pin.name for pin in self.linkage.pins}
         names = used | hung | (ends & fixed)
         return tuple(joint.name for joint in self.linkage.joints if joint.name in names)
+
+    def riding(self, body: Body) -> tuple[str, ...]:
+        """Return the ends of bare bars that keep their place on a body all the same, such as a trammel's.
+
+        Those bars lie in line with it at every moment: what is drawn of them is the body.
+        """
+        bare = [other.joints for other in self.bodies if not other.name and other != body]
+        ends = [end for ends in bare for end in ends if set(ends) & set(body.joints)]
+        return tuple(
+            name for name in dict.fromkeys(ends) if name not in body.joints and self._kept(body, name)
+        )
+
+    def _kept(self, body: Body, name: str) -> bool:
+        """Whether a joint keeps its place in a body's frame over the cycle."""
+        begin, end, there = (self.cycle.position[joint] @ DOWN for joint in (*body.joints[:2], name))
+        place = (there - begin) / (end - begin)
+        return bool(np.all(np.abs(place - place[0]) <= _STILL * max(abs(place[0]), 1.0)))
 
     @cached_property
     def struts(self) -> tuple[Spring | Damper, ...]:

@@ -15,16 +15,23 @@ from linkanim.mechanics.kinds import RPP, RPR, RRP
 from linkanim.mechanics.rail import Line
 from linkanim.picture.figure import DOWN, Figure
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts import Part, lined
+from linkanim.picture.parts import Part, lined, slotted
 from linkanim.picture.raster import Layer, Loop
-from linkanim.picture.shapes import box, rounded, segments, unit
-from linkanim.picture.theme import LIGHT, Theme, mixed
+from linkanim.picture.shapes import box, segments, unit
+from linkanim.picture.struts import barrel
+from linkanim.picture.theme import LIGHT, Theme
 from linkanim.picture.view import View
 
 _TRIED = 90
 """Poses of a cycle at which is looked how far a fitting reaches."""
 _BLOCK = (4.6, 3.2)
 """A slider block's length and height in half widths of a bar."""
+SLOTTED, SLOT = 1.35, 0.5
+"""Half the widths of a slotted bar and of its slot, in those of a bar."""
+ROD, BARREL = 0.6, 1.2
+"""Half the widths of a rod that slides through a swivel, and of the cylinder that it slides in."""
+PISTON = 1.1
+"""The length of the piston at its end, in half widths of a bar."""
 
 
 @dataclass(frozen=True)
@@ -38,15 +45,30 @@ class Bench:
 
 
 @dataclass(frozen=True)
+class Bar:
+    """What a joint makes of the bar from one joint to another: a slotted bar, or a rod with a piston.
+
+    `slot` has the slot's ends in pixels from the first joint, the other on the real axis. Without a
+    slot the bar is a rod, with a `piston` at its end or not.
+    """
+
+    ends: tuple[str, str]
+    slot: tuple[complex, complex] | None = None
+    piston: bool = False
+
+
+@dataclass(frozen=True)
 class Fitting:
     """What a joint adds to the picture: parts behind the bodies and before them, rails on the ground.
 
-    `rails` has the joint that travels between them and their direction, y down.
+    `rails` has the joint that travels between them and their direction, y down; `bar` is what it makes
+    of its bar.
     """
 
     behind: tuple[Part, ...] = ()
     before: tuple[Part, ...] = ()
     rails: tuple[str, complex] | None = None
+    bar: Bar | None = None
 
 
 def fittings(bench: Bench) -> tuple[Fitting, ...]:
@@ -101,10 +123,10 @@ def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[
     near, far = (foot + along * scale * float(way) for way in (np.nanmin(seen.real), np.nanmax(seen.real)))
     colours = theme.outline, theme.metal
     arm = lined([0j, foot], gauge.bar, gauge.outline, colours) if line.offset else []
-    bar = lined([foot, near, far], 1.35 * gauge.bar, gauge.outline, colours)
-    hollow = Layer(mixed(theme.metal, theme.outline, 0.75), [rounded([near, far], 0.5 * gauge.bar)])
+    bar = lined([foot, near, far], SLOTTED * gauge.bar, gauge.outline, colours)
+    hollow = lined([near, far], SLOT * gauge.bar, gauge.outline, (theme.outline, theme.background))
     ways = (line.through, *line.on)
-    return Part(*ways, (*arm, *bar), (line.through,)), Part(*ways, (hollow,))
+    return Part(*ways, (*arm, *bar), (line.through,)), Part(*ways, tuple(hollow))
 
 
 def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
@@ -146,17 +168,28 @@ def _facing(line: Line, bench: Bench) -> Loop:
 
 
 def _slotted(joint: RPR, bench: Bench) -> Fitting:
-    """Return a bar wide enough for its slot, the slot, and the collar that slides in it and turns with it."""
-    gauge, theme = bench.gauge, bench.theme
-    near, far = _slot_ends(joint, bench)
-    wide = lined([0j, near, far], 1.35 * gauge.bar, gauge.outline, (theme.outline, theme.metal))
-    hollow = Layer(mixed(theme.metal, theme.outline, 0.75), [rounded([near, far], 0.5 * gauge.bar)])
-    bar = (joint.pivot, joint.pivot, joint.name)
+    """Return the slot in the bar, and the collar that slides in it and turns with it.
+
+    About a joint of the ground it is the bar that slides: a rod through a swivel.
+    """
     collar = Part(joint.through, joint.pivot, joint.name, _block(bench, share=0.62), (joint.through,))
-    return Fitting(
-        behind=(Part(*bar, tuple(wide), (joint.pivot,)),),
-        before=(Part(*bar, (hollow,)), collar),
-    )
+    if bench.figure.linkage.joint(joint.through).fixed:
+        return _swivelled(joint, collar, bench)
+    return Fitting(before=(collar,), bar=Bar((joint.pivot, joint.name), _slot_ends(joint, bench)))
+
+
+def _swivelled(joint: RPR, collar: Part, bench: Bench) -> Fitting:
+    """Return what makes of the bar a rod; in a cylinder, with a piston, where its end is free."""
+    if joint.name in bench.figure.pins:
+        return Fitting(before=(collar,), bar=Bar((joint.pivot, joint.name)))
+    gauge, (near, far) = bench.gauge, _slot_ends(joint, bench)
+    length, room = bench.view.scale * joint.length, 0.8 * gauge.bar
+    ends = min(length - far.real, 0.0) - room, max(length - near.real, 0.0) + room
+    side = complex(0, near.imag)
+    wall = barrel(*ends, BARREL * gauge.bar, gauge, bench.theme)
+    layers = tuple(Layer(layer.colour, [loop - side for loop in layer.loops]) for layer in wall)
+    cylinder = Part(joint.through, joint.pivot, joint.name, layers, (joint.through,))
+    return Fitting(behind=(cylinder,), before=(collar,), bar=Bar((joint.pivot, joint.name), piston=True))
 
 
 def _slot_ends(joint: RPR, bench: Bench) -> tuple[complex, complex]:
@@ -178,15 +211,15 @@ def _yoke(joint: RPP, bench: Bench) -> Fitting:
     way = np.real(apart * np.conj(across * _facing(joint.line, bench)))
     ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across
     colours = theme.outline, theme.metal
-    bar = lined([0j, *ends], 1.35 * gauge.bar, gauge.outline, colours)
-    hollow = Layer(mixed(theme.metal, theme.outline, 0.75), [rounded(list(ends), 0.5 * gauge.bar)])
+    widths = SLOTTED * gauge.bar, SLOT * gauge.bar
+    bar = slotted([0j, *ends], ends, widths, gauge.outline, colours)
     ways = joint.line.on or (joint.name, joint.name)
-    slotted = Part(joint.name, *ways, (*_block(bench, along), *bar, hollow))
+    yoke = Part(joint.name, *ways, (*_block(bench, along), *bar))
     collar = Part(joint.pin, *ways, _block(bench, across, 0.62), (joint.pin,))
     if joint.line.on is None:
-        return Fitting((slotted,), (collar,), (joint.name, along))
+        return Fitting((yoke,), (collar,), (joint.name, along))
     guide, slot = _carried_slot(joint.name, joint.line, along, bench)
-    return Fitting((guide, slot, slotted), (collar,))
+    return Fitting((guide, slot, yoke), (collar,))
 
 
 FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {RRP: _slider, RPR: _slotted, RPP: _yoke}

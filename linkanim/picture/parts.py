@@ -85,3 +85,22 @@ def glazed(points: list[complex], radius: float, width: float, colours: tuple[Co
     inner = rounded(points, max(radius - width, 0.1))
     pane = rounded(points, max(radius - width / 2, 0.1))
     return [Layer(fill, [pane], _GLAZED), Layer(edge, [rounded(points, radius), inner[::-1]])]
+
+
+def slotted(
+    points: Sequence[complex],
+    slot: tuple[complex, complex],
+    radii: tuple[float, float],
+    width: float,
+    colours: tuple[Colour, Colour],
+) -> list[Layer]:
+    """Return the same with a slot from end to end in it, open to what lies behind.
+
+    `radii` are half the widths of the bar and of its slot.
+    """
+    edge, fill = colours
+    (bar, hole), ends = radii, list(slot)
+    return [
+        Layer(edge, [rounded(points, bar), rounded(ends, hole)[::-1]]),
+        Layer(fill, [rounded(points, max(bar - width, 0.1)), rounded(ends, hole + width)[::-1]]),
+    ]

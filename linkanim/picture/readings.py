@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import degrees, floor, inf, log10, pi, tau
+from math import degrees, dist, floor, inf, log10, pi, tau
 from typing import NamedTuple
 
 from linkanim.digits import stepped
@@ -32,7 +32,8 @@ def rows(scene: Scene, pose: Pose) -> tuple[Reading, ...]:
 
     The input's speed is the pose's: of an input that swings, how often it does and its angular velocity
     at this instant. Speeds are in the unit that the scene states its own in; forces appear where they are
-    known; lengths are in the scene's unit, forces in newtons, tension positive.
+    known; a damper without a coefficient is a cylinder, told by its length; lengths are in the scene's
+    unit, forces in newtons, tension positive.
     """
     return tuple(row for _, row in ranked(scene, pose))
 
@@ -73,9 +74,14 @@ def _strut_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
         if spring.force is not None:
             yield 2, Reading("spring force", f"{stepped(spring.force, 0.1)} N")
     for name, damper in pose.damper.items():
-        yield 4, Reading(f"damper {name}", f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s")
-        if damper.force is not None:
+        if damper.force is None:
+            yield 4, Reading(f"cylinder {name}", f"{stepped(damper.length, 0.1)} {unit}")
+        else:
+            yield 4, Reading(f"damper {name}", f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s")
             yield 2, Reading("damper force", f"{stepped(damper.force, 0.1)} N")
+    if driving := scene.linkage.drive.cylinder:
+        length = dist(*(pose.position[name] for name in driving.between))
+        yield 2, Reading("driving cylinder", f"{stepped(length, 0.1)} {unit}")
 
 
 class Note(NamedTuple):

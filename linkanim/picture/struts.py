@@ -22,6 +22,10 @@ _COILS = (4, 11)
 """Of how few and how many coils a spring has, as its shortest length allows."""
 _TILT = 0.35
 """How far a coil's front stands forward of its side, as a share of its radius."""
+_CYLINDER = 0.6
+"""How long a cylinder that holds or drives is at the least, in lengths of it drawn in."""
+_BARREL = 0.95
+"""The half width of a damper's or cylinder's barrel, in half widths of a bar."""
 
 
 class StrutSpan(NamedTuple):
@@ -128,15 +132,29 @@ def cushions(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Cu
     for item in figure.cylinders:
         span = reach(figure, view, item)
         needed = (span.longest - span.shortest) / 0.68
-        length = min(max(needed, 5 * gauge.bar), max(0.8 * span.shortest, 2 * gauge.bar))
-        radius, edge = 0.95 * gauge.bar, gauge.outline
-        wall = box(length, 2 * radius, 0.25 * radius) + length / 2
-        inside = box(length - 2 * edge, 2 * (radius - edge), 0.2 * radius) + length / 2
-        hollow = mixed(theme.metal, theme.background, 0.72)
-        cylinder = Layer(theme.outline, [wall]), Layer(hollow, [inside])
-        head = Layer(theme.metal, [box(0.16 * length, 2 * radius - 3 * edge, 0.1 * radius)])
+        least = 5 * gauge.bar if item.forceful else max(5 * gauge.bar, _CYLINDER * span.shortest)
+        length = min(max(needed, least), max(0.8 * span.shortest, 2 * gauge.bar))
+        radius = _BARREL * gauge.bar
+        cylinder, head = (
+            barrel(0.0, length, radius, gauge, theme),
+            piston(0.16 * length, radius, gauge, theme),
+        )
         found.append(Cushion(item.between, span, length, 2.4 * gauge.line, cylinder, head))
     return tuple(found)
+
+
+def barrel(near: float, far: float, radius: float, gauge: Gauge, theme: Theme) -> tuple[Layer, Layer]:
+    """Return a cylinder along the real axis: its wall, and its inside."""
+    length, middle, edge = far - near, (near + far) / 2, gauge.outline
+    wall = box(length, 2 * radius, 0.25 * radius) + middle
+    inside = box(length - 2 * edge, 2 * (radius - edge), 0.2 * radius) + middle
+    hollow = mixed(theme.metal, theme.background, 0.72)
+    return Layer(theme.outline, [wall]), Layer(hollow, [inside])
+
+
+def piston(length: float, radius: float, gauge: Gauge, theme: Theme) -> Layer:
+    """Return the piston about 0 that fits into a cylinder along the real axis."""
+    return Layer(theme.metal, [box(length, 2 * radius - 3 * gauge.outline, 0.1 * radius)])
 
 
 def _put(layer: Layer, at: complex, turn: complex) -> Layer:

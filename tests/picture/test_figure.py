@@ -13,6 +13,7 @@ from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture.bodies import body_parts, colours_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge
+from linkanim.picture.raster import Loop
 from linkanim.picture.sweep import sweep_of
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import View
@@ -67,12 +68,63 @@ def test_a_slotted_bar_carries_its_slot_and_a_block_on_the_pin_in_it(offset: flo
     parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
     block = parts[-1]
     assert (block.at, block.tail, block.head) == ("A", "O4", "P")
-    slot = parts[-2].layers[0].loops[0]
+    bar = next(part for part in parts if part.joints[:2] == ("O4", "P"))
+    slot = bar.layers[0].loops[1]
     # from 50 to 110 apart the pin stays inside the slot, whose middle is `offset` to the left
     ends = [(50**2 - offset**2) ** 0.5, (110**2 - offset**2) ** 0.5]
     assert slot.real.min() == pytest.approx(ends[0] - 0.5 * GAUGE.bar, abs=0.1)
     assert slot.real.max() == pytest.approx(ends[1] + 0.5 * GAUGE.bar, abs=0.1)
     assert slot.imag.mean() == pytest.approx(-offset, abs=0.5)
+    # an open one: all layers have it as a hole, and the bar is as thick about it as elsewhere
+    assert all(_area(layer.loops[0]) * _area(layer.loops[1]) < 0 for layer in bar.layers)
+    assert abs(bar.layers[0].loops[0].imag).max() == pytest.approx(offset + 1.35 * GAUGE.bar, abs=0.1)
+
+
+def _area(loop: Loop) -> float:
+    """Return the area a loop encloses; negative where it turns the other way."""
+    return float(np.imag(np.conj(loop) * np.roll(loop, -1)).sum() / 2)
+
+
+@pytest.mark.parametrize("offset", [0.0, 9.0])
+def test_a_rod_through_a_swivel_has_its_piston_in_a_cylinder_at_every_moment(offset: float) -> None:
+    pins = Pin("O2", (0.0, 0.0)), Pin("O4", (-90.0, 0.0))
+    joints = (*pins, Crank("A", "O2", 60.0), RPR("P", "A", "O4", 155.0, offset))
+    scene = Scene("engine", "Engine", "", "mm", Linkage(joints, Drive("A", 1.0, 0.0)), ("P",))
+    parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
+    cylinder, rod, block = parts[0], parts[-2], parts[-1]
+    assert (cylinder.at, block.at) == ("O4", "O4")
+    for phase in np.linspace(0, math.tau, 9):
+        places = {name: complex(x, -y) for name, (x, y) in scene.pose(float(phase)).position.items()}
+        axis = np.conj(places["P"] - places["A"]) / abs(places["P"] - places["A"])
+        wall, piston = (
+            np.concatenate(layer.loops) * axis
+            for layer in (cylinder.placed(places)[0], rod.placed(places)[-1])
+        )
+        assert wall.real.min() < piston.real.min() < piston.real.max() < wall.real.max()
+        assert wall.imag.min() < piston.imag.min() < piston.imag.max() < wall.imag.max()
+
+
+def test_a_rod_that_goes_on_beyond_its_swivel_has_no_cylinder() -> None:
+    pins = Pin("O2", (0.0, 0.0)), Pin("O4", (-90.0, 0.0))
+    rod = RPR("P", "A", "O4", 155.0)
+    joints = (*pins, Crank("A", "O2", 60.0), rod, RRP("C", "P", 300.0, Line("O2", 0.0)))
+    scene = Scene("pump", "Pump", "", "mm", Linkage(joints, Drive("A", 1.0, 0.0)), ("P",))
+    parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
+    assert [part.at for part in parts].count("O4") == 1
+
+
+def test_a_pin_that_keeps_its_place_on_a_bar_lies_on_it() -> None:
+    trammel = figure(load("elliptic-trammel"))
+    rod = next(body for body in trammel.bodies if body.name == "rod")
+    assert trammel.riding(rod) == ("X",)
+    parts = body_parts(trammel, VIEW, GAUGE, LIGHT)
+    (drawn,) = (part for part in parts if part.name == "rod")
+    assert "X" in drawn.joints
+    assert all(
+        not figure(load(name)).riding(body)
+        for name in ("press", "jansen")
+        for body in figure(load(name)).bodies
+    )
 
 
 def test_a_yoke_has_a_slot_as_long_as_its_pin_needs_and_a_collar_on_it() -> None:
@@ -80,7 +132,7 @@ def test_a_yoke_has_a_slot_as_long_as_its_pin_needs_and_a_collar_on_it() -> None
     scene = Scene("yoke", "Scotch yoke", "", "mm", Linkage(joints, Drive("A", 1.0, 0.0)), ("Y",))
     parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
     assert (parts[0].at, parts[-1].at) == ("Y", "A")
-    slot = parts[0].layers[-1].loops[0]
+    slot = parts[0].layers[-2].loops[1]
     assert slot.imag.max() == pytest.approx(30.0 * VIEW.scale + 0.5 * GAUGE.bar, abs=0.1)
     assert slot.imag.min() == pytest.approx(-30.0 * VIEW.scale - 0.5 * GAUGE.bar, abs=0.1)
     assert abs(slot.real).max() == pytest.approx(0.5 * GAUGE.bar, abs=0.1)

@@ -36,6 +36,14 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
     assert told["damper force"].replace("−", "-") == f"{damper.force:.1f} N"
 
 
+def test_a_cylinder_is_told_by_its_length() -> None:
+    scene = load("excavator")
+    told = dict(rows(scene, scene.pose(0.0)))
+    assert (told["cylinder stick"], told["cylinder bucket"]) == ("235.0 cm", "205.0 cm")
+    assert told["driving cylinder"] == "150.0 cm"
+    assert dict(rows(scene, scene.pose(math.pi)))["driving cylinder"] == "215.0 cm"
+
+
 def test_a_swinging_input_tells_its_two_limits() -> None:
     scene = load("double-rocker")
     assert Reading("input range", "13.8°…108.4°") in rows(scene, scene.pose(1.0))

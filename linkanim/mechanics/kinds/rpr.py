@@ -112,12 +112,12 @@ class RPR(Joint):
         return math.atan2(math.sqrt(w), abs(self.offset))
 
     def linkage_name(self, assembly: Assembly) -> str:
-        """Return inverted slider-crank, and how its slotted bar moves."""
+        """Return inverted slider-crank, and how its slotted bar, or the cylinder on its rod, moves."""
         loop = assembly.loops.get(self.name)
         if loop is None or loop.ground is None:
             return "inverted slider-crank"
         kind = "rotating" if loop.ground.length < loop.crank.length else "swinging"
-        return f"inverted slider-crank, {kind} slotted bar"
+        return f"inverted slider-crank, {kind} {'cylinder' if loop.swapped else 'slotted bar'}"
 
     def transmission_at(self, place: Callable[[str], Any]) -> Any:
         """Return the angle from the slot's normal to the bar's motion at the pin, as in `transmission`."""
