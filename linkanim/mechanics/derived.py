@@ -54,17 +54,49 @@ def _bend(velocity: Any, acceleration: Any) -> Any:
     return np.where(bend <= _STRAIGHT * abs(v) * abs(a), 0.0, bend)[()]
 
 
-def pole(motion: Any, body: Body) -> tuple[Any, Any]:
-    """Return a body's instant centre to the ground, x and y: the point of it that rests, P = A + i·v_A/ω.
+def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
+    """Return a body's instant centre to another, or to the ground: x and y.
 
-    Infinite where the body does not turn.
+    There both move alike: P = A + i·(v_A - v)/(ω - ω′) with v and ω′ of the other's plane at A, a joint of
+    the body. Those of three bodies lie in one line (Aronhold and Kennedy). Infinite where they turn alike.
     """
-    first = body.joints[0]
-    place, velocity = as_complex(motion.position[first]), as_complex(motion.velocity[first])
-    turning = motion.angular_velocity[body.name]
-    turns = abs(turning) > _STRAIGHT * abs(motion.crank_rate)
-    found = place.real - over(velocity.imag, turning), place.imag + over(velocity.real, turning)
+    joint, rate = body.slider or body.joints[0], _rate(motion, body)
+    place, velocity = as_complex(motion.position[joint]), as_complex(motion.velocity[joint])
+    if other is not None:
+        there, theirs = other.slider or other.joints[0], _rate(motion, other)
+        arm = place - as_complex(motion.position[there])
+        rate, velocity = rate - theirs, velocity - as_complex(motion.velocity[there]) - 1j * theirs * arm
+    turns = abs(rate) > _STRAIGHT * abs(motion.crank_rate)
+    found = place.real - over(velocity.imag, rate), place.imag + over(velocity.real, rate)
     return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
+
+
+def _rate(motion: Any, body: Body) -> Any:
+    """Return a body's angular velocity: of what slides that of its guide."""
+    if body.slider is None:
+        return motion.angular_velocity[body.name]
+    (guide, *_) = motion.setting.linkage.joint(body.slider).slides
+    if guide.axis is None:
+        return 0.0 * motion.crank_rate
+    start, end = (as_complex(motion.position[name]) for name in guide.axis)
+    first, second = (as_complex(motion.velocity[name]) for name in guide.axis)
+    return over(second - first, end - start).imag
+
+
+def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
+    """Return the path of a body's instant centre on the ground, and on the body: x + yi (n,), breaks NaN.
+
+    The body moves as if the second curve, fixed to it along its first -> second joint, rolled on the first.
+    There is a break wherever the centre goes through infinity: where the body stops turning.
+    """
+    x, y = pole(motion, body)
+    first, second = (as_complex(motion.position[name]) for name in body.joints[:2])
+    turning = np.sign(motion.angular_velocity[body.name])
+    known = np.isfinite(x) & np.isfinite(y)
+    fixed = np.where(known, x, math.nan) + 1j * np.where(known, y, math.nan)
+    rolling = (fixed - first) * (np.conj(second - first) / abs(second - first))
+    through = np.flatnonzero(turning[1:] * turning[:-1] <= 0) + 1
+    return np.insert(fixed, through, math.nan), np.insert(rolling, through, math.nan)
 
 
 def transmission_angle(motion: Any, dyad: str) -> Any:
@@ -101,6 +133,13 @@ def output_body(linkage: Linkage) -> Body | None:
     fixed = {pin.name for pin in linkage.pins}
     rockers = [body for body in linkage.bodies if fixed & set(body.joints) and not crank_body(linkage, body)]
     return slider or (rockers[-1] if rockers else None)
+
+
+def coupler_body(linkage: Linkage) -> Body | None:
+    """Return the body that turns about nothing fixed: the first one without a fixed pin, None without one."""
+    fixed = {pin.name for pin in linkage.pins}
+    turning = (body for body in linkage.bodies if body.slider is None and len(body.joints) > 1)
+    return next((body for body in turning if not fixed & set(body.joints)), None)
 
 
 def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:

@@ -30,6 +30,19 @@ class Need(NamedTuple):
     must: Literal["", "fixed", "crank"] = ""
 
 
+class Slide(NamedTuple):
+    """What slides: the joint `point`, along a guide at `angle` (rad) from the guide's axis.
+
+    `start` is a joint of the guide's body, None of the ground; `axis` are two of its joints, None where the
+    guide does not turn, whose angle is then absolute.
+    """
+
+    point: str
+    start: str | None
+    axis: tuple[str, str] | None
+    angle: float
+
+
 @dataclass(frozen=True, slots=True)
 class Joint(ABC):
     """A joint: how it is found from joints before it.
@@ -73,6 +86,11 @@ class Joint(ABC):
     @property
     def pins(self) -> tuple[str, ...]:
         """The joints in which the definition makes bars turn on each other."""
+        return ()
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """What the definition makes slide, and along what."""
         return ()
 
     @property

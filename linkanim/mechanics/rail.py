@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from .exact import unit
-from .joint import Need
+from .joint import Need, Slide
 from .planar import Moving, MovingPoint, Slope, Vec, carried
 
 if TYPE_CHECKING:
@@ -45,6 +45,10 @@ class Line:
     def body(self) -> tuple[str, ...]:
         """The joints that must be on one body: those of the axis, and the one it runs through."""
         return tuple(dict.fromkeys((*self.on, self.through))) if self.on else ()
+
+    def guiding(self, joint: str) -> Slide:
+        """Return how a joint slides along the line."""
+        return Slide(joint, self.on[0] if self.on else None, self.on, self.angle)
 
     def scaled(self, factor: float) -> Line:
         """Return the line with its offset times a factor."""

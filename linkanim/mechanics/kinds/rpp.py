@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from linkanim.mechanics.exact import unit
-from linkanim.mechanics.joint import Need
+from linkanim.mechanics.joint import Need, Slide
 from linkanim.mechanics.planar import Moving
 from linkanim.mechanics.rail import Line
 
@@ -42,6 +42,12 @@ class RPP(SliderDyad):
     def pins(self) -> tuple[str, ...]:
         """The pin in the slot."""
         return (self.pin,)
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """The bar along its line, and the pin along the bar's slot."""
+        slot = Slide(self.pin, self.name, self.line.on, self.line.angle + self.slot)
+        return self.line.guiding(self.name), slot
 
     @property
     def lengths(self) -> tuple[float, ...]:

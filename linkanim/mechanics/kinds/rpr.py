@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkanim.mechanics.expression import Value
-from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.joint import Joint, Need, Slide
 from linkanim.mechanics.loop import Loop, ground_between
 from linkanim.mechanics.planar import Slope, Vec, carried
 from linkanim.mechanics.roots import slot_root
@@ -58,6 +58,11 @@ class RPR(Joint):
     def pins(self) -> tuple[str, ...]:
         """The pivot, and the joint in the slot."""
         return self.pivot, self.through
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """The joint in the slot, along the bar."""
+        return (Slide(self.through, self.pivot, (self.pivot, self.name), 0.0),)
 
     @property
     def lengths(self) -> tuple[float, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from linkanim.mechanics.joint import Joint, Need
+from linkanim.mechanics.joint import Joint, Need, Slide
 from linkanim.mechanics.rail import Line
 
 
@@ -27,3 +27,8 @@ class SliderDyad(Joint):
     def body(self) -> tuple[str, ...]:
         """The joints of the body that carries its line."""
         return self.line.body
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """The joint, along its line."""
+        return (self.line.guiding(self.name),)
