@@ -199,10 +199,9 @@ class _Plan:
         self.constants: dict[str, str] = {}
         self.buffers = 0
         self.rows = len(outputs)
-        inputs = {node.index for node in nodes if node.op == "input"}
         computed = {node.index for node in self.nodes}
         for row, value in enumerate(outputs):
-            if isinstance(value, Expr) and value.index in computed - self.places.keys() - inputs:
+            if isinstance(value, Expr) and value.index in computed and value.index not in self.places:
                 self.places[value.index] = f"o{row}"
             else:
                 self.copies.append((row, value))
@@ -215,18 +214,19 @@ class _Plan:
             for argument in node.args
             if isinstance(argument, Expr)
         }
-        free: list[int] = []
-        held: dict[int, int] = {}
-        for position, node in enumerate(self.nodes):
-            for index in [index for index in held if last.get(index, -1) <= position]:
-                free.append(held.pop(index))
+        ending: dict[int, list[int]] = {}
+        for node in self.nodes:
             if node.index not in self.places:
-                held[node.index] = buffer = free.pop() if free else self._grow()
-                self.places[node.index] = f"b{buffer}"
+                ending.setdefault(last[node.index], []).append(node.index)
+        free: list[str] = []
+        for position, node in enumerate(self.nodes):
+            free += [self.places[index] for index in ending.get(position, ())]
+            if node.index not in self.places:
+                self.places[node.index] = free.pop() if free else self._grow()
 
-    def _grow(self) -> int:
+    def _grow(self) -> str:
         self.buffers += 1
-        return self.buffers - 1
+        return f"b{self.buffers - 1}"
 
     def name(self, value: Value | str) -> str:
         """Return the variable that holds the value inside the block function."""
