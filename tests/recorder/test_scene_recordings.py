@@ -25,7 +25,7 @@ from linkanim.player.action import Action
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.recorder import gallery
-from linkanim.recorder.gallery import make_gallery
+from linkanim.recorder.gallery import make_gallery, reduced
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.scene_frames import SceneFrames, record
 from linkanim.recorder.tape_frames import TapeFrames, record_tape
@@ -218,6 +218,16 @@ def test_the_gallery_is_small_whole_and_the_same_every_time(
     assert two.sheet == tmp_path / "two" / gallery.SHEET
     with Image.open(one.sheet) as sheet:
         assert sheet.size == (4 * 198 + 6, 114 + 6)
+        assert sheet.mode == "P"
+
+
+def test_the_sheet_keeps_flat_areas_as_they_are_and_the_rest_near() -> None:
+    shades = np.arange(3 * 60 * 80, dtype=np.uint8).reshape(60, 80, 3)
+    picture = np.concatenate([np.full((60, 80, 3), 206, np.uint8), np.full_like(shades, 40), shades])
+    found = reduced(picture)
+    assert len(np.unique(found.reshape(-1, 3), axis=0)) <= 160
+    assert (found[:120] == picture[:120]).all()
+    assert np.abs(found[120:].astype(int) - shades).mean() < 8
 
 
 def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
