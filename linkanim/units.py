@@ -49,9 +49,34 @@ _DAMPING = Units(
     {},
 )
 
+_MASS = Units("a mass", {"kg": Fraction(1), "g": Fraction(1, 1000), "t": Fraction(1000)}, {})
+_INERTIA = Units(
+    "a moment of inertia",
+    {
+        "kg m^2": Fraction(1),
+        "kg cm^2": Fraction(1, 10**4),
+        "kg mm^2": Fraction(1, 10**6),
+        "g mm^2": Fraction(1, 10**9),
+    },
+    {
+        "kgm²": "kg m^2", "kgm2": "kg m^2", "kgcm²": "kg cm^2", "kgcm2": "kg cm^2",
+        "kgmm²": "kg mm^2", "kgmm2": "kg mm^2", "gmm²": "g mm^2", "gmm2": "g mm^2",
+    },
+)  # fmt: skip
+_FALL = Units(
+    "an acceleration",
+    {"m/s^2": Fraction(1), "mm/s^2": Fraction(1, 1000)},
+    {"m/s²": "m/s^2", "m/s2": "m/s^2", "mm/s²": "mm/s^2", "mm/s2": "mm/s^2"},
+)
+
 LENGTH_UNITS = tuple(_LENGTH.factors)
 ANGLE_UNITS = tuple(_ANGLE.factors)
 SPEED_UNITS = tuple(_SPEED.factors)
+STIFFNESS_UNITS = tuple(_STIFFNESS.factors)
+DAMPING_UNITS = tuple(_DAMPING.factors)
+MASS_UNITS = tuple(_MASS.factors)
+INERTIA_UNITS = tuple(_INERTIA.factors)
+FALL_UNITS = tuple(_FALL.factors)
 
 
 def angle(value: object) -> float:
@@ -81,6 +106,21 @@ def stiffness(value: object) -> float:
 def damping(value: object) -> float:
     """Return a damper's coefficient in N·s/m: "200 N s/m"; UnitError as in `angle`."""
     return _with_unit(value, _DAMPING)
+
+
+def mass(value: object) -> float:
+    """Return a mass in kg: "3 kg", "250 g"; UnitError as in `angle`."""
+    return _with_unit(value, _MASS)
+
+
+def inertia(value: object) -> float:
+    """Return a moment of inertia in kg·m²: "0.02 kg m^2", "350 kg mm^2"; UnitError as in `angle`."""
+    return _with_unit(value, _INERTIA)
+
+
+def acceleration(value: object) -> float:
+    """Return an acceleration in m/s²: "9.81 m/s^2"; UnitError as in `angle`."""
+    return _with_unit(value, _FALL)
 
 
 def length(value: object, *, unit: str) -> float:

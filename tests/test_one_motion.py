@@ -125,12 +125,12 @@ def test_the_hud_says_what_solve_prints_and_where_the_cursor_stands(
         else:
             there = shown.scene.pose(float(first.at(speed).course.phase_of(cursor)))
             assert angle == pytest.approx(math.degrees(there.crank_angle), abs=0.051)
-        for kind, struts in (("spring", printed["springs"]), ("damper", printed["dampers"])):
-            for strut, found in struts.items():
-                held = kind == "damper" and found["force"] is None
-                main_value = found["rate"] if kind == "damper" and not held else found["length"]
-                label = f"{'cylinder' if held else kind} {strut}"
-                assert _number(told[label]) == pytest.approx(main_value, abs=0.051)
+        linkage = shown.scene.linkage
+        for kind, items in (("spring", linkage.springs), ("damper", linkage.dampers)):
+            for strut in items:
+                found, word = printed[f"{kind}s"][strut.name], linkage.strut_word(strut)
+                main_value = found["rate"] if word == "damper" else found["length"]
+                assert _number(told[f"{word} {strut.name}"]) == pytest.approx(main_value, abs=0.051)
                 if found["force"] is not None:
                     assert _number(told[f"{kind} force"]) == pytest.approx(found["force"], abs=0.051)
 

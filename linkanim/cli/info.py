@@ -27,7 +27,9 @@ def as_words(scene: Scene) -> str:
 def as_object(scene: Scene) -> dict[str, object]:
     """Return what `--json` prints: angles in radians, time in s, lengths in the scene's unit.
 
-    `stroke` and `time_ratio` are there for a linkage with a slider, and null where they have no meaning.
+    `stroke` and `time_ratio` are there for a linkage with a slider, and null where they have no meaning;
+    `work_per_period` (J), peak and mean torque (N m; of a cylinder force, N) for one with forces or masses,
+    null where they are unbounded.
     """
     info = scene.info
     facts: dict[str, object] = {
@@ -51,4 +53,8 @@ def as_object(scene: Scene) -> dict[str, object]:
     }
     if any(body.slider for body in scene.linkage.bodies):
         facts |= {"stroke": info.stroke, "time_ratio": info.time_ratio}
+    if info.demand is not None:
+        work, peak, mean, _ = info.demand
+        name = info.effort[0]
+        facts |= {"work_per_period": work, f"peak_{name}": peak, f"mean_{name}": mean}
     return facts

@@ -8,6 +8,7 @@ from collections.abc import Container, Iterable, Iterator, Sequence
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
 from linkanim.mechanics.kinds import Pin
+from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.register import (
     DAMPER,
     POINT,
@@ -33,11 +34,11 @@ def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
         f"crank angle {_degrees(pose['angle'])} deg, phase {_degrees(pose['phase'])} deg, "
         f"speed {_number(pose['speed'])} rad/s, acceleration {_number(pose['acceleration'])} rad/s^2"
     )
-    tables = _tables(scene.length_unit, pose)
+    tables = _tables(scene.linkage, scene.length_unit, pose)
     return "\n\n".join([where, *(columns(lines) for lines in tables if len(lines) > 1)])
 
 
-def _tables(unit: str, pose: Tree) -> Iterator[list[list[str]]]:
+def _tables(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[list[str]]]:
     bodies = pose["bodies"].items()
     coms = [(f"com of {name}", body["com"]) for name, body in bodies if "com" in body]
     points = [*pose["joints"].items(), *coms]
@@ -45,11 +46,11 @@ def _tables(unit: str, pose: Tree) -> Iterator[list[list[str]]]:
     for title, key, measures in (("body", "angle", _TURNING), ("slider", "travel", _TRAVELLING)):
         found = [[name, *_cells(measures, _flat(body))] for name, body in bodies if key in body]
         yield [[title, *_titles(measures, unit)], *found]
-    struts = (("spring", SPRING, pose["springs"]), ("damper", DAMPER, pose["dampers"]))
+    struts = ((linkage.springs, SPRING, pose["springs"]), (linkage.dampers, DAMPER, pose["dampers"]))
     elements = [
-        [f"{kind} {name}", *_cells(measures, strut)]
-        for kind, measures, found in struts
-        for name, strut in found.items()
+        [f"{linkage.strut_word(item)} {item.name}", *_cells(measures, found[item.name])]
+        for items, measures, found in struts
+        for item in items
     ]
     yield [["element", *_titles(SPRING, unit)], *elements]
 

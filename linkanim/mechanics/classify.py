@@ -12,6 +12,7 @@ import numpy as np
 from linkanim.digits import degrees, short, significant
 
 from .chain import Touch
+from .effort import Demand, demand, effort_token
 from .exact import HALF_TURN, Sum
 from .kinds import RRR
 from .linkage import Linkage
@@ -138,6 +139,23 @@ class Info:
     def time_ratio(self) -> float | None:
         """The first slider's slow way's time over its quick way's; None without one."""
         return self._slider[1] if self._slider else None
+
+    @cached_property
+    def demand(self) -> Demand | None:
+        """What a true period at the drive's speed asks of the input; None where nothing has force or mass."""
+        linkage, path = self.mechanism.linkage, self.mechanism.assembly.path
+        if not linkage.forceful:
+            return None
+        solve, speed = self.mechanism.solve, linkage.drive.speed
+        return demand(
+            lambda phases: solve(phase=phases, speed=speed), path.periods, limited=bool(path.limits)
+        )
+
+    @property
+    def effort(self) -> tuple[str, str]:
+        """What the input delivers, torque or force, and its unit."""
+        name = effort_token(self.mechanism.linkage).partition(".")[2]
+        return name, {"torque": "N m", "force": "N"}[name]
 
     @cached_property
     def turning_links(self) -> tuple[str, ...]:
@@ -371,8 +389,17 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
         yield "stroke", f"{significant(info.stroke, 6)} {unit}"
     if info.time_ratio is not None:
         yield "time ratio", f"{info.time_ratio:.4f}"
+    if info.demand is not None:
+        yield from _demand_lines(info, info.demand)
     turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
     yield "true period", f"{turns}, {short(info.period_seconds)} s"
+
+
+def _demand_lines(info: Info, asked: Demand) -> Iterator[tuple[str, str]]:
+    name, unit = info.effort
+    yield "work per period", f"{significant(asked.work, 6)} J"
+    for label, value in ((f"peak {name}", asked.peak), (f"mean {name}", asked.mean)):
+        yield label, "unbounded" if value is None else f"{significant(value, 6)} {unit}"
 
 
 def _degrees(angles: tuple[float, ...], between: str = ", ") -> str:

@@ -159,14 +159,3 @@ def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:
 def input_rate(motion: Any) -> Any:
     """Return the input's own angular velocity, one value an instant: of a swing it is not the phase's."""
     return motion.crank_rate + 0.0 * motion.crank_angle
-
-
-def input_torque(motion: Any) -> Any:
-    """Return the torque (N m) with which the input drives the scene's springs and dampers, others being free.
-
-    By virtual work: T·ω = Σ F·dL/dt with tension F positive, so that it is positive where it turns the
-    input on counter-clockwise. Unbounded at a limit of the input.
-    """
-    struts = (*motion.spring.values(), *motion.damper.values())
-    power = sum(strut.force * strut.rate for strut in struts if strut.force is not None)
-    return over(power * motion.setting.linkage.metre, motion.crank_rate)

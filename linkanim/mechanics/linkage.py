@@ -19,13 +19,21 @@ class Body:
     """A named body: its angle is that of first -> second joint; `com` is its centre of mass.
 
     `com` is (along first -> second joint, to the left of it) from the first joint. A body with
-    `slider` instead of joints is the block that travels with that joint along its line.
+    `slider` instead of joints is the block that travels with that joint along its line. `mass` is in kg,
+    `inertia` in kg·m² about the centre of mass; what is None is left out of all forces.
     """
 
     name: str
     joints: tuple[str, ...] = ()
     com: Point | None = None
     slider: str | None = None
+    mass: float | None = None
+    inertia: float | None = None
+
+    @property
+    def forceful(self) -> bool:
+        """Whether it takes a force to move it."""
+        return self.mass is not None or self.inertia is not None
 
     def scaled(self, factor: float) -> Body:
         """Return the body with the place of its centre of mass times a factor."""
@@ -108,6 +116,21 @@ class Linkage:
     dampers: tuple[Damper, ...] = ()
     metre: float = field(default=1.0)
     """One unit of length in metres (0.001 for mm); forces need it."""
+    gravity: float = 0.0
+    """How fast masses fall, in m/s², down; 0 where nothing is said of it."""
+
+    @property
+    def forceful(self) -> bool:
+        """Whether the input has to drive anything: a spring or damper of known force, or a mass."""
+        struts = self.springs + self.dampers
+        return any(strut.forceful for strut in struts) or any(body.forceful for body in self.bodies)
+
+    @staticmethod
+    def strut_word(strut: Spring | Damper) -> str:
+        """Return what a strut is called: a damper of which no force is known is a cylinder."""
+        if isinstance(strut, Spring):
+            return "spring"
+        return "damper" if strut.forceful else "cylinder"
 
     def joint(self, name: str) -> Joint:
         """Return the joint of that name; KeyError where there is none."""

@@ -21,7 +21,6 @@ from .derived import (
     curvature_radius,
     dyads_of,
     input_rate,
-    input_torque,
     mechanical_advantage,
     normal,
     output_body,
@@ -30,6 +29,7 @@ from .derived import (
     transmission_angle,
     worst_transmission,
 )
+from .effort import effort_token, input_effort
 from .kinds import Pin
 from .linkage import Body, Damper, Linkage, Spring
 
@@ -293,9 +293,9 @@ def _quantities(linkage: Linkage) -> Iterator[Quantity]:
             for measure in CENTRE_PATH:
                 yield _bound(measure, body.name, indexed(measure.symbol, label), words)
     for spring in linkage.springs:
-        yield from _of_strut(spring, shared=spring.name in labels)
+        yield from _of_strut(spring, linkage.strut_word(spring), shared=spring.name in labels)
     for damper in linkage.dampers:
-        yield from _of_strut(damper, shared=damper.name in labels)
+        yield from _of_strut(damper, linkage.strut_word(damper), shared=damper.name in labels)
     for body in linkage.bodies:
         if body.slider is None and len(body.joints) > 1:
             yield from _of_pole(body, labels[body.name])
@@ -319,10 +319,8 @@ def _of_pole(body: Body, label: str) -> Iterator[Quantity]:
 def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     """Yield what is told of the linkage as a whole: its input, transmission and advantage."""
     yield Quantity("input.angular_velocity", "ω_{in}", "Input: angular velocity", "rad/s", 1, input_rate)
-    struts: tuple[Spring | Damper, ...] = (*linkage.springs, *linkage.dampers)
-    if any(strut.forceful for strut in struts):
-        order = int(any(damper.forceful for damper in linkage.dampers))
-        yield Quantity("input.torque", "T_{in}", "Input: torque", "N m", order, input_torque)
+    if linkage.forceful:
+        yield _effort(linkage)
     dyads = dyads_of(linkage)
     if dyads:
         read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
@@ -333,6 +331,16 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     if output_body(linkage) is not None:
         read = mechanical_advantage(linkage)
         yield Quantity("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
+
+
+def _effort(linkage: Linkage) -> Quantity:
+    """Return the torque at the input, or the force of what drives in a straight line."""
+    damped = any(damper.forceful for damper in linkage.dampers)
+    order = 2 if any(body.forceful for body in linkage.bodies) else int(damped)
+    token = effort_token(linkage)
+    if token == "input.force":
+        return Quantity(token, "F_{in}", "Input: force", "N", order, input_effort)
+    return Quantity(token, "T_{in}", "Input: torque", "N m", order, input_effort)
 
 
 def called(body: Body) -> str:
@@ -393,10 +401,10 @@ def _size(vector: Any) -> Any:
     return math.hypot(x, y) if isinstance(vector, tuple) else np.hypot(x, y)
 
 
-def _of_strut(strut: Spring | Damper, *, shared: bool) -> Iterator[Quantity]:
-    """Yield a strut's quantities; one that has a body's name is told from it in symbols."""
+def _of_strut(strut: Spring | Damper, word: str, *, shared: bool) -> Iterator[Quantity]:
+    """Yield a strut's quantities; in symbols `word` tells it from a body of the same name."""
     kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
     for measure in (*measures, *DIRECTIONS[kind]):
         if measure.name != "force" or strut.forceful:
-            symbol = indexed(measure.symbol, f"{kind} {strut.name}" if shared else strut.name)
-            yield _bound(measure, strut.name, symbol, f"{kind.capitalize()} {strut.name}")
+            symbol = indexed(measure.symbol, f"{word} {strut.name}" if shared else strut.name)
+            yield _bound(measure, strut.name, symbol, f"{word.capitalize()} {strut.name}")

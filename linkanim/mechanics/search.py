@@ -1,7 +1,7 @@
-"""One search for places: where a condition ends, and where a sampled function changes its sign.
+"""One search for places: where a condition ends, where a function changes its sign, and where it is highest.
 
 Bisection, on many brackets at once: it needs no derivative, cannot leave its bracket, and ends at
-neighbouring floats.
+neighbouring floats. The highest place is sampled ever closer.
 """
 
 from __future__ import annotations
@@ -18,11 +18,27 @@ Bools = NDArray[np.bool_]
 FINEST = 2.0**-70
 """Share of the largest place below which a bracket is not halved further: a place may be zero itself."""
 
+_ROUNDS = 5
+
 
 def around(turns: int, samples_a_turn: int) -> Array:
     """Return phases once around, half a step off the start, where every rate of a swing vanishes."""
     step = 2 * math.pi / samples_a_turn
     return step * (np.arange(turns * samples_a_turn + 1, dtype=np.float64) - 0.5)
+
+
+def highest(
+    function: Callable[[Array], Array], place: float, reach: float, ends: tuple[float, float]
+) -> float:
+    """Return where a function is highest within `reach` of a place and between `ends`; NaN counts as least.
+
+    To some 1e-6 of the reach: its value there is that of the peak to about the square of that.
+    """
+    for _ in range(_ROUNDS):
+        near = np.clip(place + reach * np.linspace(-1, 1, 21), *ends)
+        values = function(near)
+        place, reach = float(near[np.where(np.isfinite(values), values, -np.inf).argmax()]), reach / 10
+    return place
 
 
 def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, share: float = FINEST) -> Array:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from .derived import crank_body, output_body
+from .effort import effort_token
 from .kinds import Pin
 from .linkage import Body, Damper, Linkage, Spring
 from .motion import Motion
@@ -52,7 +53,7 @@ def _wished(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
     for body in _in_chain(linkage):
         if not crank_body(linkage, body) and not (body is output and not sliders):
             yield f"{body.name}.angular_velocity"
-    yield "input.torque"
+    yield effort_token(linkage)
     for name in traced:
         yield from (f"{name}.velocity", f"{name}.acceleration")
     yield from (f"{name}.travel" for name in sliders)

@@ -12,6 +12,7 @@ import numpy as np
 from linkanim.errors import BadInput
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.register import Quantity
+from linkanim.mechanics.search import highest
 from linkanim.picture.axis import Axis, linear
 from linkanim.picture.course import Course, Floats, Over, course, gain_of, input_title
 from linkanim.picture.quantities import quantity, series_of
@@ -20,7 +21,6 @@ from linkanim.scenes.scene import Scene
 SAMPLES = 720
 """For each period of the drive."""
 _MOST_PERIODS = 8
-_ROUNDS = 5
 
 
 class Pace(NamedTuple):
@@ -165,11 +165,8 @@ def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
     index = int((sign * curve.values).argmax())
     ends = sorted((curve.phases[0], curve.phases[-1]))
     phase, reach = float(curve.phases[index]), float(np.abs(np.diff(curve.phases)).max())
-    for _ in range(_ROUNDS):
-        near = np.clip(phase + reach * np.linspace(-1, 1, 21), *ends)
-        values = sign * curve.solved(scene, near)
-        # Where a point rests for an instant its path has no direction there, and nothing along it a value.
-        phase, reach = float(near[np.where(np.isfinite(values), values, -np.inf).argmax()]), reach / 10
+    # Where a point rests for an instant its path has no direction there, and nothing along it a value.
+    phase = highest(lambda near: sign * curve.solved(scene, near), phase, reach, (ends[0], ends[1]))
     value = float(curve.solved(scene, np.array([phase]))[0])
     if curve.quantity.unit == "rad":
         value += 360 * round((curve.values[index] - value) / 360)

@@ -7,6 +7,7 @@ from math import degrees, dist, floor, inf, log10, pi, tau
 from typing import NamedTuple
 
 from linkanim.digits import stepped
+from linkanim.mechanics.effort import input_effort
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.driven import driven_name, sign_of, speed_in, speed_unit, speed_words
 from linkanim.scenes.scene import Scene
@@ -42,6 +43,7 @@ def ranked(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
     """Yield the rows, each with its rank: those of the highest are the first to go where there is no room."""
     yield from _input_rows(scene, pose)
     yield from _strut_rows(scene, pose)
+    yield from _effort_row(scene, pose)
 
 
 def _input_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
@@ -73,15 +75,25 @@ def _strut_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
         yield 4, Reading(f"spring {name}", f"{stepped(spring.length, 0.1)} {unit}")
         if spring.force is not None:
             yield 2, Reading("spring force", f"{stepped(spring.force, 0.1)} N")
-    for name, damper in pose.damper.items():
-        if damper.force is None:
-            yield 4, Reading(f"cylinder {name}", f"{stepped(damper.length, 0.1)} {unit}")
-        else:
-            yield 4, Reading(f"damper {name}", f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s")
+    for item in scene.linkage.dampers:
+        damper, word = pose.damper[item.name], scene.linkage.strut_word(item)
+        moves = f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s"
+        kept = f"{stepped(damper.length, 0.1)} {unit}"
+        yield 4, Reading(f"{word} {item.name}", moves if word == "damper" else kept)
+        if damper.force is not None:
             yield 2, Reading("damper force", f"{stepped(damper.force, 0.1)} N")
     if driving := scene.linkage.drive.cylinder:
         length = dist(*(pose.position[name] for name in driving.between))
         yield 2, Reading("driving cylinder", f"{stepped(length, 0.1)} {unit}")
+
+
+def _effort_row(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
+    """Yield what the input has to deliver, to three digits of what is usual, where anything has force."""
+    asked = scene.info.demand
+    if asked is not None:
+        name, unit = scene.info.effort
+        step = 10.0 ** (floor(log10(asked.usual)) - 2) if asked.usual > 0 else 0.1
+        yield 2, Reading(f"input {name}", f"{stepped(float(input_effort(pose)), step)} {unit}")
 
 
 class Note(NamedTuple):

@@ -21,11 +21,11 @@ from linkanim.scenes.shorthand import SHORTHANDS
 
 _BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
 _EXACT = 2**53
-_WITH_UNIT = ("speed", "angle", "stiffness", "damping")
+_WITH_UNIT = ("speed", "angle", "stiffness", "damping", "mass", "inertia", "gravity")
 """Kinds that a document writes with their unit, and never as a bare number."""
 
 _PIN: Mapping[str, DimensionKind] = {"length": "length", "angle": "angle"}
-_BODY: Mapping[str, DimensionKind] = {"com": "offset"}
+_BODY: Mapping[str, DimensionKind] = {"com": "offset", "mass": "mass", "inertia": "inertia"}
 _STRUT: Mapping[str, DimensionKind] = {
     "stiffness": "stiffness",
     "free_length": "length",
@@ -39,7 +39,7 @@ class Dimension:
     """One number of a scene that can be edited.
 
     `key` is its path into the document, `label` what it is called. `value` is in `unit`: the scene's for
-    lengths, the one it is written with for angles, speeds, stiffness and damping, "" for a gear ratio. An
+    lengths, "" for a gear ratio, and for all else, such as angles and masses, the one it is written with. An
     "offset" is a length of either sign.
     """
 
@@ -53,8 +53,8 @@ class Dimension:
 def dimensions(scene: Scene) -> tuple[Dimension, ...]:
     """Return what can be edited.
 
-    In this order: the shorthand's, the joints', the pins', the bodies', the springs', the dampers', the
-    drive's.
+    In this order: the shorthand's, the joints', the pins', the bodies', the springs', the dampers', gravity,
+    the drive's.
     Only what the file says is there, and always the drive's speed. None for a scene without a document.
     """
     if not scene.document:
@@ -108,6 +108,7 @@ def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, DimensionKind]]:
     for section, kinds in (("bodies", _BODY), ("springs", _STRUT), ("dampers", _STRUT)):
         for name, table in document.get(section, {}).items():
             yield from _numbers(table, (section, name), kinds)
+    yield from _numbers(document, (), {"gravity": "gravity"})
     stroke = document.get("drive", {}).get("cylinder", {})
     yield from _numbers(stroke, ("drive", "cylinder"), {"from": "length", "to": "length"})
     yield from _numbers({"speed": DEFAULT_SPEED, **document.get("drive", {})}, ("drive",), _DRIVE)

@@ -31,6 +31,7 @@ _CHAPTERS: Mapping[str, tuple[str, ...]] = {
     ),
     "sliders": (
         "slider-crank",
+        "engine",
         "inverted-slider-crank",
         "oscillating-cylinder",
         "whitworth",

@@ -15,7 +15,9 @@ from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin,
 from linkanim.scenes.check import Table
 
 Key = tuple[str | int, ...]
-DimensionKind = Literal["length", "angle", "speed", "offset", "ratio", "stiffness", "damping"]
+DimensionKind = Literal[
+    "length", "angle", "speed", "offset", "ratio", "stiffness", "damping", "mass", "inertia", "gravity"
+]
 """What a number of a scene file measures; an "offset" is a length of either sign."""
 
 _LEAST_SLOT = 1e-6

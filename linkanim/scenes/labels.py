@@ -32,6 +32,7 @@ _ANY = {
     "coupler_point2": "Second coupler point",
 }
 _STRUT = {"free_length": "free length", "coefficient": "damping"}
+_OF_BODY = {"inertia": "moment of inertia"}
 _PARTS = ("along", "to the left")
 _WITHIN: Mapping[tuple[str, str], str] = {
     ("gear", "ratio"): "gear ratio",
@@ -59,6 +60,10 @@ def label(key: Key, document: Mapping[str, Any], linkage: Linkage) -> str:
             return f"Pin {pin}, {_of_pin(rest)}"
         case ("bodies", str(body), "com", int(place)):
             return f"{_named(body)} centre of mass, {_PARTS[place]}"
+        case ("bodies", str(body), str(name)):
+            return f"{_named(body)}, {_OF_BODY.get(name, name)}"
+        case ("gravity",):
+            return "Gravity"
         case ("drive", "cylinder", str(end)):
             return {"from": "Cylinder, from", "to": "Cylinder, to"}[end]
         case ("springs" | "dampers", str(strut), str(name)):

@@ -23,7 +23,9 @@ Keys = tuple[str, ...]
 MOST = 100
 """Problems that are told of one file."""
 
-_PLAIN: tuple[object, ...] = (1, [1, 2], "1 deg", "20 rpm", 0, "1 N/m", "1 N s/m", [1] * 8, {}, "", True)
+_PLAIN: tuple[object, ...] = (
+    1, [1, 2], "1 deg", "20 rpm", 0, "1 N/m", "1 N s/m", "1 kg", "1 kg m^2", "1 m/s^2", [1] * 8, {}, "", True
+)  # fmt: skip
 _AT_LINE = re.compile(r"\(at line (\d+), column \d+\)|\(line (\d+)\)")
 _ITEM = re.compile(r"(.+)\[(\d+)\]")
 _OF_SHAPE = ("rigid body", "one point", "cannot meet", "is fixed, so nothing", "does not travel")

@@ -20,7 +20,7 @@ from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
 
 _TOP = (
     "title", "source", "chapter", "look_at", "notes", "length_unit",
-    "drive", "ground", "joints", "bodies", "springs", "dampers", "trace", *SHORTHANDS,
+    "gravity", "drive", "ground", "joints", "bodies", "springs", "dampers", "trace", *SHORTHANDS,
 )  # fmt: skip
 DEFAULT_SPEED = "20 rpm"
 
@@ -46,13 +46,15 @@ def drafted(document: Mapping[str, Any], *, name: str, where: str, towards: Scen
     joints = _joints(top, short)
     rigid = frames_of(joints)
     _check_rigid(top, joints, rigid)
+    bodies = _bodies(top, joints, rigid, short.bodies)
     linkage = Linkage(
         joints=joints,
         drive=_drive(top, joints, short.drive),
-        bodies=_bodies(top, joints, rigid, short.bodies),
+        bodies=bodies,
         springs=tuple(_spring(name, table, joints) for name, table in top.tables("springs")),
         dampers=tuple(_damper(name, table, joints) for name, table in top.tables("dampers")),
         metre=units.metre(top.unit),
+        gravity=_gravity(top, bodies),
     )
     return Scene(
         name=name,
@@ -242,17 +244,17 @@ def _bodies(
 
 
 def _block(name: str, table: Table, joints: Mapping[str, Joint]) -> Body:
-    table.only("slider")
+    table.only("slider", "mass")
     slider = table.text("slider")
     if slider not in joints:
         raise table.error("slider", _no_joint(slider, joints))
     if not joints[slider].travels:
         raise table.error("slider", "does not travel on a line; name a joint that has one")
-    return Body(name, slider=slider)
+    return Body(name, slider=slider, mass=_mass(table))
 
 
 def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: tuple[Frame, ...]) -> Body:
-    table.only("joints", "com")
+    table.only("joints", "com", "mass", "inertia")
     members = _members(table, "joints", joints)
     if len(members) < 2:
         raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
@@ -263,7 +265,31 @@ def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: tuple[Fram
         raise table.error(
             "joints", f"{members[0]} and {members[1]} are one point; name another first or second"
         )
-    return Body(name, members, table.point("com") if "com" in table else None)
+    if "mass" in table and "com" not in table:
+        half = abs(rigid[n][members[1]] - rigid[n][members[0]]) / 2
+        halfway = f"com = [{half:g}, 0] is halfway from {members[0]} to {members[1]}"
+        raise table.error("mass", f"needs to be known where it is; {halfway}")
+    return Body(
+        name,
+        members,
+        table.point("com") if "com" in table else None,
+        mass=_mass(table),
+        inertia=table.positive("inertia", units.inertia) if "inertia" in table else None,
+    )
+
+
+def _mass(table: Table) -> float | None:
+    return table.positive("mass", units.mass) if "mass" in table else None
+
+
+def _gravity(top: Table, bodies: tuple[Body, ...]) -> float:
+    """Return the scene's gravity in m/s², 0 where it states none; refused where it could pull at nothing."""
+    if "gravity" not in top:
+        return 0.0
+    gravity = top.positive("gravity", units.acceleration)
+    if all(body.mass is None for body in bodies):
+        raise top.error("gravity", 'pulls at nothing; give a body its mass, such as mass = "3 kg"')
+    return gravity
 
 
 def _members(table: Table, key: str, joints: Iterable[str], count: int | None = None) -> tuple[str, ...]:

@@ -21,7 +21,8 @@ _TEXT = {"type": "string"}
 
 def _quantity(names: tuple[str, ...], *, bare: bool, above: bool = False) -> dict[str, Any]:
     """Return the schema of a number with one of the units, or without where it may be bare."""
-    unit = "|".join(name.replace("/", r"\s*/\s*").replace(" ", r"\s*").replace("^", r"\^?") for name in names)
+    spelt = (name.replace("/", r"\s*/\s*").replace(" ", r"\s*") for name in names)
+    unit = "|".join(name.replace("^2", r"(\^?2|²)") for name in spelt)
     text = {"type": "string", "pattern": rf"{_NUMBER}({unit}{'|' if bare else ''})\s*$"}
     number = {"type": "number", **({"exclusiveMinimum": 0} if above else {})}
     return {"anyOf": [number, text]} if bare else text
@@ -98,14 +99,17 @@ def _shorthand(name: str) -> dict[str, Any]:
     return _table(required, **known)
 
 
+_MASS = _quantity(units.MASS_UNITS, bare=False)
+_INERTIA = _quantity(units.INERTIA_UNITS, bare=False)
+_BAR = _table(("joints",), joints={**_MEMBERS, "minItems": 2}, com=_POINT, mass=_MASS, inertia=_INERTIA)
 _BODY = {
     "anyOf": [
-        _table(("joints",), joints={**_MEMBERS, "minItems": 2}, com=_POINT),
-        _table(("slider",), slider=_NAME),
+        {**_BAR, "dependentRequired": {"mass": ["com"]}},
+        _table(("slider",), slider=_NAME, mass=_MASS),
     ]
 }
-_STIFFNESS = _quantity(("N/m", "N/mm", "kN/m"), bare=False)
-_DAMPING = _quantity(("N s/m", "N s/mm", "kN s/m"), bare=False)
+_STIFFNESS = _quantity(units.STIFFNESS_UNITS, bare=False)
+_DAMPING = _quantity(units.DAMPING_UNITS, bare=False)
 _BOTH = {"stiffness": ["free_length"], "free_length": ["stiffness"]}
 _SPRING = {
     **_table(("between",), between=_PAIR, stiffness=_STIFFNESS, free_length=_LENGTH),
@@ -116,6 +120,7 @@ _SECTIONS: dict[str, Any] = {
     **dict.fromkeys(("title", "source", "chapter", "look_at"), _TEXT),
     "notes": {"type": "array", "items": _TEXT},
     "length_unit": _choice(*units.LENGTH_UNITS),
+    "gravity": _quantity(units.FALL_UNITS, bare=False),
     "drive": _table(joint=_NAME, speed=_SPEED, start=_ANGLE_TEXT, cylinder=_CYLINDER),
     "ground": _named({"anyOf": [_POINT, _table(("length", "angle"), length=_LENGTH, angle=_ANGLE_TEXT)]}),
     "joints": _named({"anyOf": list(JOINTS.values())}),

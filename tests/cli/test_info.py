@@ -63,6 +63,20 @@ def test_the_slider_cranks_stroke_and_time_ratio_are_those_of_the_closed_form(
     assert told["time_ratio"] == pytest.approx(ratio, rel=1e-14)
 
 
+def test_what_a_period_asks_of_the_input_is_told_where_there_is_force(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["info", "press", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    asked = linkanim.load("press").info.demand
+    assert asked is not None
+    assert (told["work_per_period"], told["peak_torque"], told["mean_torque"]) == asked[:3]
+    assert main(["info", "press"]) == 0
+    assert f"work per period     {asked.work:.6g} J" in capsys.readouterr().out.splitlines()
+    assert main(["info", "crank-rocker", "--json"]) == 0
+    assert "work_per_period" not in json.loads(capsys.readouterr().out)
+
+
 def test_the_words_are_a_label_and_a_value_a_line(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["info", "crank-rocker"]) == 0
     lines = capsys.readouterr().out.splitlines()

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from linkanim.mechanics.effort import input_effort
 from linkanim.picture.readings import Reading, note, rows
 from linkanim.picture.staging import Staged, staged
 from linkanim.picture.text import Type
@@ -26,6 +27,7 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
         "spring force",
         "damper cushion",
         "damper force",
+        "input torque",
     ]
     assert told["crank angle"] == "87.0°"
     assert told["input speed"] == "20 rpm"
@@ -34,6 +36,16 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
     assert told["spring force"].replace("−", "-") == f"{spring.force:.1f} N"
     assert told["damper cushion"].replace("−", "-") == f"{damper.rate:.1f} mm/s"
     assert told["damper force"].replace("−", "-") == f"{damper.force:.1f} N"
+    torque = input_effort(pose)
+    assert told["input torque"].replace("−", "-") == f"{torque:.2f} N m"
+
+
+def test_a_cylinder_that_keeps_its_length_is_no_damper() -> None:
+    scene = load("excavator")
+    told = dict(rows(scene, scene.pose(1.0)))
+    assert (told["cylinder stick"], told["cylinder bucket"]) == ("235.0 cm", "205.0 cm")
+    assert told["driving cylinder"] == f"{182.5 - 32.5 * math.cos(1.0):.1f} cm"
+    assert not any("damper" in label for label in told)
 
 
 def test_a_cylinder_is_told_by_its_length() -> None:

@@ -17,8 +17,8 @@ from linkanim.scenes.scene import Scene
 STEPS = 720
 # what stands upright, as it does in the world or so that its line lies level
 UPRIGHT = (
-    "press", "hoecken", "roberts-line", "evans", "quick-return-press", "watt-1", "stephenson-3",
-    "scissor-lift", "landing-gear", "excavator", "andrews",
+    "press", "engine", "hoecken", "roberts-line", "evans", "quick-return-press", "watt-1",
+    "stephenson-3", "scissor-lift", "landing-gear", "excavator", "andrews",
 )  # fmt: skip
 
 

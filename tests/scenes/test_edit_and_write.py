@@ -96,6 +96,39 @@ def test_what_a_scene_states_of_masses_springs_and_dampers_can_be_edited() -> No
     assert other.dampers[0].coefficient == 150.0
 
 
+HEAVY = """
+gravity = "9.81 m/s^2"
+[four-bar]
+ground = 100
+crank = 30
+coupler = 90
+rocker = 80
+[bodies.coupler]
+joints = ["A", "B"]
+com = [45, 5]
+mass = "3 kg"
+inertia = "20 kg cm^2"
+"""
+
+
+def test_what_a_scene_states_of_masses_can_be_edited_and_is_written_back() -> None:
+    heavy = scene_from(parse(HEAVY, "heavy"), name="heavy", where="heavy")
+    assert heavy.linkage.gravity == 9.81
+    found = {item.label: item for item in dimensions(heavy)}
+    assert (found["Coupler, mass"].value, found["Coupler, mass"].unit) == (3.0, "kg")
+    assert (found["Gravity"].value, found["Gravity"].unit) == (9.81, "m/s^2")
+    keys = {name: item.key for name, item in found.items()}
+    values: dict[Key, float | str] = {
+        keys["Coupler, mass"]: 4,
+        keys["Coupler, moment of inertia"]: "0.003 kg m^2",
+        keys["Gravity"]: "1.62",
+    }
+    other = with_dimensions(heavy, values)
+    body = next(body for body in other.linkage.bodies if body.name == "coupler")
+    assert (body.mass, body.inertia, other.linkage.gravity) == (4.0, 0.003, 1.62)
+    assert reread(other) == other
+
+
 def test_a_bar_of_no_body_is_called_by_its_joints() -> None:
     document = load("press").document
     bare = scene_from({**document, "bodies": {"arm": {"joints": ["A", "B"]}}}, name="bare", where="bare")

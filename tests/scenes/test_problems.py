@@ -174,7 +174,8 @@ BEYOND = (
     "already a joint", "cannot meet", "second input", "free to be driven", "can be driven",
     "small fraction", "times as fast", "has both", "itself; ", "beyond what can be computed",
     "does not travel", "not a finite", "speed of zero", "is not TOML", "nested deeper",
-    "two joints or more", "too large", "never crosses", "or a fraction", "printable", "above zero",
+    "two joints or more", "too large", "pulls at nothing", "never crosses", "or a fraction", "printable",
+    "above zero",
 )  # fmt: skip
 
 

@@ -241,6 +241,39 @@ REFUSED: list[tuple[str, str, str, str]] = [
         "springs.s.between",
         "2 joints",
     ),
+    # Masses: known where they are, in their own units; gravity pulls at them alone.
+    (
+        "a mass without its place",
+        FOUR_BAR + "[bodies.x]\njoints = ['O2', 'A']\nmass = '3 kg'\n",
+        "bodies.x.mass",
+        "com = [15, 0] is halfway from O2 to A",
+    ),
+    (
+        "a bare mass",
+        FOUR_BAR + "[bodies.x]\njoints = ['O2', 'A']\ncom = [1, 0]\nmass = 3\n",
+        "bodies.x.mass",
+        '"3 kg" or "3 g"',
+    ),
+    (
+        "a bare moment of inertia",
+        FOUR_BAR + "[bodies.x]\njoints = ['O2', 'A']\ninertia = 3\n",
+        "bodies.x.inertia",
+        '"3 kg m^2"',
+    ),
+    (
+        "no mass at all",
+        FOUR_BAR + "[bodies.x]\njoints = ['O2', 'A']\ncom = [1, 0]\nmass = '0 kg'\n",
+        "bodies.x.mass",
+        "above zero",
+    ),
+    (
+        "a slider that could turn",
+        "[slider-crank]\ncrank = 1\nrod = 3\n[bodies.slider]\nslider = 'B'\ninertia = '1 kg m^2'\n",
+        "bodies.slider.inertia",
+        "known here: slider, mass",
+    ),
+    ("gravity without a mass", "gravity = '9.81 m/s^2'\n" + FOUR_BAR, "gravity", "give a body its mass"),
+    ("bare gravity", "gravity = 9.81\n" + FOUR_BAR, "gravity", '"9.81 m/s^2"'),
     # Choices, and tables that are something else.
     ("no such assembly", FOUR_BAR + "assembly = 'closed'\n", "four-bar.assembly", '"open" or "crossed"'),
     ("no such side", LONG + "side = 'up'\n", "joints.B.side", '"left" or "right"'),

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
+from linkanim.mechanics.register import register
 from linkanim.scenes import load
 
 EPS = 2.0**-52
@@ -35,6 +37,27 @@ def test_the_slotted_bar_swings_through_twice_the_arc_sine_of_crank_to_ground() 
 def test_a_quick_return_has_the_time_ratio_of_its_arc_cosine(name: str, cosine: float) -> None:
     beta = math.acos(cosine)
     assert load(name).info.time_ratio == pytest.approx((math.pi - beta) / beta, rel=1e-9)
+
+
+def test_the_engine_s_torque_is_that_of_its_inertia_and_its_weight() -> None:
+    scene = load("engine")
+    angles, step, r, rod = np.linspace(0, 6, 40), 1e-4, 0.05, 0.14
+
+    def stored(angle: Any, speed: float) -> Any:
+        """The kinetic and potential energy of crank, rod and piston, in closed form."""
+        sine, cosine = np.sin(angle), np.cos(angle)
+        lean = np.sqrt(rod**2 - (r * cosine) ** 2)
+        turning, piston = r * sine / lean * speed, (r * cosine + r**2 * sine * cosine / lean) * speed
+        across, up = -0.7 * r * sine * speed, 0.7 * r * cosine * speed + 0.3 * piston
+        moving = (0.0022 + 1.5 * 0.012**2) * speed**2 + 0.0018 * turning**2
+        moving = moving + 0.6 * (across**2 + up**2) + 0.45 * piston**2
+        lifted = -1.5 * 0.012 * sine + 0.6 * (r * sine + 0.3 * lean) + 0.45 * (r * sine + lean)
+        return moving / 2 + 9.81 * lifted
+
+    for speed in (2.0, -60.0):
+        slope = np.diff([stored(angles + way, speed) for way in (-step, step)], axis=0)[0] / (2 * step)
+        found = register(scene.linkage)["input.torque"].read(scene.solve(angle=angles, speed=speed))
+        assert found == pytest.approx(slope, rel=1e-6, abs=1e-6 * np.abs(slope).max())
 
 
 def test_the_toggle_clamp_presses_down_where_handle_and_link_are_in_line() -> None:

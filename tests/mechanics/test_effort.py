@@ -1,0 +1,195 @@
+"""What the input has to deliver: closed formulas, and energy that is kept or used up over a period."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from linkanim.mechanics.effort import input_effort, input_power
+from linkanim.mechanics.linkage import Damper, Linkage, Spring
+from linkanim.mechanics.register import register
+from linkanim.scenes import load, names
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
+
+PHASES = np.linspace(0.3, 6.1, 17)
+ENGINE = """
+length_unit = "mm"
+[drive]
+speed = "3000 rpm"
+[slider-crank]
+crank = 40
+rod = 120
+[bodies.slider]
+slider = "B"
+mass = "600 g"
+"""
+FLYWHEEL = """
+length_unit = "cm"
+gravity = "9.81 m/s^2"
+[drive]
+speed = "60 rpm"
+[ground]
+O = [0, 0]
+[joints.A]
+crank = "O"
+length = 20
+[bodies.wheel]
+joints = ["O", "A"]
+com = [12, 0]
+mass = "3 kg"
+inertia = "200 kg cm^2"
+"""
+
+
+def scene_of(text: str) -> Scene:
+    return scene_from(parse(text, "my.toml"), name="my", where="my.toml")
+
+
+def effort(scene: Scene, *, speed: float, acceleration: float = 0.0) -> NDArray[np.float64]:
+    motion = scene.solve(phase=PHASES, speed=speed, acceleration=acceleration)
+    return np.asarray(input_effort(motion))
+
+
+@pytest.mark.parametrize("speed", [2.0, -50.0])
+def test_a_massive_piston_asks_for_the_torque_of_the_closed_formula(speed: float) -> None:
+    r, rod, mass = 0.04, 0.12, 0.6
+    s, c = np.sin(PHASES), np.cos(PHASES)
+    lean = np.sqrt(rod**2 - (r * s) ** 2)
+    slope = -r * s - r**2 * s * c / lean
+    bend = -r * c - r**2 * (c**2 - s**2) / lean - (r**2 * s * c) ** 2 / lean**3
+    assert effort(scene_of(ENGINE), speed=speed) == pytest.approx(mass * bend * slope * speed**2, rel=1e-12)
+
+
+def test_a_flywheel_out_of_balance_is_turned_against_gravity_and_its_inertia() -> None:
+    gravity = 3.0 * 9.81 * 0.12 * np.cos(PHASES)
+    assert effort(scene_of(FLYWHEEL), speed=4.0) == pytest.approx(gravity, rel=1e-12)
+    turning = (0.02 + 3.0 * 0.12**2) * 5.0
+    accelerated = effort(scene_of(FLYWHEEL), speed=-4.0, acceleration=5.0)
+    assert accelerated == pytest.approx(gravity + turning, rel=1e-12)
+
+
+def test_from_rest_it_is_what_starts_the_motion() -> None:
+    started = effort(scene_of(FLYWHEEL), speed=0.0, acceleration=5.0)
+    assert started == pytest.approx(effort(scene_of(FLYWHEEL), speed=4.0, acceleration=5.0), rel=1e-12)
+    assert np.isnan(effort(scene_of(FLYWHEEL), speed=0.0)).all()
+
+
+def test_lengths_in_another_unit_ask_for_the_same() -> None:
+    metres = ENGINE.replace('"mm"', '"m"').replace("= 40", "= 0.04").replace("= 120", "= 0.12")
+    assert effort(scene_of(metres), speed=7.0) == pytest.approx(
+        effort(scene_of(ENGINE), speed=7.0), rel=1e-12
+    )
+
+
+def heavy(scene: Scene, *, mass: bool = True, gravity: float = 0.0) -> Linkage:
+    """Return a scene's linkage without its struts, its bodies with a mass off their axis and an inertia."""
+    bodies = tuple(
+        replace(
+            body, mass=0.3, com=None if body.slider else (12.0, 5.0), inertia=None if body.slider else 4e-5
+        )
+        for body in scene.linkage.bodies
+    )
+    bare = replace(scene.linkage, springs=(), dampers=(), gravity=gravity)
+    return replace(bare, bodies=bodies) if mass else bare
+
+
+def sprung(scene: Scene, struts: tuple[Spring | Damper, ...]) -> Linkage:
+    """Return a scene's linkage without masses, with these struts."""
+    springs = tuple(strut for strut in struts if isinstance(strut, Spring))
+    dampers = tuple(strut for strut in struts if isinstance(strut, Damper))
+    return replace(heavy(scene, mass=False), springs=springs, dampers=dampers)
+
+
+def netted(scene: Scene, linkage: Linkage, count: int = 2880) -> tuple[float, float]:
+    """Return the work over a true period, and the most that is stored on the way, both in J."""
+    made = replace(scene, linkage=linkage)
+    power = np.asarray(input_power(made.cycle(count * made.mechanism.periods)))
+    seconds = made.info.period_seconds / len(power)
+    return float(power.sum()) * seconds, float(np.abs(np.cumsum(power)).max()) * seconds
+
+
+@pytest.mark.parametrize("name", names())
+def test_masses_and_gravity_give_back_over_a_period_what_they_took(name: str) -> None:
+    scene = load(name)
+    free, lifted = (netted(scene, heavy(scene, gravity=gravity)) for gravity in (0.0, 9.81))
+    # coupled wheels move as fast at every instant: of what is nothing at all rounding has its share
+    peak = max(free[1], lifted[1])
+    assert abs(free[0]) <= 1e-12 * peak
+    assert abs(lifted[0]) <= 1e-12 * peak
+
+
+SPRING = Spring("s", ("O4", "P"), 300.0, 20.0)
+DAMPER = Damper("d", ("O4", "P"), 40.0)
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "double-rocker", "kite", "galloway", "triple-rocker"])
+def test_a_spring_does_no_work_over_a_period_and_a_damper_what_it_uses_up(name: str) -> None:
+    scene = load(name)
+    work, peak = netted(scene, sprung(scene, (SPRING,)))
+    assert abs(work) <= 1e-12 * peak
+    damped = replace(scene, linkage=sprung(scene, (SPRING, DAMPER)))
+    work, peak = netted(scene, damped.linkage)
+    cycle = damped.cycle(2880 * damped.mechanism.periods)
+    used = 40.0 * np.mean(np.square(cycle.damper["d"].rate * 1e-3)) * damped.info.period_seconds
+    assert work == pytest.approx(used, abs=1e-12 * peak)
+    told = damped.info.demand
+    assert told is not None
+    assert told.work == pytest.approx(used, rel=1e-12)
+
+
+def test_at_the_ends_of_a_cylinder_s_stroke_the_force_is_finite_and_steady() -> None:
+    scene = load("excavator")
+    boom = replace(scene, linkage=heavy(scene, gravity=9.81))
+    read = register(boom.linkage)["input.force"].read
+    found = read(boom.solve(phase=np.array([-1e-5, 0.0, 1e-5, math.pi - 1e-5, math.pi, math.pi + 1e-5])))
+    assert np.isfinite(found).all()
+    assert found[[1, 4]] == pytest.approx(found[[0, 3]], rel=1e-8)
+    assert found[[1, 4]] == pytest.approx(found[[2, 5]], rel=1e-8)
+    assert read(boom.pose(0.0)) == pytest.approx(found[1], rel=1e-13)
+    assert "input.torque" not in register(boom.linkage)
+
+
+def test_a_cylinder_lifts_what_gravity_pulls_at() -> None:
+    scene = load("excavator")
+    boom = replace(scene, linkage=heavy(scene, gravity=9.81))
+    motion = boom.solve(phase=PHASES, speed=1e-3)
+    lengths = boom.solve(phase=PHASES[:, None] + np.array([-1e-4, 1e-4]), derivatives=0)
+    length = np.hypot(*np.moveaxis(lengths.position["H"] - lengths.position["G"], -1, 0)) * 1e-2
+    height = sum(lengths.com_position[body.name][..., 1] for body in boom.linkage.bodies) * 1e-2
+    lifted = 0.3 * 9.81 * np.diff(height, axis=1) / np.diff(length, axis=1)
+    assert input_effort(motion) == pytest.approx(lifted[:, 0], rel=1e-6)
+
+
+def test_at_a_limit_the_torque_is_unbounded_and_said_to_be() -> None:
+    scene = load("double-rocker")
+    swinging = replace(scene, linkage=heavy(scene))
+    assert np.isinf(input_effort(swinging.pose(0.0)))
+    told = swinging.info.demand
+    assert told is not None
+    assert (told.peak, told.mean) == (None, None)
+    lines = dict(swinging.info.lines)
+    assert (lines["work per period"], lines["peak torque"]) == ("0 J", "unbounded")
+
+
+def test_the_peak_is_the_greatest_torque_and_the_mean_makes_the_work() -> None:
+    scene = load("press")
+    told = scene.info.demand
+    assert told is not None
+    assert told.mean is not None
+    assert told.peak is not None
+    assert told.work == pytest.approx(told.mean * 2 * math.pi, rel=1e-12)
+    torque = np.asarray(input_effort(scene.cycle(100_000)))
+    assert told.peak == pytest.approx(torque[np.abs(torque).argmax()], rel=1e-8)
+    assert np.abs(torque).max() <= abs(told.peak) * (1 + 1e-12)
+
+
+def test_what_has_neither_force_nor_mass_asks_for_nothing() -> None:
+    scene = load("crank-rocker")
+    assert scene.info.demand is None
+    assert not any(token.startswith("input.t") for token in register(scene.linkage))
