@@ -70,6 +70,8 @@ def leg_part(legs: Legs, view: View, gauge: Gauge, colour: Colour) -> Part:
     point = complex(view.scale * along, -view.scale * left)
     loops = []
     for begin, end in ((0j, corner), (corner, point)):
+        if begin == end:
+            continue
         step = 4 * gauge.line * unit(end - begin)
         feet = begin + step * np.arange(int(abs(end - begin) / (4 * gauge.line)) + 1)
         loops += segments(feet, feet + 0.6 * step, 0.9 * gauge.line)

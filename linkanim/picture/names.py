@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from math import pi, tau
+from itertools import pairwise
+from math import pi
 
 import numpy as np
 import pygame
@@ -29,6 +30,8 @@ from linkanim.picture.view import View
 
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
 """Where along a bar its name may stand."""
+_INSIDE = (0.3, 0.5, 0.65)
+"""How far from a plate's middle to its corners and sides its name may stand."""
 _BESIDE = 0.4
 """What a place beside a bar costs, where one on it is free."""
 _FARTHER = 1.0
@@ -202,14 +205,18 @@ class _Stage:
         for symbol, begin, end, value in known.dimensions:
             lettering = self._hand.written(written(symbol, value, unit_), size, dim)
             line = self._paths[begin], self._paths[end]
-            yield Tag(lettering, begin, end, self._beside(line, line, lettering.size))
+            wish = self._beside(line, line, lettering.size)
+            yield Tag(lettering, begin, end, self._shunning(wish, {begin, end}))
         for legs in known.legs:
             (first, second), corner = legs.point.on, self._corner(legs.point.on, legs.point.at[0])
             frame = self._paths[first], self._paths[second]
             lines = (frame[0], corner), (corner, self._paths[legs.point.name])
             for symbol, value, line in zip(legs.symbols, legs.point.at, lines, strict=True):
+                if not value:
+                    continue
                 lettering = self._hand.written(written(symbol, value, unit_), size, dim)
-                yield Tag(lettering, first, second, self._beside(line, frame, lettering.size), across=True)
+                wish = self._shunning(self._beside(line, frame, lettering.size), {first, second})
+                yield Tag(lettering, first, second, wish, across=True)
 
     def _corner(self, on: tuple[str, str], along: float) -> Loop:
         begin, end = (self._paths[name] for name in on)
@@ -235,9 +242,10 @@ class _Stage:
     def _beside_arc(self, turning: Turning, size: tuple[float, float]) -> Wish:
         """Return places outside the arc of the input's angle, best at its middle."""
         path, pin = self._paths[turning.pivot], self._paths[turning.pin]
-        angles = np.angle(np.conj(pin - path)) % tau
-        middle = float(angles.mean()) / 2 if not self._figure.scene.info.full_turn else pi / 6
-        turns = np.exp(-1j * (middle + np.linspace(-0.8, 0.8, 9)))
+        bars = np.angle(np.conj(pin - path))
+        angles = np.array([turning.turned(float(angle)) for angle in bars])
+        middle = np.full_like(angles, pi / 6) if self._figure.scene.info.full_turn else angles / 2
+        turns = np.exp(-1j * (middle[:, None] + np.linspace(-0.8, 0.8, 9)))
         price = 0.3 * np.abs(np.linspace(-1, 1, 9))
         places = path[:, None] + _off(turns, size, turning.arc + 0.1 * size[1])
         return Wish(size, places, price, (path, np.ones_like(path)))
@@ -246,17 +254,39 @@ class _Stage:
         """Return places on a link: along a bar and beside it, or inside a plate."""
         corners = [self._paths[name] for name in body.joints]
         frame = corners[0], _units(corners[1] - corners[0])
-        if len(hull([complex(corner[0]) for corner in corners])) < 3:
-            on_it = self._line((corners[0], corners[1]), frame, size, (0, 1, -1))
-            return on_it._replace(own=self._numbers(body))
+        if not self._is_plate(body):
+            on_it = self._line((corners[0], corners[1]), frame, size, (0, 1, -1, 1.8, -1.8))
+            beside = np.arange(len(on_it.price)) >= len(_ALONG)
+            shunned = np.where(beside[:, None], self._others(body.joints), self._in_front(body))
+            return on_it._replace(own=self._numbers(body), shunned=shunned)
         middle = sum(corners[1:], corners[0]) / len(corners)
-        inside = [
-            middle,
-            *((2 * middle + corner) / 3 for corner in corners),
-            *((middle + corner) / 2 for corner in corners),
-        ]
-        price = 0.1 * np.arange(float(len(inside)))
-        return Wish(size, np.stack(inside, axis=1), price, frame, self._numbers(body))
+        sides = [(one + other) / 2 for one, other in pairwise((*corners, corners[0]))]
+        towards = [(share, end) for share in _INSIDE for end in (*corners, *sides)]
+        inside = [middle, *((1 - share) * middle + share * end for share, end in towards)]
+        price = np.array([0.0, *(share for share, _ in towards)])
+        shunned = np.tile(self._in_front(body), (len(inside), 1))
+        return Wish(size, np.stack(inside, axis=1), price, frame, self._numbers(body), shunned)
+
+    def _is_plate(self, body: Body) -> bool:
+        return len(hull([complex(self._paths[name][0]) for name in body.joints])) > 2
+
+    def _shunning(self, wish: Wish, own: set[str]) -> Wish:
+        """Return the wish for a label that must not seem to be of another bar than that of its own joints."""
+        return wish._replace(shunned=np.tile(self._others(own), (len(wish.price), 1)))
+
+    def _others(self, own: Iterable[str]) -> NDArray[np.bool_]:
+        """Return which obstacles are bars that do not have all these joints."""
+        bars = [not self._is_plate(body) and not set(own) <= set(body.joints) for body, _ in self._sides()]
+        return np.array([*bars, *[False] * (len(self._figure.struts) + len(self._figure.fixed))])
+
+    def _in_front(self, body: Body) -> NDArray[np.bool_]:
+        """Return which of them are drawn over a body: plates lie behind all bars."""
+        order = [other for other, _ in self._sides()]
+        plate = self._is_plate(body)
+        later = [plate or n > order.index(body) for n in range(len(order))]
+        found: NDArray[np.bool_] = self._others(body.joints)
+        found[: len(later)] &= np.array(later, np.bool_)
+        return found
 
     def _beside(self, line: tuple[Loop, Loop], frame: tuple[Loop, Loop], size: tuple[float, float]) -> Wish:
         """Return places beside a line, in the frame of two joints."""
@@ -267,7 +297,7 @@ class _Stage:
         line: tuple[Loop, Loop],
         frame: tuple[Loop, Loop],
         size: tuple[float, float],
-        sides: Sequence[int],
+        sides: Sequence[float],
     ) -> Wish:
         begin, along = line[0], line[1] - line[0]
         normal = 1j * _units(along)

@@ -28,6 +28,8 @@ for a moment costs 1."""
 _MARGIN = 0.08
 """How far labels are planned to stay off what they must not touch, in their heights: bends are rounded."""
 _FORBIDDEN = 60.0
+_CLOSE = 0.2
+"""How near to a bar, in its own heights, a label's middle seems to lie on it."""
 _SOFT = 1.5
 """The smoothing's standard deviation, in moments."""
 _GONE = 4
@@ -60,7 +62,8 @@ class Wish(NamedTuple):
     """A label: how large, where it may stand at each of n moments (n, k), and the price of each place.
 
     `frame` is (origin, direction) of what it belongs to at each moment, in which it had better rest.
-    `own` are the numbers of the bars that it may lie on.
+    `own` are the numbers of the bars that it may lie on; `shunned` (k, m) says of each place which bars
+    its middle must not lie on, since the label would seem to be theirs.
     """
 
     size: tuple[float, float]
@@ -68,6 +71,7 @@ class Wish(NamedTuple):
     price: _Floats
     frame: tuple[Loop, Loop]
     own: tuple[int, ...] = ()
+    shunned: _Bools | None = None
 
 
 class Path(NamedTuple):
@@ -102,13 +106,15 @@ def _placed(wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, f
     margin = 2 * _MARGIN * wish.size[1]
     planned = wish._replace(size=(wish.size[0] + margin, wish.size[1] + margin))
     cost = wish.price + _lying(wish, clutter.bars)
-    cost += _FORBIDDEN * _blocked(wish.places, planned, clutter, taken)
+    cost += _FORBIDDEN * (
+        _blocked(wish.places, planned, clutter, taken) | _mistaken(wish.places, wish, clutter)
+    )
     origin, direction = wish.frame
     local = (wish.places - origin[:, None]) / direction[:, None]
     chosen = _cheapest(cost, _moves(local, wish.size[1]))
     path = Path(np.take_along_axis(local, chosen[:, None], axis=1)[:, 0], np.ones(len(cost)))
     track = _track(path, wish)[:, None]
-    blocked = _blocked(track, wish, clutter, taken)[:, 0]
+    blocked = (_blocked(track, wish, clutter, taken) | _mistaken(track, wish, clutter, chosen))[:, 0]
     later = replace(clutter, discs=_between(clutter.discs)), [(_between(way), size) for way, size in taken]
     between = _blocked(_between(track), wish, *later)[:, 0]
     return path._replace(shown=_eased(blocked | between | np.roll(between, 1)))
@@ -181,6 +187,27 @@ def _blocked(
     return blocked | ~inside
 
 
+def _mistaken(places: Loop, wish: Wish, clutter: Clutter, chosen: NDArray[np.int64] | None = None) -> _Bools:
+    """Return whether the label's middle would lie on a bar that it must shun there."""
+    bars, shunned = clutter.bars, wish.shunned
+    if shunned is None or not shunned.any():
+        return np.zeros(places.shape, np.bool_)
+    which = np.flatnonzero(shunned.any(axis=0))
+    at = shunned[None] if chosen is None else shunned[chosen][:, None]
+    away = _distance(places[:, :, None], bars.begin[:, None, which], bars.end[:, None, which])
+    near = away < bars.half[which] + _CLOSE * wish.size[1]
+    return np.asarray((near & at[..., which]).any(axis=2))
+
+
+def _distance(points: Loop, begin: Loop, end: Loop) -> _Floats:
+    """Return how far points are from lines."""
+    along = end - begin
+    squared = np.maximum(np.abs(along) ** 2, 1e-9)
+    share = np.clip(((points - begin) * np.conj(along)).real / squared, 0, 1)
+    away: _Floats = np.abs(points - begin - share * along)
+    return away
+
+
 def _over(away: Loop, width: float, height: float) -> _Bools:
     return np.asarray((2 * np.abs(away.real) < width) & (2 * np.abs(away.imag) < height))
 
@@ -192,10 +219,7 @@ def _lying(wish: Wish, bars: Obstacles) -> _Floats:
     weight[list(wish.own)] = 0.0
     reach = max(wide - high, 0.0) / 2
     points = wish.places[:, :, None, None] + np.array([-reach, 0.0, reach])[:, None]
-    begin, along = bars.begin[:, None, None, :], (bars.end - bars.begin)[:, None, None, :]
-    squared = np.maximum(np.abs(along) ** 2, 1e-9)
-    share = np.clip(((points - begin) * np.conj(along)).real / squared, 0, 1)
-    away = np.abs(points - begin - share * along)
+    away = _distance(points, bars.begin[:, None, None, :], bars.end[:, None, None, :])
     over = np.clip((bars.half + high / 2 - away) / high, 0, 1).max(axis=2)
     lying: _Floats = (over * weight * np.minimum(2 * bars.half / high, 1)).sum(axis=2)
     return lying

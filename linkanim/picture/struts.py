@@ -18,7 +18,7 @@ from linkanim.picture.shapes import box, stroke, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
-_COILS = (4, 11)
+_COILS = (4, 20)
 """Of how few and how many coils a spring has, as its shortest length allows."""
 _TILT = 0.35
 """How far a coil's front stands forward of its side, as a share of its radius."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import tau
+from math import pi, remainder, tau
 
 import numpy as np
 
@@ -24,7 +24,10 @@ _AHEAD = 0.3
 
 @dataclass(frozen=True)
 class Turning:
-    """What shows how the bar from `pivot` to `pin` turns; radii in pixels, `fastest` in rad/s."""
+    """What shows how the bar from `pivot` to `pin` turns; radii in pixels, `fastest` in rad/s.
+
+    Its angle is told within half a turn of `middle` (rad), as the HUD tells it.
+    """
 
     pivot: str
     pin: str
@@ -33,6 +36,11 @@ class Turning:
     fastest: float
     colours: tuple[Colour, Colour]
     gauge: Gauge
+    middle: float = pi
+
+    def turned(self, angle: float) -> float:
+        """Return the bar's angle (rad) as it is told."""
+        return self.middle + remainder(angle - self.middle, tau)
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
         """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
@@ -54,10 +62,10 @@ class Turning:
         return found
 
     def angle(self, places: Places) -> list[Layer]:
-        """Return the arc from the horizontal to the bar, counter-clockwise, and the line it begins at."""
+        """Return the arc from the horizontal to the bar, and the line it begins at."""
         centre, way = self._bar(places)
-        turned = float(np.angle(way.conjugate())) % tau
-        path = centre + self.arc * np.exp(-1j * np.linspace(0, turned, max(round(turned * 12), 2)))
+        turned = self.turned(float(np.angle(way.conjugate())))
+        path = centre + self.arc * np.exp(-1j * np.linspace(0, turned, max(round(abs(turned) * 12), 2)))
         dashes = np.arange(0, 1.45 * self.arc, 3.5 * self.gauge.line)
         ends = centre + dashes, centre + dashes + 2.2 * self.gauge.line
         ink, back = self.colours
@@ -94,4 +102,6 @@ def turning_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turnin
     arc = max(0.36 * length, 2.2 * gauge.bar)
     arrow = max(min(0.7 * length, 8 * gauge.bar), arc + 1.6 * gauge.bar)
     fastest = float(np.nanmax(np.abs(figure.cycle.crank_rate)))
-    return Turning(pivot, pin, arc, arrow, fastest, (theme.ink, theme.background), gauge)
+    info = figure.scene.info
+    middle = pi if info.full_turn else sum(info.input_range) / 2
+    return Turning(pivot, pin, arc, arrow, fastest, (theme.ink, theme.background), gauge, middle)

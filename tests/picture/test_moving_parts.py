@@ -67,6 +67,13 @@ def test_a_spring_s_pitch_follows_its_length_and_its_coils_stay(press: Figure) -
     assert pitches[1] - pitches[0] == pytest.approx(50 / counts[0], rel=1e-6)
 
 
+def test_a_long_spring_has_so_many_coils_that_they_stand_close() -> None:
+    shown, view = figure(load("andrews")), View(5.0, 0.0, 0.0)
+    (coil,) = coils(shown, view, GAUGE, LIGHT)
+    longest = float(np.abs(np.subtract(*(shown.path(name, view) for name in coil.between))).max())
+    assert longest / coil.coils < 2 * coil.radius
+
+
 def test_a_damper_s_piston_slides_inside_its_cylinder(press: Figure) -> None:
     cushion = cushions(press, VIEW, GAUGE, LIGHT)[0]
     one, other = cushion.between

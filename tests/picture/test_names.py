@@ -74,6 +74,53 @@ def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size:
                 assert abs(pin - complex(x, y)) > gauge.pin - 1.0, (text, phase)
 
 
+@pytest.mark.parametrize("name", ["wiper", "roberts-line", "triple-rocker", "pumpjack", "hoecken", "jansen"])
+def test_no_link_s_name_stands_on_another_link(name: str) -> None:
+    """Where its middle is, no bar lies that is drawn over its own, which it would seem to name."""
+    scene = load(name)
+    painter = Painter(scene, (1280, 720), Look(names=1))
+    bodies = painter._figure.bodies
+    called = {number: body for body, number in numbered(painter._figure).items()}
+    called |= {body.name: body for body in bodies}
+    for phase in np.linspace(0, scene.period, 31):
+        pose = scene.pose(float(phase))
+        places = painter.drawing.places(pose)
+        for text, box in _standing(painter, pose):
+            own = called.get(text)
+            if own is None or len(own.joints) < 2:
+                continue
+            middle = complex(box.x + box.width / 2, box.y + box.height / 2)
+            order = bodies.index(own)
+            over = [
+                bar
+                for bar in bodies
+                if len(bar.joints) == 2 and (len(own.joints) > 2 or bodies.index(bar) > order)
+            ]
+            for bar in over:
+                begin, end = (places[joint] for joint in bar.joints)
+                share = min(max(((middle - begin) / (end - begin)).real, 0.0), 1.0)
+                away = abs(middle - begin - share * (end - begin))
+                assert away > painter.drawing.scenery.gauge.bar - 1.0, (text, bar.name, phase)
+
+
+@pytest.mark.parametrize("name", ["watt-line", "roberts-line", "rocker-driven", "crank-rocker"])
+def test_the_angle_s_arc_runs_as_far_as_the_hud_says(name: str) -> None:
+    """Also below the horizontal, where a swing's angle is negative; its symbol stays at the arc."""
+    scene = load(name)
+    painter = Painter(scene, (1280, 720), Look(names=2))
+    turning, swings = painter.drawing.cast.turning, not scene.info.full_turn
+    assert turning
+    for phase in np.linspace(0.1, 6.2, 9):
+        angle = scene.pose(float(phase)).crank_angle
+        assert turning.turned(angle + math.tau) == pytest.approx(angle if swings else angle % math.tau)
+    (symbol,) = [label for label in _names(painter).labels if label.lettering.text.startswith("θ")]
+    for phase in np.linspace(0, math.tau, 9):
+        pose = scene.pose(float(phase))
+        middle, shown = symbol.placed(pose.phase / scene.period, painter.drawing.places(pose))
+        away = abs(middle - painter.drawing.places(pose)[turning.pivot])
+        assert not shown or away < turning.arc + 1.5 * symbol.lettering.size[1]
+
+
 @pytest.mark.parametrize("name", ["crank-rocker", "press", "double-rocker", "kite"])
 def test_no_name_jumps_from_frame_to_frame(name: str) -> None:
     """Beside its joint a name moves by a seventh of its height, and rounding, in a 300th of a turn."""
