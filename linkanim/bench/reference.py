@@ -1,4 +1,4 @@
-"""Fifty-digit answers by the plainest closed form: where two circles cross.
+"""Answers of many digits by the plainest closed form: where two circles cross.
 
 Nothing is shared with the solver. At fifty digits the square root of a difference may lose half of
 them and still have more than a float holds.
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from mpmath import mp, mpc, mpf, workdps
 
-from linkanim.bench.cases import Case
+from linkanim.bench.cases import Case, Length
 from linkanim.bench.question import Complexes, Floats, FourBarLengths, Points, Question
 
 DIGITS = 50
@@ -73,13 +73,80 @@ def answer(case: Case) -> Answer:
 
 def closures(case: Case) -> Iterator[Closures]:
     """Yield the exact pose at each input of a case, at mpmath's present precision."""
-    ground, crank, coupler, rocker = lengths = [mpf(length) for length in case.lengths]
+    bars = FourBar(case.lengths, case.side)
+    ground, crank, coupler, rocker = bars.sizes
     for given in map(mpf, case.inputs.tolist()):
-        angle, phase = (given, given) if case.turns else _swing(case, lengths, given)
-        a, sign = crank * mp.expj(angle), _sign(case, lengths, phase)
-        b, other = (crossing(a, ground, coupler, rocker, side) for side in (sign, -sign))
+        phase = given if case.turns or case.by_phase else bars.phase_at(given)
+        angle, side = bars.angle(phase), bars.side_at(phase)
+        a = crank * mp.expj(angle)
+        b, other = (crossing(a, ground, coupler, rocker, sign) for sign in (side, -side))
         point = mpc(FourBarLengths(1, 1, 1, 1).point)
-        yield Closures(angle, phase, sign, b, a + (b - a) * point, other, a + (other - a) * point)
+        yield Closures(angle, phase, side, b, a + (b - a) * point, other, a + (other - a) * point)
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """Ground, crank, coupler and rocker, O4 on the real axis, on the smooth path that the crank drives.
+
+    `side` is the closure just after phase 0, +1 for B left of A -> O4. A crank that turns fully stands at
+    `start` there; of two separate ranges a negative `start` means the one below the ground line.
+    Gaps below 2^-53 of the perimeter are none: decimal lengths are rarely exact in binary.
+    """
+
+    lengths: tuple[Length, Length, Length, Length]
+    side: int = 1
+    start: Any = 0
+
+    @property
+    def sizes(self) -> tuple[Any, ...]:
+        """The lengths in as many digits as mpmath has at present."""
+        return tuple(mpf(length) for length in self.lengths)
+
+    @property
+    def gaps(self) -> tuple[Any, Any, Any]:
+        """What is left when the bars are in line: stretched, and folded either way; 0 at a change point."""
+        g, r, a, b = self.sizes
+        least = mpf(2) ** -53 * (g + r + a + b)
+        gaps = (a + b - g - r, g - r - a + b, g - r + a - b)
+        return tuple(gap if abs(gap) > least else mpf(0) for gap in gaps)
+
+    @property
+    def limits(self) -> tuple[Any, Any] | None:
+        """The ends of the crank's swing, by the law of cosines on bars in line; None where it turns fully."""
+        g, r, a, b = self.sizes
+        outer, first, second = self.gaps
+        far = mp.acos((g * g + r * r - (a + b) ** 2) / (2 * g * r)) if outer < 0 else None
+        near = mp.acos((g * g + r * r - (a - b) ** 2) / (2 * g * r)) if first * second < 0 else None
+        if far is not None and near is not None:
+            return (near, far) if self.start >= 0 else (-far, -near)
+        if far is not None:
+            return -far, far
+        return None if near is None else (near, 2 * mp.pi - near)
+
+    def angle(self, phase: Any) -> Any:
+        """Return the crank's angle from the ground line."""
+        if self.limits is None:
+            return self.start + phase
+        low, high = self.limits
+        return (low + high) / 2 - (high - low) / 2 * mp.cos(phase)
+
+    def phase_at(self, angle: Any) -> Any:
+        """Return the phase at an angle of a swing, on the way up."""
+        assert self.limits is not None
+        low, high = self.limits
+        return mp.acos((low + high - 2 * angle) / (high - low))
+
+    def side_at(self, phase: Any) -> int:
+        """Return the closure on the smooth path: it changes at limits and at change points."""
+        return self.side * self._sign(mpf(10) ** -8) * self._sign(phase)
+
+    def _sign(self, phase: Any) -> int:
+        """Return the sign that the path gives the closure, up to the one at the start."""
+        outer, first, second = self.gaps
+        half = self.angle(phase) / 2
+        sign = 1 if self.limits is None else sign_of(mp.sin(phase))
+        sign *= sign_of(mp.cos(half)) if outer == 0 else 1
+        return sign * (sign_of(mp.sin(half)) if first * second == 0 else 1)
 
 
 def crossing(p: Any, q: Any, a: Any, b: Any, side: int) -> Any:
@@ -94,43 +161,8 @@ def crossing(p: Any, q: Any, a: Any, b: Any, side: int) -> Any:
     return p + way / distance * mpc(along, side * mp.sqrt(max(square, mpf(0))))
 
 
-def limits(lengths: list[Any]) -> tuple[Any, Any]:
-    """Return between which angles, 0 to π, the crank can lie: where the two bars are in one line."""
-    ground, crank, coupler, rocker = lengths
-    return tuple(
-        mp.acos(min(max((ground**2 + crank**2 - reach**2) / (2 * ground * crank), mpf(-1)), mpf(1)))
-        for reach in (coupler - rocker, coupler + rocker)
-    )
-
-
-def _swing(case: Case, lengths: list[Any], given: Any) -> tuple[Any, Any]:
-    """Return angle and phase of a swing, mid - amp cos φ, above the ground line or across it."""
-    inner, outer = limits(lengths)
-    low = inner if inner > 0 else -outer
-    middle, amplitude = (low + outer) / 2, (outer - low) / 2
-    if case.by_phase:
-        return middle - amplitude * mp.cos(given), given
-    return given, mp.acos((middle - given) / amplitude)
-
-
-def _sign(case: Case, lengths: list[Any], phase: Any) -> int:
-    """Return the closure on the smooth path: it changes at limits and at change points.
-
-    The crank stands at a change point at 0 where r1 - r2 = ±(r3 - r4), at π where r1 + r2 = r3 + r4.
-    """
-    ground, crank, coupler, rocker = lengths
-    if not case.turns:
-        return case.side * _sign_of(mp.sin(phase))
-    nothing = mpf(10) ** (5 - DIGITS)
-    at_pi = abs(coupler + rocker - ground - crank) < nothing
-    at_zero = abs(abs(coupler - rocker) - abs(ground - crank)) < nothing
-    sign = case.side
-    sign *= _sign_of(mp.cos(phase / 2)) if at_pi else 1
-    sign *= _sign_of(mp.sin(phase / 2)) if at_zero else 1
-    return sign
-
-
-def _sign_of(value: Any) -> int:
+def sign_of(value: Any) -> int:
+    """Return -1 for a negative number, else 1."""
     return 1 if value >= 0 else -1
 
 

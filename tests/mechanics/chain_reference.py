@@ -9,8 +9,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from mpmath import mp, mpf
-from reference import meeting, on_line, unit
+from reference import on_line, unit
 
+from linkanim.bench.reference import crossing
 from linkanim.mechanics.joint import Joint
 from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Line, Pin, Rigid
 from linkanim.mechanics.linkage import Linkage
@@ -36,7 +37,7 @@ def _place(joint: Joint, at: Places, turned: dict[str, Any], sign: int | None) -
         case RRR():
             p, q = (at[end] for end in joint.ends)
             a, b = map(mpf, joint.lengths)
-            return meeting(p, q, a, b, joint.side if sign is None else sign)
+            return crossing(p, q, a, b, joint.side if sign is None else sign)
         case RRP():
             base, along = _line(joint.line, at)
             seen = (at[joint.end] - base) / along

@@ -13,8 +13,9 @@ import pytest
 from build import four_bar, six_bar, slider_crank, slotted
 from mpmath import mp, mpf
 from numpy.typing import NDArray
-from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, meeting, on_line, sign_of, unit
+from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, on_line, unit
 
+from linkanim.bench.reference import crossing, sign_of
 from linkanim.mechanics.chain import Touch
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
@@ -81,12 +82,8 @@ CASES = [
     Case("kite with short bars, swinging through it", FourBar((5, 5, 3, 3))),
     Case("rhombus", FourBar((3, 3, 3, 3), start=1.0)),
     # Decimal lengths with s + l = p + q whose sums are off in binary by a last digit.
-    Case(
-        "change point from decimals, 0.5 0.1 0.4 0.2", FourBar((0.5, 0.1, 0.4, 0.2), start=0.2, decimal=True)
-    ),
-    Case(
-        "change point from decimals, 0.7 0.3 0.6 0.4", FourBar((0.7, 0.3, 0.6, 0.4), start=0.3, decimal=True)
-    ),
+    Case("change point from decimals, 0.5 0.1 0.4 0.2", FourBar(("0.5", "0.1", "0.4", "0.2"), start=0.2)),
+    Case("change point from decimals, 0.7 0.3 0.6 0.4", FourBar(("0.7", "0.3", "0.6", "0.4"), start=0.3)),
     # A hair from a change point, on either side of it: real gaps, not rounding.
     Case("1e-12 above a change point at 0", FourBar((4, 2, 5, 3 + 1e-12))),
     Case("1e-12 below a change point at 0", FourBar((4, 2, 5, 3 - 1e-12))),
@@ -148,14 +145,14 @@ def greatest(vectors: NDArray[np.float64]) -> float:
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_four_bar_poses_and_rates_are_right_to_the_last_digits(case: Case) -> None:
     bar = case.bar
-    linkage = four_bar(bar.lengths, side=bar.side, ground_angle=bar.ground_angle, start=bar.start)
-    check(mechanism(linkage), bar.pose(), case.phases, max(bar.lengths))
+    linkage = four_bar(bar.floats, side=bar.side, ground_angle=bar.ground_angle, start=bar.start)
+    check(mechanism(linkage), bar.pose(), case.phases, max(bar.floats))
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_a_single_pose_is_the_same_as_one_of_many(case: Case) -> None:
     bar = case.bar
-    solved = mechanism(four_bar(bar.lengths, side=bar.side, ground_angle=bar.ground_angle, start=bar.start))
+    solved = mechanism(four_bar(bar.floats, side=bar.side, ground_angle=bar.ground_angle, start=bar.start))
     motion = solved.solve(phase=np.array(case.phases), speed=1.0)
     cycle = solved.solve(phase=DENSE, speed=1.0)
     for kind in ("position", "velocity", "acceleration"):
@@ -275,7 +272,7 @@ def test_a_dyad_down_the_chain_limits_the_input_and_is_driven_through(
 
     def chain(angle: Any) -> tuple[Any, Any, Any]:
         pin_a = r * unit(angle)
-        pin_b = meeting(pin_a, mp.mpc(g), a, b, 1)
+        pin_b = crossing(pin_a, mp.mpc(g), a, b, 1)
         return pin_a, pin_b, g + (pin_b - g) / b * r6
 
     def margin(angle: Any) -> Any:
@@ -295,7 +292,7 @@ def test_a_dyad_down_the_chain_limits_the_input_and_is_driven_through(
             sign *= sign_of(mp.sin(phase / 2))
         if path.ends[1] == "D":
             sign *= sign_of(mp.cos(phase / 2))
-        joint = meeting(pins[2], mp.mpc(g + r5), r7, r8, sign)
+        joint = crossing(pins[2], mp.mpc(g + r5), r7, r8, sign)
         return {"A": pins[0], "B": pins[1], "C": pins[2], "D": joint}
 
     check(solved, pose, (*AROUND, *AT_LIMITS), 120.0, position=1e-13, rate=1e-10)
@@ -314,8 +311,8 @@ LIMITED = [
 @pytest.mark.parametrize(("name", "bar"), LIMITED, ids=[row[0] for row in LIMITED])
 @pytest.mark.parametrize("turns", [0, 3, -1_000_000], ids=lambda turns: f"{turns} turns on")
 def test_angles_next_to_a_limit_give_exact_poses_and_rates(name: str, bar: FourBar, turns: int) -> None:
-    solved = mechanism(four_bar(bar.lengths, side=bar.side, ground_angle=bar.ground_angle, start=bar.start))
-    limits = bar.limits()
+    solved = mechanism(four_bar(bar.floats, side=bar.side, ground_angle=bar.ground_angle, start=bar.start))
+    limits = bar.level.limits
     assert limits is not None
     low, high = (float(limit + mpf(bar.ground_angle)) for limit in limits)
     way = 2 * math.pi * turns
@@ -329,17 +326,17 @@ def test_angles_next_to_a_limit_give_exact_poses_and_rates(name: str, bar: FourB
     fixed = replace(bar, start=0.0)
 
     def pose(angle: Any) -> Points:
-        g, r, a, b = map(mpf, bar.lengths)
+        g, r, a, b = map(mpf, bar.floats)
         pin = r * unit(angle - mpf(bar.ground_angle))
         tilt = unit(mpf(fixed.ground_angle))
-        return {"B": meeting(pin, mp.mpc(g), a, b, bar.side) * tilt}
+        return {"B": crossing(pin, mp.mpc(g), a, b, bar.side) * tilt}
 
     for index, angle in enumerate(angles):
         if not inside[index]:
             assert np.isnan(motion.position["B"][index]).all()
             continue
         found = derivatives(pose, mpf(float(angle)))
-        assert worst(motion.position["B"][[index]], [found[0]["B"]], max(bar.lengths)) <= POSITION
+        assert worst(motion.position["B"][[index]], [found[0]["B"]], max(bar.floats)) <= POSITION
         for order, kind in ((1, "velocity"), (2, "acceleration")):
             reference = found[order]["B"]
             value = getattr(motion, kind)["B"][[index]]
@@ -348,7 +345,7 @@ def test_angles_next_to_a_limit_give_exact_poses_and_rates(name: str, bar: FourB
 
 @pytest.mark.parametrize(("name", "bar"), LIMITED, ids=[row[0] for row in LIMITED])
 def test_at_a_limit_the_pose_is_there_and_unbounded_rates_are_infinite(name: str, bar: FourBar) -> None:
-    solved = mechanism(four_bar(bar.lengths, side=bar.side, ground_angle=bar.ground_angle, start=bar.start))
+    solved = mechanism(four_bar(bar.floats, side=bar.side, ground_angle=bar.ground_angle, start=bar.start))
     path = solved.assembly.path
     assert isinstance(path, Swing)
     motion: Motion = solved.solve(angle=[float(path.low), float(path.high)], speed=1.0)
@@ -361,7 +358,7 @@ def test_at_a_limit_the_pose_is_there_and_unbounded_rates_are_infinite(name: str
 
 @pytest.mark.parametrize(("name", "bar"), LIMITED, ids=[row[0] for row in LIMITED])
 def test_outside_the_range_every_quantity_is_nan(name: str, bar: FourBar) -> None:
-    solved = mechanism(four_bar(bar.lengths, side=bar.side, ground_angle=bar.ground_angle, start=bar.start))
+    solved = mechanism(four_bar(bar.floats, side=bar.side, ground_angle=bar.ground_angle, start=bar.start))
     path = solved.assembly.path
     assert isinstance(path, Swing)
     angles = [float(path.low) - 1e-12, float(path.high) + 1e-12, float(path.high) + 0.05]
@@ -412,7 +409,7 @@ def test_the_press_s_rates_are_slopes_to_more_digits_than_asked() -> None:
     def pose(angle: Any) -> Points:
         a = 55 * unit(angle)
         d = 330 * unit(mpf("-107.47") * degree) + 61 * unit(-angle - mpf("72.55") * degree)
-        b = meeting(a, d, mpf(283), mpf(165), 1)
+        b = crossing(a, d, mpf(283), mpf(165), 1)
         # The slider's line stands upright: a quarter turn makes it the horizontal one.
         c = on_line(b * -1j, mpf(322), mpf(0), -1) * 1j
         return {"A": a, "D": d, "B": b, "C": c, "H": a + (b - a) / 283 * mp.mpc(140, 45)}
@@ -426,9 +423,9 @@ def test_the_six_bar_s_rates_are_slopes_to_more_digits_than_asked() -> None:
 
     def pose(angle: Any) -> Points:
         a = 30 * unit(angle)
-        b = meeting(a, mp.mpc(100), mpf(90), mpf(80), 1)
+        b = crossing(a, mp.mpc(100), mpf(90), mpf(80), 1)
         c = 100 + (b - 100) * mpf(60) / 80
-        return {"A": a, "B": b, "C": c, "D": meeting(c, mp.mpc(230), mpf(110), mpf(90), 1)}
+        return {"A": a, "B": b, "C": c, "D": crossing(c, mp.mpc(230), mpf(110), mpf(90), 1)}
 
     check(solved, pose, tuple(AROUND), 130.0, position=1e-14, rate=1e-13)
 

@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 from build import six_bar
 from mpmath import mp, mpf
-from reference import DIGITS, NUDGE, Points, Pose, derivatives, meeting, sign_of, unit
+from reference import DIGITS, NUDGE, Points, Pose, derivatives, unit
 
+from linkanim.bench.reference import crossing, sign_of
 from linkanim.mechanics.chain import Touch
 from linkanim.mechanics.kinds import RRR, Crank, Gear, Pin
 from linkanim.mechanics.linkage import Body, Drive, Linkage
@@ -38,7 +39,7 @@ def six_bar_ends(first: Lengths, second: Lengths) -> Ends:
     (g, r, a, b), (r5, r6, *_) = map(mpf, first), map(mpf, second)
 
     def ends(angle: Any) -> tuple[Any, Any]:
-        pin = meeting(r * unit(angle), mp.mpc(g), a, b, 1)
+        pin = crossing(r * unit(angle), mp.mpc(g), a, b, 1)
         return g + (pin - g) / b * r6, mp.mpc(g + r5)
 
     return ends
@@ -129,7 +130,7 @@ class Dyad:
 
         def pose(phase: Any) -> Points:
             p, q = self.ends(angle(phase))
-            return {"D": meeting(p, q, mpf(self.lengths[0]), mpf(self.lengths[1]), named * side(phase))}
+            return {"D": crossing(p, q, mpf(self.lengths[0]), mpf(self.lengths[1]), named * side(phase))}
 
         return pose
 
