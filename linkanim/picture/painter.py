@@ -9,6 +9,7 @@ import pygame
 
 from linkanim.mechanics.kinds import Crank
 from linkanim.mechanics.motion import Pose
+from linkanim.picture.blend import Mix, mix
 from linkanim.picture.chart import pen_for
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import Figure, figure
@@ -21,7 +22,7 @@ from linkanim.picture.marks import draw_measure, glow, grip
 from linkanim.picture.names import Names
 from linkanim.picture.overlay import DimensionLine, Overlay
 from linkanim.picture.panels import Panels
-from linkanim.picture.raster import Layer, Stencil, paint, paints, stencil
+from linkanim.picture.raster import Layer, paint, paints, pixels_of, stencil
 from linkanim.picture.staging import Staging, staged, wanted_of
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type
@@ -84,7 +85,10 @@ class Painter:
         """
         canvas = self._canvas(surface)
         self._wipe(canvas, self._still_at(pose.input_speed))
-        paint(canvas, self._moving(pose, ghost if self.look.ghost else None))
+        if self.drawing.moves_behind:
+            paint(canvas, list(self._behind(pose, ghost if self.look.ghost else None)))
+            mix(pixels_of(canvas), self._stencil, clear=bool(canvas.get_flags() & pygame.SRCALPHA))
+        paint(canvas, self._moving(pose))
         if self.names:
             self.names.draw(canvas.subsurface(self._layout.reach), pose, self.drawing.places(pose))
         if self._strip:
@@ -184,16 +188,18 @@ class Painter:
             canvas.fill((0, 0, 0, 0))
         canvas.blit(still, (0, 0))
 
-    def _moving(self, pose: Pose, ghost: Pose | None) -> list[Layer | Stencil]:
-        """Return all that moves, back to front, the chart's cursor last."""
+    def _behind(self, pose: Pose, ghost: Pose | None) -> Iterator[Layer]:
+        """Yield what moves behind all that stands still."""
         drawing = self.drawing
-        behind = [*flat(drawing.wheels(drawing.places(pose))), *(drawing.faint(ghost) if ghost else ())]
-        layers: list[Layer | Stencil] = [*self._on_stage(behind), *self._stencils]
-        layers += self._on_stage(flat(drawing.moving(pose)))
-        return layers + (self._strip.cursor(pose) if self._strip else [])
+        yield from self._on_stage(flat(drawing.wheels(drawing.places(pose))))
+        yield from self._on_stage(drawing.faint(ghost) if ghost else ())
 
     @cached_property
-    def _stencils(self) -> list[Stencil]:
+    def _stencil(self) -> Mix:
         """What stands still with something moving behind it."""
-        standing = flat(self.drawing.standing()) if self.drawing.moves_behind else ()
-        return [stencil(layer, self.size) for layer in self._on_stage(standing)]
+        return stencil(list(self._on_stage(flat(self.drawing.standing()))), self._still)
+
+    def _moving(self, pose: Pose) -> list[Layer]:
+        """Return all that moves before it, back to front, the chart's cursor last."""
+        layers = list(self._on_stage(flat(self.drawing.moving(pose))))
+        return layers + (self._strip.cursor(pose) if self._strip else [])

@@ -1,34 +1,23 @@
-"""Polygons to pixels by exact area coverage, so that a slow edge glides instead of shivering.
+"""Layers of outlines on a surface: what each covers is worked out for all together, then mixed in.
 
-Every edge is cut where it crosses pixel rows and columns; each piece adds to its pixel the signed
-area to its right, and its height to everything further right in the row. Sorted and summed along
-the rows these give the winding number averaged over each pixel, without sampling. Only pixels on
-an outline are mixed; the spans between them are filled. All layers of a frame go through the
-arithmetic together, which is what makes it fast enough in numpy.
-
-Method: the cell accumulation of scan converters such as FreeType's "smooth" rasteriser.
+That all layers of a frame go through the arithmetic together is what makes it fast enough in numpy.
+Those that lie apart are mixed in together, too: each on the lowest level above all that it may lie on.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import count
 from typing import NamedTuple
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-Loop = NDArray[np.complex128]
-Colour = tuple[int, int, int]
-_Floats = NDArray[np.float64]
-_Ints = NDArray[np.int64]
+from linkanim.picture.blend import WHOLE, Mix, Shares, Words, laid_on, mix, mixed_in, shares, words
+from linkanim.picture.cells import Edges, Floats, Ints, Room, Runs, covered, on_grid, pixel_of, room
+from linkanim.picture.cells import Loop as Loop
 
-_NOTHING = 1 / 1024
-_SOLID = 1 - _NOTHING
-_LEAN = 1e-6
-_ROW_BITS = 16
-_COLUMN_BITS = 14
+Colour = tuple[int, int, int]
 
 
 class Layer(NamedTuple):
@@ -45,57 +34,72 @@ class Layer(NamedTuple):
     right: int = 1 << 15
 
 
-class Stencil(NamedTuple):
-    """A layer that is worked out once for surfaces of one size, and then only mixed in: what stands still."""
+class _Boxes(NamedTuple):
+    """The pixels that each layer may cover: first columns and rows, and the ones after the last."""
 
-    colour: Colour
-    place: _Ints
-    weight: NDArray[np.float32]
-
-
-class _Pieces(NamedTuple):
-    """Pieces of edges, each within one pixel: its line and column, its height, the area right of it.
-
-    A line is a row of one layer, in one number: the layer above `_ROW_BITS`, the row below.
-    """
-
-    line: _Ints
-    column: _Ints
-    height: _Floats
-    area: _Floats
+    left: Ints
+    top: Ints
+    right: Ints
+    end: Ints
 
 
-class _Runs(NamedTuple):
-    """Runs of equally covered pixels in the order of their layers."""
+class _Inks(NamedTuple):
+    """The layers' colours as a surface keeps them, and how much of them is mixed in."""
 
-    line: _Ints
-    column: _Ints
-    length: _Ints
-    cover: _Floats
-
-    def where(self, chosen: NDArray[np.bool_]) -> _Runs:
-        return _Runs(*(part[chosen] for part in self))  # type: ignore[arg-type]
+    words: Words
+    alphas: Floats
 
 
-def paint(surface: pygame.Surface, layers: Sequence[Layer | Stencil]) -> None:
+class _Pixels(NamedTuple):
+    """Pixels, how much of an ink each is covered with, and where those of each level begin."""
+
+    place: Ints
+    share: Shares
+    ink: Words
+    bounds: Ints
+
+
+def paint(surface: pygame.Surface, layers: Sequence[Layer]) -> None:
     """Fill the layers in their order on a 32-bit surface whose rows touch; loops may leave it.
 
     Where the surface has alpha, it is kept straight (not multiplied into the colours).
     """
-    layers = [layer for layer in layers if isinstance(layer, Stencil) or layer.loops]
-    if layers:
-        shapes = [layer for layer in layers if isinstance(layer, Layer)]
-        _mix(surface, layers, *_runs(shapes, surface.get_size()))
+    layers = [layer for layer in layers if layer.loops]
+    if not layers:
+        return
+    edges, boxes, ends = _outlined(layers, surface.get_size())
+    levels = _levels(boxes)
+    order = np.argsort(levels, kind="stable")
+    within = room(boxes.top[order], (boxes.end - boxes.top)[order], ends[order], surface.get_width())
+    outline, spans = covered(edges._replace(layer=np.argsort(order)[edges.layer]), within)
+    inks = _inks(surface, [layers[n] for n in order])
+    lines = within.first[np.searchsorted(levels[order], np.arange(levels.max() + 2))]
+    edge, inside = (_inked(runs, within, inks, lines) for runs in (outline, spans))
+    full = inside.share == WHOLE
+    _put(surface, _spread(inside, spans.length, full), (edge, _spread(inside, spans.length, ~full)))
 
 
-def stencil(layer: Layer, size: tuple[int, int]) -> Stencil:
-    """Work out what a layer covers of surfaces of this size."""
-    batches = [
-        _span_pixels(runs, size[0], np.array([layer.alpha]))
-        for runs in _runs([layer] if layer.loops else [], size)
-    ]
-    place, weight, _ = zip(*batches, strict=True)
-    return Stencil(layer.colour, np.concatenate(place), np.concatenate(weight))
+def stencil(layers: Sequence[Layer], like: pygame.Surface) -> Mix:
+    """Return what layers do to surfaces like this one, worked out once, to be mixed in again and again.
+
+    It is found on a black and a white surface: what differs there shows through, the rest was put on.
+    """
+    masks = like.get_masks()[:3]
+    black, white = (pygame.Surface(like.get_size(), 0, 32, (*masks, 0)) for _ in range(2))
+    white.fill((255, 255, 255))
+    for surface in (black, white):
+        paint(surface, layers)
+    put, over = (pixels_of(surface) & np.uint32(sum(masks)) for surface in (black, white))
+    through = over - put >> np.uint32(like.get_shifts()[1]) & np.uint32(255)
+    place = np.flatnonzero(through < 255)
+    opacity = (255 - through) * np.uint32(0x01010101) & np.uint32(0xFFFFFFFF ^ sum(masks))
+    return laid_on(place, through[place], (put | opacity)[place])
+
+
+def pixels_of(surface: pygame.Surface) -> Words:
+    """Return a surface's pixels, row by row, to be read and written."""
+    pixels: Words = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
+    return pixels
 
 
 def paints(surface: pygame.Surface) -> bool:
@@ -103,180 +107,83 @@ def paints(surface: pygame.Surface) -> bool:
     return surface.get_bytesize() == 4 and surface.get_pitch() == 4 * surface.get_width()
 
 
-def _runs(layers: Sequence[Layer], size: tuple[int, int]) -> tuple[_Runs, _Runs]:
-    """Return the pixels on the layers' outlines and the spans between them."""
-    none = np.zeros(0, np.int64)
-    nothing = _Runs(none, none, none, np.zeros(0))
-    if not layers:
-        return nothing, nothing
-    begin, end, number = _edges(layers)
-    lowest = np.array([min(layer.end, size[1]) for layer in layers])[number]
-    line, height, x0, x1 = _by_row(begin, end, number, lowest)
-    rightmost = np.array([min(layer.right, size[0]) for layer in layers])
-    if rightmost.min() < size[0]:
-        x0, x1 = (np.minimum(x, rightmost[line >> _ROW_BITS]) for x in (x0, x1))
-    pieces = _by_column(line, height, x0, x1, size[0])
-    return _resolve(pieces, size[0]) if pieces.line.size else (nothing, nothing)
-
-
-def _edges(layers: Sequence[Layer]) -> tuple[Loop, Loop, _Ints]:
-    """Return where the edges begin and end, and the number of their layer."""
-    begin = np.concatenate([loop for layer in layers for loop in layer.loops])
+def _outlined(layers: Sequence[Layer], size: tuple[int, int]) -> tuple[Edges, _Boxes, Ints]:
+    """Return the layers' edges, which pixels each may cover, and the column that each ends before."""
+    begin = on_grid(np.concatenate([loop for layer in layers for loop in layer.loops]))
     counts = np.array([len(loop) for layer in layers for loop in layer.loops])
+    loops = np.array([len(layer.loops) for layer in layers])
     last = np.cumsum(counts) - 1
     end = np.empty_like(begin)
     end[:-1] = begin[1:]
     end[last] = begin[last - counts + 1]
-    layer_of_loop = np.repeat(np.arange(len(layers)), [len(layer.loops) for layer in layers])
-    return begin, end, np.repeat(layer_of_loop, counts)
+    number = np.repeat(np.repeat(np.arange(len(layers)), loops), counts)
+    starts = (last - counts + 1)[np.cumsum(loops) - loops]
+    ends = np.array([(min(layer.right, size[0]), min(layer.end, size[1])) for layer in layers]).T
+    return Edges(begin, end, number), _boxes(begin, starts, ends), ends[0]
 
 
-def _by_row(begin: Loop, end: Loop, number: _Ints, lowest: _Ints) -> tuple[_Ints, _Floats, _Floats, _Floats]:
-    """Cut edges at pixel rows; return each piece's line, its signed height, and x at both ends."""
-    x0, y0, y1 = begin.real.copy(), begin.imag.copy(), end.imag.copy()
-    height = y1 - y0
-    first = np.minimum(np.maximum(np.minimum(y0, y1), 0), lowest).astype(np.int64)
-    last = np.ceil(np.minimum(np.maximum(np.maximum(y0, y1), 0), lowest)).astype(np.int64)
-    edge, row = _expand(np.where(height != 0, last - first, 0), first)
-    slope = (end.real - x0) / np.where(height != 0, height, 1)
-    above = row.astype(np.float64)
-    below = above + 1
-    starts, ends = (np.minimum(np.maximum(y[edge], above), below) for y in (y0, y1))
-    slopes, shift = slope[edge], (x0 - y0 * slope)[edge]
-    return number[edge] << _ROW_BITS | row, ends - starts, shift + starts * slopes, shift + ends * slopes
+def _boxes(points: Loop, starts: Ints, ends: Ints) -> _Boxes:
+    """Return the pixels about the points of each layer, within its ends."""
+    sides = []
+    for part, end in zip((points.real, points.imag), ends, strict=True):
+        low = np.clip(pixel_of(np.minimum.reduceat(part, starts)), 0, end)
+        high = np.clip(-pixel_of(-np.maximum.reduceat(part, starts)), low, end)
+        sides.append((low, high))
+    (left, right), (top, bottom) = sides
+    return _Boxes(left, top, right, bottom)
 
 
-def _by_column(line: _Ints, height: _Floats, x0: _Floats, x1: _Floats, width: int) -> _Pieces:
-    """Cut what lies in one row at pixel columns; column `width` collects what lies further right."""
-    left = np.minimum(np.maximum(np.minimum(x0, x1), 0), width)
-    right = np.minimum(np.maximum(np.maximum(x0, x1), 0), width)
-    # upright pieces lean by less than can be seen, so that all are cut in one way
-    right = np.maximum(right, left + _LEAN)
-    first = left.astype(np.int64)
-    steep = height / (right - left)
-    piece, column = _expand(np.ceil(right).astype(np.int64) - first, first)
-    edge = column.astype(np.float64)
-    beyond = edge + 1
-    near, far = np.maximum(left[piece], edge), np.minimum(right[piece], beyond)
-    part = (far - near) * steep[piece]
-    near += far
-    near *= 0.5
-    return _Pieces(line[piece], column, part, part * (beyond - near))
+def _levels(boxes: _Boxes) -> Ints:
+    """Return a level for each layer: above all layers before it that it may touch, and else the lowest."""
+    left, top, right, end = (side[:, None] for side in boxes)
+    meet = (left < boxes.right) & (right > boxes.left) & (top < boxes.end) & (end > boxes.top)
+    taken: list[int] = []
+    levels = []
+    for n, row in enumerate(np.packbits(meet, axis=1, bitorder="little")):
+        touched = int.from_bytes(row.tobytes(), "little")
+        level = len(taken)
+        while level and not taken[level - 1] & touched:
+            level -= 1
+        if level == len(taken):
+            taken.append(0)
+        taken[level] |= 1 << n
+        levels.append(level)
+    return np.array(levels)
 
 
-def _expand(count: _Ints, first: _Ints) -> tuple[_Ints, _Ints]:
-    """Return, for each of count[i] copies of i, i and first[i] + 0, 1, 2, ..."""
-    which = np.repeat(np.arange(count.size), count)
-    return which, np.arange(which.size) + np.repeat(first - np.cumsum(count) + count, count)
+def _inks(surface: pygame.Surface, layers: Sequence[Layer]) -> _Inks:
+    colours = np.array([layer.colour for layer in layers], np.uint8)
+    return _Inks(words(surface, colours), np.array([layer.alpha for layer in layers]))
 
 
-def _resolve(pieces: _Pieces, width: int) -> tuple[_Runs, _Runs]:
-    """Sum the pieces along the lines; return the pixels on outlines and the spans between them."""
-    place = pieces.line << _COLUMN_BITS | pieces.column
-    # a merging sort, for the edges of an outline follow one another down or up the rows
-    order = np.argsort(place, kind="stable")
-    place = place[order]
-    changes = np.empty(place.size, np.bool_)
-    changes[0] = True
-    np.not_equal(place[1:], place[:-1], out=changes[1:])
-    first = np.flatnonzero(changes)
-    place = place[first]
-    cover = np.cumsum(np.add.reduceat(pieces.height[order], first))
-    area = np.add.reduceat(pieces.area[order], first)
-    area[1:] += cover[:-1]
-    line, column = place >> _COLUMN_BITS, place & ((1 << _COLUMN_BITS) - 1)
-    on_edge, inside = np.minimum(np.abs(area), 1), np.minimum(np.abs(cover), 1)
-    edges = np.flatnonzero((column < width) & (on_edge > _NOTHING))
-    # the cover to the right of a line's last piece is zero, so that no span leads to the next line
-    spans = np.flatnonzero((place[1:] - place[:-1] > 1) & (inside[:-1] > _NOTHING))
-    gap = place[spans + 1] - place[spans] - 1
-    return (
-        _Runs(line[edges], column[edges], np.ones_like(edges), on_edge[edges]),
-        _Runs(line[spans], column[spans] + 1, gap, inside[spans]),
-    )
+def _inked(runs: Runs, within: Room, inks: _Inks, lines: Ints) -> _Pixels:
+    """Return the first pixel of each run; the levels begin at these lines."""
+    counts = np.diff(np.searchsorted(runs.line, within.first))
+    cover = runs.cover if inks.alphas.min() >= 1 else runs.cover * np.repeat(inks.alphas, counts)
+    place = within.starts.take(runs.line) + runs.column
+    return _Pixels(place, shares(cover), np.repeat(inks.words, counts), np.searchsorted(runs.line, lines))
 
 
-class _Batch(NamedTuple):
-    """Pixels' places in the surface and how much of each is mixed in, and where each layer's begin."""
-
-    place: _Ints
-    weight: NDArray[np.float32]
-    bounds: list[int]
-
-
-def _edge_pixels(runs: _Runs, width: int, alphas: _Floats) -> _Batch:
-    """Return runs of one pixel each."""
-    weight = runs.cover if (alphas >= 1).all() else runs.cover * alphas[runs.line >> _ROW_BITS]
-    return _Batch(
-        _place(runs, width), weight.astype(np.float32)[:, None], _bounds(runs, len(alphas)).tolist()
-    )
+def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:
+    """Return all pixels of the runs chosen."""
+    runs = np.flatnonzero(chosen)
+    counts = length.take(runs)
+    ends = np.cumsum(counts)
+    total = int(ends[-1]) if runs.size else 0
+    place = np.arange(total) + np.repeat(first.place.take(runs) - ends + counts, counts)
+    bounds = np.concatenate(([0], ends))[np.searchsorted(runs, first.bounds)]
+    share = np.repeat(first.share.take(runs), counts)
+    return _Pixels(place, share, np.repeat(first.ink.take(runs), counts), bounds)
 
 
-def _span_pixels(runs: _Runs, width: int, alphas: _Floats) -> _Batch:
-    """Return every pixel of longer runs."""
-    ends = np.concatenate(([0], np.cumsum(runs.length)))
-    place = np.arange(ends[-1]) + np.repeat(_place(runs, width) - ends[:-1], runs.length)
-    weight = (runs.cover * alphas[runs.line >> _ROW_BITS]).astype(np.float32)
-    return _Batch(place, np.repeat(weight, runs.length)[:, None], ends[_bounds(runs, len(alphas))].tolist())
-
-
-def _place(runs: _Runs, width: int) -> _Ints:
-    return (runs.line & ((1 << _ROW_BITS) - 1)) * width + runs.column
-
-
-def _bounds(runs: _Runs, count: int) -> _Ints:
-    """Return the number of the first run of each layer, and how many runs there are."""
-    return np.searchsorted(runs.line, np.arange(count + 1) << _ROW_BITS)
-
-
-def _mix(surface: pygame.Surface, layers: Sequence[Layer | Stencil], outline: _Runs, spans: _Runs) -> None:
-    """Put the layers' colours on the surface, one layer after the other."""
-    width = surface.get_width()
-    alphas = np.array([layer.alpha for layer in layers if isinstance(layer, Layer)])
-    solid = (spans.cover > _SOLID) & (alphas >= 1)[spans.line >> _ROW_BITS]
-    full = _span_pixels(spans.where(solid), width, alphas)
-    mixed = [_edge_pixels(outline, width, alphas)]
-    if not solid.all():
-        mixed.append(_span_pixels(spans.where(~solid), width, alphas))
-    pixels = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
-    inks = _inks(surface, layers)
-    words = inks.astype(np.uint8).view(np.uint32)[:, 0]
-    clear = bool(surface.get_flags() & pygame.SRCALPHA)
-    number = count()
-    for ink, word, layer in zip(inks, words, layers, strict=True):
-        if isinstance(layer, Stencil):
-            _blend(pixels, ink, layer.place, layer.weight, clear)
-            continue
-        n = next(number)
-        pixels[full.place[full.bounds[n] : full.bounds[n + 1]]] = word
-        for batch in mixed:
-            part = slice(batch.bounds[n], batch.bounds[n + 1])
-            if part.stop > part.start:
-                _blend(pixels, ink, batch.place[part], batch.weight[part], clear)
-
-
-def _inks(surface: pygame.Surface, layers: Sequence[Layer | Stencil]) -> NDArray[np.float32]:
-    """Return the layers' colours as the surface keeps them, four bytes each, opaque."""
-    inks = np.full((len(layers), 4), 255, np.float32)
-    inks[:, [shift // 8 for shift in surface.get_shifts()[:3]]] = [layer.colour for layer in layers]
-    return inks
-
-
-def _blend(
-    pixels: NDArray[np.uint32],
-    ink: NDArray[np.float32],
-    place: _Ints,
-    weight: NDArray[np.float32],
-    clear: bool,
-) -> None:
-    """Mix ink into pixels by its coverage; `clear` where the surface itself lets light through."""
-    below = pixels[place].view(np.uint8).reshape(-1, 4).astype(np.float32)
-    if clear:
-        under = below[:, 3:] / np.float32(255)
-        whole = weight + under * (1 - weight)
-        below += (ink - below) * (weight / whole)
-        below[:, 3:] = 255 * whole
-    else:
-        below += (ink - below) * weight
-    below += 0.5
-    pixels[place] = below.astype(np.uint8).view(np.uint32)[:, 0]
+def _put(surface: pygame.Surface, full: _Pixels, partly: Sequence[_Pixels]) -> None:
+    """Fill the pixels that are covered in full and mix the others, level by level."""
+    pixels, clear = pixels_of(surface), bool(surface.get_flags() & pygame.SRCALPHA)
+    mixes = [(mixed_in(part.place, part.share, part.ink), part.bounds.tolist()) for part in partly]
+    bounds = full.bounds.tolist()
+    for level in range(len(bounds) - 1):
+        inside = slice(bounds[level], bounds[level + 1])
+        pixels[full.place[inside]] = full.ink[inside]
+        for mixed, at in mixes:
+            if at[level] < at[level + 1]:
+                mix(pixels, mixed.part(at[level], at[level + 1]), clear=clear)

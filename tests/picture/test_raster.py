@@ -7,11 +7,12 @@ import math
 import numpy as np
 import pygame
 import pytest
-from pictures import alphas, coverage, filled
+from pictures import alphas, coverage, filled, pixels
 
 from linkanim.bench.fidelity import Pixels, averaged, centre, jitter, psnr
+from linkanim.picture.blend import mix
 from linkanim.picture.offscreen import offscreen
-from linkanim.picture.raster import Layer, Loop, paint, paints
+from linkanim.picture.raster import Layer, Loop, paint, paints, pixels_of, stencil
 from linkanim.picture.shapes import box, disc, rounded
 
 WHITE = (255, 255, 255)
@@ -114,6 +115,38 @@ def test_layers_lie_over_those_before_them() -> None:
     square = box(20, 20) + 32 + 32j
     surface = filled([Layer(WHITE, [square]), Layer((10, 20, 30), [square])])
     assert surface.get_at((32, 32))[:3] == (10, 20, 30)
+
+
+def _scattered(seed: int, count: int) -> list[Layer]:
+    """Return bars and rings, some of them faint, some side by side and some over others."""
+    random = np.random.default_rng(seed)
+    layers = []
+    for _ in range(count):
+        place, turn = complex(*random.uniform(-5, 70, 2)), np.exp(1j * random.uniform(0, 6))
+        bar = turn * rounded([0j, complex(random.uniform(1, 40), 0)], 3)
+        loops = [place + bar] if random.integers(2) else [place + disc(6), place + disc(4)[::-1]]
+        red, green, blue = random.integers(0, 256, 3).tolist()
+        layers.append(Layer((red, green, blue), loops, random.choice([1.0, 0.6])))
+    return layers
+
+
+@pytest.mark.parametrize("alpha", [False, True])
+@pytest.mark.parametrize("seed", range(4))
+def test_layers_painted_together_are_those_painted_one_after_the_other(seed: int, alpha: bool) -> None:
+    layers, one_by_one = _scattered(seed, 30), filled([], background=90, alpha=alpha)
+    for layer in layers:
+        paint(one_by_one, [layer])
+    together = filled(layers, background=90, alpha=alpha)
+    assert together.get_buffer().raw == one_by_one.get_buffer().raw
+
+
+@pytest.mark.parametrize("alpha", [False, True])
+def test_a_stencil_mixes_in_what_its_layers_paint(alpha: bool) -> None:
+    layers = _scattered(7, 10)
+    painted, stencilled = filled(layers, background=90, alpha=alpha), filled([], background=90, alpha=alpha)
+    mix(pixels_of(stencilled), stencil(layers, stencilled), clear=alpha)
+    seen = [alphas(surface)[..., None] * pixels(surface) / 255 for surface in (painted, stencilled)]
+    assert np.abs(seen[0] - seen[1]).max() <= 2
 
 
 def test_a_faint_layer_mixes_in_its_inside_as_on_its_edge() -> None:
