@@ -1,4 +1,4 @@
-"""What every test needs: no window, no sound, and property tests without a clock."""
+"""What every test needs: no window, no sound, no clock, and what was withstood is counted."""
 
 from __future__ import annotations
 
@@ -6,18 +6,28 @@ import os
 
 import pytest
 from hypothesis import settings
+from withstood import MARK, table
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+# its greeting would follow the closing line, when the processes that run the tests end
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 settings.register_profile("linkanim", deadline=None, derandomize=True, database=None)
 settings.load_profile("linkanim")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Skip what needs a real window where there is no display to open it on."""
-    if not os.environ.get("DISPLAY"):
-        no_display = pytest.mark.skip(reason="needs a display; .ci/run starts one")
-        for item in items:
-            if "window" in item.keywords:
-                item.add_marker(no_display)
+    """Skip what needs a real window where there is no display; have each test carry what it withstands."""
+    no_display = pytest.mark.skip(reason="needs a display; .ci/run starts one")
+    for item in items:
+        if "window" in item.keywords and not os.environ.get("DISPLAY"):
+            item.add_marker(no_display)
+        item.user_properties += [mark.args for mark in item.iter_markers(MARK)]
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print what the tests that passed have withstood, before the closing line."""
+    passed = terminalreporter.stats.get("passed", [])
+    for line in table(found for report in passed for found in report.user_properties):
+        terminalreporter.write_line(line)

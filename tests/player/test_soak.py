@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
 
@@ -23,6 +23,7 @@ from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 
 SEED = 20261121
+needs_proc = pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read through /proc")
 
 KEYS = [
     *(ord(letter) for letter in "abcdehiklnoprtv0123456789+-=.?gm"),
@@ -30,13 +31,6 @@ KEYS = [
     *(pygame.K_LEFT, pygame.K_RIGHT, pygame.K_UP, pygame.K_DOWN, pygame.K_F1),
 ]
 MODS = [0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL]
-
-
-PLAIN = [
-    "pause", "direction", "start", "closure", "trace", "ghost", "names", "theme", "help", "fit", "edit",
-    "erase", "take", "undo", "redo", "back", "drop", "list", "shelf",
-]  # fmt: skip
-COUNTED = ["step", "speed", "mechanism", "chart", "choose", "nudge", "pass_on", "move"]
 
 
 def asked(chance: random.Random) -> Action:
@@ -72,16 +66,15 @@ def finite(state: State) -> None:
     assert all(math.isfinite(x) and math.isfinite(y) for x, y in pose.position.values())
 
 
-def states(frames: int) -> Iterator[State]:
-    """Iterate the states of a run in which something is asked for in every other frame."""
+def states(frames: int, busy: float) -> Iterator[State]:
+    """Iterate the states of a run over all scenes in which a share of the frames asks for something."""
     chance = random.Random(SEED)
-    state = begin(load("crank-rocker"))
-    for frame in range(frames):
-        if frame % 500 == 0:
-            state = begin(load(chance.choice(names())))
-        wanted = [asked(chance)] if chance.random() < 0.5 else []
-        state = advance(state, wanted)
-        yield state
+    each = math.ceil(frames / len(names()))
+    for name in names():
+        state = begin(load(name))
+        for _ in range(each):
+            state = advance(state, [asked(chance)] if chance.random() < busy else [])
+            yield state
 
 
 def pressed(player: Player, chance: random.Random) -> bool:
@@ -101,14 +94,17 @@ def pressed(player: Player, chance: random.Random) -> bool:
     return player.tick(chance.choice([1, 1, 5, 120]))
 
 
-def painted(frames: int, folder: Path) -> None:
-    """Play a window for so many frames that are painted, over all scenes; hold it to no fault and no NaN."""
+def painted(frames: int, folder: Path, busy: float = 1.0) -> None:
+    """Play a window for so many frames that are painted, over all scenes; hold it to no fault and no NaN.
+
+    In a share of the frames a key is pressed or the mouse used.
+    """
     chance = random.Random(SEED)
     for number, name in enumerate(names()):
         with display.opened(SIZE):
             player = Player(begin(load(name)))
-            for _ in range(frames // len(names()) + 1):
-                if not pressed(player, chance):
+            for _ in range(math.ceil(frames / len(names()))):
+                if not (pressed(player, chance) if chance.random() < busy else player.tick()):
                     break
                 finite(player.state)
             player.window.close()
@@ -121,33 +117,45 @@ def resident_mb() -> float:
     return pages * 4096 / 1e6
 
 
+@pytest.mark.withstands("frames run", 1_000)
 def test_states_stay_finite_whatever_is_asked() -> None:
-    for state in states(1_000):
+    for state in states(1_000, 0.3):
         finite(state)
 
 
+@pytest.mark.withstands("frames run", 108)
 def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rendering, "_start", fake_start([]))
-    painted(120, here)
+    painted(108, here)
 
 
 @pytest.mark.long
-def test_a_million_frames() -> None:
-    for frame, state in enumerate(states(1_000_000)):
-        if frame % 10 == 0:
-            finite(state)
+@pytest.mark.withstands("frames run", 1_000_000)
+@needs_proc
+def test_a_million_frames_take_no_more_memory(record_property: Callable[[str, object], None]) -> None:
+    for state in states(30_000, 0.05):
+        finite(state)
+    before = resident_mb()
+    for state in states(1_000_000, 0.01):
+        finite(state)
+    grown = resident_mb() - before
+    record_property("memory growth, MB", grown)
+    assert grown < 5
 
 
 @pytest.mark.long
-@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read through /proc")
+@pytest.mark.withstands("frames run", 20_000)
+@needs_proc
 def test_twenty_thousand_painted_frames_take_no_more_memory(
-    here: Path, monkeypatch: pytest.MonkeyPatch
+    here: Path, monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
 ) -> None:
     monkeypatch.setattr(rendering, "_start", fake_start([]))
-    painted(2_000, here)
+    painted(2_000, here, 0.2)
     before = resident_mb()
-    painted(20_000, here)
-    assert resident_mb() - before < 5
+    painted(20_000, here, 0.2)
+    grown = resident_mb() - before
+    record_property("memory growth, MB", grown)
+    assert grown < 5
 
 
 @pytest.mark.parametrize("name", ["crank-rocker", "press", "double-rocker"])
