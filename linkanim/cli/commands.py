@@ -172,6 +172,17 @@ def _shown(parser: Parser) -> None:
         default=0,
         help="name joints and links; twice: their dimensions and the input's angle, too",
     )
+    parser.add_argument(
+        "--polygons", action="store_true", help="velocity and acceleration polygons beside the linkage"
+    )
+    parser.add_argument(
+        "--instant-centres",
+        action="store_true",
+        help="mark the instant centres of all links, of more than five those to the ground",
+    )
+    parser.add_argument(
+        "--centrodes", action="store_true", help="and the curves that the coupler's runs along"
+    )
 
 
 def _theme(parser: Parser) -> None:
@@ -292,9 +303,6 @@ def _draw(parser: Parser) -> None:
     parser.add_argument("--ghost", action="store_true", help="the other closure, faintly")
     parser.add_argument(
         "--poses", type=valued(values.count), metavar="N", help="N faint poses over the period behind it"
-    )
-    parser.add_argument(
-        "--instant-centres", action="store_true", help="mark the instant centres to the ground"
     )
     _theme(parser)
     parser.add_argument("--transparent", action="store_true", help="no background")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from math import isnan
 
+from linkanim.cli.record import centres_of
 from linkanim.cli.sheet import sheet
 from linkanim.cli.solve import out_of_range
 from linkanim.paper.figure import SUFFIXES, Figured, write
@@ -21,10 +22,12 @@ def run(options: Namespace) -> None:
         vectors=options.vectors,
         names=min(options.names, 2),
         ghost=options.ghost,
+        polygons=options.polygons,
+        centres=centres_of(options),
         background=not options.transparent,
     )
     phase = _phase(scene, options)
-    write(Figured(scene, size, look, phase, options.poses or 0, options.instant_centres), target)
+    write(Figured(scene, size, look, phase, options.poses or 0), target)
     print(target)
 
 

@@ -31,6 +31,9 @@ _OF_A_SCENE = (
     "noted",
     "vectors",
     "names",
+    "polygons",
+    "instant_centres",
+    "centrodes",
     "chart",
     "theme",
     "transparent",
@@ -80,6 +83,11 @@ def _of_tape(options: Namespace) -> Callable[..., Recording]:
     return partial(record_tape, options.scene)
 
 
+def centres_of(options: Namespace) -> int:
+    """Return what of the instant centres the options ask for, as `Look.centres` says it."""
+    return 2 if options.centrodes else int(options.instant_centres)
+
+
 def look_of(options: Namespace) -> Look:
     """Return what the options say is to be shown."""
     return Look(
@@ -87,6 +95,8 @@ def look_of(options: Namespace) -> Look:
         trace=options.trace,
         vectors=options.vectors,
         names=min(options.names, 2),
+        polygons=options.polygons,
+        centres=centres_of(options),
         chart=options.chart,
         hud=options.hud,
         background=not options.transparent,

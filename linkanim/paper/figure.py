@@ -7,20 +7,16 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-import numpy as np
 import pygame
 
-from linkanim.mechanics.derived import pole
 from linkanim.mechanics.motion import Pose
 from linkanim.paper.svg import svg
-from linkanim.picture.dimensions import numbered
 from linkanim.picture.drawing import Drawing
-from linkanim.picture.items import Caption, Group, draw, flat
+from linkanim.picture.items import Group, draw, flat, worded
 from linkanim.picture.look import Look
 from linkanim.picture.names import Names
 from linkanim.picture.offscreen import offscreen, png_bytes
-from linkanim.picture.raster import Layer, paint
-from linkanim.picture.shapes import segments
+from linkanim.picture.raster import paint
 from linkanim.picture.staging import staged, wanted_of
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
@@ -35,8 +31,7 @@ SUFFIXES = (".svg", ".png")
 class Figured:
     """What a figure shows of a scene: a phase, and over it `poses` faint ones spread over the period.
 
-    Of the look, the chart and the HUD are left out. `centres` marks the instant centres to the ground
-    that lie on no pin.
+    Of the look, the chart and the HUD are left out.
     """
 
     scene: Scene
@@ -44,7 +39,6 @@ class Figured:
     look: Look
     phase: float = 0.0
     poses: int = 0
-    centres: bool = False
 
     @cached_property
     def drawing(self) -> Drawing:
@@ -78,10 +72,10 @@ class Figured:
             yield Group(f"pose-{n}", drawing.faint(faint))
         yield from drawing.standing()
         yield from drawing.moving(pose)
-        if self.centres:
-            yield self._centres()
         if self.names:
             yield Group("names", (), self.names.captions(pose, places))
+        for polygon in drawing.polygons(self.type):
+            yield polygon.group(pose)
 
     def surface(self) -> pygame.Surface:
         """Return the figure drawn; clear where nothing is, without a background."""
@@ -89,7 +83,7 @@ class Figured:
         surface.fill((*theme_of(self.look.theme).background, 255 if self.look.background else 0))
         groups = list(self.groups())
         paint(surface, list(flat(groups)))
-        draw(surface, [caption for group in groups for caption in group.captions], self.type)
+        draw(surface, worded(groups), self.type)
         return surface
 
     def document(self) -> str:
@@ -107,22 +101,6 @@ class Figured:
             yield self._ghost.pose(self.phase, 0)
         for n in range(self.poses):
             yield self.scene.pose(self.phase + self.scene.period * n / self.poses, 0)
-
-    def _centres(self) -> Group:
-        """Return a cross and its name for each instant centre within the figure that is no pin."""
-        set_ = self.drawing.scenery
-        layers, captions, reach, size = [], [], 0.8 * set_.gauge.bar, set_.layout.small_size
-        pins = [self.drawing.places(self.pose)[name] for name in set_.figure.fixed]
-        for body, number in numbered(set_.figure).items():
-            at = set_.view.place(pole(self.pose, body)) if len(body.joints) > 1 else complex(np.inf)
-            inside = 0 < at.real < self.size[0] and 0 < at.imag < self.size[1]
-            if not inside or any(abs(at - pin) < reach for pin in pins):
-                continue
-            ends = np.array([reach, 1j * reach])
-            layers += [Layer(set_.theme.warning, segments(at - ends, at + ends, 1.4 * set_.gauge.line))]
-            place = (at.real + reach, at.imag - reach - size)
-            captions.append(Caption(f"P_{{1{number}}}", place, size, set_.theme.warning, strong=True))
-        return Group("instant-centres", layers, captions)
 
 
 def write(shown: Figured, target: Path) -> None:

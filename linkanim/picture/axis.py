@@ -42,7 +42,7 @@ def linear(low: float, high: float, *, most: int = 5, unit: str = "") -> Axis:
 
     In degrees (`unit` "°") ticks lie at parts of a turn.
     """
-    step = _degrees(high - low, most) if unit == "°" else _step(high - low, most)
+    step = _degrees(high - low, most) if unit == "°" else round_step(high - low, most)
     first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
     ticks = tuple((k * step, f"{stepped(k * step, step)}{unit}") for k in range(first, last + 1))
     return Axis(low, high, ticks)
@@ -78,7 +78,8 @@ def _span(finite: NDArray[np.float64]) -> tuple[float, float]:
     return low, high
 
 
-def _step(span: float, most: int) -> float:
+def round_step(span: float, most: int) -> float:
+    """Return the least of 1, 2 and 5 times a power of ten that goes at most so many times into a span."""
     rough = span / most
     power = 10.0 ** floor(log10(rough))
     return next(power * factor for factor in (1, 2, 5, 10) if power * factor >= rough * (1 - 1e-9))
@@ -87,5 +88,5 @@ def _step(span: float, most: int) -> float:
 def _degrees(span: float, most: int) -> float:
     parts = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
     if span / most <= parts[0] / 2:
-        return _step(span, most)
+        return round_step(span, most)
     return next((part for part in parts if span / part <= most), 360.0 * ceil(span / most / 360.0))

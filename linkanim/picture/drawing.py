@@ -11,6 +11,8 @@ import numpy as np
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
+from linkanim.picture.centres import Centres
+from linkanim.picture.chart import pen_for
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import Figure
 from linkanim.picture.gears import wheel_layers, wheel_parts
@@ -20,6 +22,7 @@ from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.names import Hand, Names, names_of
 from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
+from linkanim.picture.polygons import Polygon, polygons_of
 from linkanim.picture.raster import Layer
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.text import Type
@@ -68,6 +71,7 @@ class Cast:
     arrows: tuple[Arrows, ...]
     turning: Turning | None
     legs: tuple[Part, ...]
+    centres: Centres | None
 
 
 class Drawing:
@@ -143,10 +147,19 @@ class Drawing:
             yield Group("ground-line", ground_line(pivots(figure), *self.scenery.known))
         for trace in self.cast.traces:
             yield Group(f"curve-{trace.joint}", [trace.whole()])
+        if self._rolling:
+            yield Group("fixed-centrode", [self._rolling.fixed()])
+
+    @property
+    def _rolling(self) -> Centres | None:
+        """The centres, where their curves are wanted."""
+        return self.cast.centres if self.scenery.look.centres > 1 else None
 
     def moving(self, pose: Pose) -> Iterator[Group]:
         """Yield all that moves before it, back to front."""
         places, cast = self.places(pose), self.cast
+        if self._rolling:
+            yield Group("moving-centrode", [self._rolling.moving(places)])
         for trace in cast.traces:
             recent = trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
             yield Group(f"recent-{trace.joint}", recent)
@@ -159,6 +172,13 @@ class Drawing:
         yield Group("centres-of-mass", cast.mass.at(masses))
         for kind in cast.arrows:
             yield Group(kind.words, kind.layers(pose, self.scenery.view, self.scenery.figure.scene.trace))
+        if cast.centres:
+            yield cast.centres.marks(pose, places)
+
+    def polygons(self, type_: Type) -> tuple[Polygon, ...]:
+        """Return the polygons beside the linkage, where the look asks for them."""
+        set_, place = self.scenery, self.scenery.layout.polygons
+        return polygons_of(set_.figure, place, pen_for(set_.layout, type_, set_.theme)) if place else ()
 
     def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
         """Yield the way the input turns, and its angle."""
@@ -205,6 +225,7 @@ def _cast(scenery: Scenery, known: Symbols | None) -> Cast:
         arrows=tuple(arrows_of(figure, kind, height, gauge, theme) for kind in kinds),
         turning=turning_of(*scenery.known) if look.names else None,
         legs=tuple(leg_part(legs, view, gauge, theme.dim) for legs in known.legs) if known else (),
+        centres=Centres(*scenery.known, scenery.layout, rolling=look.centres > 1) if look.centres else None,
     )
 
 

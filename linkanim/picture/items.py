@@ -48,23 +48,45 @@ def flat(groups: Iterable[Group]) -> Iterator[Layer]:
     return (layer for group in groups for layer in group.layers)
 
 
+def worded(groups: Iterable[Group]) -> Iterator[Caption]:
+    """Yield the words of all groups in their order."""
+    return (caption for group in groups for caption in group.captions)
+
+
+class Scribe:
+    """Draws items on surfaces; the words that it has set in a halo once it keeps."""
+
+    def __init__(self, type_: Type) -> None:
+        self._type = type_
+        self._set: dict[tuple[str, int, Colour, Halo], Lettering] = {}
+
+    def draw(self, surface: pygame.Surface, items: Iterable[Item]) -> None:
+        """Draw items in their order; changes the surface only."""
+        for shapes, run in groupby(items, lambda item: isinstance(item, Layer)):
+            if shapes:
+                paint(surface, [item for item in run if isinstance(item, Layer)])
+                continue
+            for item in run:
+                assert isinstance(item, Caption)
+                self._write(surface, item)
+
+    def _write(self, surface: pygame.Surface, line: Caption) -> None:
+        """Draw a line of text; one in a halo to a part of a pixel, as labels on a drawing are."""
+        text, at, size, colour, anchor, strong, halo = line
+        if halo is None:
+            self._type.draw(surface, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
+            return
+        letters = self._letters(text, size, colour, halo)
+        aside = {"left": 0.5, "centre": 0.0, "right": -0.5}[anchor] * letters.size[0]
+        letters.draw(surface, complex(at[0] + aside, at[1] + letters.drop))
+
+    def _letters(self, text: str, size: int, colour: Colour, halo: Halo) -> Lettering:
+        key = (text, size, colour, halo)
+        if key not in self._set:
+            self._set[key] = Lettering(text, self._type, size, (colour, halo.colour), halo.width)
+        return self._set[key]
+
+
 def draw(surface: pygame.Surface, items: Iterable[Item], type_: Type) -> None:
-    """Draw items in their order on a surface."""
-    for shapes, run in groupby(items, lambda item: isinstance(item, Layer)):
-        if shapes:
-            paint(surface, [item for item in run if isinstance(item, Layer)])
-            continue
-        for item in run:
-            assert isinstance(item, Caption)
-            _write(surface, item, type_)
-
-
-def _write(surface: pygame.Surface, line: Caption, type_: Type) -> None:
-    """Draw a line of text; one in a halo to a part of a pixel, as labels on a drawing are."""
-    text, at, size, colour, anchor, strong, halo = line
-    if halo is None:
-        type_.draw(surface, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
-        return
-    letters = Lettering(text, type_, size, (colour, halo.colour), halo.width)
-    aside = {"left": 0.5, "centre": 0.0, "right": -0.5}[anchor] * letters.size[0]
-    letters.draw(surface, complex(at[0] + aside, at[1] + letters.drop))
+    """Draw items in their order on a surface, once."""
+    Scribe(type_).draw(surface, items)

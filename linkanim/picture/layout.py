@@ -13,6 +13,8 @@ _SHARE_BELOW, _SHARE_BESIDE = 0.27, 0.45
 """A chart's share of the height, or of the width."""
 _TALLEST = 0.42
 """The height of a chart beside the scene, in widths of the window."""
+_SHARE_OF_POLYGONS = 0.36
+"""The polygons' share of what is left beside a chart: of its width, or of its height if that is greater."""
 
 
 @dataclass(frozen=True)
@@ -29,17 +31,20 @@ class Layout:
     chart: Rect | None
     marks: Rect
     """Where the marks of recording and pause stand; at the left of the stage they begin at their left."""
+    polygons: Rect | None = None
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
 
     @property
     def reach(self) -> Rect:
-        """How far the scene may be drawn when it is zoomed: to the chart, and under the edit list."""
-        if self.chart is None:
-            return Rect(0, 0, *self.size)
-        if self.chart.x >= self.stage.right:
-            return Rect(0, 0, int(self.stage.right), self.size[1])
-        return Rect(0, 0, self.size[0], int(self.chart.y))
+        """How far the scene may be drawn when it is zoomed: to chart and polygons, under the edit list."""
+        right, bottom = self.size
+        for beside in (self.chart, self.polygons):
+            if beside and beside.x >= self.stage.right:
+                right = min(right, int(self.stage.right))
+            elif beside:
+                bottom = min(bottom, int(beside.y))
+        return Rect(0, 0, right, bottom)
 
     @property
     def text_size(self) -> int:
@@ -63,12 +68,33 @@ class Layout:
 
 
 def layout(
-    size: tuple[int, int], *, chart: bool = False, beside: bool = False, listed: bool = False
+    size: tuple[int, int],
+    *,
+    chart: bool = False,
+    beside: bool = False,
+    listed: bool = False,
+    polygons: bool = False,
 ) -> Layout:
     """Divide a window: a chart along the bottom, or `beside` the scene; the stage is what is left.
 
-    `listed` leaves room for the edit list, on the left. The HUD has no place yet: that depends on the scene.
+    `listed` leaves room for the edit list, on the left, and `polygons` for those, on the right or below.
+    The HUD has no place yet: that depends on the scene.
     """
+    parts = _charted(size, chart=chart, beside=beside, listed=listed)
+    if not polygons:
+        return parts
+    stage, edge = parts.stage, 20 * parts.unit
+    if stage.width >= stage.height:
+        wide = _SHARE_OF_POLYGONS * stage.width
+        place = Rect(stage.right - wide, edge, wide - edge, stage.height - 2 * edge)
+        return replace(parts, polygons=place, stage=stage._replace(width=stage.width - wide - 0.6 * edge))
+    high = _SHARE_OF_POLYGONS * stage.height
+    place = Rect(stage.x + edge, stage.bottom - high, stage.width - 2 * edge, high - edge)
+    return replace(parts, polygons=place, stage=stage._replace(height=stage.height - high - 0.6 * edge))
+
+
+def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool) -> Layout:
+    """Return the layout with its chart and without polygons."""
     unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
     whole = Rect(0, 0, *size)
     empty = Layout(size, unit, whole, None, None, None, whole)

@@ -20,7 +20,9 @@ class Look:
     transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in
     fractions of the window's height. `ghost` draws the other closure faintly, where it is given.
     `names` is 0 for none, 1 for those of joints and links with the ground line and the input's
-    direction of turning, 2 for dimensions and the input's angle as well.
+    direction of turning, 2 for dimensions and the input's angle as well. `polygons` draws those of
+    velocity and acceleration beside the linkage. `centres` is 0 for none, 1 for the instant centres, 2 for
+    the coupler's centrodes as well.
     """
 
     theme: ThemeName = "light"
@@ -33,8 +35,15 @@ class Look:
     pan: tuple[float, float] = (0.0, 0.0)
     ghost: bool = False
     names: int = 0
+    polygons: bool = False
+    centres: int = 0
 
     @property
     def framed(self) -> bool:
         """Whether it is zoomed or panned."""
         return self.zoom != 1 or self.pan != (0.0, 0.0)
+
+    @property
+    def overrun(self) -> bool:
+        """Whether curves or the scene itself may lie where the words stand."""
+        return self.framed or self.centres > 1

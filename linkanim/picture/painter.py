@@ -14,7 +14,7 @@ from linkanim.picture.chart import pen_for
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.hud import Hud
-from linkanim.picture.items import flat
+from linkanim.picture.items import Group, Scribe, flat, worded
 from linkanim.picture.layout import Layout
 from linkanim.picture.legend import legend_for
 from linkanim.picture.look import Look
@@ -69,6 +69,8 @@ class Painter:
         self._legend = legend_for(self.drawing.cast.arrows, self._layout, self._type, self._theme)
         self._still = self._drawn_once()
         self._charted: pygame.Surface | None = None
+        self._polygons = self.drawing.polygons(self._type)
+        self._scribe: Scribe = before._scribe if before and before._type is self._type else Scribe(self._type)
 
     def paint(
         self,
@@ -88,13 +90,17 @@ class Painter:
         if self.drawing.moves_behind:
             paint(canvas, list(self._behind(pose, ghost if self.look.ghost else None)))
             mix(pixels_of(canvas), self._stencil, clear=bool(canvas.get_flags() & pygame.SRCALPHA))
-        paint(canvas, self._moving(pose))
+        moving = list(self.drawing.moving(pose))
+        beside = [polygon.group(pose) for polygon in self._polygons]
+        paint(canvas, self._moving(pose, moving, beside))
+        self._scribe.draw(canvas.subsurface(self._layout.reach), worded(moving))
+        self._scribe.draw(canvas, worded(beside))
         if self.names:
             self.names.draw(canvas.subsurface(self._layout.reach), pose, self.drawing.places(pose))
         if self._strip:
             self._strip.draw_reading(canvas, pose)
         if self._hud:
-            self._hud.draw(canvas, pose, noted=overlay.noted, backed=self.look.framed)
+            self._hud.draw(canvas, pose, noted=overlay.noted, backed=self.look.overrun)
         if self._legend:
             self._legend.draw_values(canvas, pose.input_speed)
         self._handled(canvas, pose, overlay)
@@ -199,7 +205,7 @@ class Painter:
         """What stands still with something moving behind it."""
         return stencil(list(self._on_stage(flat(self.drawing.standing()))), self._still)
 
-    def _moving(self, pose: Pose) -> list[Layer]:
-        """Return all that moves before it, back to front, the chart's cursor last."""
-        layers = list(self._on_stage(flat(self.drawing.moving(pose))))
+    def _moving(self, pose: Pose, moving: list[Group], beside: list[Group]) -> list[Layer]:
+        """Return all that moves before it, back to front, what is beside it and the chart's cursor last."""
+        layers = [*self._on_stage(flat(moving)), *flat(beside)]
         return layers + (self._strip.cursor(pose) if self._strip else [])

@@ -32,11 +32,12 @@ class Staged(NamedTuple):
     hud: bool
     listed: bool
     """Whether it leaves room for the edit list."""
+    polygons: bool = False
 
 
 def wanted_of(size: tuple[int, int], look: Look, *, listed: bool) -> Staged:
     """Return what an arrangement for a look depends on."""
-    return Staged(size, look.chart is not None, len(look.vectors), look.hud, listed)
+    return Staged(size, look.chart is not None, len(look.vectors), look.hud, listed, look.polygons)
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,9 @@ def _told(arrangement: Arrangement) -> int:
 
 
 def _with_chart(subject: Subject, wanted: Staged, type_: Type, *, beside: bool) -> Arrangement:
-    parts = layout(wanted.size, chart=wanted.chart, beside=beside, listed=wanted.listed)
+    parts = layout(
+        wanted.size, chart=wanted.chart, beside=beside, listed=wanted.listed, polygons=wanted.polygons
+    )
     worded = wanted.hud and not wanted.listed
     words = blocks(subject.scenes, subject.said, parts, wanted.arrows, type_) if worded else ()
     return arranged(parts, subject.sweep, subject.figure.shortest, words)

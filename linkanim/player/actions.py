@@ -69,6 +69,8 @@ ACTIONS: Mapping[str, Rule] = {
     "chart": Rule(_whole, looks.chart, answer=answers.chart),  # quantities further
     "plot": Rule(_text, browse.plot, answer=answers.chart),  # a quantity's token
     "names": Rule(_nothing, looks.names, answer=answers.names),
+    "polygons": Rule(_nothing, looks.polygons, answer=answers.polygons),
+    "centres": Rule(_nothing, looks.centres, answer=answers.centres),
     "theme": Rule(_nothing, looks.theme, answer=answers.theme),
     "help": Rule(_nothing, looks.help_),
     # notches, about the point (x, y): window heights from the picture's middle, y down

@@ -8,6 +8,7 @@ from linkanim.player.state import State
 from linkanim.scenes.closure import closure_name
 
 _NAMES = ("no names", "names", "names and dimensions")
+_CENTRES = ("no instant centres", "instant centres", "instant centres and centrodes")
 _KINDS = {"v": "velocity", "a": "acceleration"}
 
 
@@ -60,6 +61,16 @@ def chart(before: State, after: State) -> str | None:
 def names(_: State, after: State) -> str:
     """Say what is named."""
     return _NAMES[after.look.names]
+
+
+def polygons(_: State, after: State) -> str:
+    """Say whether the polygons are shown."""
+    return "polygons" if after.look.polygons else "no polygons"
+
+
+def centres(_: State, after: State) -> str:
+    """Say what is shown of the instant centres."""
+    return _CENTRES[after.look.centres]
 
 
 def theme(_: State, after: State) -> str:

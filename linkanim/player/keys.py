@@ -103,6 +103,8 @@ KEYS: tuple[KeyRow, ...] = (
         (_on("escape", "back"), _on("q", "quit")),
     ),
     KeyRow("measure", "V, A", "velocity, acceleration vectors", _two("v", "a", "vectors", ("v", "a"))),
+    KeyRow("measure", "P", "velocity and acceleration polygons", _every("p", "polygons")),
+    KeyRow("measure", "I", "instant centres: off, marked, with centrodes", _every("i", "centres")),
     KeyRow("measure", "C (Shift: back)", "chart: next quantity, off", _two("c", "shift+c", "chart", (1, -1))),
     KeyRow("measure", "K", "the list of quantities", _every("k", "list")),
     KeyRow("edit", "E", "edit dimensions (H there: how)", _every("e", "edit")),

@@ -180,6 +180,8 @@ def _look(part: Section) -> Look:
         pan=(across, down),
         ghost=part.flag("ghost"),
         names=part.whole("names", 0, 2) if "names" in part else 0,
+        polygons=part.flag("polygons") if "polygons" in part else False,
+        centres=part.whole("centres", 0, 2) if "centres" in part else 0,
     )
 
 

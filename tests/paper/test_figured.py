@@ -37,8 +37,8 @@ def _groups(figured: Figured) -> dict[str, ElementTree.Element]:
 @pytest.mark.parametrize("name", ["press", "crank-rocker", "slider-crank", "scotch-yoke", "jansen"])
 def test_svg_as_another_program_renders_it_is_the_png(name: str, theme: str) -> None:
     """Pygame's reader of SVG is another's (nanosvg); it knows no text."""
-    look = Look(theme=theme, hud=False)  # type: ignore[arg-type]
-    figured = Figured(load(name), SIZE, look, phase=1.0, centres=False, poses=3)
+    look = Look(theme=theme, hud=False, centres=2)  # type: ignore[arg-type]
+    figured = Figured(load(name), SIZE, look, phase=1.0, poses=3)
     theirs = pygame.image.load(io.BytesIO(figured.document().encode()), "f.svg")
     assert theirs.get_size() == SIZE
     assert psnr(_levels(figured.surface()), _levels(theirs)) > 30
@@ -46,9 +46,12 @@ def test_svg_as_another_program_renders_it_is_the_png(name: str, theme: str) -> 
 
 @pytest.mark.parametrize("name", ["press", "kite"])
 def test_the_png_is_what_the_window_draws(name: str) -> None:
-    """Names that fade in the window, being about to lie on something, are whole on a figure."""
+    """Names that fade in the window, being about to lie on something, are whole on a figure; so is what
+    stands at the edge of the stage.
+    """
     scene, surface = load(name), offscreen(SIZE)
-    for look, share in ((replace(FULL, names=0), 0.0), (FULL, 0.01)):
+    bare, beside = replace(FULL, names=0), replace(FULL, names=0, polygons=True, centres=2)
+    for look, share in ((bare, 0.0), (beside, 1e-4), (FULL, 0.01)):
         Painter(scene, SIZE, look).paint(surface, scene.pose(1.0))
         apart = np.abs(_levels(Figured(scene, SIZE, look, phase=1.0).surface()) - _levels(surface))
         assert (apart.max(axis=-1) > 2).mean() <= share
@@ -56,7 +59,7 @@ def test_the_png_is_what_the_window_draws(name: str) -> None:
 
 def test_every_body_and_joint_has_a_group_of_its_name() -> None:
     scene = load("press")
-    groups = _groups(Figured(scene, SIZE, FULL, phase=1.0, centres=True, poses=2))
+    groups = _groups(Figured(scene, SIZE, replace(FULL, centres=1), phase=1.0, poses=2))
     bodies = {f"body-{body.name}" for body in scene.linkage.bodies if len(body.joints) > 1}
     joints = {f"joint-{joint.name}" for joint in scene.linkage.joints}
     assert bodies | joints <= groups.keys()
@@ -89,7 +92,7 @@ def test_names_are_text_in_a_halo_with_their_subscripts() -> None:
 
 
 def test_the_press_is_a_small_file() -> None:
-    figured = Figured(load("press"), (1280, 720), FULL, phase=1.0, centres=True)
+    figured = Figured(load("press"), (1280, 720), replace(FULL, centres=2, polygons=True), phase=1.0)
     assert len(figured.document().encode()) < 200_000
 
 
@@ -112,7 +115,7 @@ def test_faint_poses_stay_behind_and_faint() -> None:
 
 def test_instant_centres_are_where_the_quantity_says_and_pins_are_not_marked() -> None:
     scene = load("press")
-    figured = Figured(scene, (1280, 720), Look(hud=False), phase=1.0, centres=True)
+    figured = Figured(scene, (1280, 720), Look(hud=False, centres=1), phase=1.0)
     (marked,) = [group for group in figured.groups() if group.name == "instant-centres"]
     assert [caption.text for caption in marked.captions] == ["P_{13}", "P_{14}", "P_{16}"]
     pose, view = scene.pose(1.0), figured.drawing.scenery.view

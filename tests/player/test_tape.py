@@ -32,6 +32,8 @@ SESSION = (
     (60, Action("scrub", 2.5)),
     (61, Action("pause")),
     (75, Action("vectors", "v")),
+    (80, Action("polygons")),
+    (81, Action("centres")),
 )
 
 
@@ -43,7 +45,7 @@ def shown(state: State) -> object:
 def live() -> State:
     """A window some time after its start, with an edit behind it that can still be undone."""
     state = begin(replace(load("six-bar"), name="mine"))
-    for action in ("edit", "nudge", "edit"):
+    for action in ("edit", "nudge", "edit", "polygons", "centres"):
         state = advance(state, [Action(action, 1 if action == "nudge" else None)])
     for _ in range(100):
         state = advance(state)
@@ -160,6 +162,10 @@ SPOILT: dict[str, tuple[Spoil, str]] = {
     "vectors of another kind": (
         lambda d: d["start"]["look"].update(vectors=["x"]),
         r"start.look.vectors\[0\] = \"x\"",
+    ),
+    "more of the centres than there is": (
+        lambda d: d["start"]["look"].update(centres=3),
+        "start.look.centres = 3",
     ),
     "a place off the shelf": (lambda d: d["start"].update(place=99), "start.place = 99"),
     "an unknown scene on the shelf": (lambda d: d["shelf"].append("nothing"), r"shelf\[\d+\] = \"nothing\""),

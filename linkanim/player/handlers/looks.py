@@ -30,6 +30,16 @@ def names(state: State, _: None) -> State:
     return replace(state, look=replace(state.look, names=(state.look.names + 1) % 3))
 
 
+def polygons(state: State, _: None) -> State:
+    """Show or hide the velocity and the acceleration polygon."""
+    return replace(state, look=replace(state.look, polygons=not state.look.polygons))
+
+
+def centres(state: State, _: None) -> State:
+    """Show the instant centres, then the coupler's centrodes too, then neither."""
+    return replace(state, look=replace(state.look, centres=(state.look.centres + 1) % 3))
+
+
 def vectors(state: State, kind: str) -> State:
     """Show or hide the velocities or accelerations."""
     return replace(state, look=replace(state.look, vectors=state.look.vectors ^ {kind}))

@@ -1,0 +1,97 @@
+"""The polygons beside the linkage: to scale, in their place at every pose, named, and what rests."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from pictures import painted, pixels
+
+from linkanim.mechanics.polygon import Order, image
+from linkanim.picture.chart import pen_for
+from linkanim.picture.figure import figure
+from linkanim.picture.items import Group
+from linkanim.picture.layout import Layout, layout
+from linkanim.picture.look import Look
+from linkanim.picture.polygons import Polygon, polygons_of
+from linkanim.picture.text import Type
+from linkanim.picture.theme import LIGHT
+from linkanim.scenes import load, names
+
+WINDOW: Layout = layout((1280, 720), polygons=True)
+FEW = ("crank-rocker", "press", "inverted-slider-crank", "scotch-yoke", "jansen")
+
+
+def panels(name: str, window: Layout = WINDOW) -> tuple[Polygon, Polygon]:
+    assert window.polygons is not None
+    return polygons_of(figure(load(name)), window.polygons, pen_for(window, Type(), LIGHT))
+
+
+def drawn(panel: Polygon, phase: float, speed: float | None = None) -> Group:
+    return panel.group(panel.figure.scene.pose(phase, speed=speed))
+
+
+def words(group: Group) -> list[str]:
+    return [caption.text for caption in group.captions]
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (720, 1280), (480, 270)])
+@pytest.mark.parametrize("name", FEW)
+def test_all_of_it_stays_in_its_place_whichever_way_it_runs(name: str, size: tuple[int, int]) -> None:
+    for panel in panels(name, layout(size, polygons=True)):
+        for phase in np.linspace(0.05, 6.2, 9):
+            for speed in (None, -0.3):
+                loops = [loop for layer in drawn(panel, phase, speed).layers for loop in layer.loops]
+                points = np.concatenate(loops)
+                assert panel.rect.x - 8 <= points.real.min() <= points.real.max() <= panel.rect.right + 8
+                assert panel.rect.y <= points.imag.min() <= points.imag.max() <= panel.rect.bottom + 8
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("speed", [2.0, -5.0])
+def test_it_is_to_the_scale_that_is_written_beside_it(order: Order, speed: float) -> None:
+    panel = panels("crank-rocker")[order - 1]
+    pose = panel.figure.scene.pose(1.0, speed=speed)
+    group = panel.group(pose)
+    bar = group.layers[-1].loops[0]
+    (said,) = (re.fullmatch(r"([\d.]+) mm/s²?", text) for text in words(group) if "mm/s" in text)
+    assert said is not None
+    assert re.fullmatch(r"0*[125]0*", said[1].replace(".", ""))
+    scale = (bar.real.max() - bar.real.min()) / float(said[1])
+    assert panel.scale(speed) == pytest.approx(scale, rel=1e-9)
+    tips = np.concatenate([loop for layer in group.layers[:-2] for loop in layer.loops])
+    tip = panel.pole(speed) + scale * image(pose, "B", order).conjugate()
+    assert np.abs(tips - tip).min() < 0.1
+
+
+def test_vectors_are_named_and_one_that_is_all_of_another_is_drawn_once() -> None:
+    velocity, acceleration = panels("crank-rocker")
+    assert {"v_{A}", "v_{B}", "v_{BA}"} <= set(words(drawn(velocity, 0.5)))
+    found = words(drawn(acceleration, 0.5))
+    # at constant speed the crank has no tangential part: its normal one is all of it
+    assert "a_{A}" in found
+    assert "aⁿ_{A}" not in found
+    assert {"a_{B}", "aᵗ_{BA}"} <= set(found)
+
+
+def test_what_rests_says_so() -> None:
+    for panel in panels("press"):
+        group = drawn(panel, 1.0, 0.0)
+        assert "all at rest" in words(group)
+        assert not any("mm/s" in text for text in words(group))
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_scene_has_both_at_any_pose(name: str) -> None:
+    for panel in panels(name):
+        for phase in (0.0, 0.7, 3.0, np.pi):
+            group = drawn(panel, phase)
+            assert np.isfinite(np.concatenate([loop for layer in group.layers for loop in layer.loops])).all()
+
+
+def test_the_window_shows_them_beside_the_scene() -> None:
+    scene = load("crank-rocker")
+    with_them = pixels(painted(scene, 1.0, Look(hud=False, polygons=True), (640, 360)))
+    assert (with_them[:, 420:] != LIGHT.background).any()
+    assert not (pixels(painted(scene, 1.0, Look(hud=False), (640, 360))) == with_them).all()
