@@ -123,10 +123,10 @@ def half_angle(angle: Value, rest: Value = 0.0) -> Half:
         return t * share * 8.0, rest_of_norm * share
 
     def squares() -> tuple[Value, Value, Value]:
-        norm_square = norm * norm
-        share = t / norm_square
+        share = 64.0 / (norm * norm)
         # cos² of its own: 1 - sin² would hand its error on doubled to cos² - sin².
-        return share * t * 64.0, rest_of_norm * rest_of_norm / norm_square, share * rest_of_norm * 8.0
+        cosine_square = rest_of_norm * rest_of_norm * share * (1 / 64)
+        return square * share, cosine_square, t * share * rest_of_norm * 0.125
 
     return Half(sides, squares)
 

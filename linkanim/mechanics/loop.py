@@ -83,10 +83,10 @@ class Loop:
         return sharp_half_angle if self.root.u.kind is Kind.PLAIN and not self.root.wide else half_angle
 
 
-def form_of(crank: str, loops: Mapping[str, Loop]) -> Callable[[Value, Value], Half]:
-    """Return how the crank's own half angle is worked out: as a loop needs it whose ψ is that angle, too."""
+def own_loop(crank: str, loops: Mapping[str, Loop]) -> Loop | None:
+    """Return the loop on a crank's pin whose ψ is the crank's own angle; None where there is none."""
     own = (loop for loop in loops.values() if loop.pin == crank and loop.root.reference == STRAIGHT)
-    return next((loop.form for loop in own), half_angle)
+    return next(own, None)
 
 
 def gearings(linkage: Linkage) -> dict[str, Gearing]:
