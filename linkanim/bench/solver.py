@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.bench.question import Points, Question, joined
-from linkanim.mechanics.mechanism import Variant
+from linkanim.mechanics.request import Variant
 from linkanim.scenes.scene import Scene
 
 
@@ -32,6 +32,6 @@ def float32(question: Question) -> Points:
 
 def batch_float32(scene: Scene, phases: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return rows x, y of A, B and P."""
-    program, _ = scene.mechanism.program(Variant(by_phase=True, derivatives=0, accelerates=False))
+    program, _ = scene.mechanism.programs(Variant(by_phase=True, accelerates=False)).of(("position",))
     rows: NDArray[np.float32] = program(phases, 1.0, dtype=np.float32)
     return rows

@@ -9,20 +9,23 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import FrozenInstanceError, dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .columns import Scaled
 from .linkage import Body, Damper, Linkage, Spring
 from .loop import Gearing
-from .register import DERIVATIVE_OF, parts
+from .register import parts
+from .request import ORDER, Paced, Request
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
+
+NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 class Strut(NamedTuple):
@@ -187,21 +190,25 @@ def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
     return item.stiffness * (length - item.free_length) * metre
 
 
-@dataclass(frozen=True)
 class Motion(Derived):
     """The motion at many instants: vectors are arrays (..., 2), numbers (...).
 
     Rows outside the input's range are NaN, their phase too. Rates that are truly unbounded (at a
-    limit, per unit of input speed) are infinite.
+    limit, per unit of input speed) are infinite. Each quantity is worked out when it is first read.
     """
 
-    setting: Setting
-    phase: Array
-    crank_angle: Array
+    def __init__(
+        self, setting: Setting, input_speed: Any, input_acceleration: Any, request: Request | Paced
+    ) -> None:
+        vars(self).update(
+            setting=setting, input_speed=input_speed, input_acceleration=input_acceleration, request=request
+        )
+
+    request: Request | Paced
     input_speed: Any
     input_acceleration: Any
-    crank_rate: Any
-    crank_second: Any
+    phase: Array
+    crank_angle: Array
     position: Mapping[str, Array]
     velocity: Mapping[str, Array]
     acceleration: Mapping[str, Array]
@@ -214,22 +221,29 @@ class Motion(Derived):
     travel_velocity: Mapping[str, Array]
     travel_acceleration: Mapping[str, Array]
 
+    def __getattr__(self, name: str) -> Any:
+        """Work a quantity out, with those that come out of the same pass."""
+        if name not in ORDER:
+            raise AttributeError(f"a motion has no {name!r}")
+        vars(self).update(self.request.read(name, vars(self)))
+        return vars(self)[name]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
+
+    @property
+    def every(self) -> Mapping[str, Mapping[str, Array]]:
+        """All quantities by kind and name, from one pass."""
+        assert isinstance(self.request, Request)
+        return self.request.every()
+
     def paced(self, factor: float) -> Motion:
         """Return the same motion run so many times as fast; backwards where the factor is negative.
 
         Nothing is solved: first derivatives in time grow with the factor, second ones with its square.
         """
-        scaled: dict[str, Any] = {
-            name: Scaled(getattr(self, name), factor**order) for name, order in DERIVATIVE_OF.items() if order
-        }
-        return replace(
-            self,
-            input_speed=self.input_speed * factor,
-            input_acceleration=self.input_acceleration * factor**2,
-            crank_rate=self.crank_rate * factor,
-            crank_second=self.crank_second * factor**2,
-            **scaled,
-        )
+        speed, acceleration = self.input_speed * factor, self.input_acceleration * factor**2
+        return Motion(self.setting, speed, acceleration, Paced(self, factor))
 
     def _continuous(self, dy: Any, dx: Any, rate: Any) -> Array:
         principal: Array = np.arctan2(dy, dx)
@@ -270,35 +284,24 @@ def _crank_angle(input_angle: Any, gearing: Gearing, from_pin: bool) -> Any:
 class Pose(Derived):
     """The motion at one instant, as plain floats and (x, y) tuples; the attributes are Motion's."""
 
-    def __init__(self, setting: Setting, drive: tuple[float, float, float], found: tuple[Any, ...]) -> None:
+    def __init__(self, setting: Setting, found: dict[str, Any]) -> None:
+        self.__dict__ = found
         self.setting = setting
-        self.phase, self.input_speed, self.input_acceleration = drive
-        (
-            (self.crank_angle, self.crank_rate, self.crank_second),
-            self.position,
-            self.velocity,
-            self.acceleration,
-            self.com_position,
-            self.com_velocity,
-            self.com_acceleration,
-            self.angular_velocity,
-            self.angular_acceleration,
-            self.travel,
-            self.travel_velocity,
-            self.travel_acceleration,
-        ) = found
 
-    position: dict[str, Pair]
-    velocity: dict[str, Pair]
-    acceleration: dict[str, Pair]
-    com_position: dict[str, Pair]
-    com_velocity: dict[str, Pair]
-    com_acceleration: dict[str, Pair]
-    angular_velocity: dict[str, float]
-    angular_acceleration: dict[str, float]
-    travel: dict[str, float]
-    travel_velocity: dict[str, float]
-    travel_acceleration: dict[str, float]
+    position: Mapping[str, Pair] = NOTHING
+    velocity: Mapping[str, Pair] = NOTHING
+    acceleration: Mapping[str, Pair] = NOTHING
+    com_position: Mapping[str, Pair] = NOTHING
+    com_velocity: Mapping[str, Pair] = NOTHING
+    com_acceleration: Mapping[str, Pair] = NOTHING
+    angular_velocity: Mapping[str, float] = NOTHING
+    angular_acceleration: Mapping[str, float] = NOTHING
+    travel: Mapping[str, float] = NOTHING
+    travel_velocity: Mapping[str, float] = NOTHING
+    travel_acceleration: Mapping[str, float] = NOTHING
+    phase: float
+    input_speed: float
+    input_acceleration: float
     crank_angle: float
     crank_rate: float
     crank_second: float

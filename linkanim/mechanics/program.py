@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from ctypes import addressof, c_char
 from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import Any
@@ -22,6 +23,8 @@ from .precise import cosine, sine, square_root
 Array = NDArray[np.floating[Any]]
 
 BLOCK = 16384
+CACHE_LINE = 64
+"""Bytes."""
 
 INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
 FLOAT_CALLS = {
@@ -134,34 +137,57 @@ class Batch:
     prelude: Callable[..., tuple[float, ...]]
     constants: tuple[Array, ...]
     buffers: int
-    spare: list[Array] = field(default_factory=list, compare=False, repr=False)
+    spare: list[list[Array]] = field(default_factory=list, compare=False, repr=False)
     """Buffers of calls that are over; a call takes its own, so that threads do not share any."""
 
     def __call__(self, *values: Array | float, dtype: type[np.floating[Any]] = np.float64) -> Array:
         """Return the outputs as rows (outputs, N)."""
         arrays = [value for value in values if isinstance(value, np.ndarray)]
+        numbers = self._numbers([value for value in values if not isinstance(value, np.ndarray)], dtype)
         count = arrays[0].shape[0]
-        uniform = self.prelude(*(value for value in values if not isinstance(value, np.ndarray)))
-        constants = self.constants
-        if dtype is not np.float64:
-            constants = tuple(constant.astype(dtype) for constant in constants)
-        numbers = (*(np.asarray(value, dtype) for value in uniform), *constants)
-        results = np.empty((len(self.outputs), count), dtype)
-        work = self._buffers(dtype)
-        for first in range(0, count, BLOCK):
-            part = slice(first, min(first + BLOCK, count))
-            inside = work[:, : part.stop - first]
-            self.block([array[part] for array in arrays], numbers, list(results[:, part]), list(inside))
+        results = aligned_rows(len(self.outputs), count, dtype)
+        size = _block_size(count)
+        work = self._buffers(size, dtype)
+        if count == size:
+            self.block(arrays, numbers, list(results), work)
+        else:
+            for part in (slice(first, min(first + size, count)) for first in range(0, count, size)):
+                inside = [row[: part.stop - part.start] for row in work]
+                self.block([array[part] for array in arrays], numbers, list(results[:, part]), inside)
         self.spare.append(work)
         return results
 
-    def _buffers(self, dtype: type[np.floating[Any]]) -> Array:
-        """Return buffers for one call, used ones where there are any: fresh memory costs a page at a time."""
-        try:
-            work = self.spare.pop()
-        except IndexError:
-            return np.empty((self.buffers, BLOCK), dtype)
-        return work if work.dtype == dtype else np.empty((self.buffers, BLOCK), dtype)
+    def _numbers(self, values: Sequence[float], dtype: type[np.floating[Any]]) -> list[Array]:
+        """Return what is the same along the array, without a dimension."""
+        uniform = [np.array(value, dtype) for value in self.prelude(*values)]
+        if dtype is np.float64:
+            return [*uniform, *self.constants]
+        return uniform + [constant.astype(dtype) for constant in self.constants]
+
+    def _buffers(self, size: int, dtype: type[np.floating[Any]]) -> list[Array]:
+        """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
+        work = self.spare.pop() if self.spare else []
+        if work and work[0].shape[0] == size and work[0].dtype == dtype:
+            return work
+        return list(aligned_rows(self.buffers, size, dtype))
+
+
+def aligned_rows(rows: int, count: int, dtype: type[np.floating[Any]]) -> Array:
+    """Return an array (rows, count) to be filled, each row from a cache line's begin on.
+
+    Vector units take whole cache lines; a row that begins elsewhere costs them two for each.
+    """
+    line = CACHE_LINE // np.dtype(dtype).itemsize
+    width = -(-count // line) * line
+    memory = np.empty(rows * width + line, dtype)
+    skipped = -addressof(c_char.from_buffer(memory.data)) % CACHE_LINE
+    return np.ndarray((rows, count), dtype, memory, skipped, (width * memory.itemsize, memory.itemsize))
+
+
+def _block_size(count: int) -> int:
+    """Return the size of equal blocks, whole cache lines of them."""
+    blocks = max(-(-count // BLOCK), 1)
+    return -(-count // (blocks * CACHE_LINE)) * CACHE_LINE if blocks > 1 else max(count, 1)
 
 
 def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
@@ -190,7 +216,10 @@ def _prelude(names: Sequence[str], fixed: Sequence[Expr]) -> Callable[..., tuple
 
 
 class _Plan:
-    """Where each varying node's values live: its result row, or a buffer free by then."""
+    """Where each varying node's values live: its result row, or a place that is free by then.
+
+    A result row is free until its own values are worked out: that keeps what is in use in the cache.
+    """
 
     def __init__(self, nodes: Sequence[Expr], outputs: Sequence[Value]) -> None:
         self.nodes = [node for node in nodes if node.op != "input"]
@@ -205,24 +234,32 @@ class _Plan:
                 self.places[value.index] = f"o{row}"
             else:
                 self.copies.append((row, value))
-        self._assign_buffers()
+        self._assign_places()
 
-    def _assign_buffers(self) -> None:
+    def _assign_places(self) -> None:
         last = {
             argument.index: position
             for position, node in enumerate(self.nodes)
             for argument in node.args
             if isinstance(argument, Expr)
         }
+        filled = {self.places[n.index]: at for at, n in enumerate(self.nodes) if n.index in self.places}
         ending: dict[int, list[int]] = {}
         for node in self.nodes:
             if node.index not in self.places:
                 ending.setdefault(last[node.index], []).append(node.index)
-        free: list[str] = []
+        free = sorted(filled, key=filled.__getitem__, reverse=True)
         for position, node in enumerate(self.nodes):
             free += [self.places[index] for index in ending.get(position, ())]
             if node.index not in self.places:
-                self.places[node.index] = free.pop() if free else self._grow()
+                self.places[node.index] = self._taken(free, last[node.index], filled)
+
+    def _taken(self, free: list[str], until: int, filled: Mapping[str, int]) -> str:
+        """Take the place that was freed last of those that stay free so long, or a new one."""
+        for n in range(len(free) - 1, -1, -1):
+            if filled.get(free[n], until) >= until:
+                return free.pop(n)
+        return self._grow()
 
     def _grow(self) -> str:
         self.buffers += 1

@@ -186,6 +186,10 @@ def _path_measures(prefix: str) -> tuple[Measure, ...]:
 
 PATH, CENTRE_PATH = _path_measures(""), _path_measures("com_")
 
+FAMILIES = tuple(
+    tuple(measure.name for measure in family) for family in (POINT, CENTRE, TURNING[1:], TRAVELLING)
+)
+"""What is solved, in the families that are worked out together, derivatives after what they are of."""
 VECTORS = tuple(measure.name for measure in (*POINT, *CENTRE))
 NUMBERS = tuple(measure.name for measure in (*TURNING[1:], *TRAVELLING))
 DERIVATIVE_OF = {measure.name: measure.order for measure in (*POINT, *CENTRE, *TURNING, *TRAVELLING)}
