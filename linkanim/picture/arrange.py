@@ -26,7 +26,7 @@ _LINE = 0.03
 """What each further line of the title costs."""
 _AWAY = (0.0, 0.25, 0.5)
 """How far the scene gives way to the words, in shares of the room that it leaves."""
-_MARKS = (9.0, 2.5)
+_MARKS = (7.2, 2.5)
 """How wide and high the marks are, in sizes of the text."""
 _THINNEST = 0.68
 """What is drawn is no thinner than this on a small stage, in thicknesses of the whole window's."""

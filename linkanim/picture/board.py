@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import pygame
@@ -61,6 +61,15 @@ class Board:
         high = (1.36 + (lines - 1.0) * STEP) * size
         loop = middle + box(sheet.get_width() - 1.2 * size, high, 0.25 * size)
         paint(sheet, [Layer(colour, [loop])])
+
+    def fitting(self, words: Sequence[str], size: int, room: float) -> str:
+        """Return the first of some words that has room, or as much of the last one's two ends as has."""
+        for text in words:
+            if self.type.width(text, size) <= room:
+                return text
+        name = words[-1]
+        kept = (f"{name[: n - n // 2]}…{name[-(n // 2) :]}" for n in range(len(name) - 1, 1, -1))
+        return next((text for text in kept if self.type.width(text, size) <= room), "")
 
     def widest(self, lines: Iterable[str], size: int, *, strong: bool = False) -> int:
         """Return the width of the widest of some lines, 0 where there is none."""

@@ -54,7 +54,7 @@ def _planned(board: Board, panel: Panel) -> _Plan:
     sizes = range(board.layout.text_size, board.layout.small_size - 1, -1)
     for size in (size for size in sizes if len(panel.rows) <= _room(board, size)):
         plan = _divided(board, panel, size, (panel.facts, panel.hint))
-        if len(plan.rows) == len(panel.rows) and plan.wide <= board.layout.list_width:
+        if len(plan.rows) == len(panel.rows) and _needed(board, panel, size) <= plan.wide:
             return plan
     for more in ((panel.facts, panel.hint), (panel.facts, ""), ((), "")):
         plan = _divided(board, panel, sizes[-1], more)
@@ -65,9 +65,7 @@ def _planned(board: Board, panel: Panel) -> _Plan:
 
 def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...], str]) -> _Plan:
     facts, hint = more
-    columns = zip(*((row.label, row.value) for row in panel.rows), strict=True)
-    needed = sum(board.widest(column, size, strong=True) for column in columns) + 5.5 * size
-    wide = min(max(needed, board.layout.list_width), board.layout.size[0] - 2.0 * board.margin)
+    wide = board.layout.lists.width
     room = wide - 2.4 * size
     said = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
     foot = [(line, board.theme.warning) for line in board.type.wrapped(panel.error or "", size, room)]
@@ -77,9 +75,15 @@ def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...],
     return _Plan(size, wide, said, foot, around(len(panel.rows), chosen, left))
 
 
+def _needed(board: Board, panel: Panel, size: int) -> float:
+    """Return how wide the list must be for every name to be written in full."""
+    columns = zip(*((row.label, row.value) for row in panel.rows), strict=True)
+    return sum(board.widest(column, size, strong=True) for column in columns) + 3.9 * size
+
+
 def _room(board: Board, size: int) -> float:
-    """Return how many lines of text the window holds beside the list's frame."""
-    return (board.layout.size[1] - 2 * board.margin) / STEP / size - _FRAME
+    """Return how many lines of text there is room for beside the list's frame."""
+    return board.layout.lists.height / STEP / size - _FRAME
 
 
 def _head(board: Board, sheet: pygame.Surface, panel: Panel, plan: _Plan) -> None:
@@ -99,6 +103,8 @@ def _head(board: Board, sheet: pygame.Surface, panel: Panel, plan: _Plan) -> Non
 def _row(board: Board, sheet: pygame.Surface, row: EditRow, y: float, size: int) -> None:
     if row.chosen:
         board.bar(sheet, y, size, board.theme.chosen)
-    board.write(sheet, row.label, (1.2 * size, y), size=size, colour=board.theme.dim)
     at, colour = (sheet.get_width() - 1.2 * size, y), board.theme.velocity if row.draft else board.theme.ink
+    room = at[0] - board.type.width(row.value, size, strong=True) - 2.0 * size
+    label = board.fitting((row.label,), size, room)
+    board.write(sheet, label, (1.2 * size, y), size=size, colour=board.theme.dim)
     board.write(sheet, row.value, at, size=size, colour=colour, anchor="right", strong=True)

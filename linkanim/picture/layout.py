@@ -11,6 +11,10 @@ _EDGE = 10.8
 """From the window's edge to the edit list, in units."""
 _SHARE_BELOW, _SHARE_BESIDE = 0.27, 0.45
 """A chart's share of the height, or of the width."""
+_NARROW = 30
+"""A window narrower than so many heights of its text has a list at its foot, not at its left."""
+_SHARE_LISTED = 0.42
+"""A list's share of the height at the foot."""
 _TALLEST = 0.42
 """The height of a chart beside the scene, in widths of the window."""
 _SHARE_OF_POLYGONS = 0.36
@@ -31,6 +35,8 @@ class Layout:
     chart: Rect | None
     marks: Rect
     """Where the marks of recording and pause stand; at the left of the stage they begin at their left."""
+    lists: Rect
+    """Where the edit list or that of quantities stands, if one is open."""
     polygons: Rect | None = None
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
@@ -61,11 +67,6 @@ class Layout:
         """How far words stay off the stage's edges."""
         return max(20 * self.unit, 6.0)
 
-    @property
-    def list_width(self) -> int:
-        """How wide the edit list is as a rule."""
-        return round(min(max(19.0 * self.text_size, 0.3 * self.size[0]), 0.5 * self.size[0]))
-
 
 def layout(
     size: tuple[int, int],
@@ -77,8 +78,8 @@ def layout(
 ) -> Layout:
     """Divide a window: a chart along the bottom, or `beside` the scene; the stage is what is left.
 
-    `listed` leaves room for the edit list, on the left, and `polygons` for those, on the right or below.
-    The HUD has no place yet: that depends on the scene.
+    `listed` leaves room for a list, on the left or in a narrow window at the foot, and `polygons` for those,
+    on the right or below. The HUD has no place yet: that depends on the scene.
     """
     parts = _charted(size, chart=chart, beside=beside, listed=listed)
     if not polygons:
@@ -96,10 +97,10 @@ def layout(
 def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool) -> Layout:
     """Return the layout with its chart and without polygons."""
     unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
-    whole = Rect(0, 0, *size)
-    empty = Layout(size, unit, whole, None, None, None, whole)
-    left = empty.list_width + 2 * _EDGE * unit if listed else 0.0
-    room, edge = Rect(left, 0, size[0] - left, size[1]), 20 * unit
+    whole, edge = Rect(0, 0, *size), 20 * unit
+    empty = Layout(size, unit, whole, None, None, None, whole, whole)
+    empty = replace(empty, lists=_lists(empty))
+    room = _beside(empty.lists, whole) if listed else whole
     if not chart:
         return replace(empty, stage=room)
     if beside:
@@ -107,8 +108,26 @@ def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool) 
         strip = Rect(room.right - wide, (room.height - high) / 2, wide - edge, high)
         return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=strip)
     tall = _SHARE_BELOW * room.height
-    strip = Rect(left + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
+    strip = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
     return replace(empty, stage=room._replace(height=strip.y - 0.6 * edge), chart=strip)
+
+
+def _lists(parts: Layout) -> Rect:
+    """Return where a list stands: at the left over the whole height, in a narrow window at the foot."""
+    (width, height), text, margin = parts.size, parts.text_size, round(_EDGE * parts.unit)
+    if width < _NARROW * text:
+        high = _SHARE_LISTED * height
+        return Rect(margin, height - high - margin, width - 2 * margin, high)
+    wide = round(min(max(19.0 * text, 0.3 * width), 0.5 * width))
+    return Rect(margin, margin, wide, height - 2 * margin)
+
+
+def _beside(lists: Rect, whole: Rect) -> Rect:
+    """Return what a list leaves of the window."""
+    if lists.y > lists.x:
+        return whole._replace(height=lists.y - lists.x)
+    left = lists.right + lists.x
+    return Rect(left, 0, whole.width - left, whole.height)
 
 
 @dataclass(frozen=True)

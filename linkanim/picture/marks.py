@@ -13,7 +13,7 @@ from linkanim.picture.overlay import DimensionLine
 from linkanim.picture.raster import Layer, paint
 from linkanim.picture.shapes import arrows, box, disc, segments, unit
 from linkanim.picture.theme import ORANGE
-from linkanim.picture.view import View
+from linkanim.picture.view import Rect, View
 
 _LIT = 0.45
 """How strongly the bar being edited is lit."""
@@ -28,13 +28,27 @@ def draw_measure(
         return
     away = 1j * unit(end - begin)
     away *= (2.0 * gauge.bar + 14 * board.layout.unit) * (-1 if away.imag > 0 else 1)
-    middle, size = (begin + end) / 2 + away, board.layout.small_size
     paint(surface, [*_lit(begin, end, gauge), *_line(begin, end, away, board, gauge)])
-    wide = board.type.width(shown.words, size, strong=True)
-    back = middle + box(wide + 0.7 * size, 1.35 * size, 0.3 * size)
+    size = board.layout.small_size
+    wide, high = board.type.width(shown.words, size, strong=True) + 0.7 * size, 1.35 * size
+    middle = _inside(board.layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
+    back = middle + box(wide, high, 0.3 * size)
     paint(surface, [Layer(board.theme.panel, [back], 0.9)])
     at = (middle.real, middle.imag - 0.52 * size)
     board.write(surface, shown.words, at, size=size, anchor="centre", strong=True)
+
+
+def _clear(away: complex, gauge: Gauge, wide: float, high: float) -> complex:
+    """Return how far from a bar's middle that of a label of this size lies, off the bar, by its line."""
+    side = unit(away)
+    reach = abs(side.real) * wide / 2 + abs(side.imag) * high / 2 + 1.7 * gauge.bar
+    return side * max(abs(away), reach)
+
+
+def _inside(stage: Rect, middle: complex, wide: float, high: float) -> complex:
+    """Return the middle of a label of this size, moved onto the stage where it would reach beyond."""
+    x = min(max(middle.real, stage.x + wide / 2), stage.right - wide / 2)
+    return complex(x, min(max(middle.imag, stage.y + high / 2), stage.bottom - high / 2))
 
 
 def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:

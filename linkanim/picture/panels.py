@@ -22,6 +22,8 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 
 _VEIL = 170
+_BACKING = 0.7
+"""How little of what lies under a mark shows through its backing."""
 
 
 @dataclass
@@ -47,11 +49,11 @@ class Panels:
         left = 0
         if overlay.panel:
             drawn = self._keep("panel", overlay.panel, partial(edit_list, self.board))
-            surface.blit(drawn, (self.board.margin, self.board.margin))
-            left = self.board.margin + drawn.get_width()
+            surface.blit(drawn, self._listed(drawn))
+            left = self.board.margin + drawn.get_width() if self._listed(drawn)[1] <= self.board.margin else 0
         if overlay.quantities:
             drawn = self._keep("quantities", overlay.quantities, partial(quantity_list, self.board))
-            surface.blit(drawn, (self.board.margin, self.board.margin))
+            surface.blit(drawn, self._listed(drawn))
         if overlay.help:
             room = self.layout.size[0] - left
             drawn = self._keep("help", (overlay.help, room), partial(help_sheet, self.board))
@@ -62,6 +64,12 @@ class Panels:
             drawn = self._keep("toast", overlay.toast, self._toast)
             across = stage.x + (stage.width - drawn.get_width()) / 2
             surface.blit(drawn, (round(across), round(stage.bottom - drawn.get_height() - self.board.margin)))
+
+    def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
+        """Return where a list stands: at the top of its place, or at the window's foot."""
+        place, margin = self.layout.lists, self.board.margin
+        foot = self.layout.size[1] - margin - drawn.get_height()
+        return round(place.x), max(foot, margin) if place.y > margin else margin
 
     def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw the chip below the marks, and the strip at the bottom, where the HUD is not."""
@@ -106,6 +114,9 @@ class Panels:
             if words:
                 width = self.type.width(words, size)
                 left = place.x + 1.2 * size if leads else place.right - width
+                plate = complex(left + width / 2 - 0.6 * size, top + 0.55 * size)
+                back = plate + box(width + 1.6 * size, 1.15 * size, 0.4 * size)
+                paint(surface, [Layer(self.theme.background, [back], _BACKING)])
                 self.type.draw(surface, words, (left, top), size=size, colour=colour)
                 middle = complex(left - 0.8 * size, top + 0.5 * size)
                 paint(surface, [Layer(colour, [middle + loop for loop in sign])])

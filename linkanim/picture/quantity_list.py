@@ -15,9 +15,9 @@ _TITLE = "Quantities"
 def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     """Return the list, as many rows around the chosen one as the window has room for."""
     size = board.layout.small_size
-    wide = min(max(26.0 * size, _widest(board, shown, size)), board.layout.size[0] - 2.0 * board.margin)
+    wide, high = board.layout.lists.width, board.layout.lists.height
     hint = board.type.wrapped(shown.hint, size, wide - 2.4 * size, gap="   ")
-    room = int((board.layout.size[1] - 2 * board.margin) / STEP / size - _FRAME)
+    room = int(high / STEP / size - _FRAME)
     if room - len(hint) < 4:
         hint = []
     rows = around(len(shown.rows), shown.chosen, room - len(hint))
@@ -35,11 +35,6 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     return sheet
 
 
-def _widest(board: Board, shown: Quantities, size: int) -> float:
-    columns = zip(*shown.rows, strict=True) if shown.rows else ()
-    return sum(board.widest(column, size) for column in columns) + 5.0 * size
-
-
 def _head(board: Board, sheet: pygame.Surface, shown: Quantities, size: int) -> None:
     """Draw the title or what has been typed, and where in the list the chosen row is."""
     at, right = (1.2 * size, 0.7 * size), (sheet.get_width() - 1.2 * size, 0.7 * size)
@@ -53,7 +48,8 @@ def _head(board: Board, sheet: pygame.Surface, shown: Quantities, size: int) -> 
 def _row(board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size: int, y: float) -> None:
     if row == shown.chosen:
         board.bar(sheet, y, size, board.theme.chosen)
-    words, symbol = shown.rows[row]
-    board.write(sheet, words, (1.2 * size, y), size=size)
-    at = (sheet.get_width() - 1.2 * size, y)
-    board.write(sheet, symbol, at, size=size, colour=board.theme.dim, anchor="right")
+    (words, symbol), room = shown.rows[row], sheet.get_width() - 2.4 * size
+    if board.type.width(words, size) + board.type.width(symbol, size) + size <= room:
+        at = (sheet.get_width() - 1.2 * size, y)
+        board.write(sheet, symbol, at, size=size, colour=board.theme.dim, anchor="right")
+    board.write(sheet, board.fitting((words,), size, room), (1.2 * size, y), size=size)

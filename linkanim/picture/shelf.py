@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import ceil
 from typing import NamedTuple
 
@@ -123,16 +122,6 @@ def _frame(sheet: pygame.Surface, board: Board, cell: Rect, *, chosen: bool) -> 
 def _name(sheet: pygame.Surface, board: Board, scene: Scene, cell: Rect, line: float) -> None:
     """Write a scene's title below its picture, or its name, or as much of that as there is room for."""
     size = board.layout.small_size
-    words = _fitting(board, (scene.title, scene.name), size, cell.width - 0.6 * size)
+    words = board.fitting((scene.title, scene.name), size, cell.width - 0.6 * size)
     at = (cell.x + cell.width / 2, cell.bottom - line + 0.15 * size)
     board.write(sheet, words, at, size=size, anchor="centre")
-
-
-def _fitting(board: Board, words: Sequence[str], size: int, room: float) -> str:
-    """Return the first that has room, or as much of the last's two ends as has."""
-    for text in words:
-        if board.type.width(text, size) <= room:
-            return text
-    name = words[-1]
-    kept = (f"{name[: n - n // 2]}…{name[-(n // 2) :]}" for n in range(len(name) - 1, 1, -1))
-    return next((text for text in kept if board.type.width(text, size) <= room), "")

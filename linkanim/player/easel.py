@@ -9,6 +9,7 @@ from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
 from linkanim.picture.shelf import Grid, ShelfPainter, grid
 from linkanim.player import display
+from linkanim.player.approach import Approach
 from linkanim.player.fade import Fade
 from linkanim.player.state import State
 from linkanim.scenes.handles import handles
@@ -25,6 +26,8 @@ class Easel:
 
     def __init__(self, state: State) -> None:
         self._canvas: Canvas | None = None
+        self._passing: Canvas | None = None
+        self._approach: Approach | None = None
         self._shown: object = None
         self._state = state
         self._titled: str | None = None
@@ -38,19 +41,18 @@ class Easel:
             return
         self._state = state
         self._name(state.scene.title)
-        canvas, veiled = self._fitting(state, surface.get_size()), self._fade.strength(state, surface)
+        canvas, veiled = self._shown_on(state, surface.get_size()), self._fade.strength(state, surface)
         picture = (canvas, state.phase, state.clock.speed, over, veiled)
         if picture != self._shown:
-            self._paint(surface, state, over)
+            self._paint(surface, canvas, state, over)
             self._fade.draw(surface, veiled, over.shutter)
             pygame.display.flip()
             self._shown = picture
 
-    def _paint(self, surface: pygame.Surface, state: State, over: Overlay) -> None:
+    def _paint(self, surface: pygame.Surface, canvas: Canvas, state: State, over: Overlay) -> None:
         if over.shelf:
             self._shelf.draw(surface, over.shelf)
         else:
-            canvas = self._fitting(state, surface.get_size())
             canvas.paint(surface, state.phase, state.clock.speed, over)
 
     def _name(self, title: str) -> None:
@@ -66,14 +68,32 @@ class Easel:
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
         """Return the state painted on a surface of its own, as large as the window."""
         surface = display.surface().copy()
-        self._paint(surface, state, over)
+        self._paint(surface, self._fitting(state, surface.get_size()), state, over)
         return surface
 
     def _fitting(self, state: State, size: tuple[int, int]) -> Canvas:
-        listed = state.editing.open or state.listing is not None
-        if self._canvas is None or not self._canvas.fits(state.shown, size, state.look, listed=listed):
-            self._canvas = Canvas(state.shown, size, state.look, self._canvas, both=True, listed=listed)
+        """Return the canvas that fits the state; a view other than the last one's, it is approached."""
+        before, listed = self._canvas, _is_listed(state)
+        if before and before.fits(state.shown, size, state.look, listed=listed):
+            return before
+        self._canvas = Canvas(state.shown, size, state.look, before, both=True, listed=listed)
+        if before and _has_moved(before.painter, self._canvas.painter):
+            self._approach = Approach((self._passing or before).painter.view, state.frame)
+        elif before and not _is_framed_alike(before.painter, self._canvas.painter):
+            self._approach = None
         return self._canvas
+
+    def _shown_on(self, state: State, size: tuple[int, int]) -> Canvas:
+        """Return the canvas for this frame: one on the way to the fitting one while that is approached."""
+        canvas, self._passing = self._fitting(state, size), None
+        if self._approach is None or self._approach.over(state.frame):
+            self._approach = None
+            return canvas
+        goal = canvas.painter
+        fitted = goal.drawing.scenery.fitted
+        look = self._approach.look(state.look, fitted, goal.view, size, state.frame)
+        self._passing = Canvas(state.shown, size, look, canvas, both=True, listed=_is_listed(state))
+        return self._passing
 
     @property
     def scene(self) -> Scene:
@@ -139,5 +159,23 @@ class Easel:
 
     @property
     def _painter(self) -> Painter:
-        assert self._canvas is not None
-        return self._canvas.painter
+        canvas = self._passing or self._canvas
+        assert canvas is not None
+        return canvas.painter
+
+
+def _is_listed(state: State) -> bool:
+    """Return whether a list is open, beside which the scene has less room."""
+    return state.editing.open or state.listing is not None
+
+
+def _has_moved(one: Painter, other: Painter) -> bool:
+    """Return whether one scene in one window is fitted into another place of it."""
+    fitted = one.drawing.scenery.fitted, other.drawing.scenery.fitted
+    return one.scene is other.scene and one.size == other.size and fitted[0] != fitted[1]
+
+
+def _is_framed_alike(one: Painter, other: Painter) -> bool:
+    """Return whether one scene in one window is zoomed and panned alike."""
+    looks = ((painter.look.zoom, painter.look.pan, painter.size) for painter in (one, other))
+    return one.scene is other.scene and len(set(looks)) == 1

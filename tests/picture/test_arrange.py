@@ -167,9 +167,31 @@ def test_the_view_makes_room_for_the_edit_list() -> None:
     for name in names():
         staging = staged(load(name), None, Staged((1280, 720), False, 0, True, True), type_of_words())
         box, layout = staging.subject.sweep.box, staging.arrangement.layout
-        assert staging.arrangement.view.to_pixel(box.left, 0.0)[0] > layout.list_width + 10
+        assert staging.arrangement.view.to_pixel(box.left, 0.0)[0] > layout.lists.right
 
 
+@pytest.mark.parametrize("size", [(320, 180), (360, 640), (480, 270), (640, 480), (720, 1280), (1920, 1080)])
+@pytest.mark.parametrize("name", ["press", "crank-rocker"])
+def test_a_list_covers_no_more_than_half_of_any_window_and_none_of_the_scene(
+    name: str, size: tuple[int, int]
+) -> None:
+    staging = staged(load(name), None, Staged(size, False, 0, True, True), type_of_words())
+    box, parts, view = staging.subject.sweep.box, staging.arrangement.layout, staging.arrangement.view
+    lists, (left, top) = parts.lists, view.to_pixel(box.left, box.high)
+    right, bottom = view.to_pixel(box.right, box.low)
+    assert lists.width * lists.height <= 0.51 * size[0] * size[1]
+    assert not lists.meets(Rect(left, top, right - left, bottom - top))
+    painter, scene = Painter(load(name), size, Look(), listed=True), load(name)
+    bare, told = offscreen(size), offscreen(size)
+    rows = tuple(EditRow(f"Point {n} of its bar, to the left", "123.45 mm", n == 3) for n in range(30))
+    for surface, over in ((bare, Overlay()), (told, Overlay(panel=Panel(rows, hint=HINT)))):
+        painter.paint(surface, scene.pose(1.0), over)
+    changed = np.nonzero((pixels(bare) != pixels(told)).any(axis=-1))
+    assert changed[1].max() <= lists.right + 1
+    assert changed[0].min() >= lists.y - 1
+
+
+HINT = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
 EDITED = Overlay(panel=Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="Esc closes"))
 
 

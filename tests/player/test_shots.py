@@ -17,6 +17,7 @@ from playing import Player
 from linkanim.player import display
 from linkanim.player.action import Action
 from linkanim.player.advance import carried
+from linkanim.player.approach import APPROACH_FRAMES
 from linkanim.player.state import begin
 from linkanim.scenes import load
 
@@ -30,14 +31,16 @@ MEAN_LEVELS = 1.0
 def _press(player: Player) -> None:
     player.type("va")
     player.window.state = carried(player.state, Action("plot", "C.acceleration"))
-    player.tick(75)
+    player.tick()
+    player.tick(74)
 
 
 def _double_rocker(player: Player) -> None:
     player.type("lv")
     player.press(pygame.K_b, pygame.KMOD_LSHIFT, "B")
     player.window.state = carried(player.state, Action("plot", "coupler.angle"))
-    player.tick(108)
+    player.tick()
+    player.tick(107)
 
 
 def _help(player: Player) -> None:
@@ -51,7 +54,7 @@ def _edit(player: Player) -> None:
     player.press(pygame.K_DOWN)
     player.type("7 cm")
     player.press(pygame.K_RETURN)
-    player.tick()
+    player.tick(APPROACH_FRAMES)
 
 
 SHOTS = {

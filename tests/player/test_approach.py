@@ -1,0 +1,72 @@
+"""What makes room moves the scene smoothly, never at one go."""
+
+from __future__ import annotations
+
+import numpy as np
+import pygame
+import pytest
+from playing import Player
+
+from linkanim.picture.look import Look
+from linkanim.picture.view import View, moved
+from linkanim.player.approach import APPROACH_FRAMES, Approach, between
+
+A, B = View(2.0, 100.0, 300.0), View(1.0, 260.0, 200.0)
+
+
+def _pin(player: Player) -> complex:
+    """Return where the rocker's pivot is in the window."""
+    return complex(*player.window.easel.pixel(100.0, 0.0))
+
+
+@pytest.mark.parametrize("key", [pygame.K_e, pygame.K_k, pygame.K_c])
+def test_the_view_glides_to_where_a_list_or_a_chart_leaves_room(player: Player, key: int) -> None:
+    before, way = player.settle(), [_pin(player)]
+    player.press(key, text=chr(key))
+    way.append(_pin(player))
+    for _ in range(APPROACH_FRAMES + 2):
+        player.tick()
+        way.append(_pin(player))
+    whole, steps = abs(way[-1] - way[0]), np.abs(np.diff(way))
+    assert whole > 3
+    assert steps.max() < 0.2 * whole
+    assert steps[-1] == 0
+    if key != pygame.K_c:
+        player.press(pygame.K_ESCAPE)
+        assert _pin(player) != way[0]
+        assert player.settle() == before
+
+
+def test_a_second_change_on_the_way_begins_where_the_first_had_come_to(player: Player) -> None:
+    player.press(pygame.K_e, text="e")
+    player.tick(4)
+    there = _pin(player)
+    player.press(pygame.K_ESCAPE)
+    assert abs(_pin(player) - there) < 3
+
+
+def test_zoom_and_mouse_act_at_once(player: Player) -> None:
+    before = _pin(player)
+    player.press(pygame.K_PLUS, text="+")
+    once = _pin(player)
+    player.tick(3)
+    assert before != once == _pin(player)
+
+
+def test_every_point_moves_straight_and_arrives() -> None:
+    assert (between(A, B, 0.0), between(A, B, 1.0)) == (A, B)
+    half = between(A, B, 0.5)
+    assert half.to_pixel(3.0, 4.0) == pytest.approx(
+        np.mean([A.to_pixel(3.0, 4.0), B.to_pixel(3.0, 4.0)], axis=0)
+    )
+
+
+def test_the_look_on_the_way_shows_the_view_between() -> None:
+    size, look = (640, 360), Look(zoom=1.5, pan=(0.1, 0.0))
+    goal = moved(B, (320.0, 180.0), zoom=1.5, pan=(36.0, 0.0))
+    way = Approach(A, 10)
+    look = way.look(look, B, goal, size, 13)
+    shown = moved(B, (320.0, 180.0), zoom=look.zoom, pan=(look.pan[0] * 360, look.pan[1] * 360))
+    wanted = between(A, goal, 4 / (APPROACH_FRAMES + 1))
+    assert (shown.scale, shown.x, shown.y) == pytest.approx((wanted.scale, wanted.x, wanted.y))
+    assert way.over(10 + APPROACH_FRAMES)
