@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-WHOLE = 2.0**52
-"""Added to a smaller number, it leaves no room for a fraction."""
+WHOLE = 1.5 * 2.0**52
+"""Added to a number below 2⁵¹ in size, it leaves no room for a fraction."""
 COMMUTES = frozenset({"add", "mul", "minimum", "maximum"})
 
 
@@ -203,8 +203,8 @@ def _unary(op: str, plain: Callable[[float], float]) -> Callable[[Value], Value]
 
 
 def nearest_whole(x: float) -> float:
-    """Return the whole number nearest a float below 2⁵² in size, of two the even one, as numpy's rint."""
-    return math.copysign((abs(x) + WHOLE) - WHOLE, x)
+    """Return the whole number nearest a float below 2⁵¹ in size, of two the even one, as numpy's rint."""
+    return (x + WHOLE) - WHOLE or x * 0.0
 
 
 sqrt = _unary("sqrt", math.sqrt)

@@ -77,9 +77,9 @@ class Mechanism:
         key = derivatives, acceleration != 0.0
         program = self._poses.get(key) or self._program_of_poses(*key)
         try:
-            return Pose(self.setting, program(phase, speed, acceleration))
+            return Pose(program(phase, speed, acceleration))
         except (ZeroDivisionError, ValueError):
-            return Pose(self.setting, self._from_arrays(derivatives, phase, speed, acceleration))
+            return Pose(self._from_arrays(derivatives, phase, speed, acceleration))
 
     def _program_of_poses(self, derivatives: int, accelerates: bool) -> Callable[..., dict[str, Any]]:
         if self.passing:
@@ -112,19 +112,20 @@ class Mechanism:
 
     def _scalar(self, trace: Trace, derivatives: int) -> Callable[..., dict[str, Any]]:
         outputs: list[Value] = []
-        parts = ["'phase': x, 'input_speed': w, 'input_acceleration': a"]
+        parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
         for kind, values in trace.rows.items():
             if kind in CRANK or (values and DERIVATIVE_OF[kind] <= derivatives):
                 outputs.extend(component for components in values.values() for component in components)
                 parts.append(f"{kind!r}: {'{}' if kind in CRANK else _dict_display(values)}")
-        return scalar((*trace.names, "w", "a"), outputs, f"{{{{{', '.join(parts)}}}}}")
+        display = f"{{{{{', '.join(parts)}}}}}"
+        return scalar((*trace.names, "w", "a"), outputs, display, {"setting": self.setting})
 
     def _from_arrays(self, derivatives: int, phase: float, speed: float, second: float) -> dict[str, Any]:
         """Return what the scalar program gives, NaN and infinities included, where floats raise."""
         motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
         found = {kind: _plain(values) for kind, values in motion.every.items()}
         inputs = ("phase", "input_speed", "input_acceleration", *CRANK)
-        return found | {name: float(getattr(motion, name)) for name in inputs}
+        return found | {name: float(getattr(motion, name)) for name in inputs} | {"setting": self.setting}
 
     def solve(
         self,

@@ -284,9 +284,8 @@ def _crank_angle(input_angle: Any, gearing: Gearing, from_pin: bool) -> Any:
 class Pose(Derived):
     """The motion at one instant, as plain floats and (x, y) tuples; the attributes are Motion's."""
 
-    def __init__(self, setting: Setting, found: dict[str, Any]) -> None:
+    def __init__(self, found: dict[str, Any]) -> None:
         self.__dict__ = found
-        self.setting = setting
 
     position: Mapping[str, Pair] = NOTHING
     velocity: Mapping[str, Pair] = NOTHING

@@ -8,10 +8,12 @@ buffers stay in the cache and memory is taken for the results only.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from ctypes import addressof, c_char
 from dataclasses import dataclass, field
 from decimal import Decimal
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -29,7 +31,7 @@ CACHE_LINE = 64
 INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
 FLOAT_CALLS = {
     "sqrt": "sqrt({})",
-    "rint": "copysign((abs({0}) + WHOLE) - WHOLE, {0})",
+    "rint": f"(({{0}} + {WHOLE!r}) - {WHOLE!r} or {{0}} * 0.0)",
     "arctan2": "atan2({}, {})",
     "minimum": "min({}, {})",
     "maximum": "max({}, {})",
@@ -86,19 +88,43 @@ def _define(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., A
     return function
 
 
-FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": math.atan2, "copysign": math.copysign, "WHOLE": WHOLE}
+FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": math.atan2}
+NO_NAMES: Mapping[str, Any] = MappingProxyType({})
+DEEPEST = 40
+"""Brackets in brackets; Python reads 200."""
 
 
-def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Callable[..., Any]:
+def scalar(
+    inputs: Sequence[str], outputs: Sequence[Value], layout: str, names: Mapping[str, Any] = NO_NAMES
+) -> Callable[..., Any]:
     """Return a function of float inputs that gives the outputs in `layout`.
 
-    `layout` is a Python expression with one `{}` for each output. Raises what `math` raises
-    (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
+    `layout` is a Python expression with one `{}` for each output, which may use the `names`. Raises what
+    `math` raises (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
     """
-    lines = [f"    {_name(node)} = {_formula(node)}" for node in needed(outputs) if node.op != "input"]
-    result = layout.format(*(_name(value) for value in outputs))
+    lines, texts = _inlined(needed(outputs), outputs)
+    result = layout.format(*(texts.get(_name(value), _name(value)) for value in outputs))
     source = "\n".join([f"def pose({', '.join(inputs)}):", *lines, f"    return {result}"])
-    return _define(source, "pose", FLOAT_NAMES)
+    return _define(source, "pose", {**FLOAT_NAMES, **names})
+
+
+def _inlined(nodes: Sequence[Expr], outputs: Sequence[Value]) -> tuple[list[str], dict[str, str]]:
+    """Return assignments to variables, and by their names, in brackets, those that need none: used once."""
+    uses = Counter(value.index for value in outputs if isinstance(value, Expr))
+    for node in nodes:
+        times = 1 if node.op in INFIX or node.op == "sqrt" else 2
+        uses.update(argument.index for argument in node.args * times if isinstance(argument, Expr))
+    lines, texts, depths = [], dict[str, str](), dict[str, int]()
+    for node in (node for node in nodes if node.op != "input"):
+        names = [_name(argument) for argument in node.args]
+        template = INFIX.get(node.op) or FLOAT_CALLS[node.op]
+        text = template.format(*(texts.get(name, name) for name in names))
+        depth = 1 + max((depths.get(name, 0) for name in names), default=0)
+        if uses[node.index] == 1 and depth < DEEPEST:
+            texts[_name(node)], depths[_name(node)] = f"({text})", depth
+        else:
+            lines.append(f"    {_name(node)} = {text}")
+    return lines, texts
 
 
 DECIMAL_NAMES = {"sqrt": square_root, "sin": sine, "cos": cosine}
