@@ -17,7 +17,7 @@ from linkanim.cli import table
 from linkanim.cli.commands import EVERY_ANGLE
 from linkanim.cli.strict import json_text
 from linkanim.cli.sweeping import RowBlock, Steps, blocks
-from linkanim.cli.tree import Leaf, Tree, leaves, mapped, rows, tree
+from linkanim.cli.tree import Leaf, Tree, input_key, leaves, mapped, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.motion import Motion
@@ -52,7 +52,7 @@ def run(options: Namespace) -> None:
     if options.csv:
         _write_csv(target, asked.by, found)
         return
-    head: Tree = {"scene": scene.name, "angle": None, "phase": None}
+    head: Tree = {"scene": scene.name, input_key(scene): None, "phase": None}
     head |= {"time": None} if asked.steps else {}
     head |= {"speed": speed, "acceleration": options.acceleration, "length_unit": scene.length_unit}
     trees = ({**head, **block.found} for block in found)
@@ -95,7 +95,7 @@ def _blocks(scene: Scene, asked: Asked, speed: float, acceleration: float) -> It
     motion = solve(np.array([asked.value]))
     if any(np.isnan(points).any() for points in motion.position.values()):
         raise out_of_range(scene, asked.value)
-    where = {"angle": motion.crank_angle, "phase": motion.phase, asked.by: np.array([asked.value])}
+    where = {input_key(scene): motion.crank_angle, "phase": motion.phase, asked.by: np.array([asked.value])}
     yield RowBlock(np.degrees([asked.value]), {**where, **tree(scene, motion)})
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim import units
-from linkanim.cli.tree import Leaf, Tree, mapped, tree
+from linkanim.cli.tree import Leaf, Tree, input_key, mapped, tree
 from linkanim.cli.values import SweepSteps
 from linkanim.mechanics.exact import two_product
 from linkanim.mechanics.motion import Motion
@@ -87,7 +87,7 @@ def blocks(
         inputs = steps.radians(row - shared, stop)
         motion = solve(inputs)
         time = (inputs - start) / speed if speed else np.full(len(inputs), np.nan)
-        where = {"angle": motion.crank_angle, "phase": motion.phase, by: inputs, "time": time}
+        where = {input_key(scene): motion.crank_angle, "phase": motion.phase, by: inputs, "time": time}
         found = _continued({**where, **tree(scene, motion)}, last)
         last = found
         yield RowBlock(steps.degrees(row, stop), _without(found, shared))

@@ -14,16 +14,12 @@ from linkanim.mechanics.register import (
     POINT,
     SPRING,
     TRAVELLING,
-    TRAVELLING_COEFFICIENTS,
     TURNING,
-    TURNING_COEFFICIENTS,
     Measure,
+    coefficients_of,
     plain_unit,
 )
 from linkanim.scenes.scene import Scene
-
-_TURNING = (*TURNING, *TURNING_COEFFICIENTS)
-_TRAVELLING = (*TRAVELLING, *TRAVELLING_COEFFICIENTS)
 
 
 def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
@@ -31,11 +27,17 @@ def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
     pose = next(found)
     where = (
         f"{scene.name}: {scene.title}\n"
-        f"crank angle {_degrees(pose['angle'])} deg, phase {_degrees(pose['phase'])} deg, "
+        f"{_input(scene, pose)}, phase {_degrees(pose['phase'])} deg, "
         f"speed {_number(pose['speed'])} rad/s, acceleration {_number(pose['acceleration'])} rad/s^2"
     )
     tables = _tables(scene.linkage, scene.length_unit, pose)
     return "\n\n".join([where, *(columns(lines) for lines in tables if len(lines) > 1)])
+
+
+def _input(scene: Scene, row: Tree) -> str:
+    if scene.linkage.slides:
+        return f"travel {_number(row['travel'])} {scene.length_unit}"
+    return f"crank angle {_degrees(row['angle'])} deg"
 
 
 def _tables(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[list[str]]]:
@@ -43,7 +45,9 @@ def _tables(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[list[str]]
     coms = [(f"com of {name}", body["com"]) for name, body in bodies if "com" in body]
     points = [*pose["joints"].items(), *coms]
     yield [["joint", *_titles(POINT, unit)], *([name, *_cells(POINT, point)] for name, point in points)]
-    for title, key, measures in (("body", "angle", _TURNING), ("slider", "travel", _TRAVELLING)):
+    turning = (*TURNING, *coefficients_of(linkage, turning=True))
+    sliding = (*TRAVELLING, *coefficients_of(linkage, turning=False))
+    for title, key, measures in (("body", "angle", turning), ("slider", "travel", sliding)):
         found = [[name, *_cells(measures, _flat(body))] for name, body in bodies if key in body]
         yield [[title, *_titles(measures, unit)], *found]
     struts = ((linkage.springs, SPRING, pose["springs"]), (linkage.dampers, DAMPER, pose["dampers"]))
@@ -92,7 +96,10 @@ def of_sweep(scene: Scene, found: Iterator[Tree]) -> str:
 
 def _sweep_cells(row: Tree, fixed: Container[str], unit: str) -> Iterator[tuple[str, str]]:
     """Yield (title, cell) along a row."""
-    yield "angle deg", _degrees(row["angle"])
+    if "travel" in row:
+        yield f"travel {unit}", _number(row["travel"])
+    else:
+        yield "angle deg", _degrees(row["angle"])
     yield "phase deg", _degrees(row["phase"])
     for name, joint in row["joints"].items():
         if name not in fixed:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.linkage import Body
+from linkanim.mechanics.linkage import Body, Linkage
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.register import CENTRE, DAMPER, POINT, SPRING, Measure, measures_of, parts
 from linkanim.scenes.scene import Scene
@@ -20,19 +20,24 @@ Leaf = NDArray[np.float64]
 Tree = dict[str, Any]
 
 
+def input_key(scene: Scene) -> str:
+    """Return under which key the tree has the input: its angle, or the travel of a slider that drives."""
+    return "travel" if scene.linkage.slides else "angle"
+
+
 def tree(scene: Scene, motion: Motion) -> Tree:
     """Return joints, bodies, springs and dampers of N poses, in the scene's unit, radians and seconds."""
     linkage = scene.linkage
     return {
         "joints": {joint.name: _known(POINT, motion, joint.name) for joint in linkage.joints},
-        "bodies": {body.name: _body(motion, body) for body in linkage.bodies},
+        "bodies": {body.name: _body(linkage, motion, body) for body in linkage.bodies},
         "springs": {item.name: _known(SPRING, motion, item.name) for item in linkage.springs},
         "dampers": {item.name: _known(DAMPER, motion, item.name) for item in linkage.dampers},
     }
 
 
-def _body(motion: Motion, body: Body) -> Tree:
-    own, slopes = measures_of(body)
+def _body(linkage: Linkage, motion: Motion, body: Body) -> Tree:
+    own, slopes = measures_of(linkage, body)
     known = _known(own, motion, body.name)
     known["coefficients"] = [measure.read(motion, body.name) for measure in slopes]
     return {**known, "com": _known(CENTRE, motion, body.name)} if body.com else known

@@ -22,7 +22,7 @@ from .planar import MovingPoint, Slope
 from .program import batch
 from .roots import Kind
 from .signed import OWN_LIMIT
-from .stroke import Stroke, stroke
+from .stroke import CylinderStroke, cylinder_stroke, slider_stroke
 from .walk import Kinematics, walked
 
 JUST_AFTER = 1e-6
@@ -66,7 +66,7 @@ def assemble(linkage: Linkage) -> Assembly:
     loops = find_loops(scaled, gearings(scaled))
     return _named(
         Assembly(scaled, loops, path, {}, 1.0 / scale)
-        for path in _paths(scaled, loops, open_arcs(linkage, loops))
+        for path in _paths(scaled, loops, open_arcs(linkage, loops), 1.0 / scale)
     )
 
 
@@ -96,10 +96,15 @@ def _scale(linkage: Linkage) -> float:
     return 1.0 if abs(exponent) < 128 else math.ldexp(1.0, -exponent)
 
 
-def _paths(linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Arc] | None) -> Iterator[Path]:
+def _paths(
+    linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Arc] | None, unscale: float
+) -> Iterator[Path]:
     """Yield the paths the input may take, the one asked for first."""
+    if linkage.drive.travel is not None:
+        yield slider_stroke(linkage.drive.travel, unscale)
+        return
     if linkage.drive.cylinder is not None:
-        yield _driven(linkage, arcs)
+        yield _driven(cylinder_stroke(linkage, unscale), arcs)
         return
     if arcs is None:
         yield Turn(linkage.drive.start, turns_to_return(linkage, loops))
@@ -124,9 +129,8 @@ def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Arc) -> int:
     return 1
 
 
-def _driven(linkage: Linkage, arcs: list[Arc] | None) -> Stroke:
+def _driven(path: CylinderStroke, arcs: list[Arc] | None) -> CylinderStroke:
     """Return the path that a cylinder drives; AssemblyError where a loop on the crank leaves it no room."""
-    path = stroke(linkage)
     low, high = path.input_range
     if arcs is None or any(float(arc.low) < low and high < float(arc.high) for arc in _around(arcs)):
         return path

@@ -14,6 +14,7 @@ from linkanim.digits import degrees, short, significant
 from .chain import Touch
 from .effort import Demand, demand, effort_token
 from .exact import HALF_TURN, Sum
+from .joint import Joint
 from .kinds import RRR
 from .linkage import Linkage
 from .loop import Gearing
@@ -72,6 +73,8 @@ class FourBar:
 class Info:
     """What is told of a linkage; angles in radians, lengths in the scene's unit.
 
+    Where a slider drives, its travel stands for the input's angle.
+
     Each fact is worked out when it is first asked for: those of a length that is being changed sixty times
     a second are few.
     """
@@ -91,8 +94,14 @@ class Info:
 
     @property
     def input_range(self) -> tuple[float, float]:
-        """How far the driven angle goes."""
+        """How far the driven angle, or the travel of a slider that drives, goes."""
         return self.mechanism.assembly.path.input_range
+
+    @cached_property
+    def ends(self) -> tuple[float, float]:
+        """Where an input that does not turn fully turns back: at phase 0, and half a period on."""
+        first, last = self.mechanism.assembly.path.angles(np.array([0.0, math.pi])).tolist()
+        return first, last
 
     @property
     def full_turn(self) -> bool:
@@ -102,12 +111,27 @@ class Info:
     @property
     def toggles(self) -> tuple[float, ...]:
         """The input's limits; an end at which it merely turns back is none."""
+        if self.mechanism.linkage.slides:
+            return tuple(end for end in self.input_range if self._at_end(end))
         return self.mechanism.assembly.path.limits
 
     @cached_property
     def change_points(self) -> tuple[float, ...]:
         """The input's angles at its change points within one turn, each once, the least first."""
+        if self.mechanism.linkage.slides:
+            return tuple(sorted({place for place in _touched(self.mechanism) if not self._is_end(place)}))
         return _change_points(self.mechanism)
+
+    def _at_end(self, end: float) -> bool:
+        """Whether a dyad is at its limit at an end of a slider's travel."""
+        return any(self._is_end(place) and self._same(place, end) for place in _touched(self.mechanism))
+
+    def _is_end(self, place: float) -> bool:
+        return any(self._same(place, end) for end in self.input_range)
+
+    def _same(self, place: float, other: float) -> bool:
+        low, high = self.input_range
+        return abs(place - other) <= SAME_ANGLE * (high - low)
 
     @property
     def circuits(self) -> int | None:
@@ -148,7 +172,7 @@ class Info:
             return None
         solve, speed = self.mechanism.solve, linkage.drive.speed
         return demand(
-            lambda phases: solve(phase=phases, speed=speed), path.periods, limited=bool(path.limits)
+            lambda phases: solve(phase=phases, speed=speed), path.periods, limited=bool(self.toggles)
         )
 
     @property
@@ -206,12 +230,26 @@ def _class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
         return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"
     if not dyads:
         return _cranks_name(linkage)
+    if linkage.slides:
+        return _slider_driven_name(linkage, dyads)
     own = dyads[0].linkage_name(mechanism.assembly) if len(dyads) == 1 else None
     return own or f"{_bars(len(dyads))} linkage{slider}"
 
 
+def _slider_driven_name(linkage: Linkage, dyads: list[Joint]) -> str:
+    """Name a linkage that a slider drives."""
+    first = dyads[0]
+    ends = set(first.ends) if isinstance(first, RRR) else set()
+    cranked = linkage.drive.joint in ends and any(pin.name in ends for pin in linkage.pins)
+    if cranked and len(dyads) == 1:
+        return "slider-crank driven at its slider"
+    return f"{_bars(len(dyads))} linkage driven by a slider"
+
+
 def _cranks_name(linkage: Linkage) -> str:
     """Name a linkage without dyads by how its cranks turn."""
+    if linkage.slides:
+        return "slider"
     if linkage.drive.cylinder is not None:
         return "crank driven by a cylinder"
     geared = [crank for crank in linkage.cranks if crank.gear]
@@ -373,14 +411,15 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     yield "class", info.class_name
     if info.grashof:
         yield "Grashof", info.grashof
-    low, high = map(degrees, info.input_range)
-    yield "input", "turns fully" if info.full_turn else f"swings {low}…{high}"
+    slides = info.mechanism.linkage.slides
+    across = _places(info, info.input_range, "…")
+    yield "input", "turns fully" if info.full_turn else f"{'slides' if slides else 'swings'} {across}"
     if info.turning_links:
         yield "turns fully", ", ".join(info.turning_links)
     if info.toggles:
-        yield "toggles at", _degrees(info.toggles)
+        yield "toggles at", _places(info, info.toggles)
     if info.change_points:
-        yield "change points", _degrees(info.change_points)
+        yield "change points", _places(info, info.change_points)
     if info.circuits:
         yield "circuits", str(info.circuits)
     if info.transmission_angle:
@@ -400,6 +439,13 @@ def _demand_lines(info: Info, asked: Demand) -> Iterator[tuple[str, str]]:
     yield "work per period", f"{significant(asked.work, 6)} J"
     for label, value in ((f"peak {name}", asked.peak), (f"mean {name}", asked.mean)):
         yield label, "unbounded" if value is None else f"{significant(value, 6)} {unit}"
+
+
+def _places(info: Info, places: tuple[float, ...], between: str = ", ") -> str:
+    """Return places of the input in words: its angles, or how far a slider has travelled."""
+    if not info.mechanism.linkage.slides:
+        return _degrees(places, between)
+    return f"{between.join(significant(place, 6) for place in places)} {info.length_unit}"
 
 
 def _degrees(angles: tuple[float, ...], between: str = ", ") -> str:

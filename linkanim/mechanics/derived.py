@@ -128,8 +128,9 @@ def crank_body(linkage: Linkage, body: Body) -> bool:
 
 
 def output_body(linkage: Linkage) -> Body | None:
-    """Return the body that a linkage is there to move: its first slider, else its last rocker."""
-    slider = next((body for body in linkage.bodies if body.slider is not None), None)
+    """Return the body that a linkage is there to move: its first slider not driven, else its last rocker."""
+    own = (None, linkage.drive.joint)
+    slider = next((body for body in linkage.bodies if body.slider not in own), None)
     fixed = {pin.name for pin in linkage.pins}
     rockers = [body for body in linkage.bodies if fixed & set(body.joints) and not crank_body(linkage, body)]
     return slider or (rockers[-1] if rockers else None)
@@ -143,7 +144,7 @@ def coupler_body(linkage: Linkage) -> Body | None:
 
 
 def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:
-    """Return how to read the output's torque over the input's; of a slider its force over the crank pin's.
+    """Return how to read the output's torque over the input's; of sliders the force, at the crank's pin.
 
     Without losses both are ratios of speeds (Uicker, Pennock and Shigley, Theory of Machines and
     Mechanisms); not negative, infinite where the output rests.
@@ -157,5 +158,5 @@ def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:
 
 
 def input_rate(motion: Any) -> Any:
-    """Return the input's own angular velocity, one value an instant: of a swing it is not the phase's."""
+    """Return the input's own velocity, one value an instant: of a swing it is not the phase's."""
     return motion.crank_rate + 0.0 * motion.crank_angle

@@ -1,12 +1,13 @@
-"""What the input has to deliver: its torque, or the force of a cylinder that drives.
+"""What the input has to deliver: its torque, or the force of a cylinder or a slider that drives.
 
 By the balance of power over all that the scene gives a force or a mass (the principle of virtual power;
 Uicker, Pennock and Shigley, Theory of Machines and Mechanisms), tension F positive and y up,
 
     Q q' = Σ (m a·v + I α ω) + Σ m g v_y + Σ F dL/dt
 
-where q is the crank's angle or the cylinder's length, and Q its torque or its push. Where everything rests
-for an instant all velocities are in proportion to q', and accelerations stand for them: v/q' = a/q".
+where q is the crank's angle, the cylinder's length or the slider's travel, and Q its torque or its push.
+Where everything rests for an instant all velocities are in proportion to q', and accelerations stand for
+them: v/q' = a/q".
 """
 
 from __future__ import annotations
@@ -46,8 +47,8 @@ _STARTING = _Way("acceleration", "com_acceleration", "angular_acceleration", "cr
 
 
 def effort_token(linkage: Linkage) -> str:
-    """Return what the effort at the input is called: a cylinder that drives has a force, a crank a torque."""
-    return "input.force" if linkage.drive.cylinder else "input.torque"
+    """Return the token of the effort at the input: a force of a cylinder or slider, a torque of a crank."""
+    return "input.force" if linkage.drive.cylinder or linkage.slides else "input.torque"
 
 
 def input_power(motion: Any) -> Any:
@@ -56,9 +57,10 @@ def input_power(motion: Any) -> Any:
 
 
 def input_effort(motion: Any) -> Any:
-    """Return the torque (N m) at the input, or the force (N) of the cylinder that drives.
+    """Return the torque (N m) at the input, or the force (N) of a cylinder or a slider that drives.
 
-    Positive where it turns the input on counter-clockwise, or lengthens the cylinder. Unbounded at a limit
+    Positive where it turns the input on counter-clockwise, lengthens the cylinder or pushes the slider
+    forward. Unbounded at a limit
     of the input; NaN where the input stands still and does not start to move either.
     """
     pace = _pace(motion, _MOVING)
@@ -90,12 +92,14 @@ def _power(motion: Any, way: _Way) -> Any:
 
 
 def _pace(motion: Any, way: _Way) -> Any:
-    """Return how fast the input moves, in rad/s, or a cylinder's length in m/s."""
-    drive = motion.setting.linkage.drive
-    if drive.cylinder is None:
+    """Return how fast the input moves, in rad/s; a cylinder's length, or a slider, in m/s."""
+    linkage = motion.setting.linkage
+    if linkage.slides:
+        return getattr(motion, way.crank) * linkage.metre
+    if linkage.drive.cylinder is None:
         return getattr(motion, way.crank)
-    along = Spring("cylinder", drive.cylinder.between)
-    return _lengthening(motion, along, way) * motion.setting.linkage.metre
+    along = Spring("cylinder", linkage.drive.cylinder.between)
+    return _lengthening(motion, along, way) * linkage.metre
 
 
 def _lengthening(motion: Any, strut: Spring | Damper, way: _Way) -> Any:

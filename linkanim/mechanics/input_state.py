@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from .circular import Half, cosine_of, half_angle, sharp_half_angle
@@ -58,6 +58,10 @@ class InputState:
     ends: Ends | None = None
     phase: Value | None = None
 
+    def shown(self, unscale: float) -> tuple[Value, Value, Value]:
+        """Return what is told of the input, with its rates: its angle; of a slider its travel, `unscale`d."""
+        return self.angle + float(self.origin), self.rate, self.second
+
     def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, form: HalfForm = half_angle) -> Half:
         """Return half of ratio × θ - reference, to the last digit at any number of turns."""
         return self.half_shifted(ratio, self.origin * ratio - reference, form)
@@ -69,6 +73,17 @@ class InputState:
             return form(scaled, low)
         total, error = two_sum(scaled, shift.high)
         return form(total, error + low + shift.low)
+
+
+@dataclass(frozen=True, slots=True)
+class TravelState(InputState):
+    """The state where a slider drives: `angle` is the phase that runs its travel, `half` is that of it."""
+
+    travel: Moving = field(default_factory=lambda: Moving(0.0, 0.0, 0.0))
+
+    def shown(self, unscale: float) -> tuple[Value, Value, Value]:
+        """Return the slider's travel, with its rates, `unscale`d."""
+        return self.travel.value * unscale, self.travel.rate * unscale, self.travel.second * unscale
 
 
 def _scaled(x: Value, ratio: Fraction) -> tuple[Value, Value]:

@@ -84,25 +84,44 @@ class Cylinder:
     first: float
     last: float
 
+    def scaled(self, factor: float) -> Cylinder:
+        """Return the cylinder with its lengths times a factor."""
+        return replace(self, first=self.first * factor, last=self.last * factor)
+
+
+@dataclass(frozen=True, slots=True)
+class Travel:
+    """How far the slider that drives the linkage travels along its line: from `first` to `last` and back."""
+
+    first: float
+    last: float
+
+    def scaled(self, factor: float) -> Travel:
+        """Return the travel with its ends times a factor."""
+        return Travel(self.first * factor, self.last * factor)
+
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """What turns the linkage: the input crank, its speed (rad/s, negative clockwise) and start (rad).
+    """What moves the linkage: the input crank, its speed (rad/s, negative clockwise) and start (rad).
 
-    Where a cylinder turns the crank, `speed` is that of the phase, one there-and-back being 2π.
+    Where a cylinder turns the crank, or the joint is a slider that has a `travel`, `speed` is that of the
+    phase, one there-and-back being 2π.
     """
 
     joint: str
     speed: float
     start: float = 0.0
     cylinder: Cylinder | None = None
+    travel: Travel | None = None
 
     def scaled(self, factor: float) -> Drive:
-        """Return the drive with its cylinder's lengths times a factor."""
-        if self.cylinder is None:
-            return self
-        first, last = self.cylinder.first * factor, self.cylinder.last * factor
-        return replace(self, cylinder=replace(self.cylinder, first=first, last=last))
+        """Return the drive with the lengths of its cylinder, or its slider's travel, times a factor."""
+        return replace(
+            self,
+            cylinder=self.cylinder and self.cylinder.scaled(factor),
+            travel=self.travel and self.travel.scaled(factor),
+        )
 
 
 @dataclass(frozen=True)
@@ -118,6 +137,11 @@ class Linkage:
     """One unit of length in metres (0.001 for mm); forces need it."""
     gravity: float = 0.0
     """How fast masses fall, in m/s², down; 0 where nothing is said of it."""
+
+    @property
+    def slides(self) -> bool:
+        """Whether the input is a slider, whose travel is told where that of others is an angle."""
+        return self.drive.travel is not None
 
     @property
     def forceful(self) -> bool:

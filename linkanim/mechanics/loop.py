@@ -91,7 +91,7 @@ def own_loop(crank: str, loops: Mapping[str, Loop]) -> Loop | None:
 
 def gearings(linkage: Linkage) -> dict[str, Gearing]:
     """Map each crank's pin to how it turns with the input; AssemblyError where it does not."""
-    found = {linkage.drive.joint: Gearing()}
+    found = {} if linkage.drive.travel else {linkage.drive.joint: Gearing()}
     for crank in linkage.cranks:
         if crank.name in found:
             continue

@@ -98,9 +98,9 @@ class Mechanism:
             second = graph.input("a", uniform=uniform) if variant.accelerates else 0.0
             pace = Slope(graph.input("w", uniform=uniform), second)
             names, state = self._state(graph, pace, by_phase=variant.by_phase)
-            moving = state.angle + float(state.origin), state.rate, state.second
-            crank = {kind: {"": (value,)} for kind, value in zip(CRANK, moving, strict=True)}
-            rows = dict(_quantities(self.assembly.walk(state), self.assembly.unscale))
+            unscale = self.assembly.unscale
+            crank = {kind: {"": (value,)} for kind, value in zip(CRANK, state.shown(unscale), strict=True)}
+            rows = dict(_quantities(self.assembly.walk(state), unscale))
             found = self._traces[variant] = Trace(names, crank | rows)
         return found
 

@@ -28,7 +28,7 @@ from .precise import context, cosine, exactly, nearest_sum
 from .reach import Array, WaysLeft, reach
 from .roots import Kind, LoopRoot
 from .signed import Swinging
-from .stroke import Stroke
+from .stroke import CylinderStroke, SliderStroke
 
 NO_RANGE = 1e-12
 """Ranges that overlap by no more than this, in radians, touch."""
@@ -208,7 +208,7 @@ class Swing(ThereAndBack):
         return reach(angle, (self.low, self.middle, self.high), self.repeats)
 
 
-Path = Turn | Swing | Stroke
+Path = Turn | Swing | CylinderStroke | SliderStroke
 
 
 def _cosine(angle: Sum) -> Sum:

@@ -104,32 +104,35 @@ TRAVELLING = (
 )
 
 
-def _coefficients(symbol: str, unit: str, letter: str) -> tuple[Measure, Measure]:
+def _coefficients(symbol: str, letter: str, units: tuple[str, str], by: str) -> tuple[Measure, Measure]:
+    """Return first and second derivative by the input; `by` is that in plain letters."""
     first, second = "kinematic coefficient", "second kinematic coefficient"
+    headings = f"d{letter}/d{by}", f"d2{letter}/d{by}2"
     return (
-        Measure("coefficient", "1", symbol, first, f"{unit}/rad", 0, f"d{letter}/dtheta", _coefficient(0)),
-        Measure(
-            "second_coefficient",
-            "2",
-            f"{symbol}′",
-            second,
-            f"{unit}/rad²",
-            0,
-            f"d2{letter}/dtheta2",
-            _coefficient(1),
-        ),
+        Measure("coefficient", "1", symbol, first, units[0], 0, headings[0], _coefficient(0)),
+        Measure("second_coefficient", "2", f"{symbol}′", second, units[1], 0, headings[1], _coefficient(1)),
     )
 
 
-TURNING_COEFFICIENTS = _coefficients("h", "rad", "q")
-TRAVELLING_COEFFICIENTS = _coefficients("f", "{}", "s")
+_BY_ANGLE = {
+    True: _coefficients("h", "q", ("rad/rad", "rad/rad²"), "theta"),
+    False: _coefficients("f", "s", ("{}/rad", "{}/rad²"), "theta"),
+}
+_BY_TRAVEL = {
+    True: _coefficients("h", "q", ("rad/{}", "rad/{}²"), "travel"),
+    False: _coefficients("f", "s", ("", "1/{}"), "travel"),
+}
 
 
-def measures_of(body: Body) -> tuple[tuple[Measure, ...], tuple[Measure, Measure]]:
+def coefficients_of(linkage: Linkage, *, turning: bool) -> tuple[Measure, Measure]:
+    """Return the two kinematic coefficients of bodies that turn, or slide: by the input's angle or travel."""
+    return (_BY_TRAVEL if linkage.slides else _BY_ANGLE)[turning]
+
+
+def measures_of(linkage: Linkage, body: Body) -> tuple[tuple[Measure, ...], tuple[Measure, Measure]]:
     """Return the measures of a body that turns or slides, and its two kinematic coefficients."""
-    if body.slider is None:
-        return TURNING, TURNING_COEFFICIENTS
-    return TRAVELLING, TRAVELLING_COEFFICIENTS
+    turning = body.slider is None
+    return TURNING if turning else TRAVELLING, coefficients_of(linkage, turning=turning)
 
 
 def _of_kind(kind: str, name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
@@ -282,7 +285,7 @@ def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
 def _quantities(linkage: Linkage) -> Iterator[Quantity]:
     labels = link_labels(linkage)
     for body in linkage.bodies:
-        yield from _of_body(body, labels[body.name])
+        yield from _of_body(linkage, body, labels[body.name])
     for joint in linkage.joints:
         if not isinstance(joint, Pin):
             for measure in POINT:
@@ -322,7 +325,10 @@ def _of_pole(body: Body, label: str) -> Iterator[Quantity]:
 
 def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     """Yield what is told of the linkage as a whole: its input, transmission and advantage."""
-    yield Quantity("input.angular_velocity", "ω_{in}", "Input: angular velocity", "rad/s", 1, input_rate)
+    if linkage.slides:
+        yield Quantity("input.velocity", "v_{in}", "Input: velocity", "{}/s", 1, input_rate)
+    else:
+        yield Quantity("input.angular_velocity", "ω_{in}", "Input: angular velocity", "rad/s", 1, input_rate)
     if linkage.forceful:
         yield _effort(linkage)
     dyads = dyads_of(linkage)
@@ -332,7 +338,8 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     for dyad in dyads if len(dyads) > 1 else ():
         read, said = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
         yield Quantity(f"{dyad}.transmission_angle", indexed("μ", dyad), said, "rad", 0, read)
-    if output_body(linkage) is not None:
+    output = output_body(linkage)
+    if output is not None and (output.slider or not linkage.slides):
         read = mechanical_advantage(linkage)
         yield Quantity("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
 
@@ -354,8 +361,8 @@ def called(body: Body) -> str:
     return f"{'Slider' if body.slider else 'Link'} {body.name}"
 
 
-def _of_body(body: Body, label: str) -> Iterator[Quantity]:
-    own, slopes = measures_of(body)
+def _of_body(linkage: Linkage, body: Body, label: str) -> Iterator[Quantity]:
+    own, slopes = measures_of(linkage, body)
     for measure in (*own, *slopes):
         yield _bound(measure, body.name, indexed(measure.symbol, label), called(body))
 

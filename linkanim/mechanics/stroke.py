@@ -1,33 +1,37 @@
-"""A cylinder as the input: its length runs to and fro, and turns a crank.
+"""A length as the input, running to and fro: that of a cylinder, which turns a crank, or a slider's travel.
 
-The length ℓ between a fixed pin G and a joint H of the crank's body makes a triangle with the crank's
-pivot, whose sides g and r do not change. With ψ its angle at the pivot the law of cosines is
+It is mid - amp·cos φ: it starts at `first`, is at `last` half a period on, and comes back.
+
+The length ℓ of a cylinder between a fixed pin G and a joint H of the crank's body makes a triangle with
+the crank's pivot, whose sides g and r do not change. With ψ its angle at the pivot the law of cosines is
 
     4 g r sin²(ψ/2) = (ℓ - g + r)(ℓ + g - r)      4 g r cos²(ψ/2) = (g + r - ℓ)(g + r + ℓ)
 
 without cancellation, so half of ψ has its sine and cosine without an arc function; and ψ' = ℓ ℓ'/(g r sin ψ).
-The length is mid - amp·cos φ: it starts at `first`, is at `last` half a period on, and comes back.
+A slider has no angle: there the phase itself stands for one. Where a dyad is at its limit at an end of the
+travel, such as a piston's rod and crank at a dead centre, that is a change point of the phase's, and the
+motion runs on through it to the other closure.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import NoReturn
+from typing import ClassVar, NoReturn
 
 import numpy as np
 
-from linkanim.errors import AssemblyError
+from linkanim.errors import AssemblyError, BadInput
 
 from .circular import Half, direction, half_of, sharp_half_angle
 from .exact import Sum, exact_angle
 from .expression import Value, arctan2, sqrt
 from .input_path import ThereAndBack, Unlimited, half_squares, nearer_way
-from .input_state import HalfForm, InputState
-from .linkage import Cylinder, Linkage
+from .input_state import HalfForm, InputState, TravelState
+from .linkage import Cylinder, Linkage, Travel
 from .loop import ground_between
-from .planar import Slope, Vec
+from .planar import Moving, Slope, Vec
 from .reach import Array, WaysLeft
 
 
@@ -50,20 +54,61 @@ class HalfState(InputState):
 
 @dataclass(frozen=True, slots=True)
 class Stroke(ThereAndBack, Unlimited):
-    """The input's path where a cylinder drives it; θ = base + side × ψ."""
+    """The input's path where a length drives it; results times `unscale` are in the scene's unit."""
 
     first: float
     last: float
-    sides: tuple[float, float]
-    """Of the triangle, from the crank's pivot: to the cylinder's fixed pin, and to its joint on the crank."""
-    base: Sum
-    side: int
-    rounds: int = 1
+    rounds: int = field(default=1, kw_only=True)
+    unscale: float = field(default=1.0, kw_only=True)
+
+    word: ClassVar[str]
+    """What drives, and what of it runs to and fro."""
 
     @property
     def periods(self) -> int:
         """One there-and-back, times what a chain that passes a change point needs."""
         return self.rounds
+
+    def lengths(self, phases: Array) -> Array:
+        """Return the length at phases."""
+        lengths: Array = (self.first + self.last) / 2 - (self.last - self.first) / 2 * np.cos(phases)
+        return lengths
+
+    def forth(self, length: float) -> float:
+        """Return the phase at which the length is reached on the way to `last`, at most that of an end."""
+        middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
+        return math.acos(min(max((middle - length) / half, -1.0), 1.0))
+
+    def running(self, phase: Value, pace: Slope) -> Moving:
+        """Return the length with its rates."""
+        whole, reach = sharp_half_angle(phase + phase), (self.last - self.first) / 2
+        length = whole.cosine * -reach + (self.first + self.last) / 2
+        rate = whole.sine * pace.value * reach
+        second = (whole.cosine * (pace.value * pace.value) + whole.sine * pace.rate) * reach
+        return Moving(length, rate, second)
+
+    def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> NoReturn:
+        """Refuse to run shorter than asked: AssemblyError with the lengths between which all closes."""
+        dyad = next(name for _, name in (low, high) if name is not None)
+        ends = [float(self.lengths(np.array(float(phase)))) * self.unscale for phase, _ in (low, high)]
+        least, most = sorted(ends)
+        first, last = self.first * self.unscale, self.last * self.unscale
+        raise AssemblyError(
+            f"joint {dyad}: it lets the {self.word} run from {least:.6g} to {most:.6g} only, "
+            f"not from {first:g} to {last:g}; change from and to"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class CylinderStroke(Stroke):
+    """The input's path where a cylinder drives it; θ = base + side × ψ."""
+
+    sides: tuple[float, float]
+    """Of the triangle, from the crank's pivot: to the cylinder's fixed pin, and to its joint on the crank."""
+    base: Sum
+    side: int
+
+    word: ClassVar[str] = "cylinder's length"
 
     @property
     def input_range(self) -> tuple[float, float]:
@@ -87,14 +132,12 @@ class Stroke(ThereAndBack, Unlimited):
         g, r = self.sides
         psi = abs(math.remainder(angle - float(self.base), 2 * math.pi))
         length = math.sqrt(g * g + r * r - 2 * g * r * math.cos(psi))
-        middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
-        rising = math.acos(min(max((middle - length) / half, -1.0), 1.0))
-        return nearer_way(rising, near)
+        return nearer_way(self.forth(length), near)
 
     def angles(self, phases: Array) -> Array:
         """Return the crank's angle at phases."""
         g, r = self.sides
-        length = (self.first + self.last) / 2 - (self.last - self.first) / 2 * np.cos(phases)
+        length = self.lengths(phases)
         sine, cosine = (length - g + r) * (length + g - r), (g + r - length) * (g + r + length)
         angles: Array = float(self.base) + self.side * 2 * np.arctan2(np.sqrt(sine), np.sqrt(cosine))
         return angles
@@ -104,15 +147,6 @@ class Stroke(ThereAndBack, Unlimited):
         assert reached is not None
         flat = [self.phase_of(angle, 0.0) for angle in angles.reshape(-1).tolist()]
         return np.where(reached.outside, np.nan, np.abs(flat)).reshape(angles.shape)
-
-    def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> NoReturn:
-        """Refuse to run shorter than asked: AssemblyError with the length that a dyad allows."""
-        phase, dyad = next(end for end in (low, high) if end[1] is not None)
-        length = (self.first + self.last) / 2 - (self.last - self.first) / 2 * math.cos(float(phase))
-        raise AssemblyError(
-            f"joint {dyad}: it stops the cylinder at a length of {length:.6g}; "
-            f"let from and to ({self.first:g} and {self.last:g}) stay on one side of that"
-        )
 
     def place(self, phase: Sum) -> Sum:
         """Return the angle at a phase: a place that is passed there and back."""
@@ -126,14 +160,12 @@ class Stroke(ThereAndBack, Unlimited):
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or noted expressions."""
         g, r = self.sides
-        whole, reach = sharp_half_angle(phase + phase), (self.last - self.first) / 2
-        length = whole.cosine * -reach + (self.first + self.last) / 2
+        running = self.running(phase, pace)
+        length, rate, second = running.value, running.rate, running.second
         sine = sqrt((length - (g - r)) * (length + (g - r)))
         cosine = sqrt((g + r - length) * (g + r + length))
         scale = 0.5 / math.sqrt(g * r)
         half = half_of(sine * (scale * self.side), cosine * scale)
-        rate = whole.sine * pace.value * reach
-        second = (whole.cosine * (pace.value * pace.value) + whole.sine * pace.rate) * reach
         product = half.product * (2 * g * r)
         turning = length * rate / product
         bend = (rate * rate + length * second - half.difference * (g * r) * turning * turning) / product
@@ -147,7 +179,59 @@ class Stroke(ThereAndBack, Unlimited):
         return WaysLeft(angle, ways, ways, outside, np.zeros_like(outside))
 
 
-def stroke(linkage: Linkage) -> Stroke:
+@dataclass(frozen=True, slots=True)
+class SliderStroke(Stroke):
+    """The input's path where a slider drives it. What other paths tell of an angle it tells of the travel."""
+
+    word: ClassVar[str] = "slider's travel"
+
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the slider goes."""
+        low, high = sorted((self.first * self.unscale, self.last * self.unscale))
+        return low, high
+
+    def holds(self, angle: float, turns: int = 1) -> bool:
+        """Tell whether the slider comes so far."""
+        low, high = self.input_range
+        return low <= angle <= high
+
+    def phase_of(self, angle: float, near: float) -> float:
+        """Return the phase nearest to `near` at which the slider has travelled so far, or is at its end."""
+        return nearer_way(self.forth(angle / self.unscale), near)
+
+    def angles(self, phases: Array) -> Array:
+        """Return the slider's travel at phases."""
+        return self.lengths(phases) * self.unscale
+
+    def place(self, phase: Sum) -> Sum:
+        """Return the phase: of a travel's two ways through it, each is a place of its own."""
+        return phase
+
+    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
+        """Return the least and greatest sin²(φ/2) of the phase."""
+        return 0.0, 1.0
+
+    def state(self, phase: Value, pace: Slope) -> InputState:
+        """Return the input's state at a phase, in plain floats or noted expressions."""
+        travel = self.running(phase, pace)
+        return TravelState(phase, Sum(0.0), pace.value, pace.rate, pace, travel=travel)
+
+    def reach(self, angle: Array) -> NoReturn:
+        """Refuse to be asked for an angle."""
+        raise BadInput("the input is a slider, which has no angle; take the phase (--phase, or phase=)")
+
+    def phases(self, angles: Array, reached: WaysLeft | None) -> NoReturn:
+        """Refuse to be asked for an angle."""
+        self.reach(angles)
+
+
+def slider_stroke(travel: Travel, unscale: float) -> SliderStroke:
+    """Return the path of a linkage that a slider drives."""
+    return SliderStroke(travel.first, travel.last, unscale=unscale)
+
+
+def cylinder_stroke(linkage: Linkage, unscale: float) -> CylinderStroke:
     """Return the path of a linkage that a cylinder drives; AssemblyError where its triangle does not close.
 
     Of the two triangles it is the one whose range contains the drive's start, or else the one in which the
@@ -165,7 +249,10 @@ def stroke(linkage: Linkage) -> Stroke:
     sides = ground.length, abs(arm)
     _check(cylinder, sides)
     own = exact_angle(math.atan2(arm.imag, arm.real))
-    paths = [Stroke(cylinder.first, cylinder.last, sides, ground.angle - own, side) for side in (1, -1)]
+    base = ground.angle - own
+    paths = [
+        CylinderStroke(cylinder.first, cylinder.last, sides, base, side, unscale=unscale) for side in (1, -1)
+    ]
     return next((path for path in paths if path.holds(drive.start)), paths[0])
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import radians
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ from linkanim.picture.chart import (
     right_axis,
     x_title,
 )
+from linkanim.picture.driven import driven_words
 from linkanim.picture.items import Caption, Item, draw
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
@@ -183,8 +185,11 @@ class Page:
 
 
 def _said(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
-    unit = "°" if curve.quantity.shown_unit(curves.scene.length_unit) == "°" else ""
-    return f"{stepped(peak.value, (plot.y.high - plot.y.low) / 500)}{unit} at {stepped(peak.angle, 0.1)}°"
+    scene = curves.scene
+    unit = "°" if curve.quantity.shown_unit(scene.length_unit) == "°" else ""
+    value = stepped(peak.value, (plot.y.high - plot.y.low) / 500)
+    angle = peak.angle if scene.linkage.slides else radians(peak.angle)
+    return f"{value}{unit} at {driven_words(scene, angle)}"
 
 
 def _told(

@@ -142,7 +142,7 @@ def _of(scene: Scene, one: Quantity, pace: Pace, over: Over | None, cycle: Motio
 
 
 class Peak(NamedTuple):
-    """An extreme of a curve: where, its value, and the input's angle there in degrees."""
+    """An extreme of a curve: where, its value, and the input's angle there in degrees, or slider's travel."""
 
     x: float
     value: float
@@ -170,23 +170,31 @@ def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
     value = float(curve.solved(scene, np.array([phase]))[0])
     if curve.quantity.unit == "rad":
         value += 360 * round((curve.values[index] - value) / 360)
-    angle = degrees(scene.pose(phase, 0).crank_angle)
+    angle = _shown(scene, scene.pose(phase, 0).crank_angle)
     way = slice(None) if curve.rises else slice(None, None, -1)
     x = float(np.interp(phase, curve.phases[way], curve.x[way]))
     return Peak(x, value, angle % 360 if scene.info.full_turn else angle)
 
 
+def _shown(scene: Scene, angle: float) -> float:
+    """Return the input's angle in degrees, or a slider's travel as it is."""
+    return angle if scene.linkage.slides else degrees(angle)
+
+
 def table(curves: Curves) -> tuple[list[str], list[Floats]]:
     """Return names and columns of a table: the input's angle in degrees, then angle, phase, time, quantities.
 
+    Where a slider drives, its travel stands for the angle.
     Angles are radians and lengths the scene's unit, as in all CSV. Of several speeds each column says its
     own; times are negative where the phase runs back.
     """
     scene = curves.scene
     phases = np.linspace(0.0, scene.period, SAMPLES // 2 * round(scene.period / tau) + 1)
     motion = scene.solve(phase=phases)
-    names = ["angle_deg", "angle", "phase"]
-    columns = [np.degrees(motion.crank_angle), motion.crank_angle, phases]
+    angle = motion.crank_angle
+    names, columns = ["angle_deg", "angle", "phase"], [np.degrees(angle), angle, phases]
+    if scene.linkage.slides:
+        names, columns = ["travel", "phase"], [angle, phases]
     several = len({curve.pace for curve in curves.curves}) > 1
     for pace in dict.fromkeys(curve.pace for curve in curves.curves):
         paced = motion.paced(pace.speed / scene.linkage.drive.speed)

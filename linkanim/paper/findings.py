@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.digits import significant, stepped, typeset
-from linkanim.errors import OutOfRange
+from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.derived import output_body
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.register import Quantity, register
@@ -48,6 +48,8 @@ class Sheet:
 def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
     """Return the instants at angles of the input (rad); OutOfRange for one that it does not come to."""
     path = scene.mechanism.assembly.path
+    if angles and scene.linkage.slides:
+        raise BadInput(f"{scene.name}: its input is a slider, which has no angle; leave --angles out")
     for angle in angles:
         if not path.holds(angle):
             low, high = (f"{degrees(limit):.6g} deg" for limit in path.input_range)
@@ -75,15 +77,20 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
 def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
     """Return every quantity of a scene at one instant, at each speed."""
     motions = [scene.solve(phase=instant.phase, speed=pace.speed) for pace in paces]
-    angle = degrees(float(motions[0].crank_angle))
-    turned = angle % 360 if scene.info.full_turn else angle
-    said = f"{input_symbol(scene)} = {stepped(turned, 0.01)}°"
+    said = f"{input_symbol(scene)} = {_input_words(scene, float(motions[0].crank_angle))}"
     sections: dict[str, list[Finding]] = {}
     for quantity in register(scene.linkage).values():
         rows = sections.setdefault(_section(quantity), [])
         rows += _rows(scene, quantity, motions)
     found = tuple((title, tuple(rows)) for title, rows in sections.items())
     return Sheet(f"{said} ({instant.words})" if instant.words else said, found)
+
+
+def _input_words(scene: Scene, angle: float) -> str:
+    if scene.linkage.slides:
+        return f"{stepped(angle, 0.01)} {scene.length_unit}"
+    turned = degrees(angle) % 360 if scene.info.full_turn else degrees(angle)
+    return f"{stepped(turned, 0.01)}°"
 
 
 def _rows(scene: Scene, quantity: Quantity, motions: list[Motion]) -> Iterator[Finding]:
@@ -136,7 +143,10 @@ def table(scene: Scene, pace: Pace, step_deg: float = 1.0) -> tuple[list[str], n
     """
     count = round(degrees(scene.period) / step_deg)
     motion = scene.solve(phase=np.arange(count + 1) * (scene.period / count), speed=pace.speed)
-    names, columns = ["phase", "angle", "time"], [motion.phase, motion.crank_angle]
+    names, columns = (
+        ["phase", "travel" if scene.linkage.slides else "angle", "time"],
+        [motion.phase, motion.crank_angle],
+    )
     columns.append(motion.phase / abs(pace.speed))
     for token, quantity in register(scene.linkage).items():
         if len(quantity.columns) == 1:

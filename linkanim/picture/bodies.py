@@ -36,11 +36,12 @@ def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[
 
 
 def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
-    """Return each body's colour: the driven crank's is the first, one without a name is metal."""
+    """Return each body's colour: the driven part's is the first, one without a name is metal."""
     drive = figure.linkage.drive.joint
     named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
     first = sorted(named, key=lambda body: not _is_crank(body, figure, drive))
-    colours = {body.name: theme.bodies[n % len(theme.bodies)] for n, body in enumerate(first)}
+    count, taken = len(theme.bodies), int(figure.linkage.slides)
+    colours = {body.name: theme.bodies[n % count] for n, body in enumerate(first, start=taken)}
     return {"": theme.metal, **colours}
 
 

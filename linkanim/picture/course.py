@@ -10,10 +10,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.digits import stepped
+from linkanim.errors import BadInput
 from linkanim.mechanics.register import indexed, link_labels
 from linkanim.picture.axis import Axis, linear
-from linkanim.picture.driven import driven_body, driven_name
+from linkanim.picture.driven import driven_body, driven_name, driven_words
 from linkanim.picture.quantities import Series
 from linkanim.scenes.scene import Scene
 
@@ -81,7 +81,10 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
     """Return the course of a scene that runs at `speed` (rad/s, negative: the phase runs back).
 
     An input that turns is shown over its absolute angle, one that swings over time, unless `over` says.
+    BadInput for the angle of an input that is a slider.
     """
+    if over == "angle" and scene.linkage.slides:
+        raise BadInput(f"{scene.name}: its input is a slider, which has no angle; show it over time or phase")
     turns = scene.info.full_turn
     chosen = over or ("angle" if turns else "time")
     period = scene.period
@@ -101,7 +104,9 @@ def input_title(scene: Scene) -> str:
 
 
 def input_symbol(scene: Scene) -> str:
-    """Return the symbol of the driven bar's angle: θ₂, of a four-bar that is driven at its rocker θ₄."""
+    """Return the input's symbol: θ₂, of a four-bar driven at its rocker θ₄, of a slider s."""
+    if scene.linkage.slides:
+        return "s"
     body = driven_body(scene)
     return indexed("θ", link_labels(scene.linkage)[body.name] if body else "2")
 
@@ -110,4 +115,4 @@ def _limits(scene: Scene, pace: float) -> Iterator[tuple[float, str]]:
     """Yield when in a period a swing is at its limits, each with its angle."""
     for half in range(round(scene.period / pi) + 1):
         angle = scene.pose(half * pi, 0).crank_angle
-        yield half * pi / abs(pace), f"{stepped(degrees(angle), 0.1)}°"
+        yield half * pi / abs(pace), driven_words(scene, angle)

@@ -28,7 +28,7 @@ from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.trace import Trace, traces
-from linkanim.picture.turning import Turning, turning_of
+from linkanim.picture.turning import Sliding, Turning, motion_of, turning_of
 from linkanim.picture.vectors import Arrows, arrows_of
 from linkanim.picture.view import View
 
@@ -69,7 +69,7 @@ class Cast:
     traces: tuple[Trace, ...]
     marks: Mapping[str, Stamp]
     arrows: tuple[Arrows, ...]
-    turning: Turning | None
+    turning: Turning | Sliding | None
     legs: tuple[Part, ...]
     centres: Centres | None
 
@@ -223,7 +223,7 @@ def _cast(scenery: Scenery, known: Symbols | None) -> Cast:
         traces=curves,
         marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
         arrows=tuple(arrows_of(figure, kind, height, gauge, theme) for kind in kinds),
-        turning=turning_of(*scenery.known) if look.names else None,
+        turning=motion_of(*scenery.known) if look.names else None,
         legs=tuple(leg_part(legs, view, gauge, theme.dim) for legs in known.legs) if known else (),
         centres=Centres(*scenery.known, scenery.layout, rolling=look.centres > 1) if look.centres else None,
     )

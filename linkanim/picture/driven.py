@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import degrees, pi
 
-from linkanim.digits import short, typeset
+from linkanim.digits import short, stepped, typeset
 from linkanim.errors import UnitError
 from linkanim.mechanics.linkage import Body
 from linkanim.scenes.scene import Scene
@@ -27,15 +27,24 @@ def driven_name(scene: Scene) -> str:
     """Return what the driven bar is called: "crank" if it turns; if it swings the scene's name for it.
 
     What swings is no crank, whatever its body is called: it is then the rocker, or the input rocker where
-    another body has that name.
+    another body has that name. A slider that drives is the slider.
     """
     body = driven_body(scene)
     name = body.name if body and not body.name.isdecimal() else "crank"
+    if scene.linkage.slides:
+        return "slider"
     if scene.info.full_turn:
         return "crank"
     if name != "crank":
         return name
     return "input rocker" if any(other.name == "rocker" for other in scene.linkage.bodies) else "rocker"
+
+
+def driven_words(scene: Scene, value: float) -> str:
+    """Return where the input is in words: its angle, 87.0°; of a slider that drives its travel, 12.5 mm."""
+    if scene.linkage.slides:
+        return f"{stepped(value, 0.1)} {scene.length_unit}"
+    return f"{stepped(degrees(value), 0.1)}°"
 
 
 def speed_unit(scene: Scene) -> str:
@@ -60,8 +69,12 @@ def sign_of(unit: str) -> str:
 
 
 def speed_words(scene: Scene, speed: float) -> str:
-    """Return the input's speed (rad/s) in words: "20 rpm", clockwise negative; of a swing "15 swings/min"."""
+    """Return the input's speed (rad/s) in words: "20 rpm", clockwise negative; of a swing "15 swings/min".
+
+    One there-and-back of a slider is a cycle.
+    """
     if not scene.info.full_turn:
-        return f"{short(abs(speed) * _PER_RADIAN['rpm'])} swings/min"
+        there_and_back = "cycles" if scene.linkage.slides else "swings"
+        return f"{short(abs(speed) * _PER_RADIAN['rpm'])} {there_and_back}/min"
     unit = speed_unit(scene)
     return f"{typeset(short(speed_in(unit, speed)))} {sign_of(unit)}"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import RPP, RPR, RRP
+from linkanim.mechanics.kinds import RPP, RPR, RRP, DrivenSlider
 from linkanim.mechanics.rail import Line
 from linkanim.picture.figure import DOWN, Figure
 from linkanim.picture.layout import Gauge
@@ -111,6 +111,15 @@ def _slider(joint: RRP, bench: Bench) -> Fitting:
     guide, slot = _carried_slot(joint.name, joint.line, along, bench)
     block = Part(joint.name, *joint.line.on, _block(bench, along, 0.62), (joint.name,))
     return Fitting(behind=(guide,), before=(slot, block))
+
+
+def _driven_slider(joint: DrivenSlider, bench: Bench) -> Fitting:
+    """Return a block between rails, in the colour of what drives."""
+    along = complex(np.exp(-1j * joint.line.angle))
+    rim, metal = _block(bench, along)
+    coloured = Layer(bench.theme.bodies[0], metal.loops)
+    block = Part(joint.name, joint.name, joint.name, (rim, coloured), (joint.name,))
+    return Fitting(behind=(block,), rails=(joint.name, along))
 
 
 def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[Part, Part]:
@@ -222,5 +231,10 @@ def _yoke(joint: RPP, bench: Bench) -> Fitting:
     return Fitting((guide, slot, yoke), (collar,))
 
 
-FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {RRP: _slider, RPR: _slotted, RPP: _yoke}
+FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {
+    RRP: _slider,
+    DrivenSlider: _driven_slider,
+    RPR: _slotted,
+    RPP: _yoke,
+}
 """How each kind of joint is fitted out; kinds that are bars and pins alone are not in it."""

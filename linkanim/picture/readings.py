@@ -9,7 +9,7 @@ from typing import NamedTuple
 from linkanim.digits import stepped
 from linkanim.mechanics.effort import input_effort
 from linkanim.mechanics.motion import Pose
-from linkanim.picture.driven import driven_name, sign_of, speed_in, speed_unit, speed_words
+from linkanim.picture.driven import driven_name, driven_words, sign_of, speed_in, speed_unit, speed_words
 from linkanim.scenes.scene import Scene
 
 _NEAR_LIMIT = 0.06 * pi
@@ -47,22 +47,25 @@ def ranked(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
 
 
 def _input_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
-    info, name = scene.info, f"{driven_name(scene)} angle"
+    info, slides = scene.info, scene.linkage.slides
+    name = f"{driven_name(scene)} {'travel' if slides else 'angle'}"
     if info.full_turn:
         yield 0, Reading(name, _turned(pose.crank_angle))
         yield 1, Reading("input speed", speed_words(scene, pose.input_speed))
     else:
         low, high = info.input_range
-        yield 0, Reading(name, _deg(pose.crank_angle))
-        yield 5, Reading("input range", f"{_deg(low)}…{_deg(high)}")
+        yield 0, Reading(name, driven_words(scene, pose.crank_angle))
+        yield 5, Reading("input range", f"{driven_words(scene, low)}…{driven_words(scene, high)}")
         yield 1, Reading("input rate", speed_words(scene, pose.input_speed))
-        yield 3, Reading("angular velocity", _live(scene, pose))
+        yield 3, Reading(f"{'slider' if slides else 'angular'} velocity", _live(scene, pose))
     if info.true_period != 1:
         yield 6, Reading("true period", f"{info.true_period} turns")
 
 
 def _live(scene: Scene, pose: Pose) -> str:
-    """Return the driven bar's angular velocity in words, always with as many decimals."""
+    """Return the driven bar's angular velocity in words, or the slider's, always with as many decimals."""
+    if scene.linkage.slides:
+        return f"{stepped(pose.crank_rate, 0.1)} {scene.length_unit}/s"
     unit = speed_unit(scene)
     largest = abs(speed_in(unit, scene.linkage.drive.speed))
     step = 10.0 ** (floor(log10(largest)) - 2)
@@ -137,14 +140,10 @@ def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
     """Yield the input's limits and change points: how far away, how far is near (rad of phase), in words."""
     info = scene.info
     if not info.full_turn:
-        for limit, at in zip(info.input_range, (0.0, pi), strict=True):
-            yield _apart(pose.phase, at), _NEAR_LIMIT, f"near the limit {_deg(limit)}"
-    for point in info.change_points:
+        for limit, at in zip(info.ends, (0.0, pi), strict=True):
+            yield _apart(pose.phase, at), _NEAR_LIMIT, f"near the limit {driven_words(scene, limit)}"
+    for point in info.change_points if not scene.linkage.slides else ():
         yield _apart(pose.crank_angle, point), _NEAR_CHANGE, f"near the change point {_turned(point)}"
-
-
-def _deg(angle: float) -> str:
-    return f"{stepped(degrees(angle), 0.1)}°"
 
 
 def _turned(angle: float) -> str:

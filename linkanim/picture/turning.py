@@ -1,4 +1,4 @@
-"""The input's turning: an arrow that bends the way the driven bar turns, and the arc of its angle."""
+"""The input's motion: an arrow that bends as the driven bar turns, its angle's arc; or a straight arrow."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from math import pi, remainder, tau
 
 import numpy as np
 
+from linkanim.mechanics.kinds import DrivenSlider
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import segments, stroke, unit
+from linkanim.picture.shapes import arrows, segments, stroke, unit
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
@@ -20,6 +21,8 @@ _SWEEP = 1.25
 """How much of a turn the arrow covers where the input is fastest, in radians."""
 _AHEAD = 0.3
 """How far ahead of the bar it begins, in radians."""
+_CLEAR, _LONGEST = 3.0, 6.0
+"""How far from a slider's middle a straight one begins, and its length at most, in half widths of a bar."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +93,45 @@ class Turning:
 def _barb(length: float) -> Loop:
     """Return a triangle along the real axis whose point is a little ahead of 0."""
     return np.asarray(length * np.array([0.75, -0.35 + 0.5j, -0.35 - 0.5j]), np.complex128)
+
+
+@dataclass(frozen=True)
+class Sliding:
+    """What shows how a slider that drives runs along its guide, y down; `fastest` in the scene's unit/s."""
+
+    joint: str
+    along: complex
+    room: float
+    longest: float
+    fastest: float
+    colours: tuple[Colour, Colour]
+    gauge: Gauge
+
+    def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
+        """Return the arrow ahead of the slider, shorter as it slows down; `rate` as of a `Turning`."""
+        share = pose.crank_rate * rate / self.fastest if self.fastest > 0 else 0.0
+        reach = self.along * self.longest * min(max(share, -1.0), 1.0)
+        if not abs(reach) > 0.02 * self.longest:
+            return []
+        foot, width = places[self.joint] + self.room * unit(reach), 1.7 * self.gauge.line
+        ink, back = self.colours
+        rims = ((back, 0.9 * self.gauge.line), (ink, 0.0))
+        return [Layer(colour, arrows([foot], [reach], width, rim)) for colour, rim in rims]
+
+    def angle(self, places: Places) -> list[Layer]:
+        """Return nothing: a slider has no angle."""
+        return []
+
+
+def motion_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | Sliding | None:
+    """Return what shows how the input moves: its bar's turning, or its slider's way along the guide."""
+    joint = figure.linkage.joint(figure.linkage.drive.joint)
+    if not isinstance(joint, DrivenSlider):
+        return turning_of(figure, view, gauge, theme)
+    along = complex(np.exp(-1j * joint.line.angle))
+    fastest = float(np.nanmax(np.abs(figure.cycle.crank_rate)))
+    ink = theme.ink, theme.background
+    return Sliding(joint.name, along, _CLEAR * gauge.bar, _LONGEST * gauge.bar, fastest, ink, gauge)
 
 
 def turning_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | None:

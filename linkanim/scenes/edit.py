@@ -31,6 +31,7 @@ _STRUT: Mapping[str, DimensionKind] = {
     "free_length": "length",
     "coefficient": "damping",
 }
+_STROKES: Mapping[str, DimensionKind] = {"cylinder": "length", "slider": "offset"}
 _DRIVE: Mapping[str, DimensionKind] = {"speed": "speed", "start": "angle"}
 
 
@@ -109,8 +110,9 @@ def _keys(document: Mapping[str, Any]) -> Iterator[tuple[Key, DimensionKind]]:
         for name, table in document.get(section, {}).items():
             yield from _numbers(table, (section, name), kinds)
     yield from _numbers(document, (), {"gravity": "gravity"})
-    stroke = document.get("drive", {}).get("cylinder", {})
-    yield from _numbers(stroke, ("drive", "cylinder"), {"from": "length", "to": "length"})
+    for name, kind in _STROKES.items():
+        stroke = document.get("drive", {}).get(name, {})
+        yield from _numbers(stroke, ("drive", name), {"from": kind, "to": kind})
     yield from _numbers({"speed": DEFAULT_SPEED, **document.get("drive", {})}, ("drive",), _DRIVE)
 
 

@@ -32,6 +32,7 @@ _CHAPTERS: Mapping[str, tuple[str, ...]] = {
     "sliders": (
         "slider-crank",
         "engine",
+        "driven-piston",
         "inverted-slider-crank",
         "oscillating-cylinder",
         "whitworth",
@@ -39,6 +40,7 @@ _CHAPTERS: Mapping[str, tuple[str, ...]] = {
         "quick-return-press",
         "toggle-clamp",
         "knuckle-press",
+        "toggle-press",
         "scotch-yoke",
         "elliptic-trammel",
     ),

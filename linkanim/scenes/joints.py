@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple
 
 from linkanim.mechanics.exact import unit
 from linkanim.mechanics.joint import Joint, Point
-from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
+from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Gear, Line, Pin, Polar, Rigid
 from linkanim.scenes.check import Table
 
 Key = tuple[str | int, ...]
@@ -85,10 +85,26 @@ def _gear(table: Table) -> Gear:
     return Gear(table.text("with"), table.ratio("ratio"), table.angle("offset", "0 deg"))
 
 
-def _slider(name: str, table: Table) -> RRP:
+def _slider(name: str, table: Table) -> RRP | DrivenSlider:
+    """Read a slider that a bar moves, or one that drives: declared by its line alone."""
+    if "from" not in table and "length" not in table:
+        return _driven_slider(name, table)
     table.only("from", "length", "line", "side")
     line = _line(table.table("line"))
     return RRP(name, table.text("from"), table.length("length"), line, side(table, "side", RRP.sides))
+
+
+def _driven_slider(name: str, table: Table) -> DrivenSlider:
+    table.only("line", "from", "length", "side")
+    line = _line(table.table("line"))
+    if line.on is not None:
+        raise table.table("line").error(
+            "on",
+            "a slider without a bar is driven along a fixed line; leave it out, or give the slider its bar",
+        )
+    if "side" in table:
+        raise table.error("side", "a slider without a bar has no second closure; leave it out")
+    return DrivenSlider(name, line)
 
 
 def _line(line: Table) -> Line:

@@ -64,8 +64,8 @@ def label(key: Key, document: Mapping[str, Any], linkage: Linkage) -> str:
             return f"{_named(body)}, {_OF_BODY.get(name, name)}"
         case ("gravity",):
             return "Gravity"
-        case ("drive", "cylinder", str(end)):
-            return {"from": "Cylinder, from", "to": "Cylinder, to"}[end]
+        case ("drive", "cylinder" | "slider" as what, str(end)):
+            return f"{what.capitalize()}, {end}"
         case ("springs" | "dampers", str(strut), str(name)):
             return f"{strut.capitalize()}, {_STRUT.get(name, name)}"
     return ", ".join(str(part).replace("_", " ") for part in key)

@@ -10,8 +10,8 @@ from linkanim.document import few, meant
 from linkanim.errors import AssemblyError, BadInput
 from linkanim.mechanics.frames import coincide, frames_of, holding
 from linkanim.mechanics.joint import Frame, Joint, Need
-from linkanim.mechanics.kinds import RRR, Crank, Pin
-from linkanim.mechanics.linkage import Body, Cylinder, Damper, Drive, Linkage, Spring
+from linkanim.mechanics.kinds import RRR, Crank, DrivenSlider, Pin
+from linkanim.mechanics.linkage import Body, Cylinder, Damper, Drive, Linkage, Spring, Travel
 from linkanim.scenes.check import Table
 from linkanim.scenes.joints import read_joint, read_pin
 from linkanim.scenes.order import circle, solved_order
@@ -196,7 +196,9 @@ def _check_brace(table: Table, joint: RRR, frame: Frame) -> None:
 
 def _drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Drive:
     table = top.table("drive")
-    table.only("joint", "speed", "start", "cylinder")
+    table.only("joint", "speed", "start", "cylinder", "slider")
+    if "slider" in table or any(isinstance(joint, DrivenSlider) for joint in joints):
+        return _slider_drive(top, table, joints)
     cranks = [joint for joint in joints if isinstance(joint, Crank)]
     free = [crank.name for crank in cranks if crank.gear is None]
     if not free:
@@ -212,6 +214,35 @@ def _drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Drive:
         raise top.table("joints").wrong(f"{other} is a second input beside {name}; {way_out}")
     speed, start = table.speed("speed", DEFAULT_SPEED), table.angle("start", "0 deg")
     return Drive(name, speed, start, _cylinder(cylinder, joints, name) if "cylinder" in table else None)
+
+
+def _slider_drive(top: Table, table: Table, joints: tuple[Joint, ...]) -> Drive:
+    """Read a slider that drives: the one joint that is declared by its line alone."""
+    driven = [joint.name for joint in joints if isinstance(joint, DrivenSlider)]
+    if "slider" not in table:
+        way_out = f"drive it: [drive] slider = {{ joint = {units.shown(driven[0])}, from = 0, to = 100 }}"
+        raise top.table("joints").table(driven[0]).wrong(f"has a line, but no bar that moves it; {way_out}")
+    for key in ("joint", "start", "cylinder"):
+        if key in table:
+            raise table.error(key, "does not go with a slider that drives; leave it out")
+    slider = table.table("slider")
+    slider.only("joint", "from", "to")
+    name = slider.text("joint")
+    if name not in driven:
+        known = f"; that is {driven[0]}" if driven else ""
+        raise slider.error("joint", f"is no slider that is declared by its line alone{known}")
+    others = [joint.name for joint in joints if isinstance(joint, Crank) or joint.name in driven]
+    if len(others) > 1:
+        other = next(joint for joint in others if joint != name)
+        raise top.table("joints").wrong(
+            f"{other} is a second input beside {name}; let it follow: give it from and length"
+        )
+    for key in ("from", "to"):
+        slider.need(key)
+    first, last = slider.offset("from"), slider.offset("to")
+    if first == last:
+        raise slider.error("to", "is the same place as from, so nothing would move")
+    return Drive(name, table.speed("speed", DEFAULT_SPEED), travel=Travel(first, last))
 
 
 def _cylinder(table: Table, joints: tuple[Joint, ...], driven: str) -> Cylinder:

@@ -87,10 +87,15 @@ class Scene:
         `speed` (rad/s) and `acceleration` (rad/s²) are those of what is given: of the crank's angle,
         or of the phase; the scene's own speed where none is given. `derivatives` 0, 1 or 2 says how
         much is worked out. An angle outside the input's range gives NaN; rates at a limit are
-        infinite. BadInput where neither or both of angle and phase are given.
+        infinite. BadInput where neither or both of angle and phase are given, and for the angle of an
+        input that is a slider.
         """
         if (angle is None) == (phase is None):
             raise BadInput("give either angle= or phase=, in radians")
+        if angle is not None and self.linkage.slides:
+            raise BadInput(
+                f"{self.name}: its input is a slider, which has no angle; take the phase (--phase, phase=)"
+            )
         if derivatives not in (0, 1, 2):
             raise BadInput(
                 f"derivatives={derivatives}: give 0 (positions), 1 (velocities) or 2 (accelerations)"

@@ -69,13 +69,19 @@ _SLOT = _table(("pivot", "through"), pivot=_NAME, through=_NAME, offset=_OFFSET)
 _CYLINDER = _table(
     ("between", "from", "to"), **{"between": _PAIR, "from": _LENGTH, "to": _LENGTH, "joint": _NAME}
 )
+_TRAVEL = _table(("joint", "from", "to"), **{"joint": _NAME, "from": _OFFSET, "to": _OFFSET})
 _SLIDE = _table(("pin", "line"), pin=_NAME, line=_LINE, slot=_ANGLE_TEXT)
 
 JOINTS: Mapping[str, dict[str, Any]] = {
     "crank": _table(("crank", "length"), crank=_NAME, length=_LENGTH, gear=_GEAR),
-    "line": _table(
-        ("from", "length", "line"), **{"from": _NAME, "length": _LENGTH, "line": _LINE, "side": _WAY}
-    ),
+    "line": {
+        "anyOf": [
+            _table(
+                ("from", "length", "line"), **{"from": _NAME, "length": _LENGTH, "line": _LINE, "side": _WAY}
+            ),
+            _table(("line",), line=_table(("through",), through=_NAME, angle=_ANGLE_TEXT, offset=_OFFSET)),
+        ]
+    },
     "from": _table(("from", "length"), **{"from": _PAIR, "length": _list(_LENGTH, 2), "side": _SIDE}),
     "slot": _table(("slot", "length"), slot=_SLOT, length=_LENGTH),
     "slide": _table(("slide",), slide=_SLIDE),
@@ -121,7 +127,7 @@ _SECTIONS: dict[str, Any] = {
     "notes": {"type": "array", "items": _TEXT},
     "length_unit": _choice(*units.LENGTH_UNITS),
     "gravity": _quantity(units.FALL_UNITS, bare=False),
-    "drive": _table(joint=_NAME, speed=_SPEED, start=_ANGLE_TEXT, cylinder=_CYLINDER),
+    "drive": _table(joint=_NAME, speed=_SPEED, start=_ANGLE_TEXT, cylinder=_CYLINDER, slider=_TRAVEL),
     "ground": _named({"anyOf": [_POINT, _table(("length", "angle"), length=_LENGTH, angle=_ANGLE_TEXT)]}),
     "joints": _named({"anyOf": list(JOINTS.values())}),
     "bodies": _named(_BODY),

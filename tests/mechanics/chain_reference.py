@@ -13,14 +13,14 @@ from reference import on_line, unit
 
 from linkanim.bench.reference import crossing
 from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Line, Pin, Rigid
+from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Line, Pin, Rigid
 from linkanim.mechanics.linkage import Linkage
 
 Places = dict[str, Any]
 
 
 def places(linkage: Linkage, angle: Any, signs: Mapping[str, int] | None = None) -> Places:
-    """Where every joint lies at an angle of the input; `signs` replaces dyads' named sides."""
+    """Where every joint lies at an angle of the input, or a slider's travel; `signs` replaces named sides."""
     found: Places = {}
     turned: dict[str, Any] = {linkage.drive.joint: angle}
     for joint in linkage.joints:
@@ -34,6 +34,9 @@ def _place(joint: Joint, at: Places, turned: dict[str, Any], sign: int | None) -
             return mp.mpc(*map(mpf, joint.position))
         case Crank():
             return at[joint.pivot] + mpf(joint.length) * unit(_turned(joint, turned))
+        case DrivenSlider():
+            base, along = _line(joint.line, at)
+            return base + along * mp.mpc(turned[joint.name], mpf(joint.line.offset))
         case RRR():
             p, q = (at[end] for end in joint.ends)
             a, b = map(mpf, joint.lengths)

@@ -21,6 +21,7 @@ from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
 from linkanim.picture.placing import Clutter, Obstacles, Wish, place
 from linkanim.picture.text import Type
+from linkanim.picture.turning import Sliding, Turning
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
@@ -197,7 +198,7 @@ def test_the_arrow_bends_the_way_the_input_turns_and_turns_over_with_it(name: st
     scene = load(name)
     painter = Painter(scene, (1280, 720), replace(BARE, names=1))
     turning, drive = painter.drawing.cast.turning, scene.linkage.drive
-    assert turning
+    assert isinstance(turning, Turning)
     for phase, speed in ((1.0, drive.speed), (1.0, -drive.speed), (4.0, 3 * drive.speed)):
         pose = scene.pose(phase, speed=speed)
         places = painter.drawing.places(pose)
@@ -207,6 +208,21 @@ def test_the_arrow_bends_the_way_the_input_turns_and_turns_over_with_it(name: st
         ahead = -np.angle((tip - centre) / bar)
         assert np.sign(ahead) == np.sign(pose.crank_rate)
         assert 0.2 < abs(ahead) < 2.2
+
+
+def test_the_arrow_runs_the_way_the_driven_slider_does() -> None:
+    scene = load("driven-piston")
+    painter = Painter(scene, (1280, 720), replace(BARE, names=2))
+    sliding, drive = painter.drawing.cast.turning, scene.linkage.drive
+    assert isinstance(sliding, Sliding)
+    for phase, speed in ((1.0, drive.speed), (1.0, -drive.speed), (4.0, 3 * drive.speed)):
+        pose = scene.pose(phase, speed=speed)
+        places = painter.drawing.places(pose)
+        line = sliding.direction(pose, places, abs(drive.speed / speed))[-1]
+        ahead = line.loops[0].real - places["C"].real
+        assert np.sign(ahead).tolist() == [np.sign(pose.crank_rate)] * len(ahead)
+        assert not sliding.angle(places)
+    assert not sliding.direction(scene.pose(0.0), painter.drawing.places(scene.pose(0.0)), 1.0)
 
 
 def test_an_input_that_stands_still_has_no_arrow() -> None:

@@ -17,7 +17,7 @@ from linkanim.scenes.scene import Scene
 STEPS = 720
 # what stands upright, as it does in the world or so that its line lies level
 UPRIGHT = (
-    "press", "engine", "hoecken", "roberts-line", "evans", "quick-return-press", "watt-1",
+    "press", "engine", "toggle-press", "hoecken", "roberts-line", "evans", "quick-return-press", "watt-1",
     "stephenson-3", "scissor-lift", "landing-gear", "excavator", "andrews",
 )  # fmt: skip
 

@@ -60,6 +60,31 @@ def test_the_engine_s_torque_is_that_of_its_inertia_and_its_weight() -> None:
         assert found == pytest.approx(slope, rel=1e-6, abs=1e-6 * np.abs(slope).max())
 
 
+def test_the_driven_piston_s_crank_runs_on_through_both_dead_centres() -> None:
+    scene = load("driven-piston")
+    crank, rod = 50.0, 115.0
+    motion = scene.cycle(720)
+    travel, angle = motion.travel["piston"], motion.angle["crank"]
+    cosine = (travel**2 + crank**2 - rod**2) / (2 * travel * crank)
+    assert np.max(np.abs(np.cos(angle) - cosine)) <= 8 * EPS
+    assert np.all(np.diff(angle) > 0)
+    assert angle[-1] - angle[0] == pytest.approx(2 * math.pi * 719 / 720, abs=0.02)
+    # There the slider's way is the square of the crank's, over 2 r (l ± r)/l.
+    ends = scene.solve(phase=np.array([0.0, math.pi]), speed=1.0).angular_velocity["crank"]
+    assert ends == pytest.approx([math.sqrt(rod / (rod - crank)), math.sqrt(rod / (rod + crank))], rel=1e-13)
+
+
+def test_the_toggle_press_s_ram_stops_where_its_knee_is_straight() -> None:
+    scene = load("toggle-press")
+    ram = scene.solve(phase=np.array([0.0, math.pi]), derivatives=1)
+    assert ram.position["K"][1] == pytest.approx([0.0, -120.0], abs=1e-12)
+    assert ram.travel["ram"][1] == pytest.approx(240.0, rel=1e-15)
+    advantage = register(scene.linkage)["mechanical_advantage"]
+    presses = advantage.read(scene.solve(phase=np.linspace(0.5, 3.14, 50)))
+    assert np.all(np.diff(presses) > 0)
+    assert presses[-1] > 100 * presses[0]
+
+
 def test_the_toggle_clamp_presses_down_where_handle_and_link_are_in_line() -> None:
     scene = load("toggle-clamp")
     # Crank, rod and the line from O2 to the upright handle's end form a triangle: twice a turn.

@@ -3,6 +3,7 @@
 from linkanim.mechanics.rail import Line
 
 from .crank import Crank, Gear
+from .driven_slider import DrivenSlider
 from .pin import Pin, Polar
 from .rigid import Rigid
 from .rpp import RPP
@@ -10,7 +11,20 @@ from .rpr import RPR
 from .rrp import RRP
 from .rrr import RRR
 
-KINDS = (Pin, Crank, RRR, RRP, RPR, RPP, Rigid)
+KINDS = (Pin, Crank, DrivenSlider, RRR, RRP, RPR, RPP, Rigid)
 """Every kind that a linkage can be made of."""
 
-__all__ = ["KINDS", "RPP", "RPR", "RRP", "RRR", "Crank", "Gear", "Line", "Pin", "Polar", "Rigid"]
+__all__ = [
+    "KINDS",
+    "RPP",
+    "RPR",
+    "RRP",
+    "RRR",
+    "Crank",
+    "DrivenSlider",
+    "Gear",
+    "Line",
+    "Pin",
+    "Polar",
+    "Rigid",
+]
