@@ -26,13 +26,15 @@ from linkanim.errors import AssemblyError, BadInput
 
 from .circular import Half, direction, half_of, sharp_half_angle
 from .exact import Sum, exact_angle
-from .expression import Value, arctan2, sqrt
+from .expression import Graph, Value, arctan2, sqrt
 from .input_path import ThereAndBack, Unlimited, half_squares, nearer_way
 from .input_state import HalfForm, InputState, TravelState
 from .linkage import Cylinder, Linkage, Travel
 from .loop import ground_between
 from .planar import Moving, Slope, Vec
 from .reach import Array, WaysLeft
+
+NO_ANGLE = "the input is a slider, which has no angle; take the phase (--phase, or phase=)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,13 +219,17 @@ class SliderStroke(Stroke):
         travel = self.running(phase, pace)
         return TravelState(phase, Sum(0.0), pace.value, pace.rate, pace, travel=travel)
 
+    def state_by_angle(self, graph: Graph, pace: Slope) -> NoReturn:
+        """Refuse to be asked for an angle."""
+        raise BadInput(NO_ANGLE)
+
     def reach(self, angle: Array) -> NoReturn:
         """Refuse to be asked for an angle."""
-        raise BadInput("the input is a slider, which has no angle; take the phase (--phase, or phase=)")
+        raise BadInput(NO_ANGLE)
 
     def phases(self, angles: Array, reached: WaysLeft | None) -> NoReturn:
         """Refuse to be asked for an angle."""
-        self.reach(angles)
+        raise BadInput(NO_ANGLE)
 
 
 def slider_stroke(travel: Travel, unscale: float) -> SliderStroke:

@@ -93,9 +93,9 @@ class Scene:
         if (angle is None) == (phase is None):
             raise BadInput("give either angle= or phase=, in radians")
         if angle is not None and self.linkage.slides:
-            raise BadInput(
-                f"{self.name}: its input is a slider, which has no angle; take the phase (--phase, phase=)"
-            )
+            from linkanim.mechanics.stroke import NO_ANGLE
+
+            raise BadInput(f"{self.name}: {NO_ANGLE}")
         if derivatives not in (0, 1, 2):
             raise BadInput(
                 f"derivatives={derivatives}: give 0 (positions), 1 (velocities) or 2 (accelerations)"

@@ -110,7 +110,7 @@ def test_the_angle_s_arc_runs_as_far_as_the_hud_says(name: str) -> None:
     scene = load(name)
     painter = Painter(scene, (1280, 720), Look(names=2))
     turning, swings = painter.drawing.cast.turning, not scene.info.full_turn
-    assert turning
+    assert isinstance(turning, Turning)
     for phase in np.linspace(0.1, 6.2, 9):
         angle = scene.pose(float(phase)).crank_angle
         assert turning.turned(angle + math.tau) == pytest.approx(angle if swings else angle % math.tau)
