@@ -23,7 +23,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if "window" in item.keywords and not os.environ.get("DISPLAY"):
             item.add_marker(no_display)
-        item.user_properties += [mark.args for mark in item.iter_markers(MARK)]
+        item.user_properties += [(*mark.args, 1)[:2] for mark in item.iter_markers(MARK)]
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -52,12 +52,15 @@ def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterato
     """Yield how many frames are due since the last time, at 60 a second; wait where none is.
 
     After a stall of more than a second (a window being moved, a laptop that slept) the time in
-    between is left out.
+    between is left out, and so is what a clock is set back by.
     """
     start, shown = now() - 1 / FRAMES_PER_SECOND, 1
     yield 1
     while True:
-        wait(max(0.0, start + (shown + 1) / FRAMES_PER_SECOND - now()))
+        early = start + (shown + 1) / FRAMES_PER_SECOND - now()
+        if early > 2 / FRAMES_PER_SECOND:
+            start, early = start - early + 1 / FRAMES_PER_SECOND, 1 / FRAMES_PER_SECOND
+        wait(max(0.0, early))
         due = max(int((now() - start) * FRAMES_PER_SECOND), shown + 1)
         if due - shown > _STALLED:
             start += (due - shown - 1) / FRAMES_PER_SECOND

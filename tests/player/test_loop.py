@@ -68,11 +68,26 @@ def test_the_frames_number_follows_the_clock(time: Time) -> None:
     assert shown == pytest.approx(1 + time.now * 60, abs=1.0)
 
 
-def test_a_long_stall_is_left_out(time: Time) -> None:
+# A window that is being moved, a laptop that sleeps, a clock that is set: time goes on where it was.
+@pytest.mark.withstands("faults survived")
+@pytest.mark.parametrize("leap", [1.5, 10.0, 3600.0, 1e9, -0.1, -10.0, -3600.0, -1e9])
+def test_what_a_clock_leaps_by_is_left_out(time: Time, leap: float) -> None:
     ticks = counted(time)
-    next(ticks)
-    time.now += 3600.0
-    assert [next(ticks), next(ticks)] == [1, 1]
+    list(islice(ticks, 100))
+    time.now += leap
+    before = time.now
+    assert list(islice(ticks, 60)) == [1] * 60
+    assert time.now - before == pytest.approx(1.0, abs=2 / 60 + 1e-6)
+
+
+def test_a_clock_that_leaps_while_it_is_waited_for_stops_nothing(time: Time) -> None:
+    leaps = iter([0.0, -5.0, 0.0, 700.0, -1e6, 0.0, *[0.0] * 60])
+
+    def wait(seconds: float) -> None:
+        assert 0.0 <= seconds < 0.05
+        time.now += seconds + next(leaps)
+
+    assert list(islice(frames(lambda: time.now, wait), 30)) == [1] * 30
 
 
 def test_it_waits_once_a_frame(time: Time) -> None:
