@@ -154,3 +154,22 @@ def test_degrees_agree_with_the_library(value: float) -> None:
 @given(st.integers(-4000, 4000))
 def test_quarter_turns_are_exact(quarters: int) -> None:
     assert units.angle(f"{90 * quarters} deg") == quarters * (math.pi / 2)
+
+
+# On one line, in quotes where it is text, and never longer than a message can bear.
+@pytest.mark.parametrize(
+    ("value", "told"),
+    [
+        ("6 rpm", '"6 rpm"'),
+        ("x" * 60, f'"{"x" * 60}"'),
+        ("x" * 61, f'"{"x" * 57}..."'),
+        ("two\nlines\x1b", '"two?lines?"'),
+        (True, "true"),
+        (1.5, "1.5"),
+        (10**59, "1" + 59 * "0"),
+        (10**60, "1" + 56 * "0" + "..."),
+        pytest.param(10**5000, "a number of thousands of digits", id="thousands of digits"),
+    ],
+)
+def test_a_value_is_shown_short_and_on_one_line(value: object, told: str) -> None:
+    assert units.shown(value) == told

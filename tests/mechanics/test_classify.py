@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -10,7 +11,7 @@ from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.classify import classify
-from linkanim.mechanics.kinds import RRR, Crank, Gear, Pin
+from linkanim.mechanics.kinds import RRR, Crank, Gear, Pin, Rigid
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import mechanism
 
@@ -100,6 +101,21 @@ CHANGE_POINTS_DOWN_THE_CHAIN = [
             RRR("E", ("D", "O8"), (5.0, 3.0)),
         ),
         (0.2, 0.2 + 2 * math.pi / 3, 0.2 + 4 * math.pi / 3),
+    ),
+    # Half as fast as its input, a crank comes to one angle in every second turn only: a swing misses it.
+    *(
+        (
+            f"half the angle of a swing, {name}",
+            with_joints(
+                four_bar((5, 4, 3, 3.5)),
+                Pin("O7", (200.0, 0.0)),
+                Pin("O8", (204.0, 0.0)),
+                Crank("D", "O7", 2.0, Gear("A", Fraction(1, 2), offset)),
+                RRR("E", ("D", "O8"), (5.0, 3.0)),
+            ),
+            angles,
+        )
+        for name, offset, angles in (("reached", -0.15, (0.3,)), ("a turn away", math.pi - 0.15, ()))
     ),
     ("a rocker that never lies along the ground", six_bar((100, 30, 90, 80), PARALLELOGRAM), ()),
     ("a change point within a swing", four_bar((5, 4, 3, 2)), (0.0,)),
@@ -199,6 +215,25 @@ def test_the_second_loop_of_a_six_bar_is_classed_too(
     second: tuple[float, float, float, float], name: str
 ) -> None:
     assert classify(mechanism(six_bar((100, 30, 90, 80), second)), "mm").class_name == name
+
+
+# However the second dyad is written, it is the same four-bar; one on a coupler point is none.
+@pytest.mark.parametrize(
+    ("ends", "lengths", "side", "rest"),
+    [
+        (("C", "O6"), (100, 90), 1, ", then Grashof crank-rocker"),
+        (("O6", "C"), (90, 100), -1, ", then Grashof crank-rocker"),
+        (("P", "O6"), (130, 110), 1, " and a second dyad"),
+    ],
+)
+def test_a_second_dyad_is_classed_by_what_it_hangs_on(
+    ends: tuple[str, str], lengths: tuple[float, float], side: int, rest: str
+) -> None:
+    linkage = six_bar((100, 30, 90, 80), (120, 60, 100, 90))
+    *others, _ = linkage.joints
+    dyad = RRR("D", ends, lengths, side)
+    changed = replace(linkage, joints=(*others, Rigid("P", ("A", "B"), (45, 30)), dyad))
+    assert classify(mechanism(changed), "mm").class_name == f"six-bar: Grashof crank-rocker{rest}"
 
 
 @pytest.mark.parametrize(("side", "name"), [(1, "then parallelogram"), (-1, "then antiparallelogram")])
