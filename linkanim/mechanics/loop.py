@@ -147,5 +147,7 @@ def _written(pin: Pin, *, turned: bool) -> Ground:
     direction = Vec(*unit(pin.polar.angle))
     angle = exact_angle(pin.polar.angle)
     if turned:
-        return Ground(pin.polar.length, -direction, angle + HALF_TURN)
+        # At most half a turn, as that of coordinates: the input's range counts from it.
+        back = angle - HALF_TURN if float(angle) > 0 else angle + HALF_TURN
+        return Ground(pin.polar.length, -direction, back)
     return Ground(pin.polar.length, direction, angle)

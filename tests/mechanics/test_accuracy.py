@@ -99,6 +99,7 @@ CASES = [
         Case(f"lengths times {scale:g}", FourBar((100 * scale, 30 * scale, 90 * scale, 80 * scale)))
         for scale in (1e12, 1e-12, 1e80, 1e-80)
     ),
+    Case("lengths times 1e80 on tilted ground", FourBar((1e82, 3e81, 9e81, 8e81), ground_angle=0.5)),
     # Far along: sines of large angles, and the ground's angle taken off them.
     Case("after a million turns", FourBar((100, 30, 90, 80)), tuple(2e6 * math.pi + AROUND)),
     Case(
@@ -214,6 +215,7 @@ SLOTS = [
     ("slot beside its pivot", (100.0, 40.0, 120.0, 15.0), None),
     ("slot through its own pivot: half the crank's turn", (50.0, 50.0, 120.0, 0.0), "half"),
     ("offset that the pin cannot always clear: swings", (100.0, 70.0, 120.0, 50.0), "swing"),
+    ("crank as long as the ground, a slot beside its pivot", (50.0, 50.0, 120.0, 1.0), "swing"),
 ]
 
 
@@ -454,3 +456,9 @@ def test_a_geared_crank_stands_where_its_gears_put_it_however_far_along(
         6 + unit((start + mpf(float(x))) * ratio.numerator / ratio.denominator + offset) for x in phases
     ]
     assert worst(places, reference, 6.0) <= 2 * EPS
+
+
+def test_a_slot_whose_pin_lies_on_its_pivot_turns_on_at_half_the_crank_s_speed() -> None:
+    here = mechanism(slotted(50, 50, 80)).pose(0.0, 1.0, 0.0, 2)
+    assert here.position["P"] == (50.0, 80.0)
+    assert here.velocity["P"] == pytest.approx((-40.0, 0.0), abs=1e-14)

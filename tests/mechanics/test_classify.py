@@ -11,7 +11,7 @@ from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.classify import classify
-from linkanim.mechanics.kinds import RRR, Crank, Gear, Pin, Rigid
+from linkanim.mechanics.kinds import RPR, RRR, Crank, Gear, Pin, Polar, Rigid
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import mechanism
 
@@ -54,6 +54,22 @@ def test_input_limits_are_the_cosine_rule_s() -> None:
     ends = [math.acos((g * g + r * r - (a + s * b) ** 2) / (2 * g * r)) for s in (-1, 1)]
     assert info.input_range == pytest.approx(ends, rel=1e-14)
     assert info.toggles == info.input_range
+
+
+# Ground, crank, coupler, rocker of a swing about the ground line, and of one above it.
+@pytest.mark.parametrize("lengths", [(100, 80, 60, 50), (100, 80, 30, 90)])
+@pytest.mark.parametrize("degrees", [180, 130, 0, -40, -180])
+def test_the_range_is_the_same_from_whichever_end_the_ground_is_written(
+    lengths: tuple[float, float, float, float], degrees: float
+) -> None:
+    angle = math.radians(degrees)
+    back = math.remainder(angle + math.pi, 2 * math.pi)
+    plain = four_bar(lengths, ground_angle=back)
+    o2, o4 = plain.joints[:2]
+    assert isinstance(o4, Pin)
+    turned = (replace(o2, polar=Polar(lengths[0], angle, "O4")), replace(o4, polar=None))
+    written = classify(mechanism(replace(plain, joints=(*turned, *plain.joints[2:]))), "mm")
+    assert written.input_range == pytest.approx(classify(mechanism(plain), "mm").input_range, abs=1e-12)
 
 
 def test_change_points_are_told_as_crank_angles() -> None:
@@ -131,6 +147,20 @@ def test_change_points_down_the_chain_are_told_as_crank_angles(
     name: str, linkage: Linkage, angles: tuple[float, ...]
 ) -> None:
     assert classify(mechanism(linkage), "mm").change_points == pytest.approx(angles, abs=1e-12)
+
+
+def test_a_slot_between_two_geared_cranks_is_named_too() -> None:
+    linkage = Linkage(
+        (
+            Pin("O2", (0.0, 0.0)),
+            Pin("O7", (100.0, 0.0)),
+            Crank("A", "O2", 20.0),
+            Crank("D", "O7", 15.0, Gear("A", Fraction(-1))),
+            RPR("P", "D", "A", 130.0),
+        ),
+        Drive("A", 1.0),
+    )
+    assert classify(mechanism(linkage), "mm").class_name == "inverted slider-crank"
 
 
 PERIODS = [
