@@ -66,6 +66,7 @@ def test_the_range_is_the_same_from_whichever_end_the_ground_is_written(
     back = math.remainder(angle + math.pi, 2 * math.pi)
     plain = four_bar(lengths, ground_angle=back)
     o2, o4 = plain.joints[:2]
+    assert isinstance(o2, Pin)
     assert isinstance(o4, Pin)
     turned = (replace(o2, polar=Polar(lengths[0], angle, "O4")), replace(o4, polar=None))
     written = classify(mechanism(replace(plain, joints=(*turned, *plain.joints[2:]))), "mm")
