@@ -1,4 +1,4 @@
-"""The `bench` command: its options, and what each of its three ways prints."""
+"""The `bench` command: its options, and what each of its four ways prints."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from linkanim.errors import BadInput
 from linkanim.whole import made_folder
 
 CHART = "speed-vs-error.png"
+GROWTH = "cost-as-work-grows.png"
 
 Progress = Callable[[int, int], None]
 
@@ -22,6 +23,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--draw", action="store_true", help="what a frame of the window costs, instead")
     what.add_argument("--record", action="store_true", help="what recordings cost, instead")
+    what.add_argument(
+        "--scaling",
+        action="store_true",
+        help="what a pose costs as work grows, instead; its chart goes there, too",
+    )
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="one object")
     form.add_argument("--markdown", action="store_true", help="the table of speed and error as in the README")
@@ -39,12 +45,16 @@ def run(options: Namespace, progress: Progress | None = None) -> int:
 
     BadInput where the extra is not installed or the folder cannot be one, before anything is measured.
     """
-    if options.markdown and (options.draw or options.record):
-        raise BadInput("--markdown is the table of speed and error; leave it out with --draw and --record")
+    if options.markdown and (options.draw or options.record or options.scaling):
+        raise BadInput(
+            "--markdown is the table of speed and error; leave it out with --draw, --record and --scaling"
+        )
     if options.draw:
         return _drawing(options)
     if options.record:
         return _recordings(options)
+    if options.scaling:
+        return _scaling(options, progress)
     return _speed_and_error(options, progress)
 
 
@@ -90,6 +100,16 @@ def _recordings(options: Namespace) -> int:
 
     found = recording.run()
     print(_json(recording.as_object(found)) if options.json else recording.as_text(found))
+    return 0
+
+
+def _scaling(options: Namespace, progress: Progress | None) -> int:
+    into = made_folder(options.into)
+    from linkanim.bench import scaling
+
+    found = scaling.run(progress)
+    print(_json(scaling.as_object(found)) if options.json else scaling.as_text(found))
+    print(scaling.draw(found, into / GROWTH), file=sys.stderr)
     return 0
 
 

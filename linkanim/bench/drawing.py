@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,22 +22,29 @@ UP = "worst error in longest links"
 
 
 class Picture(NamedTuple):
-    """One picture: what it shows, and its points."""
+    """One picture: what it shows, its points, and what its axes are called."""
 
     title: str
     points: list[Point]
+    across: str = ACROSS
+    up: str = UP
 
 
 def draw(result: Result, path: Path) -> Path:
-    """Write both pictures, one below the other, as a PNG; return where it is.
+    """Write speed against error, on the easy cycle and on the hard cases; return where it is."""
+    return draw_pictures(list(panels(result)), path)
+
+
+def draw_pictures(pictures: Sequence[Picture], path: Path) -> Path:
+    """Write pictures, one below the other, as a PNG; return where it is.
 
     BadInput where the path cannot be; WorkFailed where the disk refuses.
     """
     target = checked_target(path, (".png",))
     width, height = SIZE
-    sheet = offscreen((width, 2 * height))
-    for number, (title, points) in enumerate(panels(result)):
-        sheet.blit(scatter(points, ScatterTitles(title, ACROSS, UP), size=SIZE), (0, number * height))
+    sheet = offscreen((width, len(pictures) * height))
+    for number, (title, points, across, up) in enumerate(pictures):
+        sheet.blit(scatter(points, ScatterTitles(title, across, up), size=SIZE), (0, number * height))
     with replacing(target) as part:
         part.write_bytes(png_bytes(sheet))
     return target

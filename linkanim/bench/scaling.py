@@ -1,0 +1,233 @@
+"""What a pose costs as work grows: over the poses asked at once, over the dyads of a chain, and by kind."""
+
+from __future__ import annotations
+
+import time
+import tracemalloc
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.bench.drawing import Picture, draw_pictures
+from linkanim.bench.entries import ONE_BY_ONE, Timed, easy
+from linkanim.bench.machine import Machine, this_machine
+from linkanim.bench.question import TURN
+from linkanim.bench.report import columns
+from linkanim.bench.timing import nanoseconds
+from linkanim.mechanics.kinds import RPP, RRP, RRR, Crank, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
+from linkanim.mechanics.mechanism import Mechanism, mechanism
+from linkanim.mechanics.rail import Line
+from linkanim.picture.scatter import Point
+
+COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000)
+DYADS = (1, 2, 5, 10, 20, 50)
+AT_ONCE = 10_000
+"""Poses asked at once of chains and of the kinds."""
+BUDGET = 60.0
+"""Seconds for each of the three timings."""
+READ = {0: "position", 2: "acceleration"}
+NOTE = """\
+ns a pose: processor time, medians of runs in turn; of the first run of its size (with derivatives) by the
+clock, with the memory that it takes from the system. Extra memory: what a run takes at its peak beside the
+motion that it gives."""
+TABLES = {
+    "poses": ("poses at once", "positions", "with derivatives", "first run", "extra memory"),
+    "dyads": ("dyads in a chain", "positions", "with derivatives"),
+    "kinds": ("mechanism", "positions", "with derivatives", "one pose", "one with derivatives", "× four-bar"),
+}
+
+
+class Sized(NamedTuple):
+    """So many poses at once: ns a pose, those of the first run with derivatives, extra memory in bytes."""
+
+    poses: int
+    position_ns: float
+    derivatives_ns: float
+    first_ns: float
+    extra_bytes: int
+
+
+class Chained(NamedTuple):
+    """A crank and so many dyads, one hung on the other: ns a pose."""
+
+    dyads: int
+    position_ns: float
+    derivatives_ns: float
+
+
+class Kind(NamedTuple):
+    """A mechanism: ns a pose at once, and one a call; `times` is the largest ratio to the four-bar's."""
+
+    name: str
+    position_ns: float
+    derivatives_ns: float
+    pose_ns: float
+    pose_derivatives_ns: float
+    times: float
+
+
+class Growth(NamedTuple):
+    """What a run found."""
+
+    machine: Machine
+    poses: tuple[Sized, ...]
+    dyads: tuple[Chained, ...]
+    kinds: tuple[Kind, ...]
+
+
+def run(progress: Callable[[int, int], None] | None = None, *, budget: float = BUDGET) -> Growth:
+    """Measure all three; about three minutes, and 2 GB for the most poses."""
+    return Growth(
+        this_machine(),
+        tuple(sizes(COUNTS, budget=budget, progress=progress)),
+        tuple(chains(DYADS, budget=budget, progress=progress)),
+        kinds(budget=budget, progress=progress),
+    )
+
+
+def sizes(counts: Sequence[int], **timing: Any) -> Iterator[Sized]:
+    """Yield what a four-bar's pose costs at each number of poses at once."""
+    solved = easy(1).scene.mechanism
+    for derivatives in READ:
+        _at_once(solved, np.zeros(1), derivatives).work()
+    work = {(n, d): _at_once(solved, _turn(n), d) for n in counts for d in READ}
+    first = {n: _seconds(work[n, 2].work) / n * 1e9 for n in counts}
+    extra = {n: extra_bytes(work[n, 2].work) for n in counts}
+    times = nanoseconds(work, **timing)
+    return (Sized(n, times[n, 0], times[n, 2], first[n], extra[n]) for n in counts)
+
+
+def chains(lengths: Sequence[int], **timing: Any) -> Iterator[Chained]:
+    """Yield what a pose of a chain costs at each number of dyads, 10,000 poses at once."""
+    made = {n: mechanism(chain(n)) for n in lengths}
+    times = nanoseconds(
+        {(n, d): _at_once(made[n], _turn(AT_ONCE), d) for n in lengths for d in READ}, **timing
+    )
+    return (Chained(n, times[n, 0], times[n, 2]) for n in lengths)
+
+
+def kinds(**timing: Any) -> tuple[Kind, ...]:
+    """Return what a Scotch yoke and a slider on a moving line cost beside a four-bar with a coupler point."""
+    made = {
+        "four-bar": easy(1).scene.mechanism,
+        "Scotch yoke": mechanism(yoke()),
+        "slider on a moving line": mechanism(moving_line()),
+    }
+    work = {
+        (name, "at once", d): _at_once(one, _turn(AT_ONCE), d) for name, one in made.items() for d in READ
+    }
+    work |= {(name, "alone", d): _one_by_one(one, d) for name, one in made.items() for d in READ}
+    times = nanoseconds(work, **timing)
+    ways = [(how, d) for how in ("at once", "alone") for d in READ]
+    most = {name: max(times[name, *way] / times["four-bar", *way] for way in ways) for name in made}
+    return tuple(Kind._make([name, *(times[name, *way] for way in ways), most[name]]) for name in made)
+
+
+def chain(dyads: int) -> Linkage:
+    """Return a four-bar and further dyads that carry its rocker's swing on, as parallelograms do."""
+    pins = [Pin("O2", (0.0, 0.0)), *(Pin(f"O{n}b", (100.0 * n, 0.0)) for n in range(1, dyads + 1))]
+    first = RRR("B1", ("A", "O1b"), (90.0, 80.0))
+    more = [RRR(f"B{n}", (f"B{n - 1}", f"O{n}b"), (100.0, 80.0)) for n in range(2, dyads + 1)]
+    return Linkage((*pins, Crank("A", "O2", 30.0), first, *more), Drive("A", 1.0))
+
+
+def yoke() -> Linkage:
+    """Return a Scotch yoke: the crank's pin in the slot of a sliding bar."""
+    return Linkage(
+        (Pin("O2", (0.0, 0.0)), Crank("A", "O2", 30.0), RPP("Y", "A", Line("O2"), TURN / 4)), Drive("A", 1.0)
+    )
+
+
+def moving_line() -> Linkage:
+    """Return a bar from a fixed pin to a slider whose line the crank carries."""
+    pins = Pin("O2", (0.0, 0.0)), Pin("O4", (30.0, 0.0))
+    slider = RRP("C", "O4", 100.0, Line("O2", on=("O2", "A")))
+    return Linkage((*pins, Crank("A", "O2", 80.0), slider), Drive("A", 1.0))
+
+
+def _turn(count: int) -> NDArray[np.float64]:
+    return np.arange(count, dtype=np.float64) * (TURN / count)
+
+
+def _at_once(solved: Mechanism, angles: NDArray[np.float64], derivatives: int) -> Timed:
+    def work() -> object:
+        motion = solved.solve(angle=angles, speed=1.0, derivatives=derivatives)
+        getattr(motion, READ[derivatives])
+        return motion
+
+    return Timed(work, angles.size)
+
+
+def _one_by_one(solved: Mechanism, derivatives: int) -> Timed:
+    phases = _turn(ONE_BY_ONE).tolist()
+
+    def work() -> None:
+        for phase in phases:
+            solved.pose(phase, 1.0, 0.0, derivatives)
+
+    return Timed(work, ONE_BY_ONE)
+
+
+def _seconds(work: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def extra_bytes(work: Callable[[], object]) -> int:
+    """Return the memory that work takes at its peak beside what it returns."""
+    tracemalloc.start()
+    try:
+        found = work()
+        held, peak = tracemalloc.get_traced_memory()
+        del found
+        return peak - held + tracemalloc.get_traced_memory()[0]
+    finally:
+        tracemalloc.stop()
+
+
+def as_text(found: Growth) -> str:
+    """Return the machine and the three tables in aligned columns."""
+    rows = {
+        "poses": [
+            (f"{n:,}", *(f"{ns:.1f}" for ns in times), f"{extra / 1e6:.2f} MB")
+            for n, *times, extra in found.poses
+        ],
+        "dyads": [(f"{n}", *(f"{ns:,.1f}" for ns in times)) for n, *times in found.dyads],
+        "kinds": [
+            (name, *(f"{ns:,.1f}" for ns in times), f"{most:.2f}") for name, *times, most in found.kinds
+        ],
+    }
+    tables = [columns([TABLES[name], *lines]) for name, lines in rows.items()]
+    return "\n\n".join([found.machine.line, *tables, NOTE])
+
+
+def as_object(found: Growth) -> Mapping[str, Any]:
+    """Return the figures for JSON."""
+    return {name: [row._asdict() for row in getattr(found, name)] for name in TABLES} | {
+        "machine": found.machine._asdict()
+    }
+
+
+def draw(found: Growth, path: Path) -> Path:
+    """Write both courses as a PNG, one below the other; return where it is."""
+    return draw_pictures(list(pictures(found)), path)
+
+
+def pictures(found: Growth) -> Iterator[Picture]:
+    """Yield what a pose costs over the poses asked at once, and over the dyads of a chain."""
+    for title, across, rows in (
+        ("What a pose costs as more are asked at once", "poses at once", found.poses),
+        (f"What a pose costs as a chain grows, {AT_ONCE:,} at once", "dyads in a chain", found.dyads),
+    ):
+        courses = (("positions", 1, True), ("with derivatives", 2, False))
+        points = [
+            Point(name if row is rows[-1] else "", row[0], row[place], ours)
+            for name, place, ours in courses
+            for row in rows
+        ]
+        yield Picture(title, points, across, "ns a pose")

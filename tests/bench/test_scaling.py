@@ -1,0 +1,105 @@
+"""What a pose costs as work grows: the tables, their chart, and the memory that a run takes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_result import result
+from test_command import options
+
+from linkanim.bench import command, scaling
+from linkanim.bench.machine import this_machine
+from linkanim.errors import BadInput
+from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.program import BLOCK
+
+MADE = scaling.Growth(
+    result().machine,
+    (scaling.Sized(100, 300.0, 500.0, 3000.0, 10_000), scaling.Sized(10_000, 14.2, 27.1, 46.0, 270_000)),
+    (scaling.Chained(1, 14.2, 27.1), scaling.Chained(50, 420.0, 1_800.4)),
+    (scaling.Kind("four-bar", 14.0, 27.0, 1_500.0, 2_500.0, 1.0),),
+)
+
+
+def test_each_table_has_its_lines() -> None:
+    lines = [line.split() for line in scaling.as_text(MADE).splitlines()]
+    assert ["10,000", "14.2", "27.1", "46.0", "0.27", "MB"] in lines
+    assert ["50", "420.0", "1,800.4"] in lines
+    assert ["four-bar", "14.0", "27.0", "1,500.0", "2,500.0", "1.00"] in lines
+
+
+def test_json_has_the_same_figures() -> None:
+    told = json.loads(json.dumps(scaling.as_object(MADE)))
+    assert set(told) == {"machine", "poses", "dyads", "kinds"}
+    assert told["poses"][1] == {
+        "poses": 10_000,
+        "position_ns": 14.2,
+        "derivatives_ns": 27.1,
+        "first_ns": 46.0,
+        "extra_bytes": 270_000,
+    }
+    assert told["kinds"][0]["pose_derivatives_ns"] == 2_500.0
+
+
+def test_the_command_prints_and_draws_it(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(scaling, "run", lambda progress: MADE)
+    assert command.run(options("--scaling", "--into", str(tmp_path))) == 0
+    told = capsys.readouterr()
+    assert told.out.startswith("A processor")
+    assert told.err == f"{tmp_path / command.GROWTH}\n"
+    assert (tmp_path / command.GROWTH).stat().st_size > 5_000
+    assert command.run(options("--scaling", "--json", "--into", str(tmp_path))) == 0
+    assert json.loads(capsys.readouterr().out)["dyads"][0]["dyads"] == 1
+
+
+def test_markdown_is_not_for_it() -> None:
+    with pytest.raises(BadInput, match="--scaling"):
+        command.run(options("--scaling", "--markdown"))
+
+
+def test_everything_is_measured() -> None:
+    few = {"rounds": 1, "budget": 0.0}
+    sizes = list(scaling.sizes((50, 500), **few))
+    chains = list(scaling.chains((1, 2), **few))
+    kinds = scaling.kinds(**few)
+    assert [row.poses for row in sizes] == [50, 500]
+    assert [row.dyads for row in chains] == [1, 2]
+    assert [kind.name for kind in kinds] == ["four-bar", "Scotch yoke", "slider on a moving line"]
+    assert all(value > 0 for row in (*sizes, *chains) for value in row)
+    assert kinds[0].times == 1.0
+    scaling.Growth(this_machine(), tuple(sizes), tuple(chains), kinds)
+
+
+@pytest.mark.parametrize("dyads", [1, 3, 50])
+def test_a_chain_turns_fully_and_its_rockers_swing_alike(dyads: int) -> None:
+    made = mechanism(scaling.chain(dyads))
+    assert made.assembly.path.full_turn
+    position = made.solve(angle=np.linspace(0.0, 6.0, 7), speed=1.0).position
+    apart = position[f"B{dyads}"] - position["B1"]
+    assert apart == pytest.approx(np.tile([100.0 * (dyads - 1), 0.0], (7, 1)), abs=1e-9)
+
+
+@pytest.mark.parametrize("linkage", [scaling.yoke(), scaling.moving_line()])
+def test_the_kinds_turn_fully_and_close(linkage: Linkage) -> None:
+    made = mechanism(linkage)
+    assert made.assembly.path.full_turn
+    for values in made.solve(angle=np.linspace(0.0, 6.2, 9), speed=1.0).acceleration.values():
+        assert np.isfinite(values).all()
+
+
+@pytest.mark.parametrize("derivatives", [0, 2])
+def test_memory_beside_the_motion_does_not_grow_with_the_poses(derivatives: int) -> None:
+    solved = mechanism(scaling.chain(1))
+    extra = {}
+    for count in (1, 2 * BLOCK, 16 * BLOCK):
+        work = scaling._at_once(solved, np.linspace(0.0, 9.0, count), derivatives).work
+        extra[count] = scaling.extra_bytes(work)
+    # Buffers of one block, of which a few are in use at a time, and Python's own objects.
+    assert extra[16 * BLOCK] <= extra[2 * BLOCK] + 50_000
+    assert extra[16 * BLOCK] <= 4 * 8 * BLOCK
