@@ -49,9 +49,11 @@ class Quantities:
 
 @dataclass(frozen=True)
 class Shelf:
-    """All mechanisms, the chosen one's place, and how many frames it has been open; `still` while paused."""
+    """All mechanisms, those of the catalogue by their names, the chosen one's place, and how many frames it
+    has been open; `still` while paused.
+    """
 
-    scenes: tuple[Scene, ...]
+    entries: tuple[Scene | str, ...]
     chosen: int
     frame: int
     theme: ThemeName

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkanim.picture.quantities import quantities, quantity, telling
-from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
 RESOLVED = frozenset({"pick", "row"})
@@ -28,9 +27,9 @@ class Listing:
 
 @dataclass(frozen=True)
 class Browsing:
-    """The open shelf: its mechanisms, the one that is chosen, and the frame it was opened at."""
+    """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening."""
 
-    scenes: tuple[Scene, ...]
+    entries: tuple[Scene | str, ...]
     chosen: int
     since: int
 
@@ -61,9 +60,3 @@ def sifted(listing: Listing, text: str) -> Listing:
 def unsifted(listing: Listing) -> Listing:
     """Return the list with one letter less in its sieve, from its top."""
     return Listing(0, listing.sieve[:-1])
-
-
-def opened(shelf: tuple[Scene | str, ...], place: int, frame: int) -> Browsing:
-    """Return the shelf with all its mechanisms loaded, standing at the one that is on."""
-    scenes = tuple(load(entry) if isinstance(entry, str) else entry for entry in shelf)
-    return Browsing(scenes, place, frame)

@@ -7,7 +7,7 @@ import pygame
 from linkanim.picture.canvas import Canvas
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
-from linkanim.picture.shelf import Grid, ShelfPainter, grid
+from linkanim.picture.shelf import Grid, ShelfPainter, by_chapter, grid
 from linkanim.player import display
 from linkanim.player.approach import Approach
 from linkanim.player.fade import Fade
@@ -135,9 +135,9 @@ class Easel:
         """Return where a point of the scene is in the window."""
         return self._painter.view.to_pixel(x, y)
 
-    def shelf_columns(self) -> int:
-        """Return how many mechanisms stand beside each other on the open shelf."""
-        return self._grid.columns
+    def shelf_beside(self, place: int, rows: int) -> int:
+        """Return the place on the open shelf so many rows below another."""
+        return self._grid.beside(place, rows)
 
     def shelf_at(self, x: float, y: float) -> int | None:
         """Return the place on the open shelf under a pixel; None between its pictures."""
@@ -151,7 +151,7 @@ class Easel:
     @property
     def _grid(self) -> Grid:
         assert self._state.browsing is not None
-        return grid(self.size, len(self._state.browsing.scenes))
+        return grid(self.size, [count for _, count in by_chapter(self._state.browsing.entries)])
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""

@@ -71,7 +71,7 @@ KEYS: tuple[KeyRow, ...] = (
     KeyRow(
         "play",
         "Tab, Shift+Tab, 1–9",
-        "mechanism",
+        "mechanism, of its chapter",
         (
             _on("tab", "mechanism", 1),
             _on("shift+tab", "mechanism", -1),

@@ -72,7 +72,7 @@ def _quantities(state: State, listing: Listing) -> Quantities:
 
 def _shelf(state: State, browsing: Browsing) -> Shelf:
     frame, still = state.frame - browsing.since, state.clock.paused
-    return Shelf(browsing.scenes, browsing.chosen, frame, state.look.theme, still=still)
+    return Shelf(browsing.entries, browsing.chosen, frame, state.look.theme, still=still)
 
 
 def _chip(state: State) -> Fading | None:

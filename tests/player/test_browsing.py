@@ -9,14 +9,14 @@ import pytest
 from playing import SIZE, Player, fake_start
 
 from linkanim.picture.quantities import quantities, quantity, telling
-from linkanim.picture.shelf import grid
+from linkanim.picture.shelf import Grid, grid
 from linkanim.player.action import Action
 from linkanim.player.advance import advance
 from linkanim.player.browsing import listed
 from linkanim.player.show import overlay
 from linkanim.player.state import State, begin
 from linkanim.player.tape_file import read
-from linkanim.scenes import load, names
+from linkanim.scenes import Scene, chapters, load, names
 
 
 def after(state: State, *asked: Action | str) -> State:
@@ -130,7 +130,7 @@ def test_an_unknown_quantity_is_not_charted(press: State) -> None:
 def test_the_shelf_opens_at_the_mechanism_that_is_on_and_goes_round(press: State) -> None:
     state = after(press, "shelf")
     assert state.browsing is not None
-    assert [scene.name for scene in state.browsing.scenes] == list(names())
+    assert state.browsing.entries == names()
     assert state.browsing.chosen == press.place
     state = after(state, Action("move", len(names())))
     assert state.browsing is not None
@@ -145,10 +145,15 @@ def test_a_place_off_the_shelf_is_not_gone_to(press: State, place: int) -> None:
 
 
 @pytest.mark.parametrize("size", [(320, 180), (1280, 720), (720, 1280), (3840, 2160), (1000, 300)])
-@pytest.mark.parametrize("count", [1, 2, 14, 15, 40])
-def test_the_grid_fills_any_window_and_overlaps_nothing(size: tuple[int, int], count: int) -> None:
-    found = grid(size, count)
-    assert len(found.cells) == count
+@pytest.mark.parametrize("counts", [(1,), (2,), (14,), (12, 11, 3, 18, 11), (40, 1)])
+def test_the_grid_fills_any_window_and_overlaps_nothing(
+    size: tuple[int, int], counts: tuple[int, ...]
+) -> None:
+    found = grid(size, counts)
+    assert len(found.cells) == sum(counts)
+    assert len(found.headings) in (0, len(counts))
+    for heading in found.headings:
+        assert not any(heading.meets(cell) for cell in found.cells)
     for n, cell in enumerate(found.cells):
         assert cell.x >= 0
         assert cell.right <= size[0]
@@ -156,6 +161,44 @@ def test_the_grid_fills_any_window_and_overlaps_nothing(size: tuple[int, int], c
         assert cell.bottom <= size[1] + 1
         assert found.at(cell.x + cell.width / 2, cell.y + cell.height / 2) == n
     assert found.at(-5.0, -5.0) is None
+
+
+def test_each_chapter_begins_a_row_and_the_rows_are_gone_through_whatever_their_length() -> None:
+    found = grid((1280, 720), (3, 5, 2))
+    tops = [cell.y for cell in found.cells]
+    assert tops[0] == tops[2] < tops[3] == tops[7] < tops[8] == tops[9]
+    assert [found.beside(2, 1), found.beside(7, 1), found.beside(9, 1), found.beside(0, -1)] == [5, 9, 1, 8]
+
+
+def test_a_shelf_too_small_for_titles_has_the_chosen_one_s_at_its_foot() -> None:
+    small, large = (grid(size, [12, 11, 3, 18, 10]) for size in ((320, 180), (1280, 720)))
+    assert (small.line, small.headings) == (0.0, ())
+    assert large.line > 2 * large.text
+    assert max(cell.bottom for cell in small.cells) < 180 - 11
+
+
+def test_the_shelf_opens_at_once_and_reads_a_mechanism_a_frame(
+    player: Player, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[str] = []
+
+    def reading(name: str) -> Scene:
+        read.append(name)
+        return load(name)
+
+    monkeypatch.setattr("linkanim.picture.shelf.load", reading)
+    player.type("o")
+    for frame in range(1, 4):
+        assert len(read) == frame
+        player.tick()
+    assert read == list(names()[:4])
+
+
+@pytest.mark.parametrize(
+    ("on", "key", "then"), [("press", "1", "six-bar"), ("hart", "3", "pantograph"), ("hart", "9", "hart")]
+)
+def test_a_digit_chooses_within_the_chapter(on: str, key: str, then: str) -> None:
+    assert after(begin(load(on)), Action("select", int(key) - 1)).scene.name == then
 
 
 def test_a_quantity_is_charted_from_the_list(player: Player) -> None:
@@ -175,18 +218,22 @@ def test_nothing_is_charted_where_nothing_is_found(player: Player) -> None:
     assert (player.state.look.chart, player.state.listing is not None) == (None, True)
 
 
+def _grid() -> Grid:
+    return grid(SIZE, [len(members) for members in chapters().values()])
+
+
 def test_the_shelf_is_browsed_with_arrows_and_enter(player: Player) -> None:
     player.type("o")
-    columns = grid(SIZE, len(names())).columns
+    below = _grid().beside(1, 1)
     player.press(pygame.K_RIGHT)
     player.press(pygame.K_DOWN)
     player.press(pygame.K_RETURN)
-    assert (player.state.scene.name, player.state.browsing) == (names()[1 + columns], None)
+    assert (player.state.scene.name, player.state.browsing) == (names()[below], None)
 
 
 def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
     player.type("o")
-    cell = grid(SIZE, len(names())).cells[6]
+    cell = _grid().cells[6]
     middle = (cell.x + cell.width / 2, cell.y + cell.height / 2)
     player.mouse(pygame.MOUSEMOTION, middle, rel=(0, 0), buttons=(0, 0, 0))
     assert player.state.browsing is not None
@@ -204,7 +251,8 @@ def test_a_click_beside_the_pictures_closes_the_shelf(player: Player) -> None:
 
 def test_the_shelf_is_alive_and_still_while_paused(player: Player) -> None:
     player.type("o")
-    player.tick(len(names()))
+    for _ in range(len(names()) + 12):
+        player.tick()
     still = player.pixels
     player.tick(10)
     assert player.pixels == still

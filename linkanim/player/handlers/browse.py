@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from linkanim.picture.quantities import quantities
-from linkanim.player.browsing import Listing, listed, moved, opened, sifted, unsifted
+from linkanim.player.browsing import Browsing, Listing, listed, moved, sifted, unsifted
 from linkanim.player.handlers.shelf import put_on
 from linkanim.player.state import State, told
 
@@ -23,20 +23,20 @@ def shelf(state: State, _: None) -> State:
     """Open the shelf, or close it."""
     if state.browsing:
         return replace(state, browsing=None)
-    return replace(state, listing=None, browsing=opened(state.shelf, state.place, state.frame))
+    return replace(state, listing=None, browsing=Browsing(state.shelf, state.place, state.frame))
 
 
 def move(state: State, further: int) -> State:
     """Choose so many further; the list has ends, the shelf goes round."""
     if state.browsing:
-        chosen = (state.browsing.chosen + further) % len(state.browsing.scenes)
+        chosen = (state.browsing.chosen + further) % len(state.browsing.entries)
         return replace(state, browsing=replace(state.browsing, chosen=chosen))
     return replace(state, listing=moved(state.listing, state.scene, further) if state.listing else None)
 
 
 def point(state: State, place: int) -> State:
     """Choose a place on the shelf."""
-    if state.browsing is None or not 0 <= place < len(state.browsing.scenes):
+    if state.browsing is None or not 0 <= place < len(state.browsing.entries):
         return state
     return replace(state, browsing=replace(state.browsing, chosen=place))
 

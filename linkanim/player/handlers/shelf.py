@@ -11,7 +11,7 @@ from linkanim.player import editing as edit
 from linkanim.player.editing import Editing
 from linkanim.player.fault import proved
 from linkanim.player.state import State, fresh, told
-from linkanim.scenes import load
+from linkanim.scenes import chapter_of, chapters, load
 from linkanim.scenes.closure import other_closure
 from linkanim.scenes.scene import Scene
 
@@ -24,9 +24,12 @@ def mechanism(state: State, further: int) -> State:
 
 
 def select(state: State, place: int) -> State:
-    """Choose of the catalogue, whatever else stands on the shelf."""
-    named = [at for at, entry in enumerate(state.shelf) if isinstance(entry, str)]
-    return put_on(state, named[place]) if place < len(named) else state
+    """Choose within the chapter of the scene that is on; beside the catalogue, within its first."""
+    all_, chapter = chapters(), chapter_of(state.scene.name)
+    members = all_[chapter] if chapter else next(iter(all_.values()))
+    if place >= len(members) or members[place] not in state.shelf:
+        return state
+    return put_on(state, state.shelf.index(members[place]))
 
 
 def closure(state: State, _: None) -> State:
