@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim.mechanics.kinds import Crank
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts import Part
+from linkanim.picture.parts import Part, Stamp
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import disc, segments, stroke
 from linkanim.picture.theme import Theme, mixed
@@ -178,12 +178,13 @@ def wheels(figure: Figure) -> Iterator[Wheel]:
 
 
 def wheel_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
-    """Return what does not turn: the discs of wheels that stay where they are, and the belts between them."""
+    """Return what does not turn: wheels and discs that stay where they are, and the belts between them."""
     layers = []
     for pair in pairs(figure):
-        for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel) and not wheel.ring):
-            centre = _centre(figure, view, wheel)
-            layers.append(Layer(_tone(wheel, pair, theme), [centre + disc(_root(wheel, view, gauge))]))
+        for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel)):
+            still = [Layer(_tone(wheel, pair, theme), [disc(_root(wheel, view, gauge))])]
+            shown = still if wheel.arm else _wheel(wheel, pair, (view, gauge, theme), moving=True)
+            layers += Stamp(tuple(shown)).at([_centre(figure, view, wheel)])
         if not pair.driven.teeth and not pair.planetary:
             layers.append(Layer(theme.ground, list(_belt(_pulled(pair, figure, view), gauge))))
     return layers
@@ -197,7 +198,7 @@ def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple
     """Return what turns or goes round: teeth, outlines, and holes that show how far a wheel has turned."""
     parts = []
     for pair in pairs(figure):
-        for wheel in pair.wheels:
+        for wheel in (wheel for wheel in pair.wheels if wheel.arm or not _stays(figure, wheel)):
             layers = _wheel(wheel, pair, (view, gauge, theme), moving=not _stays(figure, wheel))
             parts.append(Part(wheel.centre, wheel.centre, wheel.arm or wheel.centre, layers))
         if pair.planetary and not pair.driven.teeth:
@@ -209,19 +210,17 @@ def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple
 
 
 def _wheel(wheel: Wheel, pair: Pair, drawn: tuple[View, Gauge, Theme], *, moving: bool) -> tuple[Layer, ...]:
-    """Return a wheel about the origin; its disc too where it cannot be drawn once."""
+    """Return a wheel about the origin; one that only turns without its disc, which is drawn once."""
     view, gauge, theme = drawn
     tone, edge = _tone(wheel, pair, theme), _edge(wheel, pair, theme)
-    rim = _ring(wheel, view, gauge)
+    rim = _rim(wheel, view, gauge, moving=moving)
     if wheel.ring:
         lines = [loop for outline in rim for loop in stroke(outline, gauge.outline, closed=True)]
         return Layer(tone, rim), Layer(edge, lines)
     root = _root(wheel, view, gauge)
     holes = [0.62 * root * np.exp(2j * pi * k / 5) + disc(0.19 * root) for k in range(5)]
-    body = [Layer(tone, [disc(root)])] if moving else []
     line = stroke(rim[0], gauge.outline, closed=True)
-    hollow = Layer(mixed(tone, theme.background, 0.6), holes)
-    return *body, Layer(tone, rim), hollow, Layer(edge, line)
+    return Layer(tone, rim), Layer(mixed(tone, theme.background, 0.6), holes), Layer(edge, line)
 
 
 def _tone(wheel: Wheel, pair: Pair, theme: Theme) -> Colour:
@@ -245,13 +244,14 @@ def _root(wheel: Wheel, view: View, gauge: Gauge) -> float:
     return max(wheel.radius * view.scale - 1.1 * _FOOT * _module(wheel, view) - gauge.line, 1.0)
 
 
-def _ring(wheel: Wheel, view: View, gauge: Gauge) -> list[Loop]:
-    """Return the rim: teeth outside and a circle inside the disc's edge as its hole; a ring's inside out."""
+def _rim(wheel: Wheel, view: View, gauge: Gauge, *, moving: bool) -> list[Loop]:
+    """Return the outline; with a hole where the disc shows, and of a ring the outer edge before it."""
     radius = wheel.radius * view.scale
     if wheel.ring:
         return [disc(wheel.reach * view.scale), _toothed(wheel, radius, _TIP, _FOOT)[::-1]]
-    inner = disc(max(_root(wheel, view, gauge) - gauge.line, 0.5))[::-1]
-    return [_toothed(wheel, radius, _FOOT, _TIP) if wheel.teeth else disc(radius), inner]
+    hole = disc(max(_root(wheel, view, gauge) - gauge.line, 0.5))[::-1]
+    outline = _toothed(wheel, radius, _FOOT, _TIP) if wheel.teeth else disc(radius)
+    return [outline] if moving else [outline, hole]
 
 
 def _toothed(wheel: Wheel, radius: float, foot: float, tip: float) -> Loop:

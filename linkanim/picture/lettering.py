@@ -34,7 +34,8 @@ class Lettering:
         x = round(_FINE * middle.real - self._large.shape[1] / 2)
         y = round(_FINE * middle.imag - self._large.shape[0] / 2)
         sprite = self._sprite(x % _FINE, y % _FINE)
-        sprite.set_alpha(round(255 * shown))
+        if sprite.get_alpha() != round(255 * shown):
+            sprite.set_alpha(round(255 * shown))
         surface.blit(sprite, (x // _FINE, y // _FINE))
 
     def _sprite(self, right: int, down: int) -> pygame.Surface:
@@ -82,4 +83,5 @@ def _averaged(large: NDArray[np.float32], right: int, down: int) -> pygame.Surfa
     opacity = np.maximum(small[..., 3:], 1e-6)
     straight = np.concatenate((small[..., :3] / opacity, small[..., 3:]), axis=-1)
     levels = (255 * straight + 0.5).astype(np.uint8)
-    return pygame.image.frombuffer(levels.tobytes(), (wide, high), "RGBA")
+    # in the order of a surface's bytes, which blits many times faster
+    return pygame.image.frombuffer(levels[..., [2, 1, 0, 3]].tobytes(), (wide, high), "BGRA")

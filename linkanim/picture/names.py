@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from math import pi
 
@@ -78,6 +79,10 @@ class Label:
     def placed(self, share: float, places: Places) -> tuple[complex, float]:
         """Return its middle in pixels at a share of the cycle, and how far it shows (0 to 1)."""
         offset, shown = self.path.at(share)
+        return self.standing(complex(offset), float(shown), places)
+
+    def standing(self, offset: complex, shown: float, places: Places) -> tuple[complex, float]:
+        """Return its middle in pixels at a place of its path, and how far it shows (0 to 1)."""
         span = places[self.head] - places[self.at]
         if self.length:
             scale = abs(span) / self.length
@@ -94,22 +99,34 @@ class Names:
 
     def draw(self, surface: pygame.Surface, pose: Pose, places: Places) -> None:
         """Draw every label; changes the surface only."""
-        for label in self.labels:
-            middle, shown = label.placed(pose.phase / self.period, places)
+        for label, middle, shown in self._standing(pose, places):
             if shown:
                 label.lettering.draw(surface, middle, shown)
 
     def captions(self, pose: Pose, places: Places) -> list[Caption]:
         """Return every label that shows, as a line of text in its halo."""
         found = []
-        for label in self.labels:
-            middle, shown = label.placed(pose.phase / self.period, places)
+        for label, middle, shown in self._standing(pose, places):
             words = label.lettering
             at = (middle.real, middle.imag - words.drop)
             if shown > 0.5:
                 halo = Halo(*words.halo)
                 found.append(Caption(words.text, at, words.line_height, words.ink, "centre", True, halo))
         return found
+
+    def _standing(self, pose: Pose, places: Places) -> Iterator[tuple[Label, complex, float]]:
+        """Yield every label with its middle in pixels, and how far it shows."""
+        if not self.labels:
+            return
+        offsets, showings = self._paths.at(pose.phase / self.period)
+        for label, offset, shown in zip(self.labels, offsets.tolist(), showings.tolist(), strict=True):
+            yield label, *label.standing(offset, shown, places)
+
+    @cached_property
+    def _paths(self) -> Path:
+        """All paths in one."""
+        offsets, showings = zip(*(label.path for label in self.labels), strict=True)
+        return Path(np.stack(offsets, axis=-1), np.stack(showings, axis=-1))
 
 
 @dataclass(frozen=True)

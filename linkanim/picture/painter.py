@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cached_property
 
 import pygame
@@ -14,7 +14,7 @@ from linkanim.picture.chart import pen_for
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.hud import Hud
-from linkanim.picture.items import Group, Scribe, flat, worded
+from linkanim.picture.items import Scribe, flat, worded
 from linkanim.picture.layout import Layout
 from linkanim.picture.legend import legend_for
 from linkanim.picture.look import Look
@@ -88,11 +88,12 @@ class Painter:
         canvas = self._canvas(surface)
         self._wipe(canvas, self._still_at(pose.input_speed))
         if self.drawing.moves_behind:
-            paint(canvas, list(self._behind(pose, ghost if self.look.ghost else None)))
+            paint(canvas, self._behind(pose, ghost if self.look.ghost else None), ends=self._ends)
             mix(pixels_of(canvas), self._stencil, clear=bool(canvas.get_flags() & pygame.SRCALPHA))
         moving = list(self.drawing.moving(pose))
         beside = [polygon.group(pose) for polygon in self._polygons]
-        paint(canvas, self._moving(pose, moving, beside))
+        cursor = self._strip.cursor(pose) if self._strip else ()
+        paint(canvas, flat(moving), ends=self._ends, over=(*flat(beside), *cursor))
         self._scribe.draw(canvas.subsurface(self._layout.reach), worded(moving))
         self._scribe.draw(canvas, worded(beside))
         if self.names:
@@ -160,7 +161,7 @@ class Painter:
         still = pygame.Surface(self.size, flags, 32)
         still.fill((*self._theme.background, 255 if self.look.background else 0))
         standing = () if self.drawing.moves_behind else self.drawing.standing()
-        paint(still, list(self._on_stage(flat((self.drawing.discs(), *standing)))))
+        paint(still, flat((self.drawing.discs(), *standing)), ends=self._ends)
         if self._legend:
             self._legend.draw(still)
         return still
@@ -184,10 +185,10 @@ class Painter:
     def _spare(self) -> pygame.Surface:
         return self._still.copy()
 
-    def _on_stage(self, layers: Iterable[Layer]) -> Iterator[Layer]:
-        """Yield the scene's layers, kept off the chart."""
-        end, right = int(self._layout.reach.bottom), int(self._layout.reach.right)
-        return (Layer(layer.colour, layer.loops, layer.alpha, end, right) for layer in layers)
+    @cached_property
+    def _ends(self) -> tuple[int, int]:
+        """The column and the row that keep the scene off the chart."""
+        return int(self._layout.reach.right), int(self._layout.reach.bottom)
 
     def _wipe(self, canvas: pygame.Surface, still: pygame.Surface) -> None:
         if canvas.get_flags() & pygame.SRCALPHA:
@@ -196,16 +197,10 @@ class Painter:
 
     def _behind(self, pose: Pose, ghost: Pose | None) -> Iterator[Layer]:
         """Yield what moves behind all that stands still."""
-        drawing = self.drawing
-        yield from self._on_stage(flat(drawing.wheels(drawing.places(pose))))
-        yield from self._on_stage(drawing.faint(ghost) if ghost else ())
+        yield from flat(self.drawing.wheels(self.drawing.places(pose)))
+        yield from self.drawing.faint(ghost) if ghost else ()
 
     @cached_property
     def _stencil(self) -> Mix:
         """What stands still with something moving behind it."""
-        return stencil(list(self._on_stage(flat(self.drawing.standing()))), self._still)
-
-    def _moving(self, pose: Pose, moving: list[Group], beside: list[Group]) -> list[Layer]:
-        """Return all that moves before it, back to front, what is beside it and the chart's cursor last."""
-        layers = [*self._on_stage(flat(moving)), *flat(beside)]
-        return layers + (self._strip.cursor(pose) if self._strip else [])
+        return stencil(flat(self.drawing.standing()), self._still, ends=self._ends)

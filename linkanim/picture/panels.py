@@ -108,8 +108,8 @@ class Panels:
         """Draw the marks of recording and pause, words and signs."""
         size, place = self.layout.text_size, self.layout.marks
         leads, top = self._marks_lead, place.y
-        marks = [(overlay.recording, self.theme.warning, [0.36 * size * disc(1.0)])]
-        marks.append(("paused" if overlay.paused else None, self.theme.ink, _bars(size)))
+        marks = [(overlay.recording, self.theme.warning, _dot)]
+        marks.append(("paused" if overlay.paused else None, self.theme.ink, _bars))
         for words, colour, sign in marks:
             if words:
                 width = self.type.width(words, size)
@@ -119,7 +119,7 @@ class Panels:
                 paint(surface, [Layer(self.theme.background, [back], _BACKING)])
                 self.type.draw(surface, words, (left, top), size=size, colour=colour)
                 middle = complex(left - 0.8 * size, top + 0.5 * size)
-                paint(surface, [Layer(colour, [middle + loop for loop in sign])])
+                paint(surface, [Layer(colour, [middle + loop for loop in sign(size)])])
                 top += 1.5 * size
 
     def _toast(self, text: str) -> pygame.Surface:
@@ -131,6 +131,10 @@ class Panels:
             at = (sheet.get_width() / 2, (0.5 + 1.25 * n) * size)
             self.type.draw(sheet, line, at, size=size, colour=self.theme.ink, anchor="centre")
         return sheet
+
+
+def _dot(size: float) -> list[Loop]:
+    return [0.36 * size * disc(1.0)]
 
 
 def _bars(size: float) -> list[Loop]:

@@ -75,19 +75,22 @@ class Wish(NamedTuple):
 
 
 class Path(NamedTuple):
-    """A label's place in its frame at each moment, smooth over the cycle, and how far it shows (0 to 1)."""
+    """A label's place in its frame at each moment, smooth over the cycle, and how far it shows (0 to 1).
+
+    Several labels have a column each.
+    """
 
     offset: Loop
     shown: _Floats
 
-    def at(self, share: float) -> tuple[complex, float]:
-        """Return place and showing at a share of the cycle (1 is the whole)."""
+    def at(self, share: float) -> tuple[Loop, _Floats]:
+        """Return place and showing at a share of the cycle (1 is the whole), of several labels in a row."""
         count = len(self.offset)
         middle = share * count
         near = np.arange(round(middle) - _REACH, round(middle) + _REACH + 1)
         weight = np.exp(-0.5 * ((near - middle) / _SOFT) ** 2)
-        weight /= weight.sum()
-        return complex(self.offset[near % count] @ weight), float(self.shown[near % count] @ weight)
+        offset, shown = ((part[near % count].T * weight).sum(axis=-1) / weight.sum() for part in self)
+        return offset, shown
 
 
 def place(wishes: Sequence[Wish], clutter: Clutter) -> list[Path]:

@@ -6,7 +6,7 @@ Those that lie apart are mixed in together, too: each on the lowest level above 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -24,14 +24,11 @@ class Layer(NamedTuple):
     """Closed loops of pixel positions x + yi filled with one colour, over the layers before it.
 
     Loops that turn the same way join where they overlap; a loop that turns the other way cuts a hole.
-    Pixel rows from `end` on are left as they are, as are columns from `right` on.
     """
 
     colour: Colour
     loops: Sequence[Loop]
     alpha: float = 1.0
-    end: int = 1 << 15
-    right: int = 1 << 15
 
 
 class _Boxes(NamedTuple):
@@ -59,18 +56,27 @@ class _Pixels(NamedTuple):
     bounds: Ints
 
 
-def paint(surface: pygame.Surface, layers: Sequence[Layer]) -> None:
+def paint(
+    surface: pygame.Surface,
+    layers: Iterable[Layer],
+    *,
+    ends: tuple[int, int] | None = None,
+    over: Iterable[Layer] = (),
+) -> None:
     """Fill the layers in their order on a 32-bit surface whose rows touch; loops may leave it.
 
-    Where the surface has alpha, it is kept straight (not multiplied into the colours).
+    Where there are `ends`, columns and rows from them on are left as they are; those `over` the layers may
+    reach beyond. Where the surface has alpha, it is kept straight (not multiplied into the colours).
     """
-    layers = [layer for layer in layers if layer.loops]
-    if not layers:
+    size = surface.get_size()
+    limited, free = ([layer for layer in some if layer.loops] for some in (layers, over))
+    if not limited and not free:
         return
-    edges, boxes, ends = _outlined(layers, surface.get_size())
+    layers, limits = [*limited, *free], np.repeat([ends or size, size], (len(limited), len(free)), axis=0).T
+    edges, boxes = _outlined(layers, np.minimum(limits, np.array(size)[:, None]))
     levels = _levels(boxes)
     order = np.argsort(levels, kind="stable")
-    within = room(boxes.top[order], (boxes.end - boxes.top)[order], ends[order], surface.get_width())
+    within = room(boxes.top[order], (boxes.end - boxes.top)[order], limits[0][order], size[0])
     outline, spans = covered(edges._replace(layer=np.argsort(order)[edges.layer]), within)
     inks = _inks(surface, [layers[n] for n in order])
     lines = within.first[np.searchsorted(levels[order], np.arange(levels.max() + 2))]
@@ -79,7 +85,7 @@ def paint(surface: pygame.Surface, layers: Sequence[Layer]) -> None:
     _put(surface, _spread(inside, spans.length, full), (edge, _spread(inside, spans.length, ~full)))
 
 
-def stencil(layers: Sequence[Layer], like: pygame.Surface) -> Mix:
+def stencil(layers: Iterable[Layer], like: pygame.Surface, *, ends: tuple[int, int] | None = None) -> Mix:
     """Return what layers do to surfaces like this one, worked out once, to be mixed in again and again.
 
     It is found on a black and a white surface: what differs there shows through, the rest was put on.
@@ -87,8 +93,9 @@ def stencil(layers: Sequence[Layer], like: pygame.Surface) -> Mix:
     masks = like.get_masks()[:3]
     black, white = (pygame.Surface(like.get_size(), 0, 32, (*masks, 0)) for _ in range(2))
     white.fill((255, 255, 255))
+    kept = list(layers)
     for surface in (black, white):
-        paint(surface, layers)
+        paint(surface, kept, ends=ends)
     put, over = (pixels_of(surface) & np.uint32(sum(masks)) for surface in (black, white))
     through = over - put >> np.uint32(like.get_shifts()[1]) & np.uint32(255)
     place = np.flatnonzero(through < 255)
@@ -107,8 +114,8 @@ def paints(surface: pygame.Surface) -> bool:
     return surface.get_bytesize() == 4 and surface.get_pitch() == 4 * surface.get_width()
 
 
-def _outlined(layers: Sequence[Layer], size: tuple[int, int]) -> tuple[Edges, _Boxes, Ints]:
-    """Return the layers' edges, which pixels each may cover, and the column that each ends before."""
+def _outlined(layers: Sequence[Layer], limits: Ints) -> tuple[Edges, _Boxes]:
+    """Return the layers' edges, and which pixels each may cover before its limits (2, n)."""
     begin = on_grid(np.concatenate([loop for layer in layers for loop in layer.loops]))
     counts = np.array([len(loop) for layer in layers for loop in layer.loops])
     loops = np.array([len(layer.loops) for layer in layers])
@@ -118,14 +125,13 @@ def _outlined(layers: Sequence[Layer], size: tuple[int, int]) -> tuple[Edges, _B
     end[last] = begin[last - counts + 1]
     number = np.repeat(np.repeat(np.arange(len(layers)), loops), counts)
     starts = (last - counts + 1)[np.cumsum(loops) - loops]
-    ends = np.array([(min(layer.right, size[0]), min(layer.end, size[1])) for layer in layers]).T
-    return Edges(begin, end, number), _boxes(begin, starts, ends), ends[0]
+    return Edges(begin, end, number), _boxes(begin, starts, limits)
 
 
-def _boxes(points: Loop, starts: Ints, ends: Ints) -> _Boxes:
-    """Return the pixels about the points of each layer, within its ends."""
+def _boxes(points: Loop, starts: Ints, limits: Ints) -> _Boxes:
+    """Return the pixels about the points of each layer, within its limits."""
     sides = []
-    for part, end in zip((points.real, points.imag), ends, strict=True):
+    for part, end in zip((points.real, points.imag), limits, strict=True):
         low = np.clip(pixel_of(np.minimum.reduceat(part, starts)), 0, end)
         high = np.clip(-pixel_of(-np.maximum.reduceat(part, starts)), low, end)
         sides.append((low, high))

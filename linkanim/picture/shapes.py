@@ -6,7 +6,8 @@ of length 1 and add a position.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -15,9 +16,10 @@ from numpy.typing import ArrayLike
 from linkanim.picture.raster import Loop
 
 
+@lru_cache(maxsize=64)
 def disc(radius: float) -> Loop:
-    """Return a circle about the origin, within 0.02 px of a true one."""
-    return _arc(0.0, 2 * pi, radius)[:-1]
+    """Return a circle about the origin, within 0.02 px of a true one; the last ones are kept."""
+    return _kept(_arc(0.0, 2 * pi, radius)[:-1])
 
 
 def rounded(points: Sequence[complex], radius: float) -> Loop:
@@ -44,24 +46,53 @@ def box(width: float, height: float, radius: float = 0.0) -> Loop:
     return rounded([complex(-x, -y), complex(x, -y), complex(x, y), complex(-x, y)], radius)
 
 
-def stroke(path: ArrayLike, width: float, *, closed: bool = False) -> Sequence[Loop]:
+def stroke(path: ArrayLike, width: float, *, closed: bool = False) -> list[Loop]:
     """Return the outline of a line of this width along the path, its ends round.
 
     Points that repeat are passed over; a path of a single place gives a dot.
     """
+    return next(strokes(path, (width,), closed=closed))
+
+
+def strokes(path: ArrayLike, widths: Iterable[float], *, closed: bool = False) -> Iterator[list[Loop]]:
+    """Yield the outlines of a line along the path in several widths."""
     path = np.asarray(path, np.complex128)
     path = path[np.concatenate(([True], path[1:] != path[:-1]))]
     if closed and path[0] == path[-1]:
         path = path[:-1]
     if len(path) < 2:
-        return [path[0] + disc(width / 2)]
-    if closed:
-        shift = offsets(np.concatenate((path[-1:], path, path[:1])))[1:-1] * width / 2
-        return [path - shift, (path + shift)[::-1]]
-    shift = offsets(path) * width / 2
-    cap = _arc(-pi / 2, pi, width / 2)[1:-1]
+        yield from ([path[0] + disc(width / 2)] for width in widths)
+    elif closed:
+        sides = offsets(np.concatenate((path[-1:], path, path[:1])))[1:-1]
+        yield from ([path - sides * (width / 2), (path + sides * (width / 2))[::-1]] for width in widths)
+    else:
+        sides = offsets(path)
+        yield from ([_ribbon(path, sides * (width / 2), _cap(width / 2))] for width in widths)
+
+
+def _ribbon(path: Loop, sides: Loop, cap: Loop) -> Loop:
+    """Return the outline of an open line whose left edge lies `sides` from its middle."""
     start, end = unit(path[1] - path[0]), unit(path[-1] - path[-2])
-    return [np.concatenate((path - shift, path[-1] + end * cap, (path + shift)[::-1], path[0] - start * cap))]
+    return np.concatenate((path - sides, path[-1] + end * cap, (path + sides)[::-1], path[0] - start * cap))
+
+
+def rod(begin: float, end: float, radius: float) -> Loop:
+    """Return a bar along the real axis, its ends round about these places."""
+    edge = 1j * radius
+    cap = np.concatenate(([-edge], _cap(radius), [edge]))
+    return np.concatenate((end + cap, begin - cap))
+
+
+@lru_cache(maxsize=64)
+def _cap(radius: float) -> Loop:
+    """Return the round end of a line along the real axis, without the ends of its edges."""
+    return _kept(_arc(-pi / 2, pi, radius)[1:-1])
+
+
+def _kept(loop: Loop) -> Loop:
+    """Return an outline that many hold, not to be written to."""
+    loop.flags.writeable = False
+    return loop
 
 
 def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import pi
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from linkanim.mechanics.linkage import Damper, Spring
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
 from linkanim.picture.raster import Layer, Loop
-from linkanim.picture.shapes import box, stroke, unit
+from linkanim.picture.shapes import box, rod, stroke, strokes, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
@@ -62,24 +62,31 @@ class Coil:
         along = (lead + pitch * np.arange(self.coils)).astype(np.complex128)
         feet = start + turn * along
         wire, low = 1.5 * self.gauge.line, -1j * self.radius
-        ends = np.array([0, lead, lead + low]), np.array([span - lead + low, span - lead, span])
-        leads = [start + turn * loop for path in ends for loop in stroke(path, wire)]
-        far, near = self._half(pitch, 0.5), self._half(pitch, 0.0)
-        back = leads + _repeated(feet, turn * far, wire)
-        edge, core = (_repeated(feet, turn * near, width * wire) for width in (2.6, 1.5))
+        far, near = (pitch * along + round_ for along, round_ in self._halves)
+        (first,) = stroke([0, lead, lead + low], wire)
+        (back,) = stroke(turn * far, wire)
+        (edge,), (core,) = strokes(turn * near, (2.6 * wire, 1.5 * wire))
+        leads = [start + turn * first, end - turn * first.conj()[::-1]]
         shade = mixed(self.theme.outline, self.theme.metal, 0.35)
-        return [Layer(shade, back), Layer(self.theme.outline, edge), Layer(self.theme.metal, core)]
+        return [
+            Layer(shade, leads + _repeated(feet, back)),
+            Layer(self.theme.outline, _repeated(feet, edge)),
+            Layer(self.theme.metal, _repeated(feet, core)),
+        ]
 
-    def _half(self, pitch: float, begin: float) -> Loop:
-        """Return half a coil (0: the near one, 0.5: the far one), the spring along the real axis."""
-        along = begin + np.linspace(0, 0.5, 13)
-        angle = 2 * pi * along - pi / 2
-        path: Loop = pitch * along + self.radius * (_TILT * np.cos(angle) + 1j * np.sin(angle))
-        return path
+    @cached_property
+    def _halves(self) -> tuple[tuple[Loop, Loop], ...]:
+        """The far half of a coil and its near one, the spring along the real axis: along it, and about it."""
+        found = []
+        for begin in (0.5, 0.0):
+            along = (begin + np.linspace(0, 0.5, 13)).astype(np.complex128)
+            way = np.exp(1j * (2 * pi * along.real - pi / 2))
+            found.append((along, self.radius * (_TILT * way.real + 1j * way.imag)))
+        return tuple(found)
 
 
-def _repeated(feet: Loop, path: ArrayLike, width: float) -> list[Loop]:
-    return [foot + outline for outline in stroke(path, width) for foot in feet]
+def _repeated(feet: Loop, outline: Loop) -> list[Loop]:
+    return list(feet[:, None] + outline)
 
 
 @dataclass(frozen=True)
@@ -102,7 +109,7 @@ class Cushion:
         span, turn = abs(end - start), unit(end - start)
         foot = max(0.5 * (self.reach.shortest - self.length), 0.0) * 0.6
         piston = foot + self._piston(span)
-        rods = [*stroke([piston, max(span, piston)], self.rod), *stroke([0, foot], self.rod)]
+        rods = [rod(piston, max(span, piston), self.rod / 2), rod(0.0, foot, self.rod / 2)]
         return [
             *(_put(layer, start + turn * foot, turn) for layer in self.cylinder),
             _put(Layer(self.cylinder[0].colour, rods), start, turn),

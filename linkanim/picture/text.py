@@ -127,10 +127,13 @@ class Type:
         *places, end = self._set(text, size, _face(strong))
         width = -(-end.x // _FINE)
         x, y = _left(at[0], width, anchor), round(at[1]) + round(_BASE * size)
-        for char, small, right, down in places:
-            glyph = self.glyph(char, small, colour, strong=strong, part=right % _FINE)
-            above = -(-self._fonts.ascent(_em(small)) // _FINE)
-            surface.blit(glyph, (x + right // _FINE, y + down - above))
+        surface.fblits(
+            (
+                self.glyph(char, small, colour, strong=strong, part=right % _FINE),
+                (x + right // _FINE, y + top),
+            )
+            for char, small, right, top in places
+        )
         return width
 
     def _set(self, text: str, size: int, face: str) -> tuple[_Place, ...]:
@@ -147,13 +150,17 @@ class Type:
         x = 0
         for run in runs(text):
             small = max(round(_SUB * size), min(size, _LEAST)) if run.lowered else size
-            down, before = round(_LOWER * size) if run.lowered else 0, ""
+            top, before = (round(_LOWER * size) if run.lowered else 0) - self._ascent(small), ""
             for char in run.text:
                 x += self._step(before, char, small, face)
-                yield _Place(char, small, x, down)
+                yield _Place(char, small, x, top)
                 before = char
             x += self._step(before, "", small, face)
         yield _Place("", size, x, 0)
+
+    def _ascent(self, size: int) -> int:
+        """Return how high glyphs reach above the baseline, in pixels."""
+        return -(-self._fonts.ascent(_em(size)) // _FINE)
 
     def _step(self, before: str, char: str, size: int, face: str) -> int:
         """Return how far the pen moves from a character to the next of its run, in parts of a pixel."""

@@ -13,7 +13,7 @@ from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import arrows, segments, stroke, unit
+from linkanim.picture.shapes import arrows, segments, strokes, unit
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
@@ -56,12 +56,12 @@ class Turning:
         ink, back = self.colours
         line, rim = 1.7 * self.gauge.line, 0.9 * self.gauge.line
         bend, head = self._bend(sweep, side), self._head(abs(sweep))
-        tip = self.arrow * np.exp(1j * (side * _AHEAD + sweep))
+        tip, foot = bend[-1] / self.arrow, centre + way * bend[-1]
+        widths = (line + 2 * rim, line)
         found = []
-        for colour, wider in ((back, rim), (ink, 0.0)):
-            loops = [centre + way * loop for loop in stroke(bend, line + 2 * wider)]
-            barb = _barb(head + 2 * wider) * np.exp(1j * (side * _AHEAD + sweep)) * 1j * side
-            found.append(Layer(colour, [*loops, centre + way * (tip + barb)]))
+        for colour, wider, outline in zip((back, ink), (rim, 0.0), strokes(bend, widths), strict=True):
+            barb = _barb(head + 2 * wider) * (way * tip * 1j * side)
+            found.append(Layer(colour, [centre + way * outline[0], foot + barb]))
         return found
 
     def angle(self, places: Places) -> list[Layer]:
@@ -72,10 +72,8 @@ class Turning:
         dashes = np.arange(0, 1.45 * self.arc, 3.5 * self.gauge.line)
         ends = centre + dashes, centre + dashes + 2.2 * self.gauge.line
         ink, back = self.colours
-        return [
-            Layer(back, stroke(path, 2.6 * self.gauge.line)),
-            Layer(ink, [*stroke(path, 0.9 * self.gauge.line), *segments(*ends, 0.8 * self.gauge.line)]),
-        ]
+        halo, line = strokes(path, (2.6 * self.gauge.line, 0.9 * self.gauge.line))
+        return [Layer(back, halo), Layer(ink, [*line, *segments(*ends, 0.8 * self.gauge.line)])]
 
     def _bar(self, places: Places) -> tuple[complex, complex]:
         return places[self.pivot], unit(places[self.pin] - places[self.pivot])

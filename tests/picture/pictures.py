@@ -27,12 +27,17 @@ def painted(
 
 
 def filled(
-    layers: list[Layer], size: tuple[int, int] = (64, 64), *, background: int = 0, alpha: bool = False
+    layers: list[Layer],
+    size: tuple[int, int] = (64, 64),
+    *,
+    background: int = 0,
+    alpha: bool = False,
+    ends: tuple[int, int] | None = None,
 ) -> pygame.Surface:
     """Return layers on a plain surface."""
     surface = offscreen(size, alpha=alpha)
     surface.fill((background,) * 3 + (0 if alpha else 255,))
-    paint(surface, layers)
+    paint(surface, layers, ends=ends)
     return surface
 
 

@@ -185,15 +185,27 @@ def test_a_surface_with_gaps_between_its_rows_is_not_painted_directly() -> None:
     assert not paints(pygame.Surface((64, 64), 0, 24))
 
 
-def test_a_layer_leaves_the_rows_from_its_end_on_as_they_are() -> None:
-    cover = coverage(filled([Layer(WHITE, [box(20, 20) + 32 + 32j], 1.0, 30)]))
+def test_rows_from_the_end_on_are_left_as_they_are() -> None:
+    cover = coverage(filled([Layer(WHITE, [box(20, 20) + 32 + 32j])], ends=(64, 30)))
     assert cover[29, 32] == 1
     assert cover[30:].sum() == 0
+
+
+def test_what_lies_over_the_layers_may_reach_beyond_their_ends() -> None:
+    surface = filled([])
+    paint(
+        surface,
+        [Layer(WHITE, [box(20, 20) + 32 + 32j])],
+        ends=(64, 30),
+        over=[Layer(WHITE, [_rect(0, 28, 5, 34)])],
+    )
+    cover = coverage(surface)
+    assert (cover[29, 32], cover[30, 32], cover[33, 3]) == (1, 0, 1)
 
 
 @pytest.mark.parametrize("right", [0, 1, 20, 33, 64])
 def test_columns_from_the_right_end_on_are_left_as_they_are(right: int) -> None:
     loop = 32 + 30j + 25 * np.exp(2j * np.pi * np.arange(90) / 90)
-    whole, cut = (coverage(filled([Layer(WHITE, [loop], 1.0, 1 << 15, end)])) for end in (64, right))
+    whole, cut = (coverage(filled([Layer(WHITE, [loop])], ends=(end, 64))) for end in (64, right))
     assert np.array_equal(cut[:, : max(right - 1, 0)], whole[:, : max(right - 1, 0)])
     assert not cut[:, right:].any()
