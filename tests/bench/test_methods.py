@@ -70,6 +70,14 @@ def test_this_solver_is_exact_on_the_hard_cases(case: object) -> None:
         assert found.error <= 16 * 2**-52
 
 
+def test_in_32_bits_a_swing_is_followed_through_its_limits_too() -> None:
+    for case in HARD:
+        if not case.turns:
+            found = score(solver.float32, answer(case))
+            assert (found.wrong, found.missing) == (0, 0)
+            assert found.error < 1e-5
+
+
 # What the closed forms lose, and so what the table must show: NaN, or the other closure past a change point.
 def test_a_change_point_costs_the_closed_forms_half_the_poses() -> None:
     parallelogram = answer(HARD[0])

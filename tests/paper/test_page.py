@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+from itertools import pairwise
 from xml.etree import ElementTree
 
 import numpy as np
@@ -98,6 +99,60 @@ def test_no_two_extremes_are_told_in_one_place_and_all_stays_on_the_page(
         assert box.collidelist(boxes[n + 1 :]) < 0
         assert pygame.Rect(0, 0, *size).contains(box)
     assert page.surface().get_size() == size
+
+
+def _boxes(page: Page) -> list[pygame.Rect]:
+    """Where the captions of a page stand."""
+    boxes = []
+    for item in page.items():
+        if isinstance(item, Caption):
+            wide = page.pen.type.width(item.text, item.size)
+            left = item.at[0] - {"left": 0.0, "centre": wide / 2, "right": wide}[item.anchor]
+            boxes.append(pygame.Rect(round(left), round(item.at[1]), wide, item.size))
+    return boxes
+
+
+# One plot, one with an axis at either side, three, each as small as has room for all words.
+@pytest.mark.parametrize(
+    ("tokens", "size"),
+    [
+        (("5.travel_velocity",), (320, 180)),
+        (UNITS[0][0], (320, 180)),
+        (("5.travel_velocity", "5.travel"), (480, 270)),
+        (UNITS[2][0], SIZE),
+        (UNITS[2][0], (1280, 720)),
+    ],
+)
+def test_no_words_of_a_chart_stand_on_others(tokens: tuple[str, ...], size: tuple[int, int]) -> None:
+    boxes = _boxes(_page("press", *tokens, speeds=(5.0, 10.0), size=size))
+    for n, box in enumerate(boxes):
+        assert box.collidelist(boxes[n + 1 :]) < 0
+
+
+def _extent(layer: Layer) -> pygame.Rect:
+    points = np.concatenate([np.ravel(loop) for loop in layer.loops])
+    left, top = points.real.min(), points.imag.min()
+    return pygame.Rect(left, top, np.ceil(np.ptp(points.real)), np.ceil(np.ptp(points.imag)))
+
+
+def test_a_legend_s_words_stand_beside_their_line() -> None:
+    items = list(_page("press", "5.travel_velocity", speeds=(5.0, 10.0)).items())
+    for before, item in pairwise(items):
+        if isinstance(item, Caption) and item.text.endswith("rad/s") and isinstance(before, Layer):
+            line = _extent(before)
+            assert line.right < item.at[0] < line.right + line.width
+            assert item.at[1] <= line.centery <= item.at[1] + item.size
+
+
+def test_the_greatest_value_is_told_above_its_dot_and_the_least_below() -> None:
+    items = list(_page("press", "5.travel_velocity", speeds=(10.0,)).items())
+    places = {}
+    for n, item in enumerate(items):
+        if isinstance(item, Caption) and " at " in item.text:
+            dot = items[n - 2]
+            assert isinstance(dot, Layer)
+            places[item.text] = item.at[1] + item.size / 2 - _extent(dot).centery
+    assert places["659 at 34.8°"] < 0 < places["−255 at 164.9°"]
 
 
 @pytest.mark.parametrize("name", names())

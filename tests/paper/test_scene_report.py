@@ -16,7 +16,7 @@ from linkanim.cli import main
 from linkanim.digits import significant, typeset
 from linkanim.mechanics.register import register
 from linkanim.paper.curves import Pace
-from linkanim.paper.findings import charted, instants_at, paces_of, sheet, usual_instants
+from linkanim.paper.findings import Instant, charted, instants_at, paces_of, sheet, usual_instants
 from linkanim.scenes import load, names
 
 PACES = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (5.0, 10.0, 20.0))
@@ -128,6 +128,10 @@ def test_a_slider_s_extremes_are_told_by_themselves() -> None:
     scene = load("press")
     start, high, low = usual_instants(scene)
     assert start.phase == 0.0
+    assert [sheet(scene, instant, PACES).title for instant in (start, Instant(1.5, ""))] == [
+        "θ₂ = 0.00° (start)",
+        "θ₂ = 85.94°",
+    ]
     for instant, degrees in ((high, 71.0), (low, 316.5)):
         assert math.degrees(instant.phase) == pytest.approx(degrees, abs=1.0)
         assert scene.pose(instant.phase).travel_velocity["5"] == pytest.approx(0.0, abs=1e-4)
