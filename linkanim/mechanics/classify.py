@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -157,12 +158,17 @@ class Info:
     @property
     def stroke(self) -> float | None:
         """The first slider's stroke; None without one."""
-        return self._slider[0] if self._slider else None
+        return self._slider.stroke if self._slider else None
 
     @property
     def time_ratio(self) -> float | None:
         """The first slider's slow way's time over its quick way's; None without one."""
-        return self._slider[1] if self._slider else None
+        return self._slider.time_ratio if self._slider else None
+
+    @property
+    def dead_centres(self) -> tuple[float, float] | None:
+        """The phases at which the first slider is furthest back and furthest forward; None where it rests."""
+        return self._slider.dead_centres if self._slider else None
 
     @cached_property
     def demand(self) -> Demand | None:
@@ -196,7 +202,7 @@ class Info:
         return _four_bar(self.mechanism)
 
     @cached_property
-    def _slider(self) -> tuple[float, float] | None:
+    def _slider(self) -> _Slider | None:
         return _stroke(self.mechanism)
 
 
@@ -378,8 +384,16 @@ def _cycle(mechanism: Mechanism, derivatives: int) -> Motion:
     return mechanism.solve(phase=phases, speed=1.0, derivatives=derivatives)
 
 
-def _stroke(mechanism: Mechanism) -> tuple[float, float] | None:
-    """Return the first slider's stroke, and the slow way's time over the quick way's."""
+class _Slider(NamedTuple):
+    """How a slider goes to and fro: the phases of its dead centres are None where it rests."""
+
+    stroke: float
+    time_ratio: float
+    dead_centres: tuple[float, float] | None
+
+
+def _stroke(mechanism: Mechanism) -> _Slider | None:
+    """Return how the first slider goes to and fro; its time ratio is the slow way's over the quick way's."""
     slider = next((body for body in mechanism.linkage.bodies if body.slider is not None), None)
     if slider is None:
         return None
@@ -391,9 +405,10 @@ def _stroke(mechanism: Mechanism) -> tuple[float, float] | None:
     travel = mechanism.solve(phase=reversals, speed=1.0, derivatives=0).travel[name]
     span = float(np.ptp(travel)) if len(travel) else 0.0
     if span == 0:
-        return 0.0, 1.0
-    way = float(reversals[travel.argmin()] - reversals[travel.argmax()]) % whole
-    return span, max(way, whole - way) / min(way, whole - way)
+        return _Slider(0.0, 1.0, None)
+    back, forward = float(reversals[travel.argmin()]), float(reversals[travel.argmax()])
+    way = (back - forward) % whole
+    return _Slider(span, max(way, whole - way) / min(way, whole - way), (back, forward))
 
 
 def _turning(mechanism: Mechanism) -> Iterator[str]:

@@ -23,6 +23,8 @@ from linkanim.picture.shapes import segments, stroke, unit
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect, View
 
+_CLOSE = 3.0
+"""Points of a curve that are nearer to each other, in pixels, are not all needed."""
 _MOST = 4
 """Of so many moving links all centres are marked, of more those to the ground alone."""
 
@@ -100,7 +102,14 @@ class Centres:
     def _stroked(self, path: Loop, colour: Colour) -> Layer:
         width = 1.3 * self.gauge.line
         runs = clipped(path, self.layout.reach)
-        return Layer(colour, [loop for run in runs for loop in stroke(run, width)])
+        return Layer(colour, [loop for run in runs for loop in stroke(_thinned(run), width)])
+
+
+def _thinned(run: Loop) -> Loop:
+    """Return a path without those of its points that lie close together."""
+    steps = np.floor(np.cumsum(np.abs(np.diff(run))) / _CLOSE)
+    kept: Loop = run[np.r_[True, np.diff(steps) > 0, True][: len(run)]]
+    return kept
 
 
 def _label(one: str, other: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import zip_longest
 
@@ -13,6 +13,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.centres import Centres
 from linkanim.picture.chart import pen_for
+from linkanim.picture.dead_centres import DeadCentres
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import Figure
 from linkanim.picture.gears import wheel_layers, wheel_parts
@@ -89,6 +90,14 @@ class Drawing:
         """The dimensions' symbols, where the look asks for them."""
         return symbols(self.scenery.figure) if self.scenery.look.names > 1 else None
 
+    @cached_property
+    def dead_centres(self) -> DeadCentres | None:
+        """The ticks on a slider's guide, where the look names things."""
+        look = self.scenery.look
+        if not look.names:
+            return None
+        return DeadCentres(*self.scenery.known, self.scenery.layout, sized=look.names > 1)
+
     def names(self, type_: Type, before: Drawing | None = None, kept: Names | None = None) -> Names | None:
         """Return the names of joints and links, and their dimensions, where the look asks for them.
 
@@ -100,7 +109,8 @@ class Drawing:
             return None
         if kept and before and self._names_as(before.scenery):
             return kept
-        hand = Hand(type_, set_.layout, set_.theme, set_.gauge)
+        words = (*set_.layout.words, *(self.dead_centres.rects(type_) if self.dead_centres else ()))
+        hand = Hand(type_, replace(set_.layout, words=words), set_.theme, set_.gauge)
         turning = turning_of(set_.figure, set_.fitted, set_.gauge, set_.theme)
         return names_of(set_.figure, set_.fitted, hand, turning, self.symbols)
 
@@ -163,6 +173,8 @@ class Drawing:
         for trace in cast.traces:
             recent = trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
             yield Group(f"recent-{trace.joint}", recent)
+        if self.dead_centres:
+            yield self.dead_centres.group()
         for item, strut in zip(self.scenery.figure.struts, cast.struts, strict=True):
             yield Group(f"strut-{item.name}", strut.layers(places))
         yield from self._pinned(places)

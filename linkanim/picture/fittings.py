@@ -153,6 +153,11 @@ def rails(bench: Bench) -> Iterator[Loop]:
             yield from _rails(*fitting.rails, bench)
 
 
+def rail_reach(gauge: Gauge) -> float:
+    """Return how far a rail lies from the line of travel."""
+    return (_BLOCK[1] / 2) * gauge.bar + gauge.line
+
+
 def _rails(name: str, along: complex, bench: Bench) -> Iterator[Loop]:
     """Yield the lines of two rails, as long as the joint's travel needs."""
     gauge, path = bench.gauge, bench.figure.path(name, bench.view)
@@ -160,9 +165,8 @@ def _rails(name: str, along: complex, bench: Bench) -> Iterator[Loop]:
     across = float(np.nanmean(np.imag(path * np.conj(along))))
     beyond = (_BLOCK[0] / 2 + 0.9) * gauge.bar
     near, far = float(np.nanmin(way)) - beyond, float(np.nanmax(way)) + beyond
-    rail = (_BLOCK[1] / 2) * gauge.bar + gauge.line
     for side in (1, -1):
-        level = 1j * (across + side * rail)
+        level = 1j * (across + side * rail_reach(gauge))
         yield from hatched(along * (near + level), along * (far + level), gauge, side)
 
 
