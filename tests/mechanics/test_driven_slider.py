@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import random
 from functools import partial
 from typing import Any
 
@@ -125,22 +124,6 @@ def test_what_follows_it_is_as_exact() -> None:
     position, rate = worst(piston((95.0, 150.0), *further))
     assert position <= 1e-14
     assert rate <= 1e-12
-
-
-@pytest.mark.long
-def test_random_ones_are_right_to_many_digits() -> None:
-    rng, tried = random.Random(11), 0
-    while tried < 1000:
-        crank, rod, offset = rng.uniform(10, 60), rng.uniform(70, 150), rng.uniform(-8, 8)
-        far, near = (math.sqrt((rod + way * crank) ** 2 - offset**2) for way in (1, -1))
-        share = sorted(rng.uniform(0.01, 0.99) for _ in range(2))
-        ends = tuple(near + (far - near) * part for part in rng.choice([share, share[::-1]]))
-        if abs(ends[1] - ends[0]) < 0.01 * crank:
-            continue
-        tried += 1
-        position, rate = worst(piston((ends[0], ends[1]), bars=(rod, crank), offset=offset))
-        assert position <= 16 * EPS
-        assert rate <= 1e-10
 
 
 def test_the_travel_runs_as_it_is_asked_also_of_extreme_lengths() -> None:
