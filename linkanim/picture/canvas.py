@@ -19,7 +19,7 @@ class Canvas:
 
     With `both` the view fits both closures, so that it stays when one changes into the other; it does so,
     too, where the look zooms or pans, which is meant as the window shows it. `listed` leaves room for the
-    edit list.
+    edit list. `brief` is for a frame or two.
     """
 
     def __init__(
@@ -31,13 +31,16 @@ class Canvas:
         *,
         both: bool = False,
         listed: bool = False,
+        brief: bool = False,
     ) -> None:
         self._scene, self._look = scene, look
         self._made_for = (size, look, listed)
         whole = both or look.ghost or look.framed
         self._goal, self._other = _closures(scene, before) if whole else (scene, None)
         last: Painter | None = before.painter if before else None
-        self.painter: Painter = Painter(scene, size, look, beside=self._other, before=last, listed=listed)
+        self.painter: Painter = Painter(
+            scene, size, look, beside=self._other, before=last, listed=listed, brief=brief
+        )
 
     def fits(self, scene: Scene, size: tuple[int, int], look: Look, *, listed: bool = False) -> bool:
         """Return whether it is made for these."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 
 import pygame
@@ -38,7 +38,8 @@ class Painter:
     or look changes. `beside` is a scene that must fit into the view too, such as the other closure.
     `before` is a painter that this one takes over from: what it drew of text and panels is kept where
     the size is the same, and nothing else changes. What was measured of the scene stays as long as it does.
-    `listed` leaves room for the edit list, instead of the HUD.
+    `listed` leaves room for the edit list, instead of the HUD. A `brief` painter paints a pose or two, as
+    one for a scene on its way to another does: it prepares nothing for more.
     Raises BadInput where the look's chart is no quantity of the scene.
     """
 
@@ -51,8 +52,10 @@ class Painter:
         beside: Scene | None = None,
         before: Painter | None = None,
         listed: bool = False,
+        brief: bool = False,
     ) -> None:
         self.scene, self.size, self.look = scene, size, look
+        self._brief = brief or scene.towards is not None
         self._theme: Theme = theme_of(look.theme)
         self._type: Type = before._type if before and before.size == size else Type()
         wanted, kept = wanted_of(size, look, listed=listed), before._staging if before else None
@@ -88,8 +91,7 @@ class Painter:
         canvas = self._canvas(surface)
         self._wipe(canvas, self._still_at(pose.input_speed))
         if self.drawing.moves_behind:
-            paint(canvas, self._behind(pose, ghost if self.look.ghost else None), ends=self._ends)
-            mix(pixels_of(canvas), self._stencil, clear=bool(canvas.get_flags() & pygame.SRCALPHA))
+            self._paint_behind(canvas, self._behind(pose, ghost if self.look.ghost else None))
         moving = list(self.drawing.moving(pose))
         beside = [polygon.group(pose) for polygon in self._polygons]
         cursor = self._strip.cursor(pose) if self._strip else ()
@@ -108,6 +110,14 @@ class Painter:
         self._panels.draw(canvas, overlay)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
+
+    def _paint_behind(self, canvas: pygame.Surface, behind: Iterable[Layer]) -> None:
+        """Paint what moves behind what stands still, and that; a stencil pays from the second pose on."""
+        if self._brief:
+            paint(canvas, (*behind, *flat(self.drawing.standing())), ends=self._ends)
+            return
+        paint(canvas, behind, ends=self._ends)
+        mix(pixels_of(canvas), self._stencil, clear=bool(canvas.get_flags() & pygame.SRCALPHA))
 
     def _handled(self, canvas: pygame.Surface, pose: Pose, overlay: Overlay) -> None:
         """Draw what is there for the hand: the chosen bar, the joint and the cursor to be dragged."""

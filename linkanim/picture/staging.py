@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 from linkanim.picture.arrange import Arrangement, arranged
@@ -47,7 +48,12 @@ class Subject:
     figure: Figure
     beside: Scene | None
     sweep: Sweep
-    said: tuple[Said, ...]
+    type: Type
+
+    @cached_property
+    def said(self) -> tuple[Said, ...]:
+        """The rows that are ever said of them, at their widest; beside an open list none is."""
+        return said_of(self.scenes, self.type)
 
     @property
     def scenes(self) -> tuple[Scene, ...]:
@@ -105,7 +111,7 @@ def staged(
 def _subject(scene: Scene, beside: Scene | None, type_: Type) -> Subject:
     shown = figure(scene)
     sweep = sweep_of(shown) | sweep_of(figure(beside)) if beside else sweep_of(shown)
-    return Subject(shown, beside, sweep, said_of((scene, beside) if beside else (scene,), type_))
+    return Subject(shown, beside, sweep, type_)
 
 
 def _arranged(subject: Subject, wanted: Staged, type_: Type) -> Arrangement:

@@ -92,7 +92,8 @@ class Easel:
         goal = canvas.painter
         fitted = goal.drawing.scenery.fitted
         look = self._approach.look(state.look, fitted, goal.view, size, state.frame)
-        self._passing = Canvas(state.shown, size, look, canvas, both=True, listed=_is_listed(state))
+        listed = _is_listed(state)
+        self._passing = Canvas(state.shown, size, look, canvas, both=True, listed=listed, brief=True)
         return self._passing
 
     @property

@@ -384,3 +384,19 @@ def _distance(point: complex, one: complex, other: complex) -> float:
     """Return how far a point lies from a line between two others."""
     along = ((point - one) / (other - one)).real
     return abs(point - one - min(max(along, 0.0), 1.0) * (other - one))
+
+
+def test_a_painter_for_a_pose_or_two_prepares_nothing_for_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene, size = load("press"), (640, 360)
+    whole, surface = painted(scene, 1.0, BARE, size), offscreen(size)
+    unwanted = "a stencil for one pose"
+    monkeypatch.setattr("linkanim.picture.painter.stencil", lambda *_, **__: pytest.fail(unwanted))
+    Painter(scene, size, BARE, brief=True).paint(surface, scene.pose(1.0))
+    assert np.abs(pixels(surface) - pixels(whole)).max() <= 3
+    Painter(replace(scene, towards=scene), size, BARE).paint(surface, scene.pose(1.0))
+    assert np.abs(pixels(surface) - pixels(whole)).max() <= 3
+
+
+def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("linkanim.picture.staging.said_of", lambda *_: pytest.fail("no HUD is shown"))
+    Painter(load("press"), (640, 360), Look(), listed=True)
