@@ -95,7 +95,7 @@ class _Pieces(NamedTuple):
 def on_grid(points: Loop) -> Loop:
     """Return points in steps of the grid; what is not a number lies far outside."""
     steps = np.rint(points.view(np.float64) * _STEPS)
-    near: Loop = np.clip(np.nan_to_num(steps, copy=False, nan=-_FAR), -_FAR, _FAR).view(np.complex128)
+    near: Loop = np.fmin(np.fmax(steps, -_FAR), _FAR).view(np.complex128)
     return near
 
 

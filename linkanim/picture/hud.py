@@ -32,22 +32,22 @@ class Hud:
     theme: Theme
 
     @cached_property
-    def sheet(self) -> pygame.Surface:
-        """What stands still, on nothing: title, class and the names of the rows."""
-        sheet = pygame.Surface(
-            (round(self.place.right) + 1, round(self.place.bottom) + 1), pygame.SRCALPHA, 32
-        )
-        for line in self.block.lines:
-            at, colour = (
-                (self.place.x, self.place.y + line.y),
-                self.theme.ink if line.strong else self.theme.dim,
-            )
-            self.type.draw(sheet, line.text, at, size=line.size, colour=colour, strong=line.strong)
+    def sheets(self) -> tuple[tuple[pygame.Surface, tuple[int, int]], ...]:
+        """What stands still and where: title, class and the names of the rows, each line on its own."""
+        theme, left, top = self.theme, self.place.x, self.place.y
         labels = [row.label for row in rows(self.scene, self.scene.pose(0.0)) if row.label in self.block.rows]
-        for n, label in enumerate(labels):
-            at = (self.place.x, self._top(n))
-            self.type.draw(sheet, label, at, size=self.block.size, colour=self.theme.dim)
-        return sheet.subsurface(sheet.get_bounding_rect())
+        lines = [
+            (line.text, top + line.y, line.size, theme.ink if line.strong else theme.dim, line.strong)
+            for line in self.block.lines
+        ]
+        lines += [(label, self._top(n), self.block.size, theme.dim, False) for n, label in enumerate(labels)]
+        found = []
+        for text, y, size, colour, strong in lines:
+            whole = pygame.Surface((round(self.place.right) + 1, round(y) + 2 * size), pygame.SRCALPHA, 32)
+            self.type.draw(whole, text, (left, y), size=size, colour=colour, strong=strong)
+            part = whole.get_bounding_rect()
+            found.append((whole.subsurface(part).copy(), part.topleft))
+        return tuple(found)
 
     @cached_property
     def backing(self) -> pygame.Surface:
@@ -67,7 +67,7 @@ class Hud:
         if backed:
             inset = 0.5 * self.block.size
             surface.blit(self.backing, (round(self.place.x - inset), round(self.place.y - inset)))
-        surface.blit(self.sheet, self.sheet.get_offset())
+        surface.fblits(self.sheets)
         size, right = self.block.size, self.place.x + self.block.column
         shown = [row for row in rows(self.scene, pose) if row.label in self.block.rows]
         for n, row in enumerate(shown):

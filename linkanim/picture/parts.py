@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
-from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.raster import Colour, Layer, Outlines, outlines_of
 from linkanim.picture.shapes import rounded, unit
 
 _GLAZED = 0.6
@@ -39,9 +40,13 @@ class Part:
         origin = places[self.at]
         turn = unit(places[self.head] - places[self.tail])
         return [
-            Layer(layer.colour, [origin + turn * loop for loop in layer.loops], layer.alpha)
-            for layer in self.layers
+            Layer(layer.colour, outlines.placed(origin, turn), layer.alpha)
+            for layer, outlines in zip(self.layers, self._outlines, strict=True)
         ]
+
+    @cached_property
+    def _outlines(self) -> tuple[Outlines, ...]:
+        return tuple(outlines_of(layer.loops) for layer in self.layers)
 
 
 @dataclass(frozen=True)
@@ -53,9 +58,13 @@ class Stamp:
     def at(self, centres: Sequence[complex]) -> list[Layer]:
         """Return the layers at all places at once."""
         return [
-            Layer(layer.colour, [centre + loop for centre in centres for loop in layer.loops], layer.alpha)
-            for layer in self.layers
+            Layer(layer.colour, outlines.repeated(centres), layer.alpha)
+            for layer, outlines in zip(self.layers, self._outlines, strict=True)
         ]
+
+    @cached_property
+    def _outlines(self) -> tuple[Outlines, ...]:
+        return tuple(outlines_of(layer.loops) for layer in self.layers)
 
 
 def placed(parts: Iterable[Part], places: Places) -> list[Layer]:

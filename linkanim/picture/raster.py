@@ -7,7 +7,7 @@ Those that lie apart are mixed in together, too: each on the lowest level above 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, overload
 
 import numpy as np
 import pygame
@@ -18,6 +18,40 @@ from linkanim.picture.cells import Edges, Floats, Ints, Room, Runs, covered, on_
 from linkanim.picture.cells import Loop as Loop
 
 Colour = tuple[int, int, int]
+
+
+class Outlines(Sequence[Loop]):
+    """Closed loops, one after the other in one array: they are placed together."""
+
+    def __init__(self, points: Loop, counts: tuple[int, ...]) -> None:
+        self.points, self.counts = points, counts
+
+    def placed(self, at: complex, turn: complex) -> Outlines:
+        """Return the loops turned by a direction of length 1 about the origin, which then lies at `at`."""
+        return Outlines(at + turn * self.points, self.counts)
+
+    def repeated(self, places: Sequence[complex] | Loop) -> Outlines:
+        """Return the loops about each of the places."""
+        points = (np.asarray(places, np.complex128)[:, None] + self.points).ravel()
+        return Outlines(points, self.counts * len(places))
+
+    def __len__(self) -> int:
+        return len(self.counts)
+
+    @overload
+    def __getitem__(self, index: int) -> Loop: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Loop]: ...
+    def __getitem__(self, index: int | slice) -> Loop | list[Loop]:
+        return np.split(self.points, np.cumsum(self.counts)[:-1])[index]
+
+
+def outlines_of(loops: Sequence[Loop]) -> Outlines:
+    """Return loops in one array."""
+    if isinstance(loops, Outlines):
+        return loops
+    points = np.concatenate(loops) if loops else np.zeros(0, np.complex128)
+    return Outlines(points, tuple(map(len, loops)))
 
 
 class Layer(NamedTuple):
@@ -116,9 +150,10 @@ def paints(surface: pygame.Surface) -> bool:
 
 def _outlined(layers: Sequence[Layer], limits: Ints) -> tuple[Edges, _Boxes]:
     """Return the layers' edges, and which pixels each may cover before its limits (2, n)."""
-    begin = on_grid(np.concatenate([loop for layer in layers for loop in layer.loops]))
-    counts = np.array([len(loop) for layer in layers for loop in layer.loops])
-    loops = np.array([len(layer.loops) for layer in layers])
+    outlines = [outlines_of(layer.loops) for layer in layers]
+    begin = on_grid(np.concatenate([outline.points for outline in outlines]))
+    counts = np.array([count for outline in outlines for count in outline.counts])
+    loops = np.array([len(outline) for outline in outlines])
     last = np.cumsum(counts) - 1
     end = np.empty_like(begin)
     end[:-1] = begin[1:]
@@ -132,8 +167,8 @@ def _boxes(points: Loop, starts: Ints, limits: Ints) -> _Boxes:
     """Return the pixels about the points of each layer, within its limits."""
     sides = []
     for part, end in zip((points.real, points.imag), limits, strict=True):
-        low = np.clip(pixel_of(np.minimum.reduceat(part, starts)), 0, end)
-        high = np.clip(-pixel_of(-np.maximum.reduceat(part, starts)), low, end)
+        low = np.minimum(np.maximum(pixel_of(np.minimum.reduceat(part, starts)), 0), end)
+        high = np.minimum(np.maximum(-pixel_of(-np.maximum.reduceat(part, starts)), low), end)
         sides.append((low, high))
     (left, right), (top, bottom) = sides
     return _Boxes(left, top, right, bottom)

@@ -13,7 +13,7 @@ from linkanim.mechanics.linkage import Damper, Spring
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
-from linkanim.picture.raster import Layer, Loop
+from linkanim.picture.raster import Layer, Loop, Outlines, outlines_of
 from linkanim.picture.shapes import box, rod, stroke, strokes, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
@@ -69,7 +69,7 @@ class Coil:
         leads = [start + turn * first, end - turn * first.conj()[::-1]]
         shade = mixed(self.theme.outline, self.theme.metal, 0.35)
         return [
-            Layer(shade, leads + _repeated(feet, back)),
+            Layer(shade, [*leads, *_repeated(feet, back)]),
             Layer(self.theme.outline, _repeated(feet, edge)),
             Layer(self.theme.metal, _repeated(feet, core)),
         ]
@@ -85,8 +85,8 @@ class Coil:
         return tuple(found)
 
 
-def _repeated(feet: Loop, outline: Loop) -> list[Loop]:
-    return list(feet[:, None] + outline)
+def _repeated(feet: Loop, outline: Loop) -> Outlines:
+    return outlines_of([outline]).repeated(feet)
 
 
 @dataclass(frozen=True)
