@@ -147,7 +147,9 @@ class Mechanism:
         else:
             shape, told = given.shape, (float(w), float(a))
             variant, rates = Variant(phase is not None, told[1] != 0.0), told
-        request = Request(self.programs(variant), _kept(given, shape), rates, shape, derivatives)
+        x = _kept(given, shape)
+        reached = self.assembly.path.reach(x) if phase is None else None
+        request = Request(self.programs(variant), x, reached, rates, shape, derivatives)
         return Motion(self.setting, *told, request)
 
     def programs(self, variant: Variant) -> Programs:

@@ -34,6 +34,7 @@ class WaysLeft:
         return (self.u, self.v), (self.v, self.u)
 
 
+@np.errstate(all="ignore")
 def reach(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> WaysLeft:
     """Return how far angles are from a swing's low end, middle and high end, whole turns aside.
 

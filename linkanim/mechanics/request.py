@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -57,12 +56,15 @@ class Programs:
         return found
 
 
-@dataclass(frozen=True)
-class Request:
-    """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most."""
+class Request(NamedTuple):
+    """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most.
+
+    `reached` tells of angles of an input that swings how far they are from its limits.
+    """
 
     programs: Programs
     x: Array
+    reached: WaysLeft | None
     rates: tuple[Any, Any]
     shape: tuple[int, ...]
     derivatives: int
@@ -73,8 +75,10 @@ class Request:
             return self._input()
         if DERIVATIVE_OF[name] > self.derivatives:
             return {name: {}}
-        kinds = WITH_LOWER[name]
-        return self.worked_out(tuple(kind for kind in kinds if kind not in known))
+        *lower, _ = kinds = WITH_LOWER[name]
+        if lower:
+            kinds = (*(kind for kind in lower if kind not in known), name)
+        return self.worked_out(kinds)
 
     def every(self) -> dict[str, Any]:
         """Return all quantities from one pass."""
@@ -93,8 +97,8 @@ class Request:
     def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Floats]:
         program, places = self.programs.of(kinds)
         rates = self.rates if self.programs.variant.accelerates else self.rates[:1]
+        ways = self.reached
         with np.errstate(all="ignore"):
-            ways = self._ways
             if ways is None:
                 return places, program(self.x, *rates)
             results = program(*self.programs.path.solved_from(ways), *rates)
@@ -104,17 +108,13 @@ class Request:
                 _mark_limits(places, results, snapped, ways.at_limit)
         return places, results
 
-    @cached_property
-    def _ways(self) -> WaysLeft | None:
-        return None if self.programs.variant.by_phase else self.programs.path.reach(self.x)
-
     def _input(self) -> dict[str, Any]:
         """Return phase, crank angle and its two rates."""
         x, path, names = self.x.reshape(self.shape), self.programs.path, ("phase", *CRANK)
         rates = [shaped(rate, self.shape) for rate in self.rates]
         if not self.programs.variant.by_phase:
             with np.errstate(all="ignore"):
-                return dict(zip(names, (path.phases(x, self._ways), x, *rates), strict=True))
+                return dict(zip(names, (path.phases(x, self.reached), x, *rates), strict=True))
         if path.full_turn:
             return dict(zip(names, (x, path.angles(x), *rates), strict=True))
         places, results = self._run(CRANK)
