@@ -221,7 +221,7 @@ def test_it_has_no_angle() -> None:
     with pytest.raises(BadInput, match="has no angle; take the phase"):
         load("driven-piston").solve(angle=1.0)
     with pytest.raises(BadInput, match="no angle"):
-        _ = load("driven-piston").mechanism.solve(angle=1.0, speed=1.0).position["A"]
+        load("driven-piston").mechanism.solve(angle=1.0, speed=1.0)
 
 
 @pytest.mark.parametrize(
