@@ -11,6 +11,7 @@ from typing import NamedTuple
 import pygame
 
 from linkanim.errors import NoDisplay
+from linkanim.player.connection import Connection
 
 _INVISIBLE = ("dummy", "offscreen")
 _NO_SCREEN = "there is no display to open a window on; `linkanim record SCENE` works without one"
@@ -18,25 +19,27 @@ _USUAL = (1280, 720)
 
 
 @contextmanager
-def opened(size: tuple[int, int] | None = None) -> Iterator[None]:
+def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
     """Open the window, of `size` or as large as suits the screen, and close it on the way out.
 
-    NoDisplay where there is no screen; SDL_VIDEODRIVER=dummy asks for none, and gets none.
+    Gives the connection to the display server. NoDisplay where there is no screen; SDL_VIDEODRIVER=dummy
+    asks for none, and gets none.
     """
-    asked = os.environ.get("SDL_VIDEODRIVER")
+    asked, connection = os.environ.get("SDL_VIDEODRIVER"), Connection()
     _prepare()
     try:
         pygame.display.init()
         if asked is None and pygame.display.get_driver() in _INVISIBLE:
             raise NoDisplay(_NO_SCREEN)
         pygame.display.set_mode(size or _suiting(), pygame.RESIZABLE)
-        yield
+        connection.check()
+        yield connection
     except pygame.error as error:
         if pygame.display.get_init() and pygame.display.get_surface():
             raise
         raise NoDisplay(f"{_NO_SCREEN} ({error})") from None
     finally:
-        pygame.quit()
+        connection.close()
         if asked is None:
             os.environ.pop("SDL_VIDEODRIVER", None)
 

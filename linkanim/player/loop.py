@@ -33,16 +33,18 @@ def run(
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
     Without a scene it opens on the catalogue's first. With `attract` it walks through the catalogue
-    when left alone for a minute. NoDisplay where there is no screen; BadInput as loading raises it.
+    when left alone for a minute. NoDisplay where there is no screen, or none any more; BadInput as loading
+    raises it. Whatever ends the window, a recording that runs is finished.
     """
     tape = _tape(scene)
     state = tape.start if tape else begin(scene, look=look)
-    with display.opened(size):
+    with display.opened(size) as connection:
         window = Window(replace(state, attract=attract), tape)
         try:
             for count in frames(time.monotonic, time.sleep):
                 if not window.tick(count):
                     return 0
+                connection.check()
         finally:
             window.close()
     return 0

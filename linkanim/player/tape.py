@@ -71,19 +71,19 @@ def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:
 
 
 class Taping:
-    """A tape that is being made: the state it starts from, and the actions since."""
+    """A tape that is being made: the state it starts from, and the actions from frame `since` on."""
 
     def __init__(self, state: State, size: tuple[int, int]) -> None:
-        self._start, self._from, self._size = starting(state), state.frame, size
+        self._start, self.since, self._size = starting(state), state.frame, size
         self._actions: list[tuple[int, Action]] = []
 
     def note(self, frame: int, actions: tuple[Action, ...]) -> None:
         """Keep the actions that came at a frame of the window."""
-        self._actions.extend((frame - self._from, action) for action in taped(actions))
+        self._actions.extend((frame - self.since, action) for action in taped(actions))
 
     def tape(self, frame: int) -> Tape:
         """Return the tape up to a frame of the window."""
-        return Tape(self._start, frame - self._from, tuple(self._actions), self._size)
+        return Tape(self._start, frame - self.since, tuple(self._actions), self._size)
 
 
 class Reel:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import pygame
 from pygame.event import Event
@@ -21,7 +21,7 @@ from linkanim.player.keyboard import Keyboard
 from linkanim.player.keys import bind_of
 from linkanim.player.mouse import Mouse, latest
 from linkanim.player.show import kept, overlay
-from linkanim.player.state import State
+from linkanim.player.state import State, Take
 from linkanim.player.tape import Reel, Tape, Taping
 from linkanim.scenes.write import save
 
@@ -66,9 +66,13 @@ class Window:
         return self._open
 
     def close(self) -> None:
-        """Let go of what the window holds; recordings under way go on."""
-        for rendering in self._renderings:
-            rendering.close()
+        """Finish the recording that runs, and let go of what the window holds; those under way go on."""
+        try:
+            if self.state.recording:
+                self._render(self.state.recording.format)
+        finally:
+            while self._renderings:
+                self._renderings.pop().close()
 
     def _advance(self, events: list[Event]) -> None:
         """Go one frame on; each key is asked what it means once those before it are done."""
@@ -158,7 +162,7 @@ class Window:
             case "record":
                 self._taping = Taping(self.state, pygame.display.get_window_size())
             case "render":
-                self._render(str(effect.value))
+                self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
                 picture = self.easel.picture(self.state, kept(self.state))
                 self._told.append(str(files.screenshot(picture, self.state.scene.name)))
@@ -170,8 +174,6 @@ class Window:
                 self._windowed = display.fill(self._windowed)
             case "quit":
                 self._open = False
-                if self.state.recording:
-                    self._render(self.state.recording.format)
 
     def _report(self, text: str) -> None:
         """Write the report of a fault, each but once: a held key meets the same one again and again."""
@@ -180,12 +182,21 @@ class Window:
             written = files.report(text, self.state.scene.name)
             self._told.append(f"{written} holds what a report of the fault needs")
 
+    def _stop(self, form: Literal["gif", "mp4"]) -> None:
+        """Keep what was recorded and render it; where it cannot be kept, the recording runs on."""
+        try:
+            self._render(form)
+        except LinkanimError as error:
+            assert self._taping
+            self.state = replace(self.state, recording=Take(form, self._taping.since))
+            self._told.append(f"{error}; the recording runs on")
+
     def _render(self, form: str) -> None:
-        taping, self._taping = self._taping, None
-        if taping:
+        if self._taping:
             from linkanim.player.rendering import render
 
-            self._renderings.append(render(taping.tape(self.state.frame), form))
+            self._renderings.append(render(self._taping.tape(self.state.frame), form))
+            self._taping = None
 
     def _meant(self, event: Event) -> tuple[Action, ...]:
         """Return what an event asks for in the state as it is."""

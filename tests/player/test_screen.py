@@ -344,3 +344,38 @@ def test_a_recording_is_finished_after_the_window_is_closed(
     while not (tmp_path / f"recordings/press-1.{suffix}").exists():
         assert time.monotonic() < end, "the recording is finished"
         time.sleep(0.1)
+
+
+@pytest.fixture
+def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[subprocess.Popen[bytes]]:
+    """An X server of its own, which a test may end."""
+    told, number = os.pipe()
+    words = ["Xvfb", "-displayfd", str(number), "-screen", "0", "800x600x24", "-noreset"]
+    with subprocess.Popen(words, pass_fds=[number], stderr=subprocess.DEVNULL) as process:
+        os.close(number)
+        with os.fdopen(told) as answer:
+            monkeypatch.setenv("DISPLAY", f":{answer.readline().strip()}")
+        yield process
+        process.kill()
+
+
+@pytest.mark.withstands("faults survived")
+@pytest.mark.parametrize("full", [False, True], ids=["window", "full screen"])
+def test_a_display_server_that_goes_is_a_line_and_the_recording_is_kept(
+    server: subprocess.Popen[bytes], tmp_path: Path, full: bool
+) -> None:
+    screen = Screen(tmp_path, "kite", "--size", "320x180")
+    screen.press("space")
+    if full:
+        screen.changed_by("F11", screen.still())
+    before = screen.still()
+    screen.press("g")
+    screen.until(lambda: screen.picture().tobytes() != before.tobytes(), "the recording is shown")
+    server.kill()
+    line = "linkanim: the display server is gone; what was being recorded is kept in recordings/\n"
+    assert screen.ends() == (1, line)
+    assert (tmp_path / "recordings" / "kite-1.tape.json").exists()
+    end = time.monotonic() + 3 * PATIENCE
+    while not (tmp_path / "recordings" / "kite-1.gif").exists():  # needs no display
+        assert time.monotonic() < end
+        time.sleep(0.1)

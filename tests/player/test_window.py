@@ -409,6 +409,7 @@ def test_closing_the_window_finishes_a_recording(
     player.press(*plain("m"))
     player.tick(10)
     assert not player.press(*plain("q"))
+    player.window.close()
     assert started[0][-2].endswith("crank-rocker-1.mp4")
     assert json.loads((here / "recordings" / "crank-rocker-1.tape.json").read_text())["frames"] == 11
 

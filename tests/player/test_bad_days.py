@@ -1,0 +1,148 @@
+"""What happens around an open window: files that change, disks that are full, sizes that nobody has."""
+
+from __future__ import annotations
+
+import errno
+import os
+import random
+import shutil
+from pathlib import Path
+
+import pygame
+import pytest
+from playing import SIZE, Player, fake_start
+
+from linkanim.player import display, rendering
+from linkanim.player.state import begin
+from linkanim.player.tape_file import read
+from linkanim.scenes import load
+
+fault = pytest.mark.withstands("faults survived")
+
+
+@pytest.fixture
+def started(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
+    """The commands of the processes that would have been started."""
+    commands: list[list[str]] = []
+    monkeypatch.setattr(rendering, "_start", fake_start(commands))
+    return commands
+
+
+def said(player: Player) -> str:
+    """Return what the window says."""
+    player.tick()
+    return player.state.toast.text if player.state.toast else ""
+
+
+@fault
+def test_a_recordings_folder_that_is_removed_meanwhile_is_made_anew(
+    player: Player, here: Path, started: list[list[str]]
+) -> None:
+    player.type("s")
+    player.type("g")
+    player.tick(10)
+    shutil.rmtree(here / "recordings")
+    player.type("g")
+    assert read(here / "recordings" / "crank-rocker-1.tape.json").frames == 11
+    assert len(started) == 1
+
+
+@fault
+def test_a_recording_that_cannot_be_kept_runs_on_until_it_can(
+    player: Player, here: Path, started: list[list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(number: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    player.type("g")
+    player.tick(10)
+    with monkeypatch.context() as disk:
+        disk.setattr(os, "fsync", full)
+        player.type("g")
+    words = "recordings/crank-rocker-1.tape.json: cannot be written: no space left on device"
+    assert said(player) == f"{words}; the recording runs on"
+    assert list((here / "recordings").iterdir()) == []
+    player.type("t")
+    player.type("g")
+    tape = read(here / "recordings" / "crank-rocker-1.tape.json")
+    assert (tape.frames, [action.name for _, action in tape.actions]) == (14, ["trace"])
+    assert (player.state.recording, len(started)) == (None, 1)
+
+
+@fault
+@pytest.mark.parametrize("key", ["g", "m"])
+def test_whatever_ends_a_window_its_recording_is_kept(
+    player: Player, here: Path, started: list[list[str]], key: str
+) -> None:
+    player.type(key)
+    player.tick(5)
+    player.window.close()
+    assert read(here / "recordings" / "crank-rocker-1.tape.json").frames == 5
+    assert started[0][-2].endswith({"g": ".gif", "m": ".mp4"}[key])
+
+
+def resized(count: int, largest: tuple[int, int]) -> None:
+    """Give a window so many sizes, one after the other, each painted; it must be as it was in the end."""
+    chance = random.Random(7)
+    player = Player(begin(load("crank-rocker")))
+    player.press(pygame.K_SPACE)
+    before = player.settle()
+    for _ in range(count):
+        size = chance.randint(1, largest[0]), chance.randint(1, largest[1])
+        pygame.display.set_mode(size, pygame.RESIZABLE)
+        assert player.tick()
+        assert display.surface().get_size() == size
+    pygame.display.set_mode(SIZE, pygame.RESIZABLE)
+    player.tick()
+    assert player.pixels == before
+    player.window.close()
+
+
+@fault
+def test_a_window_may_have_any_size(here: Path) -> None:
+    with display.opened(SIZE):
+        resized(25, (400, 400))
+
+
+@pytest.mark.long
+@pytest.mark.withstands("frames run", 1_000)
+def test_a_window_may_have_a_thousand_sizes(here: Path) -> None:
+    with display.opened(SIZE):
+        resized(1_000, (1_600, 1_200))
+
+
+@fault
+@pytest.mark.parametrize("size", [(1, 1), (2000, 1), (33, 400)])
+def test_a_window_too_small_to_show_anything_takes_keys_and_mouse(here: Path, size: tuple[int, int]) -> None:
+    with display.opened(SIZE):
+        player = Player(begin(load("press")))
+        pygame.display.set_mode(size, pygame.RESIZABLE)
+        for letter in "ekonhc":
+            player.type(letter)
+            player.drag((0, 0), size)
+            player.type(letter)
+        assert player.tick(30)
+
+
+@fault
+def test_a_window_as_large_as_an_8k_screen_is_painted(here: Path) -> None:
+    with display.opened((7680, 4320)):
+        player = Player(begin(load("crank-rocker")))
+        corners = [display.surface().get_at(at) for at in ((0, 0), (7679, 4319))]
+        assert corners[0] == corners[1]
+        assert len(set(pygame.transform.scale(display.surface(), (480, 270)).get_view("2").raw)) > 5
+        player.window.close()
+
+
+@fault
+def test_a_window_that_is_out_of_sight_runs_on(player: Player) -> None:
+    player.press(pygame.K_SPACE)
+    pygame.event.post(pygame.event.Event(pygame.WINDOWMINIMIZED))
+    pygame.event.post(pygame.event.Event(pygame.WINDOWHIDDEN))
+    player.tick(30)
+    pygame.event.post(pygame.event.Event(pygame.WINDOWRESTORED))
+    pygame.event.post(pygame.event.Event(pygame.WINDOWDISPLAYCHANGED, display_index=1))
+    before = player.pixels
+    player.tick(20)
+    assert player.state.phase == player.state.clock.at(player.state.frame)
+    assert player.pixels != before
