@@ -1,4 +1,4 @@
-"""What a recording costs: the press measured, as a table."""
+"""What a recording costs: the press measured beside matplotlib's animation of it, as a table."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from linkanim.bench.cost import FRAMES, Cost, cost
+from linkanim.bench.animation import animation_seconds
+from linkanim.bench.cost import FPS, FRAMES, SIZE, Cost, cost
 from linkanim.bench.machine import Machine, this_machine
 from linkanim.bench.report import columns
 from linkanim.recorder.plan import Format
@@ -19,20 +20,43 @@ FORMATS: tuple[Format, ...] = ("gif", "mp4")
 
 @dataclass(frozen=True)
 class Recordings:
-    """What a run found, a cost for each format."""
+    """What a run found: a cost for each format, and the seconds of matplotlib's GIF where it is installed."""
 
     machine: Machine
     costs: tuple[Cost, ...]
+    animated: float | None = None
+
+    @property
+    def times_faster(self) -> float | None:
+        """How many times as long matplotlib takes for its GIF."""
+        return self.animated / self.costs[0].seconds if self.animated else None
 
 
-def run(measure: Callable[..., Cost] = cost, *, frames: int = FRAMES) -> Recordings:
-    """Record the press as GIF and as MP4 and measure both."""
-    return Recordings(this_machine(), tuple(measure(SCENE, form, frames=frames) for form in FORMATS))
+def run(
+    measure: Callable[..., Cost] = cost,
+    *,
+    frames: int = FRAMES,
+    animate: Callable[..., float | None] = animation_seconds,
+) -> Recordings:
+    """Record the press as GIF and as MP4 and measure both, then have matplotlib record it, too."""
+    costs = tuple(measure(SCENE, form, frames=frames) for form in FORMATS)
+    return Recordings(this_machine(), costs, animate(SCENE, size=SIZE, frames=frames, fps=FPS))
 
 
 def as_text(found: Recordings) -> str:
     """Return the figures in aligned columns."""
-    return f"{found.machine.line}\n\n{columns([TITLES, *map(_line, found.costs)])}"
+    return f"{found.machine.line}\n\n{columns([TITLES, *map(_line, found.costs)])}\n\n{_beside(found)}"
+
+
+def _beside(found: Recordings) -> str:
+    if found.animated is None or found.times_faster is None:
+        return (
+            'matplotlib is not installed; with it (pip install "linkanim[bench]") its animation is timed, too'
+        )
+    return (
+        f"matplotlib's FuncAnimation with PillowWriter: {found.animated:.1f} s, "
+        f"{found.times_faster:.1f} times as long as our GIF"
+    )
 
 
 def _line(cost: Cost) -> tuple[str, ...]:
@@ -59,6 +83,8 @@ def as_object(found: Recordings) -> dict[str, Any]:
             }
             for cost in found.costs
         ],
+        "matplotlib_s": found.animated,
+        "times_as_long": found.times_faster,
     }
 
 

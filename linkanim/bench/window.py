@@ -27,14 +27,14 @@ from linkanim.player.state import begin
 from linkanim.scenes import load
 
 SCENE = "press"
-LOOK = Look(vectors=frozenset("va"), chart="C.acceleration")
+LOOK = Look(vectors=frozenset("va"), chart="C.acceleration", names=2)
 SIZES = ((1280, 720), (1920, 1080))
 BOUNDS_MS = {(1280, 720): 6.0, (1920, 1080): 10.0}
 FIRST_BOUND = 0.4
 DECIBELS_BOUND = 44.0
 JITTER_BOUND = 0.1
 TITLES = (
-    "press with all that is shown",
+    "press with names, vectors and chart",
     "draw + flip",
     "bound",
     "95 % below",
@@ -92,7 +92,7 @@ class WindowRun:
 
 
 def run() -> WindowRun:
-    """Measure the press with trace, vectors, chart and HUD at both sizes."""
+    """Measure the press with trace, names and dimensions, vectors, chart and HUD at both sizes."""
     with _dummy():
         frames = tuple(measured(size) for size in SIZES)
         true = frame_decibels(load(SCENE)), jitter()

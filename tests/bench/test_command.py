@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from made_result import result
+from PIL import Image, ImageSequence
 
 from linkanim.bench import again, command, drawing, extra, recording, window
 from linkanim.bench import result as results
@@ -18,6 +19,7 @@ from linkanim.bench.cost import Cost, Memory
 from linkanim.bench.machine import this_machine
 from linkanim.cli import main
 from linkanim.errors import BadInput, WorkFailed
+from linkanim.scenes import load
 
 
 def options(*words: str) -> Namespace:
@@ -180,7 +182,7 @@ def test_the_figures_of_recordings_are_the_recorders() -> None:
         asked.append((name, form, frames))
         return costs[form]
 
-    found = recording.run(measure, frames=300)
+    found = recording.run(measure, frames=300, animate=lambda name, **_: 27.0 if name == "press" else None)
     assert asked == [("press", "gif", 300), ("press", "mp4", 300)]
     text = recording.as_text(found)
     assert "2.00 ×" in text
@@ -188,6 +190,24 @@ def test_the_figures_of_recordings_are_the_recorders() -> None:
     assert "104 + 104 MB" in text
     gif, mp4 = recording.as_object(found)["recordings"]
     assert (gif["ratio"], mp4["dB"], mp4["peak_MB"]["encoding"]) == (2.0, None, None)
+    assert "27.0 s, 9.0 times as long" in text
+    assert recording.as_object(found)["times_as_long"] == 9.0
+
+
+def test_recordings_are_measured_without_matplotlib_too_and_say_what_is_missing() -> None:
+    cost = Cost("gif", 300, 3.0, 1.5, 2.14, 60.9, Memory(104.0, 104.0))
+    found = recording.run(lambda *_, **__: cost, frames=300, animate=lambda *_, **__: None)
+    assert "matplotlib is not installed" in recording.as_text(found)
+    assert recording.as_object(found)["times_as_long"] is None
+
+
+def test_matplotlib_animates_what_a_scene_holds(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="only the bench extra has it")
+    from linkanim.bench.animation import animate
+
+    animate(load("press"), tmp_path / "out.gif", size=(320, 180), frames=4, fps=25.0)
+    with Image.open(tmp_path / "out.gif") as made:
+        assert (len(list(ImageSequence.Iterator(made))), made.size) == (4, (320, 180))
 
 
 def test_the_chart_has_the_name_that_is_promised() -> None:
