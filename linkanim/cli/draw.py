@@ -17,6 +17,7 @@ def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path."""
     scene, size, target = sheet(options, SUFFIXES, ".svg")
     look = Look(
+        hud=False,
         theme=options.theme,
         trace=options.trace,
         vectors=options.vectors,

@@ -35,7 +35,7 @@ class Report:
     def files(self) -> Iterator[tuple[str, str]]:
         """Yield the report's files, the page first: (name, text)."""
         charts = tuple(self._charts())
-        picture = Figured(self.scene, _FIGURE, Look(names=2)).document()
+        picture = Figured(self.scene, _FIGURE, Look(names=2, hud=False)).document()
         yield "report.html", html.page(self.scene.title, self._body(picture, charts))
         yield "figure.svg", picture
         for number, (_, token, text) in enumerate(charts, start=1):

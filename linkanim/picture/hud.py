@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import pygame
 
 from linkanim.mechanics.motion import Pose
+from linkanim.picture.items import Caption, draw
 from linkanim.picture.raster import Layer, paint
 from linkanim.picture.readings import note, rows
 from linkanim.picture.shapes import box
@@ -34,20 +36,32 @@ class Hud:
     @cached_property
     def sheets(self) -> tuple[tuple[pygame.Surface, tuple[int, int]], ...]:
         """What stands still and where: title, class and the names of the rows, each line on its own."""
-        theme, left, top = self.theme, self.place.x, self.place.y
-        labels = [row.label for row in rows(self.scene, self.scene.pose(0.0)) if row.label in self.block.rows]
-        lines = [
-            (line.text, top + line.y, line.size, theme.ink if line.strong else theme.dim, line.strong)
-            for line in self.block.lines
-        ]
-        lines += [(label, self._top(n), self.block.size, theme.dim, False) for n, label in enumerate(labels)]
         found = []
-        for text, y, size, colour, strong in lines:
-            whole = pygame.Surface((round(self.place.right) + 1, round(y) + 2 * size), pygame.SRCALPHA, 32)
-            self.type.draw(whole, text, (left, y), size=size, colour=colour, strong=strong)
+        for line in self.still():
+            size = round(self.place.right) + 1, round(line.at[1]) + 2 * line.size
+            whole = pygame.Surface(size, pygame.SRCALPHA, 32)
+            draw(whole, [line], self.type)
             part = whole.get_bounding_rect()
             found.append((whole.subsurface(part).copy(), part.topleft))
         return tuple(found)
+
+    def still(self) -> Iterator[Caption]:
+        """Yield the words that stand still."""
+        for line in self.block.lines:
+            at, ink = (self.place.x, self.place.y + line.y), self.theme.ink if line.strong else self.theme.dim
+            yield Caption(line.text, at, line.size, ink, strong=line.strong)
+        labels = [row.label for row in rows(self.scene, self.scene.pose(0.0)) if row.label in self.block.rows]
+        for n, label in enumerate(labels):
+            yield Caption(label, (self.place.x, self._top(n)), self.block.size, self.theme.dim)
+
+    def values(self, pose: Pose) -> list[Caption]:
+        """Return the numbers of a pose beside them."""
+        size, right = self.block.size, self.place.x + self.block.column
+        shown = [row for row in rows(self.scene, pose) if row.label in self.block.rows]
+        return [
+            Caption(row.value, (right, self._top(n)), size, self.theme.ink, "right", strong=True)
+            for n, row in enumerate(shown)
+        ]
 
     @cached_property
     def backing(self) -> pygame.Surface:
@@ -68,12 +82,9 @@ class Hud:
             inset = 0.5 * self.block.size
             surface.blit(self.backing, (round(self.place.x - inset), round(self.place.y - inset)))
         surface.fblits(self.sheets)
-        size, right = self.block.size, self.place.x + self.block.column
-        shown = [row for row in rows(self.scene, pose) if row.label in self.block.rows]
-        for n, row in enumerate(shown):
-            at, ink = (right, self._top(n)), self.theme.ink
-            self.type.draw(surface, row.value, at, size=size, colour=ink, anchor="right", strong=True)
-        if noted and shown:
+        values = self.values(pose)
+        draw(surface, values, self.type)
+        if noted and values:
             self._note(surface, pose)
 
     def _note(self, surface: pygame.Surface, pose: Pose) -> None:

@@ -43,6 +43,13 @@ class Group(NamedTuple):
     captions: Sequence[Caption] = ()
 
 
+def grouped(name: str, items: Iterable[Item]) -> Group:
+    """Return items under a name, the words over the shapes."""
+    kept = list(items)
+    shapes = [item for item in kept if isinstance(item, Layer)]
+    return Group(name, shapes, [item for item in kept if isinstance(item, Caption)])
+
+
 def flat(groups: Iterable[Group]) -> Iterator[Layer]:
     """Yield the shapes of all groups in their order."""
     return (layer for group in groups for layer in group.layers)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import pygame
 
 from linkanim.digits import three_digits
+from linkanim.picture.items import Caption, Item, draw
 from linkanim.picture.layout import Layout
-from linkanim.picture.raster import Layer, paint
+from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import arrows
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
@@ -31,20 +33,27 @@ class Legend:
     theme: Theme
 
     def draw(self, surface: pygame.Surface) -> None:
-        """Draw what stands still: the arrows and what they are called."""
+        """Draw what stands still."""
+        draw(surface, self.still(), self.type)
+
+    def still(self) -> Iterator[Item]:
+        """Yield the arrows and what they are called."""
         size = self.size
         for n, kind in enumerate(self.kinds):
             foot = complex(self.column.x, self._top(n) + 0.5 * size)
-            paint(surface, [Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))])
+            yield Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))
             at = (self.column.x + self._reach + 0.6 * size, self._top(n))
-            self.type.draw(surface, kind.words, at, size=size, colour=self.theme.dim)
+            yield Caption(kind.words, at, size, self.theme.dim)
 
     def draw_values(self, surface: pygame.Surface, speed: float) -> None:
-        """Draw how much each arrow stands for at this input speed (rad/s)."""
+        """Draw the values at this input speed (rad/s)."""
+        draw(surface, self.values(speed), self.type)
+
+    def values(self, speed: float) -> Iterator[Caption]:
+        """Yield how much each arrow stands for at this input speed (rad/s)."""
         for n, kind in enumerate(self.kinds):
-            at = (self.column.right, self._top(n))
-            words = self.meaning(kind, speed)
-            self.type.draw(surface, words, at, size=self.size, colour=self.theme.dim, anchor="right")
+            at, words = (self.column.right, self._top(n)), self.meaning(kind, speed)
+            yield Caption(words, at, self.size, self.theme.dim, "right")
 
     def meaning(self, kind: Arrows, speed: float) -> str:
         """Return in words how much the arrow of the key stands for; a dash where nothing moves."""

@@ -30,7 +30,7 @@ from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Item, draw
 from linkanim.picture.layout import Layout
 from linkanim.picture.quantities import Series, cleared, quantity, series_of
-from linkanim.picture.raster import Colour, Layer, paint
+from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import segments
 from linkanim.picture.view import Rect
 
@@ -157,15 +157,19 @@ class Strip:
         )
 
     def draw_reading(self, surface: pygame.Surface, pose: Pose) -> None:
-        """Draw the pose's values at the right above the plot, of several curves each with its colour."""
+        """Draw the pose's values."""
+        draw(surface, self.readings(pose), self.pen.type)
+
+    def readings(self, pose: Pose) -> Iterator[Item]:
+        """Yield the pose's values at the right above the plot, of several curves each with its colour."""
         pen, words = self.pen, self.reading(self.values_at(pose))
         y, x = self.plot.area.y - _TITLE * pen.text, self.plot.area.right - sum(self._widths(words))
         for n, (text, width) in enumerate(zip(words, self._widths(words), strict=True)):
             left = x + width - pen.type.width(text, pen.text)
-            pen.type.draw(surface, text, (left, y), size=pen.text, colour=pen.theme.ink)
+            yield Caption(text, (left, y), pen.text, pen.theme.ink)
             if len(words) > 1:
                 end = complex(left - 0.4 * pen.text, y + 0.5 * pen.text)
-                paint(surface, [Layer(self.colour(n), segments(end - self._swatch, end, 1.6 * pen.line))])
+                yield Layer(self.colour(n), segments(end - self._swatch, end, 1.6 * pen.line))
             x += width
 
     @property

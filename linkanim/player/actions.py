@@ -98,6 +98,7 @@ ACTIONS: Mapping[str, Rule] = {
     "unsift": Rule(_nothing, browse.unsift, taped=False),
     "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),
     "screenshot": Rule(_nothing, outside.screenshot, taped=False),
+    "svg": Rule(_nothing, outside.svg, taped=False),
     "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),
     "save": Rule(_nothing, outside.effect("save"), taped=False),
     "quit": Rule(_nothing, outside.effect("quit"), taped=False),

@@ -9,6 +9,7 @@ import pygame
 
 from linkanim import whole
 from linkanim.picture.offscreen import png_bytes
+from linkanim.player.state import State
 
 FOLDER = Path("recordings")
 
@@ -22,6 +23,15 @@ def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
 def screenshot(surface: pygame.Surface, name: str) -> Path:
     """Write the picture as a PNG under a free name; errors as `_added`."""
     return _added(png_bytes(surface), name, ".png")
+
+
+def vector(state: State, size: tuple[int, int]) -> Path:
+    """Write the picture as an SVG under a free name, without what lies over it; errors as `_added`."""
+    from linkanim.paper.figure import Figured
+
+    scene = state.scene
+    shown = Figured(scene, size, state.look, state.phase, speed=state.clock.speed, both=True)
+    return _added(shown.document().encode(), scene.name, ".svg")
 
 
 def report(text: str, name: str) -> Path:

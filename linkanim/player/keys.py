@@ -120,7 +120,12 @@ KEYS: tuple[KeyRow, ...] = (
         "undo, redo",
         (_held("ctrl+z", "undo"), _held("ctrl+y", "redo"), _held("ctrl+shift+z", "redo")),
     ),
-    KeyRow("keep", "S, F12", "screenshot", _every("s f12", "screenshot")),
+    KeyRow(
+        "keep",
+        "S, F12 (Shift+S: SVG)",
+        "screenshot",
+        (*_every("s f12", "screenshot"), _on("shift+s", "svg")),
+    ),
     KeyRow("keep", "G", "record GIF: start, stop", _every("g", "record", "gif")),
     KeyRow("keep", "M", "record MP4: start, stop", _every("m", "record", "mp4")),
     KeyRow("keep", "Ctrl+S", "write the scene as a new file", _every("ctrl+s", "save")),

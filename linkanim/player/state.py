@@ -54,7 +54,7 @@ class State:
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
     `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
     which an edit made another class of the linkage, while the list shows it. `effects` is what the last
-    advance asks of the outside: "record" and "render" (with a format), "screenshot", "fullscreen",
+    advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "fullscreen",
     "save", "quit", and "report" (with the text of a fault's report).
     """
 

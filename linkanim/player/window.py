@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _TOLD_EVERY = 15
-_BESIDE_A_TAPE = frozenset({"screenshot", "fullscreen", "quit", "back"})
+_BESIDE_A_TAPE = frozenset({"screenshot", "svg", "fullscreen", "quit", "back"})
 
 
 class Window:
@@ -166,6 +166,8 @@ class Window:
             case "screenshot":
                 picture = self.easel.picture(self.state, kept(self.state))
                 self._told.append(str(files.screenshot(picture, self.state.scene.name)))
+            case "svg":
+                self._told.append(str(files.vector(self.state, pygame.display.get_window_size())))
             case "report":
                 self._report(str(effect.value))
             case "save":

@@ -12,8 +12,10 @@ import pytest
 
 from linkanim.bench.fidelity import psnr
 from linkanim.paper.figure import Figured
+from linkanim.picture.canvas import Canvas
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
 from linkanim.picture.quantities import quantity
 from linkanim.scenes import load
@@ -55,6 +57,17 @@ def test_the_png_is_what_the_window_draws(name: str) -> None:
         Painter(scene, SIZE, look).paint(surface, scene.pose(1.0))
         apart = np.abs(_levels(Figured(scene, SIZE, look, phase=1.0).surface()) - _levels(surface))
         assert (apart.max(axis=-1) > 2).mean() <= share
+
+
+# zoomed, so that the scene would run under its chart
+@pytest.mark.parametrize("look", [Look(), Look(zoom=2.0, pan=(0.1, 0.2)), Look(theme="dark", polygons=True)])
+def test_chart_words_and_key_stand_as_in_the_window(look: Look) -> None:
+    scene, size, surface = load("press"), (960, 540), offscreen((960, 540))
+    look = replace(look, chart="C.acceleration", vectors=frozenset("va"))
+    Canvas(scene, size, look, both=True).paint(surface, 1.0, 4.0, Overlay())
+    figured = Figured(scene, size, look, phase=1.0, speed=4.0, both=True)
+    assert psnr(_levels(figured.surface()), _levels(surface)) > (30 if look.framed else 45)
+    assert {"chart", "words", "key"} <= _groups(figured).keys()
 
 
 def test_every_body_and_joint_has_a_group_of_its_name() -> None:

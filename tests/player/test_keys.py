@@ -63,6 +63,7 @@ PLAYING = {
     "m": (Press("m", "m"), Action("record", "mp4")),
     "s": (Press("s", "s"), Action("screenshot")),
     "f12": (Press("f12"), Action("screenshot")),
+    "shift s": (Press("s", "S", shift=True), Action("svg")),
     "r": (Press("r", "r"), Action("start")),
     "+ as shift and =": (Press("=", "+", shift=True), Action("zoom", (1.0, 0.0, 0.0))),
     "+ on its own key": (Press("+", "+"), Action("zoom", (1.0, 0.0, 0.0))),

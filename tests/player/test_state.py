@@ -62,6 +62,7 @@ CHANGES: dict[str, tuple[Action, Callable[[State], object], object]] = {
     "pan": (Action("pan", (0.25, -0.5)), lambda s: s.look.pan, (0.25, -0.5)),
     "record": (Action("record", "mp4"), lambda s: s.effects, (Action("record", "mp4"),)),
     "screenshot": (Action("screenshot"), lambda s: s.effects, (Action("screenshot"),)),
+    "svg": (Action("svg"), lambda s: s.effects, (Action("svg"),)),
     "fullscreen": (Action("fullscreen"), lambda s: s.effects, (Action("fullscreen"),)),
     "save": (Action("save"), lambda s: s.effects, (Action("save"),)),
     "quit": (Action("quit"), lambda s: s.effects, (Action("quit"),)),

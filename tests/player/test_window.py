@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pygame
 import pytest
@@ -270,6 +271,19 @@ def test_a_screenshot_is_the_picture_and_tells_its_name(player: Player, here: Pa
         "crank-rocker-1.png",
         "crank-rocker-2.png",
     ]
+
+
+def test_shift_s_writes_the_svg_of_what_is_shown(player: Player, here: Path) -> None:
+    player.type("vanpi")
+    player.window.state = carried(player.state, Action("plot", "rocker.angular_velocity"))
+    player.press(pygame.K_s, pygame.KMOD_LSHIFT, "S")
+    player.tick()
+    written = here / "recordings" / "crank-rocker-1.svg"
+    assert player.state.toast is not None
+    assert str(written.relative_to(here)) in player.state.toast.text
+    groups = {group.get("id") for group in ElementTree.parse(written).iter("{http://www.w3.org/2000/svg}g")}
+    assert {"velocity", "acceleration", "names", "chart", "words"} <= groups
+    assert {"velocity-polygon", "acceleration-polygon", "body-crank", "joint-A"} <= groups
 
 
 def test_a_toast_is_gone_after_three_seconds(player: Player) -> None:

@@ -39,6 +39,11 @@ def screenshot(state: State, _: None) -> State:
     return replace(asking(state, "screenshot"), shot=state.frame)
 
 
+def svg(state: State, _: None) -> State:
+    """Ask for the picture as an SVG, the shutter going."""
+    return replace(asking(state, "svg"), shot=state.frame)
+
+
 def effect(name: str) -> Callable[[State, None], State]:
     """Return the handler of what changes nothing in the picture."""
     return lambda state, _: asking(state, name)
