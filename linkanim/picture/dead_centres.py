@@ -12,6 +12,7 @@ import numpy as np
 
 from linkanim.digits import short, stepped, typeset
 from linkanim.picture.course import input_symbol
+from linkanim.picture.driven import driven_words
 from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import rail_reach
 from linkanim.picture.items import Caption, Group, Halo
@@ -27,7 +28,7 @@ _TICK = 1.6
 _NEAR = 0.3
 """What passes the guide no further off its ends, in strokes, is in the way of the words."""
 _FEW = 1e-6
-_LETTER = 0.54
+_LETTER = 0.56
 """About how wide a letter is, in heights of its text."""
 
 
@@ -110,9 +111,10 @@ class DeadCentres:
 
     def _angle(self, phase: float) -> str:
         scene = self.figure.scene
-        angle = degrees(scene.pose(phase, 0).crank_angle)
-        told = stepped(round(angle, 1) % 360 if scene.info.full_turn else angle, 0.1)
-        return f"{input_symbol(scene)} = {told}°"
+        angle = scene.pose(phase, 0).crank_angle
+        if not scene.info.full_turn:
+            return f"{input_symbol(scene)} = {driven_words(scene, angle)}"
+        return f"{input_symbol(scene)} = {stepped(round(degrees(angle), 1) % 360, 0.1)}°"
 
     def _caption(self, text: str, at: complex, out: complex) -> Caption:
         """Return a line of text that begins at a place and goes the way out."""

@@ -58,6 +58,12 @@ def test_at_those_angles_the_slider_is_as_far_as_it_goes(name: str) -> None:
     assert travel == pytest.approx([whole.min(), whole.max()], abs=1e-3 * np.ptp(whole))
 
 
+def test_a_driven_slider_s_own_travel_stands_there_in_its_unit() -> None:
+    scene = load("driven-piston")
+    low, high = scene.info.input_range
+    assert words("driven-piston", 1) == [f"s = {low:.1f} mm", f"s = {high:.1f} mm"]
+
+
 def test_with_dimensions_stroke_and_time_ratio_are_those_of_info() -> None:
     info = load("press").info
     assert words("press")[2] == f"stroke {info.stroke:.4g} mm, time ratio {info.time_ratio:.4g}"
