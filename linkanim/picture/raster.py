@@ -6,7 +6,7 @@ Those that lie apart are mixed in together, too: each on the lowest level above 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple, overload
 
 import numpy as np
@@ -32,11 +32,18 @@ class Outlines(Sequence[Loop]):
 
     def repeated(self, places: Sequence[complex] | Loop) -> Outlines:
         """Return the loops about each of the places."""
-        points = (np.asarray(places, np.complex128)[:, None] + self.points).ravel()
+        points = np.concatenate([self.points[:0], *(place + self.points for place in places)])
         return Outlines(points, self.counts * len(places))
+
+    def joined(self, other: Outlines) -> Outlines:
+        """Return its loops and another's."""
+        return Outlines(np.concatenate((self.points, other.points)), self.counts + other.counts)
 
     def __len__(self) -> int:
         return len(self.counts)
+
+    def __iter__(self) -> Iterator[Loop]:
+        return iter(self[:])
 
     @overload
     def __getitem__(self, index: int) -> Loop: ...

@@ -66,10 +66,10 @@ class Coil:
         (first,) = stroke([0, lead, lead + low], wire)
         (back,) = stroke(turn * far, wire)
         (edge,), (core,) = strokes(turn * near, (2.6 * wire, 1.5 * wire))
-        leads = [start + turn * first, end - turn * first.conj()[::-1]]
+        leads = outlines_of([start + turn * first, end - turn * first.conj()[::-1]])
         shade = mixed(self.theme.outline, self.theme.metal, 0.35)
         return [
-            Layer(shade, [*leads, *_repeated(feet, back)]),
+            Layer(shade, leads.joined(_repeated(feet, back))),
             Layer(self.theme.outline, _repeated(feet, edge)),
             Layer(self.theme.metal, _repeated(feet, core)),
         ]
