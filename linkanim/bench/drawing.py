@@ -10,7 +10,7 @@ from typing import NamedTuple
 from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Measured, Result
 from linkanim.picture.offscreen import offscreen, png_bytes
-from linkanim.picture.scatter import Point, ScatterTitles, scatter
+from linkanim.picture.scatter import Dot, ScatterTitles, scatter
 from linkanim.whole import checked_target, replacing
 
 SIZE = (1280, 640)
@@ -25,7 +25,7 @@ class Picture(NamedTuple):
     """One picture: what it shows, its points, and what its axes are called."""
 
     title: str
-    points: list[Point]
+    points: list[Dot]
     across: str = ACROSS
     up: str = UP
 
@@ -62,7 +62,7 @@ def panels(result: Result) -> Iterator[Picture]:
     yield Picture(title, [_point(row, row.hard) for row in right])
 
 
-def _point(row: Measured, score: Score) -> Point:
+def _point(row: Measured, score: Score) -> Dot:
     lost = 100 * (score.wrong + score.missing) / score.poses
     name = f"{row.name} ({lost:.0f} %)" if lost else row.name
-    return Point(name, row.position_ns, max(score.error, LEAST), row.key in OWN)
+    return Dot(name, row.position_ns, max(score.error, LEAST), row.key in OWN)

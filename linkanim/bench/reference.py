@@ -73,7 +73,7 @@ def answer(case: Case) -> Answer:
 
 def closures(case: Case) -> Iterator[Closures]:
     """Yield the exact pose at each input of a case, at mpmath's present precision."""
-    bars = FourBar(case.lengths, case.side)
+    bars = ExactFourBar(case.lengths, case.side)
     ground, crank, coupler, rocker = bars.sizes
     for given in map(mpf, case.inputs.tolist()):
         phase = given if case.turns or case.by_phase else bars.phase_at(given)
@@ -85,7 +85,7 @@ def closures(case: Case) -> Iterator[Closures]:
 
 
 @dataclass(frozen=True)
-class FourBar:
+class ExactFourBar:
     """Ground, crank, coupler and rocker, O4 on the real axis, on the smooth path that the crank drives.
 
     `side` is the closure just after phase 0, +1 for B left of A -> O4. A crank that turns fully stands at

@@ -21,7 +21,7 @@ from linkanim.mechanics.kinds import RPP, RRP, RRR, Crank, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.rail import Line
-from linkanim.picture.scatter import Point
+from linkanim.picture.scatter import Dot
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000)
 DYADS = (1, 2, 5, 10, 20, 50)
@@ -59,7 +59,7 @@ class Chained(NamedTuple):
     derivatives_ns: float
 
 
-class Kind(NamedTuple):
+class KindTimes(NamedTuple):
     """A mechanism: ns a pose at once, and one a call; `times` is the largest ratio to the four-bar's."""
 
     name: str
@@ -76,7 +76,7 @@ class Growth(NamedTuple):
     machine: Machine
     poses: tuple[Sized, ...]
     dyads: tuple[Chained, ...]
-    kinds: tuple[Kind, ...]
+    kinds: tuple[KindTimes, ...]
 
 
 def run(progress: Callable[[int, int], None] | None = None, *, budget: float = BUDGET) -> Growth:
@@ -110,7 +110,7 @@ def chains(lengths: Sequence[int], **timing: Any) -> Iterator[Chained]:
     return (Chained(n, times[n, 0], times[n, 2]) for n in lengths)
 
 
-def kinds(**timing: Any) -> tuple[Kind, ...]:
+def kinds(**timing: Any) -> tuple[KindTimes, ...]:
     """Return what a Scotch yoke and a slider on a moving line cost beside a four-bar with a coupler point."""
     made = {
         "four-bar": easy(1).scene.mechanism,
@@ -124,7 +124,7 @@ def kinds(**timing: Any) -> tuple[Kind, ...]:
     times = nanoseconds(work, **timing)
     ways = [(how, d) for how in ("at once", "alone") for d in READ]
     most = {name: max(times[name, *way] / times["four-bar", *way] for way in ways) for name in made}
-    return tuple(Kind._make([name, *(times[name, *way] for way in ways), most[name]]) for name in made)
+    return tuple(KindTimes._make([name, *(times[name, *way] for way in ways), most[name]]) for name in made)
 
 
 def chain(dyads: int) -> Linkage:
@@ -226,7 +226,7 @@ def pictures(found: Growth) -> Iterator[Picture]:
     ):
         courses = (("positions", 1, True), ("with derivatives", 2, False))
         points = [
-            Point(name if row is rows[-1] else "", row[0], row[place], ours)
+            Dot(name if row is rows[-1] else "", row[0], row[place], ours)
             for name, place, ours in courses
             for row in rows
         ]

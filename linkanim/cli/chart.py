@@ -6,7 +6,7 @@ import sys
 from argparse import Namespace
 
 from linkanim import units
-from linkanim.cli.sheet import sheet
+from linkanim.cli.picture_options import scene_size_target
 from linkanim.digits import stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
@@ -18,7 +18,7 @@ from linkanim.scenes.scene import Scene
 
 def run(options: Namespace) -> None:
     """Write the chart that was asked for; print its path, and of a table beside it the largest difference."""
-    scene, size, target = sheet(options, SUFFIXES, ".png")
+    scene, size, target = scene_size_target(options, SUFFIXES, ".png")
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, ChartRequest(tokens, paces(scene, options.speeds), options.over))
     measured = _measured(curves, options)

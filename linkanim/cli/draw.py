@@ -5,8 +5,8 @@ from __future__ import annotations
 from argparse import Namespace
 from math import isnan
 
+from linkanim.cli.picture_options import scene_size_target
 from linkanim.cli.record import centres_of
-from linkanim.cli.sheet import sheet
 from linkanim.cli.solve import out_of_range
 from linkanim.paper.figure import SUFFIXES, Figured, write
 from linkanim.picture.look import Look
@@ -15,7 +15,7 @@ from linkanim.scenes.scene import Scene
 
 def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path."""
-    scene, size, target = sheet(options, SUFFIXES, ".svg")
+    scene, size, target = scene_size_target(options, SUFFIXES, ".svg")
     look = Look(
         hud=False,
         theme=options.theme,

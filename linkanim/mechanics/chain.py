@@ -107,12 +107,12 @@ class Touch:
         sine, cosine = turn
         return Way(sine, (sine * cosine).scaled(2.0), 0.5 / cosine.value)
 
-    def _on_turn(self, state: InputState) -> Turning:
+    def _on_turn(self, state: InputState) -> SineAndCosine:
         share = Fraction(1, self.turns)
         half = state.half(self.place * share, share)
         return _turning(half.sine, half.cosine, Slope(state.rate, state.second).scaled(0.5 / self.turns))
 
-    def _on_swing(self, state: InputState, amplitude: float) -> Turning:
+    def _on_swing(self, state: InputState, amplitude: float) -> SineAndCosine:
         assert state.ends is not None
         if state.phase is not None and self.turns > 1:
             half = sharp_half_angle((state.phase - self.place.high) * (1.0 / self.turns))
@@ -134,11 +134,11 @@ class Touch:
         return select(z * z, math.sin(math.asin(width) / 2) ** 2, close, otherwise)
 
 
-Turning = tuple[Moving, Moving]
+SineAndCosine = tuple[Moving, Moving]
 """Sine and cosine of a moving angle."""
 
 
-def _turning(sine: Value, cosine: Value, rate: Slope) -> Turning:
+def _turning(sine: Value, cosine: Value, rate: Slope) -> SineAndCosine:
     """Return sine and cosine with their rates where the angle itself has that rate."""
     first, second, square = rate.value, rate.rate, rate.value * rate.value
     return (
@@ -147,7 +147,7 @@ def _turning(sine: Value, cosine: Value, rate: Slope) -> Turning:
     )
 
 
-def _halved(sine: Moving, cosine: Moving) -> Turning:
+def _halved(sine: Moving, cosine: Moving) -> SineAndCosine:
     """Return sine and cosine of half an angle between 0 and π."""
     half_cosine = sqrt((cosine.value + 1.0) * 0.5)
     rate = Slope(
@@ -161,14 +161,15 @@ Zero = End | Touch
 
 
 class Closing(NamedTuple):
-    """What closes a dyad on moving points: U, W, what drives it, and its ends' distance D where it has two.
+    """What closes a dyad on moving points: U, W, what they change by, and its ends' way D where it has two.
 
+    `separation` is L² of two ends, or how far a single one lies beside its line; W' is its rate, U' less it.
     `half_difference` is (U - W)/2, or 1/2 of a `single` root, which has no U.
     """
 
     u: Value
     w: Value
-    driver: Moving
+    separation: Moving
     single: bool
     across: MovingPoint | None
 
@@ -180,14 +181,14 @@ class Closing(NamedTuple):
     @property
     def size(self) -> Value:
         """What the margin is beside: (U + W)², which is 16a²b² of two bars, or L²."""
-        return self.driver.value if self.single else (self.u + self.w) * (self.u + self.w)
+        return self.separation.value if self.single else (self.u + self.w) * (self.u + self.w)
 
     def rates(self, q: Moving) -> Slope:
         """Return ρ of a root that is known with its rates."""
         half = self.half_difference
         ratio = q.rate / half
         # (U - W)' is -2 (L²)'.
-        bent = q.second if self.single else q.second + ratio * self.driver.rate
+        bent = q.second if self.single else q.second + ratio * self.separation.rate
         return Slope(ratio, bent / half)
 
 
@@ -212,7 +213,7 @@ class ChainRoot:
     def root(self, closing: Closing, state: InputState) -> SignedRoot:
         """Return q and ρ, signed and finite through every zero."""
         margin = maximum(closing.u * closing.w, self.least)
-        plain = plain_root(margin, 1.0, closing.driver, closing.half_difference)
+        plain = plain_root(margin, 1.0, closing.separation, closing.half_difference)
         side = self.side(state)
         found = SignedRoot(plain.q * side, Slope(plain.ratio.value * side, plain.ratio.rate * side))
         if any(zero.near and zero.near.across for zero in self.zeros) and closing.across:

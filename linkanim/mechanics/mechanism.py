@@ -26,8 +26,8 @@ from .walk import Kinematics
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
 
 
-class Trace(NamedTuple):
-    """The formulas as noted for one way of asking: the inputs' names, and every quantity."""
+class Traced(NamedTuple):
+    """The formulas as traced for one way of asking: the inputs' names, and every quantity."""
 
     names: tuple[str, ...]
     rows: Rows
@@ -65,7 +65,7 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _traces(self) -> dict[Variant, Trace]:
+    def _traces(self) -> dict[Variant, Traced]:
         return {}
 
     @cached_property
@@ -89,7 +89,7 @@ class Mechanism:
         self._poses[derivatives, accelerates] = found
         return found
 
-    def _trace(self, variant: Variant) -> Trace:
+    def _trace(self, variant: Variant) -> Traced:
         """Note the formulas of all quantities, lengths in the scene's unit."""
         found = self._traces.get(variant)
         if found is None:
@@ -101,7 +101,7 @@ class Mechanism:
             unscale = self.assembly.unscale
             crank = {kind: {"": (value,)} for kind, value in zip(CRANK, state.shown(unscale), strict=True)}
             rows = dict(_quantities(self.assembly.walk(state), unscale))
-            found = self._traces[variant] = Trace(names, crank | rows)
+            found = self._traces[variant] = Traced(names, crank | rows)
         return found
 
     def _state(self, graph: Graph, pace: Slope, *, by_phase: bool) -> tuple[tuple[str, ...], InputState]:
@@ -110,7 +110,7 @@ class Mechanism:
             return ("x",), path.state(graph.input("x"), pace)
         return path.state_by_angle(graph, pace)
 
-    def _scalar(self, trace: Trace, derivatives: int) -> Callable[..., dict[str, Any]]:
+    def _scalar(self, trace: Traced, derivatives: int) -> Callable[..., dict[str, Any]]:
         outputs: list[Value] = []
         parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
         for kind, values in trace.rows.items():

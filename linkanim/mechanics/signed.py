@@ -94,14 +94,14 @@ class SignedRoot:
         return replace(self, lift=lift)
 
 
-def plain_root(u: Value, w: Value, driver: Moving, half_difference: Value) -> SignedRoot:
-    """Return the root of factors that do not vanish, with U' = -g and W' = g, g the driver's rate.
+def plain_root(u: Value, w: Value, separation: Moving, half_difference: Value) -> SignedRoot:
+    """Return the root of factors that do not vanish, with U' = -g and W' = g, g the separation's rate.
 
     `half_difference` is (U - W)/2, or 1/2 where there is no U: q' = ρ times that.
     """
     q = sqrt(w * u)
-    ratio = driver.rate / q
-    return SignedRoot(q, Slope(ratio, (driver.second - ratio * ratio * half_difference) / q))
+    ratio = separation.rate / q
+    return SignedRoot(q, Slope(ratio, (separation.second - ratio * ratio * half_difference) / q))
 
 
 def signed_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:

@@ -60,7 +60,7 @@ def _through(assembly: Assembly, name: str) -> Assembly:
 def _touching_phases(assembly: Assembly, name: str) -> tuple[list[float], float]:
     """Return the phases at which a dyad's margin touches zero, over a true period, and its greatest value."""
     closing = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings[name]
-    program = batch({"x": True}, [closing.u * closing.w, closing.driver.rate])
+    program = batch({"x": True}, [closing.u * closing.w, closing.separation.rate])
     places = around(assembly.path.periods, SAMPLES_A_TURN)
     with np.errstate(all="ignore"):
         scale = float(np.nanmax(np.abs(program(places)[0]), initial=0.0))

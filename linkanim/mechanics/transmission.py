@@ -54,12 +54,15 @@ def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
 
 
 def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
-    """Yield U and W of each dyad on moving points where its driver, or that one's rate, changes its sign."""
+    """Yield U and W of each dyad on moving points where its separation, or its rate, changes its sign."""
     assembly = mechanism.assembly
     found = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
     if not found:
         return
-    parts = [(closing.driver.value, closing.driver.rate, closing.u, closing.w) for closing in found.values()]
+    parts = [
+        (closing.separation.value, closing.separation.rate, closing.u, closing.w)
+        for closing in found.values()
+    ]
     program = batch({"x": True}, [value for values in parts for value in values])
     places = around(assembly.path.periods, SAMPLES_A_TURN)
     for row, name in enumerate(found):

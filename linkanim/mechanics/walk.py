@@ -124,7 +124,7 @@ class Walk:
         root = self.assembly.chain.get(name)
         if root is not None:
             return root.root(closing, self.state)
-        return plain_root(closing.u, closing.w, closing.driver, closing.half_difference)
+        return plain_root(closing.u, closing.w, closing.separation, closing.half_difference)
 
     def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
         """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""

@@ -29,7 +29,7 @@ _MOST = 4
 """Of so many moving links all centres are marked, of more those to the ground alone."""
 
 
-class Pair(NamedTuple):
+class BodyPair(NamedTuple):
     """A body and another, None for the ground, and what their instant centre is called: P_{24}."""
 
     body: Body
@@ -49,12 +49,12 @@ class Centres:
     rolling: bool
 
     @cached_property
-    def pairs(self) -> tuple[Pair, ...]:
+    def pairs(self) -> tuple[BodyPair, ...]:
         """The bodies to the ground, and of few to each other."""
         number = numbered(self.figure)
-        pairs = [Pair(body, None, _label("1", number[body])) for body in number]
+        pairs = [BodyPair(body, None, _label("1", number[body])) for body in number]
         if len(number) <= _MOST:
-            pairs += [Pair(a, b, _label(number[a], number[b])) for a, b in combinations(number, 2)]
+            pairs += [BodyPair(a, b, _label(number[a], number[b])) for a, b in combinations(number, 2)]
         return tuple(pairs)
 
     def marks(self, pose: Pose, places: Places) -> Group:

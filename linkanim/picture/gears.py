@@ -55,7 +55,7 @@ class Wheel:
 
 
 @dataclass(frozen=True)
-class Pair:
+class WheelPair:
     """Two wheels that roll on each other, or share a belt; a planet rolls on a wheel that stands still."""
 
     driver: Wheel
@@ -72,7 +72,7 @@ class Pair:
         return self.driver.arm is None
 
 
-def pairs(figure: Figure) -> tuple[Pair, ...]:
+def pairs(figure: Figure) -> tuple[WheelPair, ...]:
     """Return the gear pairs with pivots apart, sized so that their pitch circles roll on each other.
 
     A crank that is geared to the one whose pin it turns on is a planet: what makes it turn as it does is
@@ -83,7 +83,7 @@ def pairs(figure: Figure) -> tuple[Pair, ...]:
     return tuple(pair for pair in found if pair)
 
 
-def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> Pair | None:
+def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> WheelPair | None:
     gear = crank.gear
     if gear is None or gear.mate not in cranks:
         return None
@@ -99,16 +99,16 @@ def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> Pair | None
     return _meshing(figure, (driver, crank), apart)
 
 
-def _pulleys(cranks: tuple[Crank, Crank], apart: float, ratio: float) -> Pair:
+def _pulleys(cranks: tuple[Crank, Crank], apart: float, ratio: float) -> WheelPair:
     driver, driven = cranks
     large = _BELT * apart
-    return Pair(
+    return WheelPair(
         Wheel(driver.pivot, driver.name, large * min(ratio, 1)),
         Wheel(driven.pivot, driven.name, large * min(1 / ratio, 1)),
     )
 
 
-def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> Pair:
+def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> WheelPair:
     """Return two wheels on fixed pivots that turn against each other."""
     driver, driven = cranks
     assert driven.gear is not None
@@ -118,7 +118,7 @@ def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> Pai
     contact = float(np.angle(apart))
     at = contact - _angle(figure, driver)
     facing = contact + pi - _angle(figure, driven) + pi / second
-    return Pair(
+    return WheelPair(
         Wheel(driver.pivot, driver.name, radius, first, at),
         Wheel(driven.pivot, driven.name, abs(apart) - radius, second, facing),
     )
@@ -130,7 +130,7 @@ def _teeth(one: int, other: int) -> tuple[int, int]:
     return many * one, many * other
 
 
-def _planet(figure: Figure, planet: Crank, arm: Crank) -> Pair | None:
+def _planet(figure: Figure, planet: Crank, arm: Crank) -> WheelPair | None:
     """Return the still wheel and the planet that rolls on it: r and R of radius, the arm d long.
 
     Rolling on it makes the planet turn 1 - R/r times as often as its arm inside a ring, where R - r = d,
@@ -143,16 +143,16 @@ def _planet(figure: Figure, planet: Crank, arm: Crank) -> Pair | None:
         still, small = _teeth(ratio.denominator - ratio.numerator, ratio.denominator)
         tooth = contact - _angle(figure, planet)
         rolling = Wheel(planet.pivot, planet.name, long / float(-ratio), small, tooth)
-        return Pair(Wheel(arm.pivot, None, long + rolling.radius, still, contact, ring=True), rolling)
+        return WheelPair(Wheel(arm.pivot, None, long + rolling.radius, still, contact, ring=True), rolling)
     if ratio > 1:
         still, small = _teeth(ratio.numerator - ratio.denominator, ratio.denominator)
         facing = contact + pi - _angle(figure, planet) + pi / small
         rolling = Wheel(planet.pivot, planet.name, long / float(ratio), small, facing)
-        return Pair(Wheel(arm.pivot, None, long - rolling.radius, still, contact), rolling)
+        return WheelPair(Wheel(arm.pivot, None, long - rolling.radius, still, contact), rolling)
     if ratio < 1:
         large = _BELT * long
         still_wheel = Wheel(arm.pivot, None, large * float(1 - ratio))
-        return Pair(still_wheel, Wheel(planet.pivot, planet.name, large))
+        return WheelPair(still_wheel, Wheel(planet.pivot, planet.name, large))
     return None
 
 
@@ -209,7 +209,9 @@ def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple
     return tuple(parts)
 
 
-def _wheel(wheel: Wheel, pair: Pair, drawn: tuple[View, Gauge, Theme], *, moving: bool) -> tuple[Layer, ...]:
+def _wheel(
+    wheel: Wheel, pair: WheelPair, drawn: tuple[View, Gauge, Theme], *, moving: bool
+) -> tuple[Layer, ...]:
     """Return a wheel about the origin; one that only turns without its disc, which is drawn once."""
     view, gauge, theme = drawn
     tone, edge = _tone(wheel, pair, theme), _edge(wheel, pair, theme)
@@ -223,11 +225,11 @@ def _wheel(wheel: Wheel, pair: Pair, drawn: tuple[View, Gauge, Theme], *, moving
     return Layer(tone, rim), Layer(mixed(tone, theme.background, 0.6), holes), Layer(edge, line)
 
 
-def _tone(wheel: Wheel, pair: Pair, theme: Theme) -> Colour:
+def _tone(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:
     return theme.gear if wheel is pair.driver else mixed(theme.gear, theme.ground, _SHADED)
 
 
-def _edge(wheel: Wheel, pair: Pair, theme: Theme) -> Colour:
+def _edge(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:
     return theme.ground if wheel is pair.driver else mixed(theme.ground, theme.outline, 0.5)
 
 
@@ -281,7 +283,7 @@ def _involute(angle: ArrayLike) -> NDArray[np.float64]:
     return flank
 
 
-def _pulled(pair: Pair, figure: Figure, view: View) -> tuple[complex, complex, float, float]:
+def _pulled(pair: WheelPair, figure: Figure, view: View) -> tuple[complex, complex, float, float]:
     """Return the centres of two pulleys in pixels, and their radii."""
     radii = pair.driver.radius * view.scale, pair.driven.radius * view.scale
     return _centre(figure, view, pair.driver), _centre(figure, view, pair.driven), *radii

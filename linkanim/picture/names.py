@@ -21,7 +21,7 @@ from linkanim.picture.items import Caption, Halo
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.lettering import Lettering
 from linkanim.picture.parts import Places
-from linkanim.picture.placing import MOMENTS, Clutter, Obstacles, Path, Wish, place
+from linkanim.picture.placing import MOMENTS, Clutter, Drift, Obstacles, Wish, place
 from linkanim.picture.raster import Colour, Loop
 from linkanim.picture.shapes import hull, unit
 from linkanim.picture.text import Type, subscripted
@@ -72,7 +72,7 @@ class Label:
     lettering: Lettering
     at: str
     head: str
-    path: Path
+    path: Drift
     length: float
     across: bool
 
@@ -123,10 +123,10 @@ class Names:
             yield label, *label.standing(offset, shown, places)
 
     @cached_property
-    def _paths(self) -> Path:
+    def _paths(self) -> Drift:
         """All paths in one."""
         offsets, showings = zip(*(label.path for label in self.labels), strict=True)
-        return Path(np.stack(offsets, axis=-1), np.stack(showings, axis=-1))
+        return Drift(np.stack(offsets, axis=-1), np.stack(showings, axis=-1))
 
 
 @dataclass(frozen=True)

@@ -74,7 +74,7 @@ class Wish(NamedTuple):
     shunned: _Bools | None = None
 
 
-class Path(NamedTuple):
+class Drift(NamedTuple):
     """A label's place in its frame at each moment, smooth over the cycle, and how far it shows (0 to 1).
 
     Several labels have a column each.
@@ -93,7 +93,7 @@ class Path(NamedTuple):
         return offset, shown
 
 
-def place(wishes: Sequence[Wish], clutter: Clutter) -> list[Path]:
+def place(wishes: Sequence[Wish], clutter: Clutter) -> list[Drift]:
     """Return a path for each label; the first have the first choice."""
     taken: list[tuple[Loop, tuple[float, float]]] = []
     paths = []
@@ -105,7 +105,7 @@ def place(wishes: Sequence[Wish], clutter: Clutter) -> list[Path]:
     return paths
 
 
-def _placed(wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, float]]]) -> Path:
+def _placed(wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, float]]]) -> Drift:
     margin = 2 * _MARGIN * wish.size[1]
     planned = wish._replace(size=(wish.size[0] + margin, wish.size[1] + margin))
     cost = wish.price + _lying(wish, clutter.bars)
@@ -115,7 +115,7 @@ def _placed(wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, f
     origin, direction = wish.frame
     local = (wish.places - origin[:, None]) / direction[:, None]
     chosen = _cheapest(cost, _moves(local, wish.size[1]))
-    path = Path(np.take_along_axis(local, chosen[:, None], axis=1)[:, 0], np.ones(len(cost)))
+    path = Drift(np.take_along_axis(local, chosen[:, None], axis=1)[:, 0], np.ones(len(cost)))
     track = _track(path, wish)[:, None]
     blocked = (_blocked(track, wish, clutter, taken) | _mistaken(track, wish, clutter, chosen))[:, 0]
     later = replace(clutter, discs=_between(clutter.discs)), [(_between(way), size) for way, size in taken]
@@ -129,7 +129,7 @@ def _between(places: Loop) -> Loop:
     return half
 
 
-def _track(path: Path, wish: Wish) -> Loop:
+def _track(path: Drift, wish: Wish) -> Loop:
     """Return where a label stands at each moment, as it will be drawn."""
     near = np.arange(-_REACH, _REACH + 1)
     weight = np.exp(-0.5 * (near / _SOFT) ** 2)

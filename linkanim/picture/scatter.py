@@ -18,7 +18,7 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 
 
-class Point(NamedTuple):
+class Dot(NamedTuple):
     """A labelled point, both values positive; `ours` sets it off from the others."""
 
     label: str
@@ -36,7 +36,7 @@ class ScatterTitles(NamedTuple):
 
 
 def scatter(
-    points: Sequence[Point],
+    points: Sequence[Dot],
     names: ScatterTitles,
     *,
     size: tuple[int, int] = (1280, 720),
@@ -63,7 +63,7 @@ def scatter(
     return surface
 
 
-def _plot(points: Sequence[Point], size: tuple[int, int], pen: Pen) -> Plot:
+def _plot(points: Sequence[Dot], size: tuple[int, int], pen: Pen) -> Plot:
     """Return the axes over all points and the area they leave."""
     x, y = (decades(min(values), max(values)) for values in zip(*((p.x, p.y) for p in points), strict=True))
     whole = Rect(0, 0, *size).inset(20 * pen.line / 1.8)
@@ -80,14 +80,14 @@ def _draw_names(surface: pygame.Surface, plot: Plot, names: ScatterTitles, pen: 
     draw(surface, names.x, at, size=pen.small, colour=pen.theme.dim, anchor="right")
 
 
-def _dot(plot: Plot, point: Point, pen: Pen) -> pygame.Rect:
+def _dot(plot: Plot, point: Dot, pen: Pen) -> pygame.Rect:
     place, radius = complex(plot.place(point.x, point.y)), 3.6 * pen.line
     side = round(2 * radius)
     return pygame.Rect(round(place.real - radius), round(place.imag - radius), side, side)
 
 
 def _label(
-    surface: pygame.Surface, plot: Plot, point: Point, pen: Pen, taken: list[pygame.Rect]
+    surface: pygame.Surface, plot: Plot, point: Dot, pen: Pen, taken: list[pygame.Rect]
 ) -> pygame.Rect:
     """Draw a point's name where it meets no point and no other name; return what it takes up."""
     place = complex(plot.place(point.x, point.y))

@@ -84,19 +84,19 @@ def is_full() -> bool:
     return bool(surface().get_flags() & pygame.FULLSCREEN)
 
 
-class Frame(NamedTuple):
+class Placement(NamedTuple):
     """Where a window is and how large, to go back to from full screen."""
 
     position: tuple[int, int]
     size: tuple[int, int]
 
 
-def frame() -> Frame:
+def frame() -> Placement:
     """Return where the window is now."""
-    return Frame(pygame.display.get_window_position(), pygame.display.get_window_size())
+    return Placement(pygame.display.get_window_position(), pygame.display.get_window_size())
 
 
-def fill(back: Frame) -> Frame:
+def fill(back: Placement) -> Placement:
     """Fill the screen, or go from there back to a window; return the window to go back to.
 
     A new mode, and not `toggle_fullscreen`, which warns on stderr where there is no window manager.

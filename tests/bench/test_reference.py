@@ -10,7 +10,7 @@ import pytest
 from mpmath import mp, mpc, mpf, workdps
 
 from linkanim.bench.cases import EASY, HARD, TOGGLE, Case
-from linkanim.bench.reference import DIGITS, FourBar, answer, closures, crossing
+from linkanim.bench.reference import DIGITS, ExactFourBar, answer, closures, crossing
 
 CASES = (EASY, *HARD)
 SMOOTH = [case for case in CASES if case.name != "1e-12 rad before a toggle"]
@@ -81,7 +81,7 @@ def test_circles_of_3_and_4_that_are_5_apart_cross_at_a_right_angle() -> None:
 
 
 def test_the_limits_are_where_the_bars_are_in_line() -> None:
-    limits = FourBar((5, 4, 3, "3.5")).limits
+    limits = ExactFourBar((5, 4, 3, "3.5")).limits
     assert limits is not None
     low, high = limits
     assert low == -high

@@ -21,7 +21,7 @@ MADE = scaling.Growth(
     result().machine,
     (scaling.Sized(100, 300.0, 500.0, 3000.0, 10_000), scaling.Sized(10_000, 14.2, 27.1, 46.0, 270_000)),
     (scaling.Chained(1, 14.2, 27.1), scaling.Chained(50, 420.0, 1_800.4)),
-    (scaling.Kind("four-bar", 14.0, 27.0, 1_500.0, 2_500.0, 1.0),),
+    (scaling.KindTimes("four-bar", 14.0, 27.0, 1_500.0, 2_500.0, 1.0),),
 )
 
 

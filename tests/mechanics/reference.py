@@ -13,8 +13,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from linkanim.bench.cases import Length
-from linkanim.bench.reference import FourBar as LevelFourBar
-from linkanim.bench.reference import crossing
+from linkanim.bench.reference import ExactFourBar, crossing
 
 DIGITS = 140
 STEP = mpf(10) ** -22
@@ -40,9 +39,9 @@ class FourBar:
         return ground, crank, coupler, rocker
 
     @property
-    def level(self) -> LevelFourBar:
+    def level(self) -> ExactFourBar:
         """The same on level ground."""
-        return LevelFourBar(self.lengths, self.side, mpf(self.start) - mpf(self.ground_angle))
+        return ExactFourBar(self.lengths, self.side, mpf(self.start) - mpf(self.ground_angle))
 
     def pose(self) -> Pose:
         """The pins and the coupler point (a/2, a/3) at a phase."""

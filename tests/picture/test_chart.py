@@ -10,7 +10,7 @@ import pytest
 
 from linkanim.picture.axis import decades, linear
 from linkanim.picture.chart import Plot, curve_layer
-from linkanim.picture.scatter import Point, ScatterTitles, scatter
+from linkanim.picture.scatter import Dot, ScatterTitles, scatter
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 
@@ -30,7 +30,7 @@ def test_what_lies_beyond_the_axis_stays_at_its_edge() -> None:
 
 
 def test_a_log_log_picture_has_its_points_at_their_decades() -> None:
-    points = [Point("one", 10.0, 1e-8), Point("two", 1000.0, 1e-16, ours=True)]
+    points = [Dot("one", 10.0, 1e-8), Dot("two", 1000.0, 1e-16, ours=True)]
     names = ScatterTitles("title", "across", "up")
     picture = scatter(points, names, size=(640, 360))
     assert picture.get_size() == (640, 360)
@@ -43,7 +43,7 @@ def test_a_log_log_picture_has_its_points_at_their_decades() -> None:
     assert decades(10.0, 1000.0).share(100.0) == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize("points", [[], [Point("zero", 0.0, 1.0)], [Point("inf", 1.0, math.inf)]])
-def test_a_log_log_picture_of_what_has_no_logarithm_is_refused(points: list[Point]) -> None:
+@pytest.mark.parametrize("points", [[], [Dot("zero", 0.0, 1.0)], [Dot("inf", 1.0, math.inf)]])
+def test_a_log_log_picture_of_what_has_no_logarithm_is_refused(points: list[Dot]) -> None:
     with pytest.raises(ValueError, match="positive and finite"):
         scatter(points, ScatterTitles("t", "x", "y"))

@@ -13,7 +13,7 @@ from pictures import pixels
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.gears import Pair, pairs, wheel_layers, wheel_parts, wheels
+from linkanim.picture.gears import WheelPair, pairs, wheel_layers, wheel_parts, wheels
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
@@ -170,7 +170,7 @@ def test_wheels_have_few_teeth_and_none_too_few() -> None:
     assert counts == [(12, 12), (9, 27), (9, 18)]
 
 
-def _module(pair: Pair) -> float:
+def _module(pair: WheelPair) -> float:
     return 2 * pair.driver.radius / pair.driver.teeth
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 from pathlib import Path
-from typing import NamedTuple
 
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
@@ -14,17 +13,14 @@ from linkanim.whole import checked_target
 _SIZE = (1280, 720)
 
 
-class Sheet(NamedTuple):
-    """A picture to be written: its scene, its size in pixels, and the file."""
+def scene_size_target(
+    options: Namespace, suffixes: tuple[str, ...], usual: str
+) -> tuple[Scene, tuple[int, int], Path]:
+    """Return the scene, the size in pixels, and the file, by default named after the scene.
 
-    scene: Scene
-    size: tuple[int, int]
-    target: Path
-
-
-def sheet(options: Namespace, suffixes: tuple[str, ...], usual: str) -> Sheet:
-    """Return the picture asked for, by default named after its scene; `BadInput` for a bad size or file."""
+    `BadInput` for a size or a file that cannot be.
+    """
     target = checked_target(options.output or f"{Path(options.scene).stem}{usual}", suffixes)
     size = options.size or _SIZE
     refuse_size(size)
-    return Sheet(load(options.scene), size, target)
+    return load(options.scene), size, target
