@@ -6,6 +6,7 @@ neither a window nor an encoder.
 """
 
 import os
+import sys
 
 # Not typing's: whoever starts the command waits for this file before Ctrl-C is answered in one line.
 TYPE_CHECKING = False
@@ -31,6 +32,12 @@ _HOME = {
     "names": "linkanim.scenes",
     "record": "linkanim.recorder",
 }
+
+
+if "IPython" in sys.modules:
+    from linkanim.notebook import register
+
+    register(sys.modules["IPython"].get_ipython())
 
 
 def __getattr__(name: str) -> object:

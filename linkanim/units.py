@@ -134,6 +134,11 @@ def length(value: object, *, unit: str) -> float:
     return _rounded(number, factor, value, _LENGTH)
 
 
+def length_units() -> tuple[str, ...]:
+    """Return the units of length."""
+    return tuple(_LENGTH.factors)
+
+
 def metre(unit: str) -> float:
     """Return one `unit` of length in metres (0.001 for mm); UnitError for a unit that is not a length."""
     return float(_LENGTH.factors[_length_unit(unit)])

@@ -32,7 +32,7 @@ RANK = {
             ("recorder",),
             ("bench",),
             ("cli",),
-            ("linkanim",),
+            ("linkanim", "notebook"),
         ]
     )
     for room in rooms
@@ -56,6 +56,7 @@ THIRD_PARTIES = {
     "bench": {"numpy", "mpmath", "pylinkage", "scipy"},
     "cli": {"numpy", "tqdm"},
     "linkanim": set(),
+    "notebook": {"numpy"},
 }
 
 # The version is text in __init__, which imports nothing by itself.

@@ -1,0 +1,113 @@
+"""What a notebook shows: of a scene its figure beside its facts, of a motion its table and a chart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from linkanim.digits import significant, typeset
+from linkanim.mechanics.derived import output_body
+from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.register import Quantity, register
+from linkanim.paper.figure import Figured
+from linkanim.paper.html import symbol
+from linkanim.paper.svg import svg
+from linkanim.picture.axis import around
+from linkanim.picture.chart import Plot, axes, curve_layer, pen_for, plot_area, x_title
+from linkanim.picture.items import Caption, Item
+from linkanim.picture.layout import layout
+from linkanim.picture.look import Look
+from linkanim.picture.text import Type
+from linkanim.picture.theme import LIGHT
+from linkanim.picture.view import Rect
+from linkanim.scenes.scene import Scene
+from linkanim.units import length_units, metre
+
+_FIGURE, _CHART = (560, 360), (640, 260)
+_ENDS = 5
+"""So many rows of a motion's table at either end; what lies between is left out."""
+_DIGITS = 6
+
+
+def scene_html(scene: Scene) -> str:
+    """Return a scene's figure at its start, and what is told of it."""
+    figure = Figured(scene, _FIGURE, Look(names=1, hud=False)).document()
+    return _beside(figure, scene._repr_html_())
+
+
+def motion_html(motion: Motion) -> str:
+    """Return a motion's table, and of several instants in a row the chart of what its output does."""
+    table = _table(motion)
+    if np.ndim(motion.phase) != 1 or len(motion.phase) < 2:
+        return table
+    return _beside(_chart(motion, _telling(motion)), table)
+
+
+def _beside(picture: str, table: str) -> str:
+    return f"<div style='display:flex;flex-wrap:wrap;gap:1em;align-items:start'>{picture}{table}</div>"
+
+
+def _unit(motion: Motion) -> str:
+    """Return the unit of length that a motion is told in."""
+    scale = motion.setting.linkage.metre
+    return next((unit for unit in length_units() if metre(unit) == scale), "")
+
+
+def _shown(motion: Motion) -> Iterator[Quantity]:
+    """Yield what the table has: where moving joints are, and how far bodies have turned or slid."""
+    linkage, known = motion.setting.linkage, register(motion.setting.linkage)
+    for joint in linkage.joints:
+        if not joint.fixed:
+            yield from (known[f"{joint.name}.position.{axis}"] for axis in "xy")
+    for body in linkage.bodies:
+        yield known[f"{body.name}.{'travel' if body.slider else 'angle'}"]
+
+
+def _table(motion: Motion) -> str:
+    """Return the input's angle, phase, joints and bodies, a row for each instant."""
+    unit, shown = _unit(motion), list(_shown(motion))
+    titles = ["input angle (°)", "phase (°)"]
+    titles += [f"{one.symbol} ({one.shown_unit(unit)})" for one in shown]
+    inputs = np.degrees(motion.crank_angle), np.degrees(motion.phase)
+    columns = (np.ravel(column) for column in (*inputs, *(one.shown(motion) for one in shown)))
+    rows = np.stack(list(columns), axis=1)
+    head = "".join(f"<th>{symbol(title)}</th>" for title in titles)
+    cut = range(_ENDS, len(rows) - _ENDS)
+    body = [_row(row) for n, row in enumerate(rows) if n not in cut]
+    if cut:
+        body.insert(_ENDS, f"<tr><td colspan='{len(titles)}'>… {len(cut):,} more rows …</td></tr>")
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table>"
+
+
+def _row(values: Any) -> str:
+    cells = (escape(typeset(significant(float(value), _DIGITS))) for value in values)
+    return f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
+
+
+def _telling(motion: Motion) -> Quantity:
+    """Return the quantity that is charted: how fast the output moves, or where it is without rates."""
+    linkage, known = motion.setting.linkage, register(motion.setting.linkage)
+    output = output_body(linkage)
+    if output is None:
+        return known["input.angular_velocity"]
+    where, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
+    return known[f"{output.name}.{rate if motion.velocity else where}"]
+
+
+def _chart(motion: Motion, told: Quantity) -> str:
+    """Return a chart of a quantity over the input's angle, or over the phase where the input swings."""
+    turns = bool((np.diff(motion.crank_angle) > 0).all() or (np.diff(motion.crank_angle) < 0).all())
+    x = np.degrees(motion.crank_angle if turns else motion.phase)
+    values = np.asarray(told.shown(motion), float)
+    type_, parts = Type(), layout(_CHART)
+    pen = pen_for(parts, type_, LIGHT)
+    y_axis = around(values, most=4)
+    area = plot_area(Rect(0, 0, *_CHART), y_axis, pen, foot=True)
+    plot = Plot(area, around(x, most=6, unit="°", room=0.0), y_axis)
+    items: list[Item] = [*axes(plot, pen), x_title(plot, "input angle (°)" if turns else "phase φ (°)", pen)]
+    items.append(Caption(told.title(_unit(motion)), (area.x, area.y - 1.35 * pen.text), pen.text, LIGHT.ink))
+    items.append(curve_layer(plot, x, values, LIGHT.velocity, 1.3 * pen.line))
+    return svg(_CHART, LIGHT.background, items, title=told.words)

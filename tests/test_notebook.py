@@ -1,0 +1,103 @@
+"""What a notebook is told, and what scenes and motions then show."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from linkanim.notebook import register
+from linkanim.scenes import load, names
+
+SVG = "{http://www.w3.org/2000/svg}"
+Shown = dict[tuple[str, str], Callable[[Any], str]]
+
+
+@pytest.fixture
+def shown() -> Shown:
+    """Return what a shell is told: what shows a class, by its module and name."""
+    told: Shown = {}
+
+    def by_name(module: str, name: str, show: Callable[[Any], str]) -> None:
+        told[module, name] = show
+
+    page = SimpleNamespace(for_type_by_name=by_name)
+    register(SimpleNamespace(display_formatter=SimpleNamespace(formatters={"text/html": page})))
+    return told
+
+
+def parsed(thing: Any, shown: Shown) -> ElementTree.Element:
+    kind = type(thing)
+    return ElementTree.fromstring(shown[kind.__module__, kind.__name__](thing))
+
+
+def texts(page: ElementTree.Element, tag: str) -> list[str]:
+    return ["".join(cell.itertext()) for cell in page.iter(tag)]
+
+
+@pytest.mark.parametrize("name", ["press", "double-rocker", "scotch-yoke"])
+def test_a_scene_shows_its_figure_beside_its_facts(name: str, shown: Shown) -> None:
+    scene = load(name)
+    page = parsed(scene, shown)
+    groups = {group.get("id") for group in page.iter(f"{SVG}g")}
+    assert {f"body-{body.name}" for body in scene.linkage.bodies if len(body.joints) > 1} <= groups
+    assert scene.info.class_name in texts(page, "td")
+
+
+def test_a_motion_shows_its_table_and_a_chart(shown: Shown) -> None:
+    motion = load("crank-rocker").solve(angle=np.radians(np.arange(0, 360, 2)))
+    page = parsed(motion, shown)
+    rows = [texts(row, "td") for row in page.iter("tr")][1:]
+    assert len(rows) == 11
+    assert rows[5] == ["… 170 more rows …"]
+    titles = texts(page, "th")
+    at = titles.index("xB (mm)")
+    assert [float(row[at]) for row in rows[:5]] == pytest.approx(motion.position["B"][:5, 0], rel=1e-5)
+    assert [row[0] for row in rows[-5:]] == ["350", "352", "354", "356", "358"]
+    assert "Rocker: angular velocity ω₄ (rad/s)" in " ".join(texts(page, f"{SVG}text")).replace("ω4", "ω₄")
+
+
+# one instant; positions alone; a sweep that leaves the range; a swing by its phase; all rows the same
+MOTIONS = {
+    "one instant": ("press", {"angle": 1.0}, False),
+    "positions alone": ("press", {"phase": np.linspace(0, 6, 20), "derivatives": 0}, True),
+    "beyond the range": ("double-rocker", {"angle": np.linspace(0, 3, 20)}, True),
+    "a swing": ("double-rocker", {"phase": np.linspace(0, 6, 20)}, True),
+    "all the same": ("press", {"angle": np.ones(5)}, True),
+}
+
+
+@pytest.mark.parametrize(("name", "asked", "charted"), MOTIONS.values(), ids=MOTIONS)
+def test_any_motion_can_be_shown(name: str, asked: dict[str, Any], charted: bool, shown: Shown) -> None:
+    page = parsed(load(name).solve(**asked), shown)
+    assert bool(list(page.iter(f"{SVG}path"))) == charted
+    assert "nan" not in "".join(page.itertext())
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_scene_s_cycle_can_be_shown(name: str, shown: Shown) -> None:
+    assert list(parsed(load(name).cycle(12), shown).iter(f"{SVG}path"))
+
+
+def test_no_shell_is_told_nothing() -> None:
+    register(None)
+
+
+def test_the_package_tells_a_shell_that_is_there_and_imports_nothing_for_it() -> None:
+    code = """
+import sys, types
+told = []
+page = types.SimpleNamespace(for_type_by_name=lambda *asked: told.append(asked[:2]))
+shell = types.SimpleNamespace(display_formatter=types.SimpleNamespace(formatters={"text/html": page}))
+sys.modules["IPython"] = types.SimpleNamespace(get_ipython=lambda: shell)
+import linkanim
+assert [name for _, name in told] == ["Scene", "Motion"], told
+assert not {"numpy", "pygame", "linkanim.scenes"} & set(sys.modules)
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
