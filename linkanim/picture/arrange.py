@@ -28,6 +28,8 @@ _AWAY = (0.0, 0.25, 0.5)
 """How far the scene gives way to the words, in shares of the room that it leaves."""
 _MARKS = (7.2, 2.5)
 """How wide and high the marks are, in sizes of the text."""
+_STRIPS = (27.0, 19.0, 13.0, 5.4)
+"""How wide the strip may be, in sizes of its text: with all its words, and with ever fewer."""
 _THINNEST = 0.68
 """What is drawn is no thinner than this on a small stage, in thicknesses of the whole window's."""
 _EDGE = 9.0
@@ -55,7 +57,8 @@ def arranged(
     found = (bench.placed(*way[1:]) for group in blocks for way in bench.ways(group))
     bare = Arrangement(parts, bench.view(bench.largest, (0.5, 0.5)), bench.gauge, None)
     arrangement = next((one for one in found if one), bare)
-    return replace(arrangement, layout=replace(arrangement.layout, marks=bench.marks(arrangement)))
+    marked = replace(arrangement, layout=replace(arrangement.layout, marks=bench.marks(arrangement)))
+    return replace(marked, layout=replace(marked.layout, strip=bench.strip(marked)))
 
 
 class _Bench:
@@ -118,6 +121,21 @@ class _Bench:
         ]
         clear = (rect for rect in free if not self._drawn_in(rect, arrangement.view, high))
         return next(clear, (free or corners)[0])
+
+    def strip(self, arrangement: Arrangement) -> Rect:
+        """Return where the strip stands: at the stage's foot or head, on nothing, as wide as it can be.
+
+        Nowhere is a rectangle without width.
+        """
+        parts, size, edge = arrangement.layout, arrangement.layout.small_size, 6 * arrangement.layout.unit
+        stage, told = parts.stage.inset(edge), [one for one in (parts.hud, parts.legend, parts.marks) if one]
+        for wide, low, right in product(_STRIPS, (1, 0), (1.0, 0.0, 0.5)):
+            width, high = min(wide * size, stage.width), 1.6 * size
+            at = stage.x + right * (stage.width - width), stage.y + low * (stage.height - high)
+            rect = Rect(*at, width, high)
+            if not any(rect.meets(one) for one in told) and not self._drawn_in(rect, arrangement.view, 0):
+                return rect
+        return Rect(stage.x, stage.bottom, 0.0, 0.0)
 
     def view(self, scale: float, at: tuple[float, float]) -> View:
         """Return the view of a scale, so far to the right and down in the room there is (0 to 1)."""

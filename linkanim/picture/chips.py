@@ -18,12 +18,15 @@ def chip(board: Board, text: str) -> pygame.Surface:
     return sheet
 
 
-def strip(board: Board, text: str) -> pygame.Surface:
-    """Return the strip, as many of its parts as there is room for."""
+def strip(board: Board, text: str) -> pygame.Surface | None:
+    """Return the strip, the last of its parts that there is room for; None where that is none."""
     size, parts = board.layout.small_size, text.split(" · ")
-    room = board.layout.stage.width - 2 * size
-    while len(parts) > 1 and board.type.width(_GAP.join(parts), size) > room:
-        parts.pop()
+    place = board.layout.strip or board.layout.stage
+    room = place.width - 2 * size
+    while parts and board.type.width(_GAP.join(parts), size) > room:
+        parts.pop(0)
+    if not parts:
+        return None
     words = _GAP.join(parts)
     sheet = board.sheet(board.type.width(words, size) + 2 * size, 1.6 * size)
     board.write(sheet, words, (size, 0.3 * size), size=size, colour=board.theme.dim)

@@ -14,6 +14,8 @@ from linkanim.picture.overlay import Help
 _STEP = 1.32
 _GAP = 1.1
 """Between the keys and what they do, and between columns twice as much, in heights of the text."""
+_WIDEST = 0.97
+"""The most of its room that the help takes."""
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
 
@@ -48,8 +50,9 @@ def help_sheet(board: Board, told: tuple[Help, int]) -> pygame.Surface:
     Where not all of it can be read there, the last subjects are left out.
     """
     groups, room = told
-    plan = next(filter(partial(_fits, (room, board.layout.size[1])), _plans(board, groups)), None)
-    size, columns, wide, high = plan or _planned(board, groups[:1], _LEAST)
+    plans = _plans(board, groups, _WIDEST * room)
+    plan = next(filter(partial(_fits, (room, board.layout.size[1])), plans), None)
+    size, columns, wide, high = plan or _planned(board, groups[:1], _LEAST, _WIDEST * room)
     sheet = board.sheet(wide, high)
     x = 1.4 * size
     for column in columns:
@@ -58,24 +61,32 @@ def help_sheet(board: Board, told: tuple[Help, int]) -> pygame.Surface:
     return sheet
 
 
-def _plans(board: Board, groups: Help) -> Iterator[_Plan]:
-    """Yield all subjects at every size, then fewer and fewer at the least."""
-    for size in range(board.layout.text_size, _LEAST - 1, -1):
+def _plans(board: Board, groups: Help, room: float) -> Iterator[_Plan]:
+    """Yield all subjects at every size, smaller ones broken into lines, then fewer and fewer at the least."""
+    largest, small = board.layout.text_size, board.layout.small_size
+    for size in range(largest, small - 1, -1):
         yield _planned(board, groups, size)
+    for size in range(small, _LEAST - 1, -1):
+        yield _planned(board, groups, size)
+        yield _planned(board, groups, size, room)
     for count in range(len(groups) - 1, 0, -1):
-        yield _planned(board, groups[:count], _LEAST)
+        yield _planned(board, groups[:count], _LEAST, room)
 
 
-def _planned(board: Board, groups: Help, size: int) -> _Plan:
-    columns = [_measured(board, lines, size) for lines in _divided(groups)]
-    wide = sum(column.keys + column.does for column in columns) + (_GAP * (3 * len(columns) - 2) + 2.8) * size
+def _planned(board: Board, groups: Help, size: int, room: float | None = None) -> _Plan:
+    """Return the columns at a size, no wider than a room together where one is given."""
+    parts = _divided(groups)
+    gaps = (_GAP * (3 * len(parts) - 2) + 2.8) * size
+    each = None if room is None else (room - gaps) / len(parts)
+    columns = [_measured(board, lines, size, each) for lines in parts]
+    wide = sum(column.keys + column.does for column in columns) + gaps
     high = (_STEP * max(len(column.lines) for column in columns) + 1.6) * size
     return _Plan(size, columns, wide, high)
 
 
 def _fits(room: tuple[int, int], plan: _Plan) -> bool:
     width, height = room
-    return plan.wide <= 0.97 * width and plan.high <= 0.97 * height
+    return plan.wide <= _WIDEST * width + 1 and plan.high <= _WIDEST * height
 
 
 def _divided(groups: Help) -> list[tuple[_Line, ...]]:
@@ -99,9 +110,18 @@ def _joined(blocks: list[tuple[_Line, ...]]) -> tuple[_Line, ...]:
     return tuple(lines[:-1])
 
 
-def _measured(board: Board, lines: tuple[_Line, ...], size: int) -> _Column:
+def _measured(board: Board, lines: tuple[_Line, ...], size: int, room: float | None) -> _Column:
     keys = board.widest((line.keys for line in lines if not line.heading), size, strong=True)
+    if room is not None:
+        lines = tuple(part for line in lines for part in _broken(board, line, size, room - keys))
     return _Column(lines, keys, board.widest((line.does for line in lines), size))
+
+
+def _broken(board: Board, line: _Line, size: int, room: float) -> Iterator[_Line]:
+    """Yield a line as several where what its keys do is wider than a room."""
+    first, *rest = board.type.wrapped(line.does, size, max(room, 6.0 * size)) or [""]
+    yield line._replace(does=first)
+    yield from (_Line("", more) for more in rest)
 
 
 def _draw(board: Board, sheet: pygame.Surface, column: _Column, x: float, size: int) -> None:

@@ -38,6 +38,8 @@ class Layout:
     lists: Rect
     """Where the edit list or that of quantities stands, if one is open."""
     polygons: Rect | None = None
+    strip: Rect | None = None
+    """Where the words on what there is to press stand; without width where there is no room for them."""
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
 

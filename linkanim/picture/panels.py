@@ -73,19 +73,19 @@ class Panels:
 
     def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw the chip below the marks, and the strip at the bottom, where the HUD is not."""
-        room, unit, place = self.layout.stage, self.layout.unit, self.layout.marks
+        room, place = self.layout.stage, self.layout.marks
         if overlay.chip:
             drawn = self._keep("chip", overlay.chip.text, partial(chip, self.board))
             marks = 1.5 * self.layout.text_size * (bool(overlay.recording) + overlay.paused)
             left = place.x if self._marks_lead else place.right - drawn.get_width()
             put(surface, drawn, (left, place.y + marks), overlay.chip)
         if overlay.strip:
-            drawn = self._keep("strip", overlay.strip.text, partial(strip, self.board))
-            wide, high = drawn.get_size()
-            top, right = room.bottom - high - 6 * unit, room.right - wide - 6 * unit
-            hud = self.layout.hud
-            worded = hud is not None and hud.bottom > top and hud.right > right
-            put(surface, drawn, (room.x + 6 * unit if worded else right, top), overlay.strip)
+            words = self._keep("strip", overlay.strip.text, partial(strip, self.board))
+            at = self.layout.strip or room
+            if words:
+                leads = at.x + at.width / 2 <= room.x + room.width / 2
+                left = at.x if leads else at.right - words.get_width()
+                put(surface, words, (left, at.bottom - words.get_height()), overlay.strip)
 
     @property
     def _marks_lead(self) -> bool:

@@ -279,3 +279,23 @@ def test_what_has_no_extent_is_still_in_the_middle(points: list[complex], scale:
     assert arrangement.view.scale == pytest.approx(scale)
     middle = sum(points) / len(points)
     assert arrangement.view.to_pixel(middle.real, middle.imag) == pytest.approx((640, 360))
+
+
+@pytest.mark.parametrize("size", [(320, 180), (640, 360), (720, 1280)])
+@pytest.mark.parametrize(
+    "name", ["press", "jansen", "dwell-six-bar", "cardan-gears", "double-rocker", "engine"]
+)
+def test_the_strip_lies_on_nothing_that_moves_or_is_said(name: str, size: tuple[int, int]) -> None:
+    scene, look = load(name), Look()
+    painter, surface = Painter(scene, size, look), offscreen(size)
+    place = painter._layout.strip
+    assert place is not None
+    assert place.x >= 0
+    assert place.right <= size[0]
+    for phase in _moments(name, 12):
+        painter.paint(surface, scene.pose(float(phase)))
+        part = _part(surface, place)
+        assert (part == BACKGROUND).all(), phase
+    widest = staged(scene, None, Staged((1280, 720), False, 0, True, False), type_of_words()).arrangement
+    assert widest.layout.strip is not None
+    assert widest.layout.strip.width >= 11 * widest.layout.small_size

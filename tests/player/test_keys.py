@@ -7,6 +7,11 @@ import sys
 
 import pytest
 
+from linkanim.picture.board import Board
+from linkanim.picture.help_sheet import help_sheet
+from linkanim.picture.layout import layout
+from linkanim.picture.text import Type
+from linkanim.picture.theme import theme_of
 from linkanim.player.action import Action
 from linkanim.player.actions import is_known
 from linkanim.player.browsing import RESOLVED
@@ -212,3 +217,18 @@ def test_the_table_is_read_without_pygame() -> None:
     code = "import sys, linkanim.player.keys as k; k.as_text(); print('pygame' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
+
+
+@pytest.mark.parametrize(("mode", "room"), [("play", 640), ("play", 560), ("edit", 640), ("edit", 390)])
+def test_all_of_the_help_is_there_in_a_small_window_too(
+    mode: Mode, room: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told: list[str] = []
+    monkeypatch.setattr(Type, "draw", lambda *words, **_: told.append(words[2]))
+    board, groups = Board(layout((640, 360)), Type(), theme_of("light")), help_groups(mode)
+    sheet = help_sheet(board, (groups, room))
+    assert sheet.get_width() <= room
+    assert sheet.get_height() <= 360
+    for keys, does in (line for _, lines in groups for line in lines):
+        assert keys in told
+        assert does in " ".join(told) or set(does.split()) <= set(" ".join(told).split())
