@@ -53,7 +53,7 @@ THIRD_PARTIES = {
     "paper": {"numpy", "pygame"},
     "player": {"numpy", "pygame"},
     "recorder": {"numpy", "imageio", "imageio_ffmpeg", "PIL"},
-    "bench": {"numpy", "mpmath", "pylinkage", "scipy"},
+    "bench": {"numpy", "mpmath", "pylinkage", "scipy", "matplotlib"},
     "cli": {"numpy", "tqdm"},
     "linkanim": set(),
     "notebook": {"numpy"},

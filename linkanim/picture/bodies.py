@@ -6,6 +6,7 @@ import numpy as np
 
 from linkanim.mechanics.frames import holding
 from linkanim.mechanics.linkage import Body
+from linkanim.picture.directions import directions
 from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, Bench, fittings
 from linkanim.picture.layout import Gauge
@@ -99,7 +100,7 @@ def pin_stamp(gauge: Gauge, theme: Theme) -> Stamp:
 def mass_stamp(gauge: Gauge, theme: Theme) -> Stamp:
     """Return the sign of a centre of mass: a disc with two of its quarters light."""
     radius = 0.48 * gauge.bar
-    quarter = np.concatenate(([0j], radius * np.exp(1j * np.linspace(0, np.pi / 2, 9))))
+    quarter = np.concatenate(([0j], radius * directions(np.linspace(0, np.pi / 2, 9))))
     outer = Layer(theme.outline, [disc(radius + gauge.outline)])
     return Stamp((outer, Layer(theme.pin, [quarter, -quarter])))
 

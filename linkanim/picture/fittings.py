@@ -13,6 +13,7 @@ import numpy as np
 from linkanim.mechanics.joint import Joint
 from linkanim.mechanics.kinds import RPP, RPR, RRP, DrivenSlider
 from linkanim.mechanics.rail import Line
+from linkanim.picture.directions import directions, lengths
 from linkanim.picture.figure import DOWN, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Part, lined, slotted
@@ -104,7 +105,7 @@ def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[L
 
 def _slider(joint: RRP, bench: Bench) -> Fitting:
     """Return a block between rails on the ground, or a small one in the slot of a body that carries it."""
-    along = complex(np.exp(-1j * joint.line.angle))
+    along = complex(directions(-joint.line.angle))
     if joint.line.on is None:
         block = Part(joint.name, joint.name, joint.name, _block(bench, along), (joint.name,))
         return Fitting(behind=(block,), rails=(joint.name, along))
@@ -115,7 +116,7 @@ def _slider(joint: RRP, bench: Bench) -> Fitting:
 
 def _driven_slider(joint: DrivenSlider, bench: Bench) -> Fitting:
     """Return a block between rails, in the colour of what drives."""
-    along = complex(np.exp(-1j * joint.line.angle))
+    along = complex(directions(-joint.line.angle))
     rim, metal = _block(bench, along)
     coloured = Layer(bench.theme.bodies[0], metal.loops)
     block = Part(joint.name, joint.name, joint.name, (rim, coloured), (joint.name,))
@@ -176,7 +177,7 @@ def _facing(line: Line, bench: Bench) -> Loop:
         return np.ones(1, np.complex128)
     start, end = (bench.figure.cycle.position[name] for name in line.on)
     way = (end - start) @ DOWN
-    facing: Loop = way / np.abs(way)
+    facing: Loop = way / lengths(way)
     return facing
 
 
@@ -218,8 +219,8 @@ def _yoke(joint: RPP, bench: Bench) -> Fitting:
     """Return a block between rails with a slotted bar across it, and the collar that the pin turns in."""
     gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
     places = bench.figure.cycle.position
-    along = complex(np.exp(-1j * joint.line.angle))
-    across = along * complex(np.exp(-1j * joint.slot))
+    along = complex(directions(-joint.line.angle))
+    across = along * complex(directions(-joint.slot))
     apart = (places[joint.pin] - places[joint.name]) @ DOWN
     way = np.real(apart * np.conj(across * _facing(joint.line, bench)))
     ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across

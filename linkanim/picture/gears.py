@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.mechanics.kinds import Crank
+from linkanim.picture.directions import directions
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Part, Stamp
@@ -220,7 +221,7 @@ def _wheel(
         lines = [loop for outline in rim for loop in stroke(outline, gauge.outline, closed=True)]
         return Layer(tone, rim), Layer(edge, lines)
     root = _root(wheel, view, gauge)
-    holes = [0.62 * root * np.exp(2j * pi * k / 5) + disc(0.19 * root) for k in range(5)]
+    holes = [turn * (0.62 * root) + disc(0.19 * root) for turn in directions(2 * pi / 5 * np.arange(5))]
     line = stroke(rim[0], gauge.outline, closed=True)
     return Layer(tone, rim), Layer(mixed(tone, theme.background, 0.6), holes), Layer(edge, line)
 
@@ -261,7 +262,7 @@ def _toothed(wheel: Wheel, radius: float, foot: float, tip: float) -> Loop:
     radii, half = _flank(wheel.teeth, foot, tip)
     sides = np.concatenate((-half, half[::-1]))
     turns = np.arange(wheel.teeth)[:, None] * 2 * pi / wheel.teeth + sides - wheel.tooth
-    outline: Loop = radius * np.concatenate((radii, radii[::-1])) * np.exp(1j * turns)
+    outline: Loop = radius * np.concatenate((radii, radii[::-1])) * directions(turns)
     return outline.ravel()
 
 
@@ -295,5 +296,5 @@ def _belt(pulled: tuple[complex, complex, float, float], gauge: Gauge) -> Iterat
     along = (other - one) / abs(other - one)
     lean = np.arccos((first - second) / abs(other - one))
     for side in (1, -1):
-        normal = along * np.exp(1j * side * lean)
+        normal = along * complex(directions(side * lean))
         yield from segments(one + first * normal, other + second * normal, 1.5 * gauge.line)

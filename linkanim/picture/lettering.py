@@ -8,6 +8,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from linkanim.picture.directions import directions
 from linkanim.picture.raster import Colour
 from linkanim.picture.text import Type
 
@@ -63,8 +64,8 @@ def _haloed(cover: NDArray[np.float32], halo: int, ink: Colour, back: Colour) ->
     """Return letters in ink on a halo as (height, width, 4), colours times opacity, 0 to 1."""
     cover = np.pad(cover, halo + 1)
     around = cover.copy()
-    for turn in np.linspace(0, 2 * np.pi, 24, endpoint=False):
-        shift = round(halo * np.sin(turn)), round(halo * np.cos(turn))
+    for turn in directions(np.linspace(0, 2 * np.pi, 24, endpoint=False)):
+        shift = round(halo * turn.imag), round(halo * turn.real)
         np.maximum(around, np.roll(cover, shift, (0, 1)), out=around)
     opacity = np.maximum(around, cover)[..., None]
     inks, backs = (np.array(colour, np.float32) / 255 for colour in (ink, back))

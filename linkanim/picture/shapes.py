@@ -13,6 +13,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkanim.picture.directions import directions, length, lengths
 from linkanim.picture.raster import Loop
 
 
@@ -99,7 +100,7 @@ def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:
     """Return separate straight lines of this width with square ends, one for each pair."""
     begin, end = (np.atleast_1d(np.asarray(ends, np.complex128)) for ends in (begin, end))
     along = end - begin
-    side = 0.5j * width * along / np.maximum(np.abs(along), 1e-9)
+    side = 0.5j * width * along / np.maximum(lengths(along), 1e-9)
     return list(np.stack((begin - side, end - side, end + side, begin + side), axis=1))
 
 
@@ -110,21 +111,21 @@ def arrows(feet: ArrayLike, reaches: ArrayLike, width: float, rim: ArrayLike = 0
     """
     feet, reaches = (np.asarray(ends, np.complex128) for ends in (feet, reaches))
     rim = np.asarray(rim, np.float64)
-    length = np.abs(reaches)
-    head = np.minimum(4.2 * width, 0.6 * length)
+    long = lengths(reaches)
+    head = np.minimum(4.2 * width, 0.6 * long)
     half = np.minimum(width / 2, head / 5) + rim
-    neck, barb, wide = length - 0.9 * head - rim, length - head - rim, 0.42 * head + 1.5 * rim
-    tip = length + 2 * rim
+    neck, barb, wide = long - 0.9 * head - rim, long - head - rim, 0.42 * head + 1.5 * rim
+    tip = long + 2 * rim
     x = np.stack((0 * neck - rim, neck, barb, tip, barb, neck, 0 * neck - rim))
     y = np.stack((-half, -half, -wide, 0 * half, wide, half, half))
-    turn = reaches / np.where(length > 0, length, 1)
+    turn = reaches / np.where(long > 0, long, 1)
     return list((feet + turn * (x + 1j * y)).T)
 
 
 def unit(vector: complex) -> complex:
     """Return the direction of a vector; to the right where it has no length."""
-    length = abs(vector)
-    return vector / length if length > 0 else 1 + 0j
+    size = length(vector)
+    return vector / size if size > 0 else 1 + 0j
 
 
 def hull(points: Sequence[complex]) -> list[complex]:
@@ -153,14 +154,14 @@ def _arc(begin: float, sweep: float, radius: float) -> Loop:
     """Return an arc about the origin; the chords stay within 0.02 px of it."""
     step = 2 * np.arccos(max(1 - 0.02 / max(radius, 0.02), 0.5))
     count = max(int(np.ceil(sweep / step)), 2)
-    arc: Loop = radius * np.exp(1j * (begin + sweep / count * np.arange(count + 1)))
+    arc: Loop = radius * directions(begin + sweep / count * np.arange(count + 1))
     return arc
 
 
 def offsets(path: Loop) -> Loop:
     """Return at each point the way to the left edge of a line 2 wide, mitred up to twice its width."""
     along = path[1:] - path[:-1]
-    normal = 1j * along / np.abs(along)
+    normal = 1j * along / lengths(along)
     joined = np.concatenate((normal[:1], (normal[:-1] + normal[1:]) / 2, normal[-1:]))
     sides: Loop = joined / np.maximum(joined.real**2 + joined.imag**2, 0.25)
     return sides

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.mechanics.linkage import Damper, Spring
+from linkanim.picture.directions import directions, length, lengths
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
@@ -38,8 +39,8 @@ class StrutSpan(NamedTuple):
 def reach(figure: Figure, view: View, item: Spring | Damper) -> StrutSpan:
     """Return how short and how long a spring or damper becomes."""
     one, other = (figure.path(name, view) for name in item.between)
-    length = np.abs(one - other)
-    return StrutSpan(float(np.nanmin(length)), float(np.nanmax(length)))
+    apart = lengths(one - other)
+    return StrutSpan(float(np.nanmin(apart)), float(np.nanmax(apart)))
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ class Coil:
     def layers(self, places: Places) -> list[Layer]:
         """Return the far halves of the coils, then the near ones over them."""
         start, end = (places[name] for name in self.between)
-        span, turn = abs(end - start), unit(end - start)
+        span, turn = length(end - start), unit(end - start)
         lead = min(self.lead, 0.2 * span)
         pitch = (span - 2 * lead) / self.coils
         along = (lead + pitch * np.arange(self.coils)).astype(np.complex128)
@@ -80,8 +81,8 @@ class Coil:
         found = []
         for begin in (0.5, 0.0):
             along = (begin + np.linspace(0, 0.5, 13)).astype(np.complex128)
-            way = np.exp(1j * (2 * pi * along.real - pi / 2))
-            found.append((along, self.radius * (_TILT * way.real + 1j * way.imag)))
+            way = directions(2 * pi * along.real - pi / 2)
+            found.append((along, self.radius * (_TILT * way.real + 1j * way.imag).astype(np.complex128)))
         return tuple(found)
 
 
@@ -106,7 +107,7 @@ class Cushion:
     def layers(self, places: Places) -> list[Layer]:
         """Return cylinder, rods and piston; the piston stands deeper the shorter the damper is."""
         start, end = (places[name] for name in self.between)
-        span, turn = abs(end - start), unit(end - start)
+        span, turn = length(end - start), unit(end - start)
         foot = max(0.5 * (self.reach.shortest - self.length), 0.0) * 0.6
         piston = foot + self._piston(span)
         rods = [rod(piston, max(span, piston), self.rod / 2), rod(0.0, foot, self.rod / 2)]

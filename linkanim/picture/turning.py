@@ -9,6 +9,7 @@ import numpy as np
 
 from linkanim.mechanics.kinds import DrivenSlider
 from linkanim.mechanics.motion import Pose
+from linkanim.picture.directions import directions
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
@@ -68,7 +69,7 @@ class Turning:
         """Return the arc from the horizontal to the bar, and the line it begins at."""
         centre, way = self._bar(places)
         turned = self.turned(float(np.angle(way.conjugate())))
-        path = centre + self.arc * np.exp(-1j * np.linspace(0, turned, max(round(abs(turned) * 12), 2)))
+        path = centre + self.arc * directions(np.linspace(0, -turned, max(round(abs(turned) * 12), 2)))
         dashes = np.arange(0, 1.45 * self.arc, 3.5 * self.gauge.line)
         ends = centre + dashes, centre + dashes + 2.2 * self.gauge.line
         ink, back = self.colours
@@ -81,7 +82,7 @@ class Turning:
     def _bend(self, sweep: float, side: int) -> Loop:
         """Return the arrow's bend about the pivot, the bar along the real axis."""
         angles = side * _AHEAD + sweep * np.linspace(0, 1, 16)
-        return np.asarray(self.arrow * np.exp(1j * angles), np.complex128)
+        return np.asarray(self.arrow * directions(angles), np.complex128)
 
     def _head(self, sweep: float) -> float:
         """Return the head's length, less where the arrow is short."""
@@ -126,7 +127,7 @@ def motion_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning
     joint = figure.linkage.joint(figure.linkage.drive.joint)
     if not isinstance(joint, DrivenSlider):
         return turning_of(figure, view, gauge, theme)
-    along = complex(np.exp(-1j * joint.line.angle))
+    along = complex(directions(-joint.line.angle))
     fastest = float(np.nanmax(np.abs(figure.cycle.crank_rate)))
     ink = theme.ink, theme.background
     return Sliding(joint.name, along, _CLEAR * gauge.bar, _LONGEST * gauge.bar, fastest, ink, gauge)

@@ -85,6 +85,8 @@ def _most(cycle: Motion, kind: Kind, joints: tuple[str, ...]) -> float:
     values = cycle.velocity if kind == "v" else cycle.acceleration
     of_mass = cycle.com_velocity if kind == "v" else cycle.com_acceleration
     rows = [np.atleast_2d(row) for row in (*(values[joint] for joint in joints), *of_mass.values())]
-    sizes = np.concatenate([np.hypot(row[:, 0], row[:, 1]) for row in rows]) if rows else np.zeros(1)
+    sizes = (
+        np.concatenate([np.sqrt(row[:, 0] ** 2 + row[:, 1] ** 2) for row in rows]) if rows else np.zeros(1)
+    )
     finite = sizes[np.isfinite(sizes)]
     return float(finite.max()) if finite.size else 0.0

@@ -20,7 +20,7 @@ from linkanim.picture.bodies import colours_of
 from linkanim.picture.figure import figure
 from linkanim.picture.fonts import Fonts
 from linkanim.picture.look import Look, ThemeName
-from linkanim.picture.offscreen import offscreen
+from linkanim.picture.offscreen import offscreen, pixel_bytes
 from linkanim.picture.overlay import EditRow, Overlay, Panel, Quantities
 from linkanim.picture.painter import Painter
 from linkanim.picture.shapes import hull
@@ -400,3 +400,17 @@ def test_a_painter_for_a_pose_or_two_prepares_nothing_for_more(monkeypatch: pyte
 def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("linkanim.picture.staging.said_of", lambda *_: pytest.fail("no HUD is shown"))
     Painter(load("press"), (640, 360), Look(), listed=True)
+
+
+@pytest.mark.parametrize("name", ["press", "epicyclic-hypocycloid", "six-bar"])
+def test_frames_in_any_order_are_those_that_a_fresh_painter_paints(name: str) -> None:
+    """Nothing of a frame is left in what a painter keeps for the next."""
+    scene = load(name)
+    look = Look(vectors=frozenset("va"), names=2, ghost=name == "six-bar", chart="input.angular_velocity")
+    one, surface = Painter(scene, SMALL, look), offscreen(SMALL)
+    for phase in (5.1, 0.4, 3.3, 0.4):
+        ghost = scene.pose(phase + 1.0)
+        fresh = offscreen(SMALL)
+        Painter(scene, SMALL, look).paint(fresh, scene.pose(phase), ghost=ghost)
+        one.paint(surface, scene.pose(phase), ghost=ghost)
+        assert pixel_bytes(surface) == pixel_bytes(fresh)

@@ -1,0 +1,44 @@
+"""Directions and lengths for outlines, out of + - × ÷, rint and square roots: the same on every machine.
+
+The C library and numpy's vector units differ from machine to machine in the last digit of a sine or of
+an arctangent. What shapes are made of comes from here. Arctangents and arc cosines only say where an arc
+begins and ends or how a tooth's flank bends, and exponentials where a label rests; such a digit is a
+1e-13th of a pixel, and corners are rounded to 1/1024 of one before anything is painted.
+"""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim.mechanics.circular import PI_PARTS, tangent
+
+Directions = NDArray[np.complex128]
+
+
+def directions(angles: ArrayLike) -> Directions:
+    """Return cos + i sin of angles in radians, by the formulas of the poses (`mechanics.circular`)."""
+    angle = np.asarray(angles, np.float64)
+    quarters = np.rint(angle * (2 / pi))
+    first, second, third = (0.5 * part for part in PI_PARTS)
+    rest: Any = ((angle - quarters * first) - quarters * second) - quarters * third
+    half: Any = tangent(rest, 2.0)
+    norm = half * half + 4.0
+    turned = np.empty(angle.shape, np.complex128)
+    turned.real, turned.imag = (4.0 - half * half) / norm, 4.0 * half / norm
+    found: Directions = turned * np.array([1, 1j, -1, -1j])[quarters.astype(np.int64) & 3]
+    return found
+
+
+def lengths(vectors: Directions) -> NDArray[np.float64]:
+    """Return the lengths of vectors x + yi."""
+    found: NDArray[np.float64] = np.sqrt(vectors.real * vectors.real + vectors.imag * vectors.imag)
+    return found
+
+
+def length(vector: complex) -> float:
+    """Return the length of one vector."""
+    return sqrt(vector.real * vector.real + vector.imag * vector.imag)
