@@ -24,6 +24,7 @@ from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
+from linkanim.scenes.scene import Scene
 
 WINDOW: Layout = layout((640, 360), chart=True)
 
@@ -97,14 +98,21 @@ def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:
     assert _strip("crank-rocker", "rocker.angle").course.marks == ()
 
 
+def _input_told(scene: Scene, value: float) -> str:
+    """A driven slider's travel, or else an angle."""
+    if scene.linkage.slides:
+        return f"{value + 0.0:.1f} {scene.length_unit}"
+    return f"{math.degrees(value) + 0.0:.1f}°"
+
+
 @pytest.mark.parametrize("name", [name for name in names() if not load(name).info.full_turn])
 def test_every_limit_is_marked_where_the_input_turns_back(name: str) -> None:
-    chart = _strip(name, f"{load(name).linkage.drive.joint}.velocity", -1.0)
-    low, high = (f"{math.degrees(limit):.1f}°" for limit in load(name).info.input_range)
+    chart, scene = _strip(name, f"{load(name).linkage.drive.joint}.velocity", -1.0), load(name)
+    ends = [_input_told(scene, end) for end in scene.info.input_range]
     for place, label in chart.course.marks:
         pose = _pose(chart, float(chart.course.phase_of(place)))
-        assert label.replace("−", "-") == f"{math.degrees(pose.crank_angle) + 0.0:.1f}°"
-        assert label.replace("−", "-") in (low, high)
+        assert label.replace("−", "-") == _input_told(scene, pose.crank_angle)
+        assert label.replace("−", "-") in ends
         assert abs(pose.crank_rate) < 1e-9
 
 
