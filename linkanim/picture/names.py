@@ -319,7 +319,8 @@ class _Stage:
         begin, along = line[0], line[1] - line[0]
         normal = 1j * _units(along)
         clear = _support(normal, size) + 1.3 * self._hand.gauge.bar
-        places = [begin + share * along + side * clear * normal for side in sides for share in _ALONG]
+        aways = [np.sign(side) * (clear + (max(abs(side), 1) - 1) * size[1]) for side in sides]
+        places = [begin + share * along + away * normal for away in aways for share in _ALONG]
         price = np.array([_BESIDE * abs(side) + abs(share - 0.5) for side in sides for share in _ALONG])
         return Wish(size, np.stack(places, axis=1), price, frame)
 

@@ -38,6 +38,10 @@ _FASTEST = -10.0
 """The fastest that a scene is run at, backwards for the minus sign."""
 
 
+_BOUND = frozenset({"a", "an", "and", "at", "by", "its", "of", "the", "with"})
+"""Words that need what comes before them."""
+
+
 class WordLine(NamedTuple):
     """A line that stands still: its text, how far down, size, whether it is a title, how wide it is."""
 
@@ -212,7 +216,8 @@ def unsaid(title: str, class_name: str) -> str:
     if set(told) <= set(heard):
         return ""
     same = SequenceMatcher(None, heard, told, autojunk=False).find_longest_match()
-    if not same.size:
+    # A word, or words from a preposition on, out of a phrase leave no phrase.
+    if not same.size or (same.b and (same.size == 1 or told[same.b] in _BOUND)):
         return class_name
     begin, end = words[same.b].start(), words[same.b + same.size - 1].end()
     if "-" in (class_name[begin - 1 : begin], class_name[end : end + 1]):

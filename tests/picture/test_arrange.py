@@ -248,6 +248,17 @@ def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) ->
         # nothing, or half a word
         ("My machine", "Grashof crank-rocker", "Grashof crank-rocker"),
         ("A rocker of mine", "Grashof crank-rocker", "Grashof crank-rocker"),
+        # what is left would be no phrase
+        (
+            "Oscillating cylinder",
+            "inverted slider-crank, swinging cylinder",
+            "inverted slider-crank, swinging cylinder",
+        ),
+        (
+            "Press pushed by a slider",
+            "six-bar linkage driven by a slider",
+            "six-bar linkage driven by a slider",
+        ),
     ],
 )
 def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, rest: str) -> None:
