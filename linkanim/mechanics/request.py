@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 
 CRANK = ("crank_angle", "crank_rate", "crank_second")
 """The crank's angle and its rates, which an input that does not turn fully moves in its own way."""
-WITH_LOWER = {family[n]: family[: n + 1] for family in FAMILIES for n in range(len(family))}
-"""Each quantity after those of its family with fewer derivatives."""
+LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
+"""The quantities of its family with fewer derivatives, of each."""
 ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(CRANK, range(3), strict=True)), "phase": 0}
 
 
@@ -75,10 +75,7 @@ class Request(NamedTuple):
             return self._input()
         if DERIVATIVE_OF[name] > self.derivatives:
             return {name: {}}
-        *lower, _ = kinds = WITH_LOWER[name]
-        if lower:
-            kinds = (*(kind for kind in lower if kind not in known), name)
-        return self.worked_out(kinds)
+        return self.worked_out((*[kind for kind in LOWER[name] if kind not in known], name))
 
     def every(self) -> dict[str, Any]:
         """Return all quantities from one pass."""

@@ -87,3 +87,14 @@ def test_a_motion_is_frozen(name: str) -> None:
 def test_what_a_motion_does_not_have_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="no 'jerk'"):
         _ = load("press").solve(angle=0.3).jerk
+
+
+@pytest.mark.parametrize("scene", ["press", "double-rocker"])
+def test_the_inputs_own_motion_is_that_of_a_pose(scene: str) -> None:
+    motion = load(scene).solve(phase=PHASES, speed=3.0, acceleration=0.5)
+    for index, phase in enumerate(PHASES[:9].tolist()):
+        pose = load(scene).pose(phase, speed=3.0, acceleration=0.5)
+        for name in CRANK:
+            assert np.broadcast_to(getattr(motion, name), PHASES.shape)[index] == pytest.approx(
+                getattr(pose, name), rel=1e-14
+            )
