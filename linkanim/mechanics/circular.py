@@ -49,7 +49,7 @@ def tangent(angle: Value, share: float) -> Value:
     square, scale = angle * angle, share * share
     (z1, c1), (z2, c2), (z3, c3) = ((place * scale, weight) for place, weight in POLES)
     poles = (c3 / (z3 - square) + c2 / (z2 - square)) + c1 / (z1 - square)
-    return angle + angle * square * poles
+    return angle + square * poles * angle
 
 
 @dataclass(frozen=True)

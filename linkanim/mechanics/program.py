@@ -54,19 +54,17 @@ UFUNCS: Mapping[str, Callable[..., Any]] = {
 def needed(outputs: Sequence[Value]) -> list[Expr]:
     """Return the nodes that the outputs depend on, arguments before their users.
 
-    Each output's nodes come together, the last output's first, which keeps few values waiting for
-    their use: fewer buffers stay in the cache.
+    They stand as they were noted, joint by joint: few values wait long for their use, so that what is in
+    use stays in the cache.
     """
     found: dict[int, Expr] = {}
-    stack = [value for value in outputs if isinstance(value, Expr)]
+    stack: list[Expr | float | str] = list(outputs)
     while stack:
-        node = stack[-1]
-        waiting = [arg for arg in node.args if isinstance(arg, Expr) and arg.index not in found]
-        if waiting:
-            stack.extend(waiting)
-        else:
-            found.setdefault(node.index, stack.pop())
-    return list(found.values())
+        node = stack.pop()
+        if isinstance(node, Expr) and node.index not in found:
+            found[node.index] = node
+            stack.extend(node.args)
+    return [found[index] for index in sorted(found)]
 
 
 def _formula(node: Expr) -> str:
@@ -278,14 +276,8 @@ class _Plan:
         for position, node in enumerate(self.nodes):
             free += [self.places[index] for index in ending.get(position, ())]
             if node.index not in self.places:
-                self.places[node.index] = self._taken(free, last[node.index], filled)
-
-    def _taken(self, free: list[str], until: int, filled: Mapping[str, int]) -> str:
-        """Take the place that was freed last of those that stay free so long, or a new one."""
-        for n in range(len(free) - 1, -1, -1):
-            if filled.get(free[n], until) >= until:
-                return free.pop(n)
-        return self._grow()
+                until = (position, last[node.index])
+                self.places[node.index] = _taken(free, until, filled) or self._grow()
 
     def _grow(self) -> str:
         self.buffers += 1
@@ -312,6 +304,17 @@ class _Plan:
                 yield f"{node.op}({', '.join(arguments)}, {target})"
         for row, value in self.copies:
             yield f"o{row}[...] = {self.name(value)}"
+
+
+def _taken(free: list[str], until: tuple[int, int], filled: Mapping[str, int]) -> str | None:
+    """Take the place freed last of those that stay free from one position to another, if there is any."""
+    for n in range(len(free) - 1, -1, -1):
+        end = filled.get(free[n], until[1])
+        if end >= until[1]:
+            return free.pop(n)
+        if end < until[0]:
+            del free[n]
+    return None
 
 
 def _block(arrays: Sequence[str], uniform: Sequence[str], plan: _Plan) -> Callable[..., Any]:

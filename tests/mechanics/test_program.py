@@ -7,8 +7,11 @@ import math
 import numpy as np
 import pytest
 
+from linkanim.bench.scaling import chain
 from linkanim.mechanics.expression import Expr, Graph, Value, maximum, minimum, rint, select, sqrt
-from linkanim.mechanics.program import BLOCK, batch, needed, scalar
+from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.program import BLOCK, CACHE_LINE, aligned_rows, batch, needed, scalar
+from linkanim.mechanics.request import Variant
 
 
 def formulas(x: Value, w: Value) -> list[Value]:
@@ -92,3 +95,30 @@ def test_buffers_are_reused_not_one_for_each_operation() -> None:
     program = batch({"x": True}, [value])
     assert program.buffers <= 2
     assert program(np.array([0.0]))[0, 0] == pytest.approx(math.sqrt(50.0))
+
+
+def test_result_rows_serve_as_scratch_until_they_are_filled() -> None:
+    graph = Graph()
+    x = graph.input("x")
+    roots = [sqrt(x * x + float(n)) for n in range(1, 9)]
+    outputs = [roots[n] * roots[(n + 3) % 8] for n in range(8)]
+    program = batch({"x": True}, outputs)
+    # Eight roots wait at once; as many places as rows are there for them.
+    assert program.buffers <= 3
+    at = 0.75
+    found = program(np.array([at]))[:, 0]
+    true = [math.sqrt((at * at + n) * (at * at + (n + 2) % 8 + 1)) for n in range(1, 9)]
+    assert found == pytest.approx(np.array(true), rel=1e-15)
+
+
+@pytest.mark.parametrize("dyads", [2, 30])
+def test_a_longer_chain_needs_no_more_buffers(dyads: int) -> None:
+    programs = mechanism(chain(dyads)).programs(Variant(by_phase=True, accelerates=False))
+    assert programs.of(("position", "velocity", "acceleration"))[0].buffers <= 6
+
+
+@pytest.mark.parametrize("count", [1, 7, BLOCK, BLOCK + 3, 3 * BLOCK + 17])
+def test_every_row_begins_at_a_cache_line(count: int) -> None:
+    for row in aligned_rows(3, count, np.float64):
+        assert row.ctypes.data % CACHE_LINE == 0
+        assert row.shape == (count,)
