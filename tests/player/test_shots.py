@@ -57,11 +57,24 @@ def _edit(player: Player) -> None:
     player.tick(APPROACH_FRAMES)
 
 
+def _names(player: Player) -> None:
+    player.type("nn")
+    player.tick(70)
+
+
+def _shelf(player: Player) -> None:
+    player.type("o")
+    for _ in range(90):
+        player.tick()
+
+
 SHOTS = {
     "press": ("press", _press),
     "double-rocker": ("double-rocker", _double_rocker),
     "help": ("crank-rocker", _help),
     "edit": ("crank-rocker", _edit),
+    "names": ("six-bar", _names),
+    "shelf": ("whitworth", _shelf),
 }
 
 
