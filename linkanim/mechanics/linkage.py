@@ -8,10 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Literal
 
 from .frames import frames_of
 from .joint import Frame, Joint, Point
 from .kinds import Crank, Pin
+
+Outline = Literal["bar", "plate", "wheel", "slot", "hook", "none"]
+"""How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, a bar
+with a slot from its first to its second, one that ends in a hook, not at all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +25,8 @@ class Body:
 
     `com` is (along first -> second joint, to the left of it) from the first joint. A body with
     `slider` instead of joints is the block that travels with that joint along its line. `mass` is in kg,
-    `inertia` in kg·m² about the centre of mass; what is None is left out of all forces.
+    `inertia` in kg·m² about the centre of mass; what is None is left out of all forces. `look` and `colour`
+    (red, green, blue) are how it is drawn where the scene says so.
     """
 
     name: str
@@ -29,6 +35,8 @@ class Body:
     slider: str | None = None
     mass: float | None = None
     inertia: float | None = None
+    look: Outline | None = None
+    colour: tuple[int, int, int] | None = None
 
     @property
     def forceful(self) -> bool:

@@ -6,6 +6,7 @@ import numpy as np
 
 from linkanim.mechanics.frames import holding
 from linkanim.mechanics.linkage import Body
+from linkanim.picture.body_shapes import SHAPES
 from linkanim.picture.directions import directions
 from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, Bench, fittings
@@ -24,8 +25,8 @@ def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[
     Plates are clear enough to show what lies behind them.
     """
     colours = colours_of(figure, theme)
-    placed = {body: _local(body, figure, view) for body in figure.bodies}
-    plates = [body for body, points in placed.items() if len(hull(points)) > 2]
+    placed = {body: _local(body, figure, view) for body in figure.bodies if body.look != "none"}
+    plates = [body for body, points in placed.items() if _is_wide(body, points)]
     bars = [body for body in placed if body not in plates]
     bench = Bench(figure, view, gauge, theme)
     fitted = fittings(bench)
@@ -37,12 +38,15 @@ def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[
 
 
 def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
-    """Return each body's colour: the driven part's is the first, one without a name is metal."""
+    """Return each body's colour: its own, or the theme's; the driven part's is the first of these.
+
+    One without a name is metal.
+    """
     drive = figure.linkage.drive.joint
     named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
     first = sorted(named, key=lambda body: not _is_crank(body, figure, drive))
     count, taken = len(theme.bodies), int(figure.linkage.slides)
-    colours = {body.name: theme.bodies[n % count] for n, body in enumerate(first, start=taken)}
+    colours = {body.name: body.colour or theme.bodies[n % count] for n, body in enumerate(first, taken)}
     return {"": theme.metal, **colours}
 
 
@@ -60,11 +64,18 @@ def _local(body: Body, figure: Figure, view: View) -> list[complex]:
     return [(place - places[0]) / turn for place in places]
 
 
+def _is_wide(body: Body, points: list[complex]) -> bool:
+    """Whether a body may hide others, so that it lies behind them: a plate, or a wheel."""
+    return body.look in ("plate", "wheel") or (body.look is None and len(hull(points)) > 2)
+
+
 def _body(body: Body, points: list[complex], worked: list[Bar], bench: Bench, colour: Colour) -> Part:
     bar = next((bar for bar in worked if set(bar.ends) <= set(body.joints)), None)
-    plate, gauge, colours = len(hull(points)) > 2, bench.gauge, (bench.theme.outline, colour)
+    plate, gauge, colours = _is_wide(body, points), bench.gauge, (bench.theme.outline, colour)
     layers: list[Layer] = []
-    if plate or bar is None:
+    if body.look is not None and bar is None:
+        layers += SHAPES[body.look](points, gauge, colours)
+    elif plate or bar is None:
         layers += (glazed if plate else lined)(points, gauge.bar, gauge.outline, colours)
     if bar:
         ends = [points[body.joints.index(name)] for name in bar.ends]

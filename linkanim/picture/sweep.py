@@ -138,12 +138,21 @@ def _edged(loop: Points) -> Points:
 
 def _rims(figure: Figure) -> Iterator[Points]:
     """Yield circles over each wheel, wherever it goes."""
-    for wheel in wheels(figure):
-        way = _path(figure, wheel.centre)
-        still = bool(np.all(np.abs(way - way[0]) <= 1e-9 * wheel.reach))
+    for centre, reach in _round(figure):
+        way = _path(figure, centre)
+        still = bool(np.all(np.abs(way - way[0]) <= 1e-9 * reach))
         way, circles, shares = (way[:1], _ROUND, 9) if still else (way, _ROUND[::4], 3)
         for share in np.linspace(1.0, 0.2, shares):
-            yield (way[:, None] + share * wheel.reach * circles).ravel()
+            yield (way[:, None] + share * reach * circles).ravel()
+
+
+def _round(figure: Figure) -> Iterator[tuple[str, float]]:
+    """Yield the centres and radii of gears, and of bodies that are drawn as wheels."""
+    yield from ((wheel.centre, wheel.reach) for wheel in wheels(figure))
+    for body in figure.linkage.bodies:
+        if body.look == "wheel":
+            centre, *others = body.joints
+            yield centre, max(abs(figure.start(name) - figure.start(centre)) for name in others)
 
 
 def _between(begin: Points, end: Points) -> Points:

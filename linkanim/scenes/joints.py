@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 from linkanim.mechanics.exact import unit
 from linkanim.mechanics.joint import Joint, Point
 from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Gear, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage import Outline
 from linkanim.scenes.check import Table
 
 Key = tuple[str | int, ...]
@@ -23,6 +24,7 @@ DimensionKind = Literal[
 _LEAST_SLOT = 1e-6
 """Sine of the least angle between a slot and its line of travel."""
 
+LOOKS: tuple[Outline, ...] = get_args(Outline)
 OPEN = ("open", "crossed")
 
 

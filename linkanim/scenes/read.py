@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -13,7 +14,7 @@ from linkanim.mechanics.joint import Frame, Joint, Need
 from linkanim.mechanics.kinds import RRR, Crank, DrivenSlider, Pin
 from linkanim.mechanics.linkage import Body, Cylinder, Damper, Drive, Linkage, Spring, Travel
 from linkanim.scenes.check import Table
-from linkanim.scenes.joints import read_joint, read_pin
+from linkanim.scenes.joints import LOOKS, read_joint, read_pin
 from linkanim.scenes.order import circle, solved_order
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
@@ -22,6 +23,7 @@ _TOP = (
     "title", "source", "chapter", "look_at", "notes", "length_unit",
     "gravity", "drive", "ground", "joints", "bodies", "springs", "dampers", "trace", *SHORTHANDS,
 )  # fmt: skip
+_HEX = re.compile(r"#[0-9a-f]{6}", re.I | re.A)
 DEFAULT_SPEED = "20 rpm"
 
 
@@ -275,17 +277,17 @@ def _bodies(
 
 
 def _block(name: str, table: Table, joints: Mapping[str, Joint]) -> Body:
-    table.only("slider", "mass")
+    table.only("slider", "mass", "colour")
     slider = table.text("slider")
     if slider not in joints:
         raise table.error("slider", _no_joint(slider, joints))
     if not joints[slider].travels:
         raise table.error("slider", "does not travel on a line; name a joint that has one")
-    return Body(name, slider=slider, mass=_mass(table))
+    return Body(name, slider=slider, mass=_mass(table), colour=_colour(table))
 
 
 def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: tuple[Frame, ...]) -> Body:
-    table.only("joints", "com", "mass", "inertia")
+    table.only("joints", "com", "mass", "inertia", "look", "colour")
     members = _members(table, "joints", joints)
     if len(members) < 2:
         raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
@@ -306,7 +308,20 @@ def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: tuple[Fram
         table.point("com") if "com" in table else None,
         mass=_mass(table),
         inertia=table.positive("inertia", units.inertia) if "inertia" in table else None,
+        look=table.choice("look", LOOKS) if "look" in table else None,
+        colour=_colour(table),
     )
+
+
+def _colour(table: Table) -> tuple[int, int, int] | None:
+    """Return a colour from "#rrggbb"; None where the table has none."""
+    if "colour" not in table:
+        return None
+    value = table.text("colour")
+    if not _HEX.fullmatch(value):
+        raise table.error("colour", 'is no colour; write red, green and blue as in "#d55e00"')
+    red, green, blue = bytes.fromhex(value[1:])
+    return red, green, blue
 
 
 def _mass(table: Table) -> float | None:

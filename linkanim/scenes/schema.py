@@ -11,7 +11,7 @@ from typing import Any
 
 from linkanim import units
 from linkanim.bounds import MOST_NAMES
-from linkanim.scenes.joints import OPEN
+from linkanim.scenes.joints import LOOKS, OPEN
 from linkanim.scenes.shorthand import SHORTHANDS
 
 _NUMBER = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*"
@@ -107,11 +107,20 @@ def _shorthand(name: str) -> dict[str, Any]:
 
 _MASS = _quantity(units.MASS_UNITS, bare=False)
 _INERTIA = _quantity(units.INERTIA_UNITS, bare=False)
-_BAR = _table(("joints",), joints={**_MEMBERS, "minItems": 2}, com=_POINT, mass=_MASS, inertia=_INERTIA)
+_COLOUR = {"type": "string", "pattern": r"^#[0-9a-fA-F]{6}$"}
+_BAR = _table(
+    ("joints",),
+    joints={**_MEMBERS, "minItems": 2},
+    com=_POINT,
+    mass=_MASS,
+    inertia=_INERTIA,
+    look=_choice(*LOOKS),
+    colour=_COLOUR,
+)
 _BODY = {
     "anyOf": [
         {**_BAR, "dependentRequired": {"mass": ["com"]}},
-        _table(("slider",), slider=_NAME, mass=_MASS),
+        _table(("slider",), slider=_NAME, mass=_MASS, colour=_COLOUR),
     ]
 }
 _STIFFNESS = _quantity(units.STIFFNESS_UNITS, bare=False)
