@@ -7,7 +7,8 @@ the crank's pivot, whose sides g and r do not change. With ψ its angle at the p
 
     4 g r sin²(ψ/2) = (ℓ - g + r)(ℓ + g - r)      4 g r cos²(ψ/2) = (g + r - ℓ)(g + r + ℓ)
 
-without cancellation, so half of ψ has its sine and cosine without an arc function; and ψ' = ℓ ℓ'/(g r sin ψ).
+without cancellation, since half the phase tells how far ℓ is from its ends, so half of ψ has its sine and
+cosine without an arc function; and ψ' = ℓ ℓ'/(g r sin ψ).
 A slider has no angle: there the phase itself stands for one. Where a dyad is at its limit at an end of the
 travel, such as a piston's rod and crank at a dead centre, that is a change point of the phase's, and the
 motion runs on through it to the other closure.
@@ -164,8 +165,8 @@ class CylinderStroke(Stroke):
         g, r = self.sides
         running = self.running(phase, pace)
         length, rate, second = running.value, running.rate, running.second
-        sine = sqrt((length - (g - r)) * (length + (g - r)))
-        cosine = sqrt((g + r - length) * (g + r + length))
+        beyond, short = self._ways(sharp_half_angle(phase))
+        sine, cosine = sqrt(beyond * (length + abs(g - r))), sqrt(short * (g + r + length))
         scale = 0.5 / math.sqrt(g * r)
         half = half_of(sine * (scale * self.side), cosine * scale)
         product = half.product * (2 * g * r)
@@ -173,6 +174,18 @@ class CylinderStroke(Stroke):
         bend = (rate * rate + length * second - half.difference * (g * r) * turning * turning) / product
         angle = arctan2(half.sine, half.cosine) * 2.0
         return HalfState(angle, self.base, turning, bend, pace, own=half)
+
+    def _ways(self, half: Half) -> tuple[Value, Value]:
+        """Return how much longer the cylinder is than it can be short, and how much shorter than long.
+
+        Sums of what is not negative, from half the phase: near the ends of what it can be nothing cancels.
+        """
+        g, r = self.sides
+        way, sine, cosine = self.last - self.first, half.sine, half.cosine
+        least, most = sorted((self.first, self.last))
+        from_least, to_most = (sine * sine, cosine * cosine) if way > 0 else (cosine * cosine, sine * sine)
+        beyond, short = math.fsum((least, -max(g, r), min(g, r))), math.fsum((g, r, -most))
+        return from_least * abs(way) + beyond, to_most * abs(way) + short
 
     def reach(self, angle: Array) -> WaysLeft | None:
         """Return which angles the crank comes to."""
