@@ -94,8 +94,8 @@ class Painter:
             self._paint_behind(canvas, self._behind(pose, ghost if self.look.ghost else None))
         moving = list(self.drawing.moving(pose))
         beside = [polygon.group(pose) for polygon in self._polygons]
-        cursor = self._strip.cursor(pose) if self._strip else ()
-        paint(canvas, flat(moving), ends=self._ends, over=(*flat(beside), *cursor))
+        on_chart = self._on_chart(pose, grasped=overlay.grip)
+        paint(canvas, flat(moving), ends=self._ends, over=(*flat(beside), *on_chart))
         self._scribe.draw(canvas.subsurface(self._layout.reach), worded(moving))
         self._scribe.draw(canvas, worded(beside))
         if self.names:
@@ -120,17 +120,21 @@ class Painter:
         mix(pixels_of(canvas), self._stencil, clear=bool(canvas.get_flags() & pygame.SRCALPHA))
 
     def _handled(self, canvas: pygame.Surface, pose: Pose, overlay: Overlay) -> None:
-        """Draw what is there for the hand: the chosen bar, the joint and the cursor to be dragged."""
-        board, gauge = self._panels.board, self.drawing.scenery.gauge
+        """Draw what is there for the hand: the chosen bar, and the joint to be dragged."""
+        gauge = self.drawing.scenery.gauge
         if overlay.measured:
             begin, end, words = overlay.measured
             shown = DimensionLine((pose.position[begin], pose.position[end]), words)
-            draw_measure(canvas, board, self.view, gauge, shown)
-        layers = list(glow(self.view, pose, overlay.glow, gauge)) if overlay.glow else []
-        if overlay.grip and self._strip:
-            layers += grip(self._strip.foot(pose), board)
-        if layers:
-            paint(canvas, layers)
+            draw_measure(canvas, self._panels.board, self.view, gauge, shown)
+        if overlay.glow:
+            paint(canvas, glow(self.view, pose, overlay.glow, gauge))
+
+    def _on_chart(self, pose: Pose, *, grasped: bool) -> Iterator[Layer]:
+        """Yield the chart's cursor, and its grip where it can be grasped."""
+        if self._strip:
+            yield from self._strip.cursor(pose)
+            if grasped:
+                yield from grip(self._strip.foot(pose), self._panels.board)
 
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
         """Return where the pin that the phase drives lies, in pixels."""

@@ -57,6 +57,8 @@ def outlines_of(loops: Sequence[Loop]) -> Outlines:
     """Return loops in one array."""
     if isinstance(loops, Outlines):
         return loops
+    if len(loops) == 1:
+        return Outlines(loops[0], (len(loops[0]),))
     points = np.concatenate(loops) if loops else np.zeros(0, np.complex128)
     return Outlines(points, tuple(map(len, loops)))
 
@@ -231,7 +233,8 @@ def _put(surface: pygame.Surface, full: _Pixels, partly: Sequence[_Pixels]) -> N
     bounds = full.bounds.tolist()
     for level in range(len(bounds) - 1):
         inside = slice(bounds[level], bounds[level + 1])
-        pixels[full.place[inside]] = full.ink[inside]
+        if inside.start < inside.stop:
+            pixels[full.place[inside]] = full.ink[inside]
         for mixed, at in mixes:
             if at[level] < at[level + 1]:
                 mix(pixels, mixed.part(at[level], at[level + 1]), clear=clear)

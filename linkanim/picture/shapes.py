@@ -41,10 +41,11 @@ def rounded(points: Sequence[complex], radius: float) -> Loop:
     return np.concatenate(arcs)
 
 
+@lru_cache(maxsize=64)
 def box(width: float, height: float, radius: float = 0.0) -> Loop:
-    """Return a rectangle about the origin, its corners rounded."""
+    """Return a rectangle about the origin, its corners rounded; the last ones are kept."""
     x, y = width / 2 - radius, height / 2 - radius
-    return rounded([complex(-x, -y), complex(x, -y), complex(x, y), complex(-x, y)], radius)
+    return _kept(rounded([complex(-x, -y), complex(x, -y), complex(x, y), complex(-x, y)], radius))
 
 
 def stroke(path: ArrayLike, width: float, *, closed: bool = False) -> list[Loop]:
