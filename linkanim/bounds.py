@@ -6,6 +6,8 @@ MOST_NAMES = 500
 """Joints, pins, bodies, springs or dampers of a scene, each."""
 MOST_FRAMES = 100_000
 """Frames of a recording."""
+MOST_POSES = 360
+"""Poses of one figure behind its own."""
 MOST_ACTIONS = 100_000
 """Actions of a tape."""
 LARGEST_SIDE = 16_384

@@ -7,6 +7,7 @@ from argparse import Namespace
 
 from linkanim import units
 from linkanim.cli.picture_options import scene_size_target
+from linkanim.cli.values import listed
 from linkanim.digits import stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
@@ -33,7 +34,7 @@ def paces(scene: Scene, text: str | None) -> tuple[Pace, ...]:
     if text is None:
         return (Pace(scene.linkage.drive.speed, "the scene's speed"),)
     words = [" ".join(part.split()) for part in text.split(",") if part.strip()]
-    paces = tuple(dict.fromkeys(Pace(units.angular_speed(part), part) for part in words))
+    paces = tuple(dict.fromkeys(Pace(listed("--speeds", units.angular_speed, part), part) for part in words))
     if not paces or any(pace.speed == 0 for pace in paces):
         raise BadInput(f'--speeds {text!r}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
     return paces

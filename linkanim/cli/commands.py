@@ -302,7 +302,7 @@ def _draw(parser: Parser) -> None:
     _shown(parser)
     parser.add_argument("--ghost", action="store_true", help="the other closure, faintly")
     parser.add_argument(
-        "--poses", type=valued(values.count), metavar="N", help="N faint poses over the period behind it"
+        "--poses", type=valued(values.poses), metavar="N", help="N faint poses over the period behind it"
     )
     _theme(parser)
     parser.add_argument("--transparent", action="store_true", help="no background")

@@ -10,12 +10,15 @@ from linkanim.cli.record import centres_of
 from linkanim.cli.solve import out_of_range
 from linkanim.paper.figure import SUFFIXES, Figured, write
 from linkanim.picture.look import Look
+from linkanim.scenes.closure import other_closure
 from linkanim.scenes.scene import Scene
 
 
 def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path."""
     scene, size, target = scene_size_target(options, SUFFIXES, ".svg")
+    if options.ghost:
+        other_closure(scene)  # which says why where there is none
     look = Look(
         hud=False,
         theme=options.theme,
@@ -24,7 +27,7 @@ def run(options: Namespace) -> None:
         names=min(options.names, 2),
         ghost=options.ghost,
         polygons=options.polygons,
-        centres=centres_of(options),
+        centres=centres_of(scene, options),
         background=not options.transparent,
     )
     phase = _phase(scene, options)

@@ -15,11 +15,13 @@ from tqdm import tqdm
 from linkanim.cli.commands import parse
 from linkanim.cli.presets import DEFAULT, PRESETS
 from linkanim.errors import BadInput
+from linkanim.mechanics.derived import coupler_body
 from linkanim.picture.look import Look
 from linkanim.recorder.recording import Progress, Recording
 from linkanim.recorder.scene_frames import record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
 
 _OF_A_SCENE = (
     "speed",
@@ -60,14 +62,15 @@ def _stem(source: str) -> str:
 
 
 def _of_scene(options: Namespace) -> Callable[..., Recording]:
+    scene = load(options.scene)
     return partial(
         record,
-        load(options.scene),
+        scene,
         speed=options.speed,
         periods=options.periods or 1,
         seconds=options.seconds,
         reverse=options.reverse,
-        look=look_of(options),
+        look=look_of(scene, options),
         noted=options.noted,
     )
 
@@ -83,12 +86,17 @@ def _of_tape(options: Namespace) -> Callable[..., Recording]:
     return partial(record_tape, options.scene)
 
 
-def centres_of(options: Namespace) -> int:
-    """Return what of the instant centres the options ask for, as `Look.centres` says it."""
+def centres_of(scene: Scene, options: Namespace) -> int:
+    """Return what of the instant centres the options ask for, as `Look.centres` says it.
+
+    `BadInput` for centrodes where every link turns about a fixed pin, or slides.
+    """
+    if options.centrodes and coupler_body(scene.linkage) is None:
+        raise BadInput(f"--centrodes: {scene.name} has no coupler; --instant-centres marks what there is")
     return 2 if options.centrodes else int(options.instant_centres)
 
 
-def look_of(options: Namespace) -> Look:
+def look_of(scene: Scene, options: Namespace) -> Look:
     """Return what the options say is to be shown."""
     return Look(
         theme=options.theme,
@@ -96,7 +104,7 @@ def look_of(options: Namespace) -> Look:
         vectors=options.vectors,
         names=min(options.names, 2),
         polygons=options.polygons,
-        centres=centres_of(options),
+        centres=centres_of(scene, options),
         chart=options.chart,
         hud=options.hud,
         background=not options.transparent,

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from linkanim import units
 from linkanim.cli.chart import paces
+from linkanim.cli.values import listed
 from linkanim.errors import BadInput
 from linkanim.paper.findings import instants_at, usual_instants
 from linkanim.paper.report import Report
@@ -45,7 +46,7 @@ def _refuse_foreign(target: Path) -> None:
 def _angles(text: str | None) -> tuple[float, ...] | None:
     if text is None:
         return None
-    found = tuple(units.angle(part.strip()) for part in text.split(",") if part.strip())
+    found = tuple(listed("--angles", units.angle, part.strip()) for part in text.split(",") if part.strip())
     if not found:
         raise BadInput(f'--angles {text!r}: give angles with their unit, such as "87 deg,306 deg"')
     return found

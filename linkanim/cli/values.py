@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
-from linkanim.bounds import LARGEST_SIDE
-from linkanim.errors import BadInput
+from linkanim.bounds import LARGEST_SIDE, MOST_POSES
+from linkanim.errors import BadInput, UnitError
 
 MOST_ROWS = 1_000_000
 VECTORS = ("v", "a")
@@ -73,6 +74,22 @@ def count(text: str) -> int:
     if not re.fullmatch(r"\d{1,6}", text) or int(text) == 0:
         raise BadInput(f"{text!r} is not a whole number from 1 to 999999")
     return int(text)
+
+
+def listed(option: str, read: Callable[[str], float], part: str) -> float:
+    """Read one of the values that an option lists; `BadInput` that names the option, too."""
+    try:
+        return read(part)
+    except UnitError as error:
+        raise BadInput(f"{option}: {error}") from None
+
+
+def poses(text: str) -> int:
+    """Read how many poses a figure has behind its own."""
+    found = count(text)
+    if found > MOST_POSES:
+        raise BadInput(f"{text!r} is too many; a figure has {MOST_POSES} poses behind its own at the most")
+    return found
 
 
 def vectors(text: str) -> frozenset[str]:

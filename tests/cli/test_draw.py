@@ -49,6 +49,9 @@ def test_angle_and_phase_say_the_same_pose(folder: Path) -> None:
         (["kite", "--angle", "1 rad", "--phase", "1 rad"], "not allowed with"),
         (["kite", "--size", "3x3"], "16"),
         (["kite", "--poses", "0"], "--poses"),
+        (["kite", "--poses", "361"], "360 poses"),
+        (["scotch-yoke", "--ghost"], "no second closure"),
+        (["scotch-yoke", "--centrodes"], "no coupler"),
     ],
 )
 def test_bad_input_is_refused_and_nothing_written(

@@ -200,4 +200,4 @@ def test_stopped_in_the_middle_it_leaves_the_old_file_alone(
     ("words", "level"), [([], 0), (["--names"], 1), (["--names"] * 2, 2), (["--names"] * 3, 2)]
 )
 def test_names_are_asked_for_once_or_twice(words: list[str], level: int) -> None:
-    assert look_of(parse(["record", "press", *words])).names == level
+    assert look_of(linkanim.load("press"), parse(["record", "press", *words])).names == level
