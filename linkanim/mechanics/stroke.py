@@ -30,8 +30,9 @@ from .exact import Sum, exact_angle
 from .expression import Graph, Value, arctan2, sqrt
 from .input_path import ThereAndBack, Unlimited, half_squares, nearer_way
 from .input_state import HalfForm, InputState, TravelState
+from .kinds import Pin
 from .linkage import Cylinder, Linkage, Travel
-from .loop import ground_between
+from .loop import Ground, ground_between
 from .planar import Moving, Slope, Vec
 from .reach import Array, WaysLeft
 
@@ -110,6 +111,8 @@ class CylinderStroke(Stroke):
     """Of the triangle, from the crank's pivot: to the cylinder's fixed pin, and to its joint on the crank."""
     base: Sum
     side: int
+    lost: float = 0.0
+    """What rounding took from the first side, which is read from coordinates."""
 
     word: ClassVar[str] = "cylinder's length"
 
@@ -184,7 +187,9 @@ class CylinderStroke(Stroke):
         way, sine, cosine = self.last - self.first, half.sine, half.cosine
         least, most = sorted((self.first, self.last))
         from_least, to_most = (sine * sine, cosine * cosine) if way > 0 else (cosine * cosine, sine * sine)
-        beyond, short = math.fsum((least, -max(g, r), min(g, r))), math.fsum((g, r, -most))
+        longer = 1.0 if g > r else -1.0
+        beyond = math.fsum((least, -longer * g, -longer * self.lost, longer * r))
+        short = math.fsum((g, self.lost, r, -most))
         return from_least * abs(way) + beyond, to_most * abs(way) + short
 
     def reach(self, angle: Array) -> WaysLeft | None:
@@ -268,11 +273,19 @@ def cylinder_stroke(linkage: Linkage, unscale: float) -> CylinderStroke:
     sides = ground.length, abs(arm)
     _check(cylinder, sides)
     own = exact_angle(math.atan2(arm.imag, arm.real))
-    base = ground.angle - own
-    paths = [
-        CylinderStroke(cylinder.first, cylinder.last, sides, base, side, unscale=unscale) for side in (1, -1)
-    ]
+    base, lost = ground.angle - own, _lost(ground, linkage.pin(crank.pivot), linkage.pin(fixed))
+    ends = cylinder.first, cylinder.last
+    paths = [CylinderStroke(*ends, sides, base, side, lost, unscale=unscale) for side in (1, -1)]
     return next((path for path in paths if path.holds(drive.start)), paths[0])
+
+
+def _lost(ground: Ground, first: Pin, second: Pin) -> float:
+    """Return what rounding took from the length of a ground link between pins known by coordinates."""
+    if first.polar or second.polar:
+        return 0.0
+    (x0, y0), (x1, y1) = (map(Fraction, pin.position) for pin in (first, second))
+    length = Fraction(ground.length)
+    return float(((x1 - x0) ** 2 + (y1 - y0) ** 2 - length**2) / (2 * length))
 
 
 def _check(cylinder: Cylinder, sides: tuple[float, float]) -> None:
