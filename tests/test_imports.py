@@ -50,7 +50,7 @@ THIRD_PARTIES = {
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},
     "picture": {"numpy", "pygame"},
-    "paper": {"numpy", "pygame"},
+    "paper": {"numpy", "pygame", "fpdf"},
     "player": {"numpy", "pygame"},
     "recorder": {"numpy", "imageio", "imageio_ffmpeg", "PIL"},
     "bench": {"numpy", "mpmath", "pylinkage", "scipy", "matplotlib"},

@@ -264,7 +264,7 @@ def _chart(parser: Parser) -> None:
         "--output",
         type=Path,
         metavar="OUT",
-        help="OUT.png, OUT.svg or OUT.csv (default: SCENE.png here)",
+        help="OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png here)",
     )
     parser.add_argument(
         "--over",
@@ -289,7 +289,11 @@ def _chart(parser: Parser) -> None:
 def _draw(parser: Parser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
     parser.add_argument(
-        "-o", "--output", type=Path, metavar="OUT", help="OUT.svg or OUT.png (default: SCENE.svg here)"
+        "-o",
+        "--output",
+        type=Path,
+        metavar="OUT",
+        help="OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg here)",
     )
     where = parser.add_mutually_exclusive_group()
     where.add_argument(

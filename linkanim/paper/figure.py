@@ -11,6 +11,7 @@ import numpy as np
 import pygame
 
 from linkanim.mechanics.motion import Pose
+from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
 from linkanim.picture.chart import pen_for
 from linkanim.picture.drawing import Drawing
@@ -29,7 +30,7 @@ from linkanim.scenes.closure import ghost_of
 from linkanim.scenes.scene import Scene
 from linkanim.whole import replacing
 
-SUFFIXES = (".svg", ".png")
+SUFFIXES = (".svg", ".png", ".pdf")
 
 
 @dataclass(frozen=True)
@@ -127,6 +128,11 @@ class Figured:
         background = theme_of(self.look.theme).background if self.look.background else None
         return svg(self.size, background, self.groups(), title=self.scene.title)
 
+    def printed(self) -> bytes:
+        """Return the figure as PDF."""
+        background = theme_of(self.look.theme).background if self.look.background else None
+        return pdf(self.size, background, self.groups(), title=self.scene.title)
+
     @cached_property
     def _other(self) -> Scene | None:
         return ghost_of(self.scene) if self.look.ghost or self.both else None
@@ -140,12 +146,17 @@ class Figured:
 
 
 def write(shown: Figured, target: Path) -> None:
-    """Write a figure as SVG or PNG, as the name ends; the file appears whole or not at all.
+    """Write a figure as SVG, PNG or PDF, as the name ends; the file appears whole or not at all.
 
-    `WorkFailed` where disk or folder refuse.
+    `WorkFailed` where disk or folder refuse; `BadInput` for a PDF without what writes it.
     """
+    if target.suffix.lower() == ".pdf":
+        require_pdf()
     with replacing(target) as part:
-        if target.suffix.lower() == ".png":
-            part.write_bytes(png_bytes(shown.surface()))
-        else:
-            part.write_text(shown.document(), encoding="utf-8")
+        match target.suffix.lower():
+            case ".png":
+                part.write_bytes(png_bytes(shown.surface()))
+            case ".pdf":
+                part.write_bytes(shown.printed())
+            case _:
+                part.write_text(shown.document(), encoding="utf-8")

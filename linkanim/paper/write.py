@@ -7,18 +7,22 @@ from pathlib import Path
 from linkanim.cells import csv_head, csv_rows
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import table
+from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
 from linkanim.picture.offscreen import png_bytes
 from linkanim.whole import replacing
 
-SUFFIXES = (".svg", ".png", ".csv")
+SUFFIXES = (".svg", ".png", ".pdf", ".csv")
 
 
 def write(page: Page, target: Path) -> None:
-    """Write a chart as SVG, PNG or CSV; the file appears whole or not at all.
+    """Write a chart as SVG, PNG, PDF or CSV; the file appears whole or not at all.
 
-    `WorkFailed` where disk or folder refuse.
+    `WorkFailed` where disk or folder refuse; `BadInput` for a PDF without what writes it.
     """
+    title = f"{page.curves.scene.title}: {page.about}"
+    if target.suffix.lower() == ".pdf":
+        require_pdf()
     with replacing(target) as part:
         match target.suffix.lower():
             case ".csv":
@@ -26,7 +30,8 @@ def write(page: Page, target: Path) -> None:
                 part.write_text(csv_head(names) + csv_rows(columns), encoding="utf-8", newline="")
             case ".png":
                 part.write_bytes(png_bytes(page.surface()))
+            case ".pdf":
+                part.write_bytes(pdf(page.size, page.background, page.items(), title=title))
             case _:
-                scene = page.curves.scene
-                text = svg(page.size, page.background, page.items(), title=f"{scene.title}: {page.about}")
+                text = svg(page.size, page.background, page.items(), title=title)
                 part.write_text(text, encoding="utf-8")

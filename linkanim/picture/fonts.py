@@ -72,7 +72,7 @@ class Fonts:
 
     def _font(self, path: str, em: int) -> pygame.Font:
         if (path, em) not in self._opened:
-            self._opened[path, em] = pygame.Font(_file(path), em)
+            self._opened[path, em] = pygame.Font(file_of(path), em)
         return self._opened[path, em]
 
     def _spelling(self, char: str) -> tuple[str, str]:
@@ -106,7 +106,7 @@ class Fonts:
                 yield path
 
 
-def _file(path: str) -> str:
+def file_of(path: str) -> str:
     """Return where a font's file lies; the bundled face's by its name alone."""
     bundled = path in (REGULAR, SEMIBOLD)
     return str(files("font_source_sans_pro") / "files" / path) if bundled else path

@@ -78,7 +78,7 @@ def test_a_table_beside_it_is_told_by_its_largest_difference(
 REFUSED = [
     (["--quantity", "rocker.angel"], "did you mean rocker.angle"),
     (["--quantity", ","], "--quantity names none"),
-    (["--quantity", "rocker.angle", "-o", "out.pdf"], ".svg, .png, .csv"),
+    (["--quantity", "rocker.angle", "-o", "out.eps"], ".svg, .png, .pdf, .csv"),
     (["--quantity", "rocker.angle", "-o", "missing/out.png"], "there is no folder"),
     (["--quantity", "rocker.angle", "--speeds", "5"], "--speeds: \"5\" has no unit"),
     (["--quantity", "rocker.angle", "--speeds", "0 rpm"], "other than zero"),

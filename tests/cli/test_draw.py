@@ -44,7 +44,7 @@ def test_angle_and_phase_say_the_same_pose(folder: Path) -> None:
     ("options", "said"),
     [
         (["double-rocker", "--angle", "187 deg"], "cannot be reached"),
-        (["kite", "-o", "kite.pdf"], ".svg, .png"),
+        (["kite", "-o", "kite.eps"], ".svg, .png, .pdf"),
         (["kite", "--angle", "87"], "unit"),
         (["kite", "--angle", "1 rad", "--phase", "1 rad"], "not allowed with"),
         (["kite", "--size", "3x3"], "16"),

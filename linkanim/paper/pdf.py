@@ -1,0 +1,134 @@
+"""Items as PDF, one page as large as the picture: filled paths, and text in the bundled face.
+
+A pixel is 3/4 pt, as in a browser. Needs fpdf2, which the extra `pdf` installs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from datetime import UTC, datetime
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+from unicodedata import normalize
+
+from linkanim.errors import BadInput
+from linkanim.picture.fonts import REGULAR, SEMIBOLD, file_of
+from linkanim.picture.items import Caption, Group, Item
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.text import runs, typesetting
+
+if TYPE_CHECKING:
+    from fpdf import FPDF
+
+_POINTS = 0.75
+_FACE = "face"
+_STYLES = {"": REGULAR, "B": SEMIBOLD}
+_THEN = datetime(2000, 1, 1, tzinfo=UTC)
+"""The same picture has the same bytes, whenever it is written."""
+
+
+def require_pdf(found: Callable[[str], object] = find_spec) -> None:
+    """Raise `BadInput` where fpdf2 is not installed, naming what installs it."""
+    if found("fpdf") is None:
+        raise BadInput(
+            'PDF needs fpdf2, which is not installed; install with: pip install "linkanim[pdf]", '
+            "or write an SVG instead"
+        )
+
+
+def pdf(
+    size: tuple[int, int], background: Colour | None, items: Iterable[Item | Group], *, title: str
+) -> bytes:
+    """Return a picture of so many pixels as a PDF document; None leaves the background open."""
+    page = _page(size, title)
+    if background is not None:
+        page.set_fill_color(*background)
+        page.rect(0, 0, *size, style="F")
+    for item in _flat(items):
+        if isinstance(item, Layer):
+            _fill(page, item)
+        else:
+            _write(page, item)
+    return bytes(page.output())
+
+
+def _page(size: tuple[int, int], title: str) -> FPDF:
+    from fpdf import FPDF
+
+    page = FPDF(unit=_POINTS, format=size)
+    page.set_auto_page_break(False)
+    page.set_creation_date(_THEN)
+    page.set_title(title)
+    for style, face in _STYLES.items():
+        page.add_font(_FACE, style, file_of(face))
+    page.add_page()
+    return page
+
+
+def _flat(items: Iterable[Item | Group]) -> Iterator[Item]:
+    for item in items:
+        if isinstance(item, Group):
+            yield from item.layers
+            yield from item.captions
+        else:
+            yield item
+
+
+def _fill(page: FPDF, layer: Layer) -> None:
+    """Fill a layer's loops; those that turn the other way cut holes."""
+    if not layer.loops:
+        return
+    with page.drawing_context() as drawn:
+        from fpdf.drawing import PaintedPath
+
+        path = PaintedPath()
+        path.style.fill_color = _hex(layer.colour)
+        path.style.stroke_color = None
+        path.style.fill_opacity = layer.alpha
+        path.style.intersection_rule = "nonzero"
+        for loop in layer.loops:
+            first, *rest = loop.round(2).tolist()
+            path.move_to(first.real, first.imag)
+            for point in rest:
+                path.line_to(point.real, point.imag)
+            path.close()
+        drawn.add_item(path)
+
+
+def _write(page: FPDF, line: Caption) -> None:
+    """Write a line of text, its subscripts smaller and lower, in its halo."""
+    how, style = typesetting(line.size), "B" if line.strong else ""
+    set_ = [
+        (_known(page, run.text, style), how.small if run.lowered else how.em, run.lowered * how.lower)
+        for run in runs(line.text)
+    ]
+    widths = [_width(page, text, style, em) for text, em, _ in set_]
+    x = line.at[0] - {"left": 0.0, "centre": 0.5, "right": 1.0}[line.anchor] * sum(widths)
+    page.set_text_color(*line.colour)
+    for (text, em, lower), width in zip(set_, widths, strict=True):
+        page.set_font(_FACE, style, em * _POINTS)
+        place = x, line.at[1] + how.baseline + lower
+        if line.halo:
+            with page.local_context(
+                text_mode="STROKE", line_width=2 * line.halo.width, draw_color=line.halo.colour
+            ):
+                page.text(*place, text)
+        page.text(*place, text)
+        x += width
+
+
+def _known(page: FPDF, text: str, style: str) -> str:
+    """Return the text in letters that the face has: others as what they are like, or not at all."""
+    font: Any = page.fonts[_FACE + style]  # of a file, so that it has a table of its letters
+    cmap = font.cmap
+    alike = (char if ord(char) in cmap else normalize("NFKC", char) for char in text)
+    return "".join(char for part in alike for char in part if ord(char) in cmap)
+
+
+def _width(page: FPDF, text: str, style: str, em: float) -> float:
+    page.set_font(_FACE, style, em * _POINTS)
+    return float(page.get_string_width(text))
+
+
+def _hex(colour: Colour) -> str:
+    return "#" + "".join(f"{part:02x}" for part in colour)

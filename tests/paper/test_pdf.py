@@ -1,0 +1,66 @@
+"""PDF: one page as large as the picture, its paths and words, and what is said without the extra."""
+
+from __future__ import annotations
+
+import re
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from linkanim.cli import main
+from linkanim.errors import BadInput
+from linkanim.paper.figure import Figured
+from linkanim.paper.pdf import pdf, require_pdf
+from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.look import Look
+from linkanim.picture.raster import Layer
+from linkanim.scenes import load
+
+SQUARE = np.array([10, 30, 30 + 20j, 10 + 20j], complex)
+
+
+def content(document: bytes) -> str:
+    """Return what the page draws."""
+    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", document, re.DOTALL)
+    found = [zlib.decompress(stream) for stream in streams if stream[:1] == b"x"]
+    return next(text.decode("latin-1") for text in found if re.search(rb" m\b|\bBT\b", text))
+
+
+def test_a_page_is_as_large_as_the_picture_at_96_dots_an_inch() -> None:
+    document = pdf((400, 200), (255, 255, 255), [], title="empty")
+    assert document.startswith(b"%PDF-")
+    assert re.search(rb"/MediaBox \[0 0 300(\.00)? 150(\.00)?\]", document)
+
+
+def test_a_path_stands_where_it_is_and_has_its_colour() -> None:
+    drawn = content(pdf((400, 200), None, [Group("square", [Layer((255, 0, 0), [SQUARE])])], title="square"))
+    # pixels are 3/4 pt, y counts from the foot
+    assert re.search(r"\b10 0 m\b|\b7\.5 150 m\b", drawn)
+    assert re.search(r"\b1 0 0 rg\b", drawn)
+    assert " f" in drawn
+
+
+def test_words_keep_their_subscripts_and_what_the_face_has_not_is_spelt_or_left_out() -> None:
+    line = Caption("v_{BA} = 3 中", (50, 50), 20, (0, 0, 0), "centre", True, Halo((255, 255, 255), 2.0))
+    document = pdf((400, 200), None, [line], title="words")
+    assert len(re.findall(r"\bTj\b|\bTJ\b", content(document))) == 6
+
+
+def test_the_same_figure_has_the_same_bytes() -> None:
+    one, two = (Figured(load("press"), (640, 360), Look(hud=False, names=2)).printed() for _ in range(2))
+    assert one == two
+
+
+@pytest.mark.parametrize("words", [["draw", "kite"], ["chart", "kite", "--quantity", "rocker.angle"]])
+def test_commands_write_it(words: list[str], tmp_path: Path) -> None:
+    target = tmp_path / "out.pdf"
+    assert main([*words, "-o", str(target)]) == 0
+    assert target.read_bytes().startswith(b"%PDF-")
+
+
+def test_without_the_extra_the_way_out_is_told() -> None:
+    with pytest.raises(BadInput, match=r'pip install "linkanim\[pdf\]"'):
+        require_pdf(lambda name: None)
+    require_pdf()
