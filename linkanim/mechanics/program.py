@@ -166,8 +166,9 @@ class Batch:
 
     def __call__(self, *values: Array | float, dtype: type[np.floating[Any]] = np.float64) -> Array:
         """Return the outputs as rows (outputs, N)."""
-        arrays = [value for value in values if isinstance(value, np.ndarray)]
-        numbers = self._numbers([value for value in values if not isinstance(value, np.ndarray)], dtype)
+        several = len(self.arrays)
+        arrays: Sequence[Any] = values[:several]
+        numbers = self._numbers(values[several:], dtype)
         count = arrays[0].shape[0]
         results = aligned_rows(len(self.outputs), count, dtype)
         size = _block_size(count)
@@ -181,7 +182,7 @@ class Batch:
         self.spare.append(work)
         return results
 
-    def _numbers(self, values: Sequence[float], dtype: type[np.floating[Any]]) -> list[Array]:
+    def _numbers(self, values: Sequence[Any], dtype: type[np.floating[Any]]) -> list[Array]:
         """Return what is the same along the array, without a dimension."""
         uniform = [np.array(value, dtype) for value in self.prelude(*values)]
         if dtype is np.float64:
@@ -215,26 +216,30 @@ def _block_size(count: int) -> int:
 
 
 def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
-    """Compile the outputs; `inputs` says of each name whether it is an array, or uniform."""
+    """Compile the outputs; `inputs` says of each name whether it is an array, those first, or uniform."""
     nodes = needed(outputs)
     fixed = [node for node in nodes if node.uniform and node.op != "input"]
     plan = _Plan([node for node in nodes if not node.uniform], outputs)
     arrays = tuple(name for name, array in inputs.items() if array)
     uniform = [name for name, array in inputs.items() if not array]
+    asked = {_name(node) for node in nodes} & set(uniform)
+    told = [*sorted(asked), *map(_name, fixed)]
     return Batch(
         arrays,
         tuple(outputs),
-        _block(arrays, [*uniform, *map(_name, fixed)], plan),
-        _prelude(uniform, fixed),
+        _block(arrays, told, plan),
+        _prelude(uniform, fixed, told),
         tuple(np.array(float.fromhex(digits)) for digits in plan.constants),
         plan.buffers,
     )
 
 
-def _prelude(names: Sequence[str], fixed: Sequence[Expr]) -> Callable[..., tuple[float, ...]]:
+def _prelude(
+    names: Sequence[str], fixed: Sequence[Expr], told: Sequence[str]
+) -> Callable[..., tuple[float, ...]]:
     """Return the function that computes from the uniform inputs what is the same along the array."""
     lines = [f"    {_name(node)} = {_formula(node)}" for node in fixed]
-    result = "".join(f"{name}, " for name in (*names, *(_name(node) for node in fixed)))
+    result = "".join(f"{name}, " for name in told)
     source = "\n".join([f"def prelude({', '.join(names)}):", *lines, f"    return ({result})"])
     return _define(source, "prelude", FLOAT_NAMES)
 
