@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pygame
 import pytest
+from PIL import Image
 from playing import Player
 
 from linkanim.player import display
@@ -88,7 +89,7 @@ def test_a_screenshot_in_recordings_is_what_the_window_shows(name: str, here: Pa
         player.window.close()
         path = FOLDER / f"{name}.png"
         if os.environ.get("LINKANIM_GOLDENS") == "write":
-            pygame.image.save(shown, path)
+            Image.frombytes("RGB", SIZE, pygame.image.tobytes(shown, "RGB")).save(path, optimize=True)
         assert path.stat().st_size <= LARGEST
         kept, now = (pygame.surfarray.array3d(one).astype(int) for one in (pygame.image.load(path), shown))
     assert kept.shape == now.shape
