@@ -22,7 +22,7 @@ from linkanim.picture.marks import draw_measure, glow, grip
 from linkanim.picture.names import Names
 from linkanim.picture.overlay import DimensionLine, Overlay
 from linkanim.picture.panels import Panels
-from linkanim.picture.raster import Layer, paint, paints, pixels_of, stencil
+from linkanim.picture.raster import Layer, keep_memory, paint, paints, pixels_of, stencil
 from linkanim.picture.staging import Staging, staged, wanted_of
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type
@@ -54,6 +54,7 @@ class Painter:
         listed: bool = False,
         brief: bool = False,
     ) -> None:
+        keep_memory()
         self.scene, self.size, self.look = scene, size, look
         self._brief = brief or scene.towards is not None
         self._theme: Theme = theme_of(look.theme)

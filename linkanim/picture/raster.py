@@ -19,6 +19,9 @@ from linkanim.picture.cells import Loop as Loop
 
 Colour = tuple[int, int, int]
 
+_KEPT_BYTES = 16 << 20
+"""More than a frame's largest arrays take together."""
+
 
 class Outlines(Sequence[Loop]):
     """Closed loops, one after the other in one array: they are placed together."""
@@ -146,6 +149,15 @@ def stencil(layers: Iterable[Layer], like: pygame.Surface, *, ends: tuple[int, i
     return laid_on(place, through[place], (put | opacity)[place])
 
 
+def keep_memory() -> None:
+    """Have the C library keep the memory that a frame frees for the next one.
+
+    glibc gives what is free at the heap's end back to the system where it is more than twice the largest
+    block that was ever freed; to get it back, page by page, took a quarter to a half of a frame.
+    """
+    np.empty(_KEPT_BYTES, np.uint8)
+
+
 def pixels_of(surface: pygame.Surface) -> Words:
     """Return a surface's pixels, row by row, to be read and written."""
     pixels: Words = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
@@ -215,15 +227,21 @@ def _inked(runs: Runs, within: Room, inks: _Inks, lines: Ints) -> _Pixels:
 
 
 def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:
-    """Return all pixels of the runs chosen."""
+    """Return all pixels of the runs chosen; of runs that are covered whole the shares are left out."""
     runs = np.flatnonzero(chosen)
-    counts = length.take(runs)
-    ends = np.cumsum(counts)
-    total = int(ends[-1]) if runs.size else 0
-    place = np.arange(total) + np.repeat(first.place.take(runs) - ends + counts, counts)
-    bounds = np.concatenate(([0], ends))[np.searchsorted(runs, first.bounds)]
-    share = np.repeat(first.share.take(runs), counts)
-    return _Pixels(place, share, np.repeat(first.ink.take(runs), counts), bounds)
+    begin, share, counts = first.place.take(runs), first.share.take(runs), length.take(runs)
+    bounds = np.concatenate(([0], np.cumsum(counts)))[np.searchsorted(runs, first.bounds)]
+    partly = np.repeat(share, counts) if share.min(initial=WHOLE) < WHOLE else share[:0]
+    return _Pixels(_places(begin, counts), partly, np.repeat(first.ink.take(runs), counts), bounds)
+
+
+def _places(begin: Ints, counts: Ints) -> Ints:
+    """Return the numbers from each beginning on, so many of them."""
+    after = np.cumsum(counts)
+    steps = np.ones(int(counts.sum()), np.int64)
+    steps[:1] = begin[:1]
+    steps[after[:-1]] = begin[1:] - begin[:-1] - counts[:-1] + 1
+    return np.cumsum(steps, out=steps)
 
 
 def _put(surface: pygame.Surface, full: _Pixels, partly: Sequence[_Pixels]) -> None:
