@@ -101,6 +101,7 @@ ACTIONS: Mapping[str, Rule] = {
     "svg": Rule(_nothing, outside.svg, taped=False),
     "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),
     "save": Rule(_nothing, outside.effect("save"), taped=False),
+    "reload": Rule(_nothing, outside.effect("reload"), taped=False),
     "quit": Rule(_nothing, outside.effect("quit"), taped=False),
     "note": Rule(_text, outside.note, taped=False),  # something the window has to say, as a toast
 }

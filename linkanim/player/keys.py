@@ -129,6 +129,7 @@ KEYS: tuple[KeyRow, ...] = (
     KeyRow("keep", "G", "record GIF: start, stop", _every("g", "record", "gif")),
     KeyRow("keep", "M", "record MP4: start, stop", _every("m", "record", "mp4")),
     KeyRow("keep", "Ctrl+S", "write the scene as a new file", _every("ctrl+s", "save")),
+    KeyRow("keep", "F5", "load the scene file again", _every("f5", "reload")),
 )
 """Every key of the window, by subject, in the order in which the help shows them."""
 

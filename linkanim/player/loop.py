@@ -15,9 +15,11 @@ from pathlib import Path
 from linkanim.picture.look import Look
 from linkanim.player import display
 from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.scene_file import SceneFile
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
 from linkanim.player.window import Window
+from linkanim.scenes.files import path_of
 from linkanim.scenes.scene import Scene
 
 _STALLED = FRAMES_PER_SECOND
@@ -39,7 +41,7 @@ def run(
     tape = _tape(scene)
     state = tape.start if tape else begin(scene, look=look)
     with display.opened(size) as connection:
-        window = Window(replace(state, attract=attract), tape)
+        window = Window(replace(state, attract=attract), tape, None if tape else _file(scene))
         try:
             for count in frames(time.monotonic, time.sleep):
                 if not window.tick(count):
@@ -69,6 +71,11 @@ def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterato
             due = shown + 1
         yield due - shown
         shown = due
+
+
+def _file(scene: object) -> SceneFile | None:
+    path = path_of(scene) if isinstance(scene, str | os.PathLike) else None
+    return SceneFile(path) if path else None
 
 
 def _tape(scene: object) -> Tape | None:

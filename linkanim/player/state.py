@@ -55,7 +55,7 @@ class State:
     `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
     which an edit made another class of the linkage, while the list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "fullscreen",
-    "save", "quit", and "report" (with the text of a fault's report).
+    "save", "reload", "quit", and "report" (with the text of a fault's report).
     """
 
     scene: Scene

@@ -10,16 +10,19 @@ from typing import TYPE_CHECKING, Literal
 import pygame
 from pygame.event import Event
 
-from linkanim.errors import LinkanimError
+from linkanim.errors import BadInput, LinkanimError
 from linkanim.player import display, files
 from linkanim.player.action import Action
 from linkanim.player.advance import aged, carried, settled
 from linkanim.player.browsing import RESOLVED, listed
+from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.easel import Easel
 from linkanim.player.fault import recovered, report
+from linkanim.player.handlers.shelf import renewed
 from linkanim.player.keyboard import Keyboard
 from linkanim.player.keys import bind_of
 from linkanim.player.mouse import Mouse, latest
+from linkanim.player.scene_file import SceneFile
 from linkanim.player.show import kept, overlay
 from linkanim.player.state import State, Take
 from linkanim.player.tape import Reel, Tape, Taping
@@ -37,11 +40,12 @@ _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "fullscreen", "quit", "back"})
 class Window:
     """One open window: `state` is what it shows, and `easel` how.
 
-    A tape plays in it until a key is pressed.
+    A tape plays in it until a key is pressed. A scene file that it was opened on is watched.
     """
 
-    def __init__(self, state: State, tape: Tape | None = None) -> None:
+    def __init__(self, state: State, tape: Tape | None = None, file: SceneFile | None = None) -> None:
         self.state = state
+        self._file = file
         self._reel = Reel(tape) if tape else None
         self._taping: Taping | None = None
         self._renderings: list[Rendering] = []
@@ -143,6 +147,8 @@ class Window:
     def _news(self) -> tuple[Action, ...]:
         """Return, as notes, what was done outside, and how far recordings are."""
         told, self._told = self._told, []
+        if self._file and self.state.frame % FRAMES_PER_SECOND == 0:
+            told += self._file.news()
         if self._renderings and self.state.frame % _TOLD_EVERY == 0:
             told.append(" · ".join(rendering.words() for rendering in self._renderings))
             for rendering in [one for one in self._renderings if one.done]:
@@ -172,10 +178,26 @@ class Window:
                 self._report(str(effect.value))
             case "save":
                 self._told.append(f"{save(self.state.scene, Path())} is written")
+            case "reload":
+                self._reload()
             case "fullscreen":
                 self._windowed = display.fill(self._windowed)
             case "quit":
                 self._open = False
+
+    def _reload(self) -> None:
+        """Put on what the scene file holds now; what is wrong with it is told, and the linkage runs on."""
+        if self._file is None:
+            raise BadInput("there is no scene file to load again; `linkanim FILE.toml` opens one")
+        if self.state.recording:
+            raise BadInput("a recording keeps to the scenes it began with; stop it, then F5 loads the file")
+        scene = self._file.load()
+        try:
+            self.state = renewed(self.state, scene)
+        except LinkanimError:
+            raise
+        except Exception as error:
+            self._report(report(scene, error))
 
     def _report(self, text: str) -> None:
         """Write the report of a fault, each but once: a held key meets the same one again and again."""

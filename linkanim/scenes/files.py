@@ -118,20 +118,24 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     """
     from linkanim.scenes.read import scene_from
 
-    asked = os.fspath(name_or_path)
-    if isinstance(name_or_path, str) and not _is_path(asked):
+    asked, path = os.fspath(name_or_path), path_of(name_or_path)
+    if path is None:
         if chapter_of(asked) is None:
             near = meant(asked, names())
             raise BadInput(f"no scene is called {shown(asked)}{near}; `linkanim scenes` lists them")
         return scene_from(parse(_catalogue_text(asked), asked), name=asked, where=asked)
-    path, where = Path(asked), intake.named(asked)
+    where = intake.named(asked)
     missing = f"{meant(path.stem, names())}; `linkanim scenes` lists the built-in ones"
     document = parse(SCENE_FILE.read(path, where, missing=missing), where)
     return scene_from(document, name=path.stem, where=where)
 
 
-def _is_path(asked: str) -> bool:
-    return asked.lower().endswith(".toml") or any(mark in asked for mark in (os.sep, os.altsep or os.sep))
+def path_of(name_or_path: str | os.PathLike[str]) -> Path | None:
+    """Return the path of a scene file; None for what would be a name in the catalogue."""
+    asked = os.fspath(name_or_path)
+    marks = (os.sep, os.altsep or os.sep)
+    named = isinstance(name_or_path, str) and not any(mark in asked for mark in marks)
+    return None if named and not asked.lower().endswith(".toml") else Path(asked)
 
 
 def _catalogue_text(name: str) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 import pygame
 
 from linkanim.player import display
+from linkanim.player.scene_file import SceneFile
 from linkanim.player.state import CHIP_FRAMES, State
 from linkanim.player.window import Window
 
@@ -18,8 +19,8 @@ SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL
 class Player:
     """A window, the keys and the mouse to use it with, and its pixels to look at."""
 
-    def __init__(self, state: State) -> None:
-        self.window = Window(state)
+    def __init__(self, state: State, file: SceneFile | None = None) -> None:
+        self.window = Window(state, file=file)
         self.tick()
 
     @property

@@ -6,6 +6,7 @@ import errno
 import os
 import random
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import pygame
@@ -13,9 +14,11 @@ import pytest
 from playing import SIZE, Player, fake_start
 
 from linkanim.player import display, rendering
+from linkanim.player.scene_file import SceneFile
 from linkanim.player.state import begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load
+from linkanim.scenes.write import save
 
 fault = pytest.mark.withstands("faults survived")
 
@@ -146,3 +149,110 @@ def test_a_window_that_is_out_of_sight_runs_on(player: Player) -> None:
     player.tick(20)
     assert player.state.phase == player.state.clock.at(player.state.frame)
     assert player.pixels != before
+
+
+@pytest.fixture
+def opened(here: Path) -> Iterator[Player]:
+    """A window on a scene file of one's own, my.toml, in the current folder."""
+    save(load("crank-rocker"), here).rename(here / "my.toml")
+    with display.opened(SIZE):
+        player = Player(begin("my.toml"), SceneFile(Path("my.toml")))
+        player.tick(5)
+        yield player
+        player.window.close()
+
+
+def written(here: Path, before: str, after: str) -> None:
+    """Have the scene file say something else, as an editor does: a new file takes its place."""
+    text = (here / "my.toml").read_text(encoding="utf-8")
+    assert before in text
+    (here / "new").write_text(text.replace(before, after), encoding="utf-8")
+    (here / "new").replace(here / "my.toml")
+
+
+def in_a_second(player: Player) -> str:
+    """Return what the window says within the next second."""
+    player.tick(60)
+    return player.state.toast.text if player.state.toast else ""
+
+
+@fault
+def test_a_scene_file_that_changes_is_offered_and_loaded_at_the_same_phase(
+    opened: Player, here: Path
+) -> None:
+    assert in_a_second(opened) == ""
+    written(here, "crank = 50", "crank = 45")
+    assert in_a_second(opened) == "my.toml has changed; F5 loads it"
+    old, phase = opened.state.scene, opened.state.clock.at(opened.state.frame + 1)
+    opened.press(pygame.K_F5)
+    assert opened.state.scene == load(here / "my.toml") != old
+    assert opened.state.phase == pytest.approx(phase)
+    opened.press(pygame.K_TAB)
+    opened.press(pygame.K_TAB, pygame.KMOD_LSHIFT)
+    assert opened.state.scene == load(here / "my.toml")
+
+
+@fault
+def test_what_a_changed_file_put_on_is_undone(opened: Player, here: Path) -> None:
+    before = opened.state.scene
+    written(here, "crank = 50", "crank = 45")
+    opened.press(pygame.K_F5)
+    opened.press(pygame.K_z, pygame.KMOD_LCTRL)
+    assert opened.state.scene == before
+
+
+@fault
+def test_a_changed_file_comes_on_in_place_of_another_mechanism(opened: Player, here: Path) -> None:
+    opened.press(pygame.K_TAB)
+    written(here, "crank = 50", "crank = 45")
+    opened.press(pygame.K_F5)
+    assert opened.state.scene == load(here / "my.toml")
+    assert [entry for entry in opened.state.shelf if not isinstance(entry, str)] == [opened.state.scene]
+
+
+@fault
+@pytest.mark.parametrize(
+    ("before", "after", "why"),
+    [
+        ("crank = 50", "crank = -50", "my.toml: four-bar.crank"),
+        ("crank = 50", "crank = 300", "my.toml: four-bar"),
+        ("crank = 50", "crank = =", "my.toml: "),
+    ],
+)
+def test_a_changed_file_with_a_fault_in_it_is_refused_and_the_linkage_runs_on(
+    opened: Player, here: Path, before: str, after: str, why: str
+) -> None:
+    good = opened.state.scene
+    written(here, before, after)
+    opened.press(pygame.K_F5)
+    assert said(opened).startswith(why)
+    assert opened.state.scene is good
+
+
+@fault
+def test_a_scene_file_that_is_gone_is_told_and_may_come_back(opened: Player, here: Path) -> None:
+    good = opened.state.scene
+    (here / "my.toml").rename(here / "aside.toml")
+    assert in_a_second(opened).startswith("my.toml is gone; the linkage runs on")
+    opened.press(pygame.K_F5)
+    assert "no such file" in said(opened)
+    assert opened.state.scene is good
+    (here / "aside.toml").rename(here / "my.toml")
+    assert in_a_second(opened) == "my.toml has changed; F5 loads it"
+
+
+@fault
+def test_a_recording_keeps_to_the_scene_it_began_with(
+    opened: Player, here: Path, started: list[list[str]]
+) -> None:
+    good = opened.state.scene
+    opened.type("g")
+    written(here, "crank = 50", "crank = 45")
+    opened.press(pygame.K_F5)
+    assert said(opened).startswith("a recording keeps to the scenes it began with")
+    assert opened.state.scene is good
+
+
+def test_without_a_scene_file_there_is_none_to_load_again(player: Player) -> None:
+    player.press(pygame.K_F5)
+    assert said(player).startswith("there is no scene file to load again")

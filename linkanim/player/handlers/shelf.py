@@ -41,6 +41,17 @@ def closure(state: State, _: None) -> State:
     return exchanged(replace(state, editing=edit.changed(state.editing, state.scene)), scene)
 
 
+def renewed(state: State, scene: Scene) -> State:
+    """Put on the scene of one's own as its file has it now; where it is on already, undo goes back."""
+    catalogue = tuple(entry for entry in state.shelf if isinstance(entry, str))
+    was_on = state.place < len(state.shelf) - len(catalogue)
+    state = replace(state, shelf=(scene, *catalogue))
+    if not was_on:
+        return put_on(state, 0)
+    editing = edit.changed(state.editing, state.scene)
+    return exchanged(replace(state, held=None, glide=None, editing=editing), scene)
+
+
 def exchanged(state: State, scene: Scene) -> State:
     """Show a changed scene at the phase the old one stands at; whatever its solver raises."""
     clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed)
