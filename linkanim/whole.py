@@ -18,13 +18,18 @@ from pathlib import Path
 
 from linkanim.errors import BadInput, WorkFailed
 
+_DEVICES = frozenset(
+    {"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10))}
+)
+"""Names that Windows keeps for devices, whatever their ending."""
 _PART = re.compile(r"\.linkanim-(\d+)-[0-9a-f]+\.part")
 
 
 def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> Path:
     """Return the path, where a file can be asked for under it.
 
-    `BadInput` where `path` has none of the suffixes, is a folder, or lies in one that is not there.
+    `BadInput` where `path` has none of the suffixes, is a folder or a name of Windows' own, or lies in a
+    folder that is not there.
     """
     asked = Path(path)
     if asked.is_dir():
@@ -33,6 +38,8 @@ def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> P
         )
     if asked.suffix.lower() not in suffixes:
         raise BadInput(f"{asked}: the name's ending says the format; use one of {', '.join(suffixes)}")
+    if asked.name.split(".")[0].strip().lower() in _DEVICES:
+        raise BadInput(f"{asked}: Windows keeps {asked.stem} for a device; choose another name")
     if not asked.parent.is_dir():
         raise BadInput(f"{asked}: there is no folder {asked.parent}; make it first, or choose another")
     return asked

@@ -196,24 +196,28 @@ def hold_arguments(data: st.DataObject) -> None:
         refused_in_a_line(error, "")
 
 
+@pytest.mark.withstands("bad inputs tried", FEW)
 @usual
 @given(st.data())
 def test_a_scene_in_which_anything_is_wrong(data: st.DataObject) -> None:
     hold_scene(data)
 
 
+@pytest.mark.withstands("bad inputs tried", FEW)
 @usual
 @given(st.data())
 def test_a_text_that_is_broken_anywhere(data: st.DataObject) -> None:
     hold_text(data)
 
 
+@pytest.mark.withstands("bad inputs tried", FEW)
 @usual
 @given(st.data())
 def test_a_tape_in_which_anything_is_wrong(data: st.DataObject) -> None:
     hold_tape(data)
 
 
+@pytest.mark.withstands("bad inputs tried", FEW)
 @usual
 @given(st.data())
 def test_any_command_line(data: st.DataObject) -> None:
@@ -221,11 +225,13 @@ def test_any_command_line(data: st.DataObject) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.withstands("bad inputs tried", MANY)
 @pytest.mark.parametrize("hold", [hold_scene, hold_text, hold_tape, hold_arguments])
 def test_ten_times_as_many(hold: Any) -> None:
     long(given(st.data())(hold))()
 
 
+@pytest.mark.withstands("bad inputs tried")
 @pytest.mark.parametrize(
     "junk", [b"", b"\xff\xfe\0", b"\0" * 1000, b"{" * 100, b"\x89PNG\r\n\x1a\n", b"[1, 2"]
 )

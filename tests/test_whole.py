@@ -84,6 +84,14 @@ def test_the_bytes_are_on_the_disk_before_the_name(
     assert settled == [(b"new", ["out.csv"])]
 
 
+@pytest.mark.parametrize("name", ["CON.gif", "nul.gif", "Aux.old.gif", "com7.gif", "LPT1 .gif"])
+def test_a_name_that_windows_keeps_for_a_device_is_refused_everywhere(tmp_path: Path, name: str) -> None:
+    with pytest.raises(BadInput, match=r"Windows keeps .* for a device; choose another name$"):
+        whole.checked_target(tmp_path / name, (".gif",))
+    for free in ("console.gif", "com.gif", "com10.gif", "my.con.gif"):
+        assert whole.checked_target(tmp_path / free, (".gif",)) == tmp_path / free
+
+
 def test_a_link_stays_a_link(target: Path) -> None:
     link = target.with_name("link.csv")
     link.symlink_to(target.name)

@@ -134,6 +134,7 @@ USAGE = [
 ]
 
 
+@pytest.mark.withstands("bad inputs tried")
 @pytest.mark.parametrize(("words", "named"), USAGE, ids=[" ".join(words) for words, _ in USAGE])
 def test_bad_usage_is_one_line_that_names_the_word(
     words: list[str],

@@ -20,6 +20,8 @@ from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
+pytestmark = pytest.mark.withstands("faults survived")
+
 # What arithmetic can raise where a solver has a hole.
 HOLES = [
     ZeroDivisionError("float division by zero"),

@@ -18,6 +18,8 @@ from linkanim.recorder import encode, recording
 from linkanim.recorder.plan import Format
 from linkanim.recorder.recording import write
 
+pytestmark = pytest.mark.withstands("faults survived")
+
 FORMS: tuple[Format, ...] = ("gif", "mp4", "png")
 BEFORE = b"what was there before"
 

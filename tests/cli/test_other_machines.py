@@ -1,0 +1,74 @@
+"""As other machines have it: no home, no writable folder, other languages, terminals and paths."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+RECORD = ["record", "kite", "--size", "64x36", "--seconds", "0.1"]
+
+
+def linkanim(*words: str, folder: Path, **more: str | None) -> subprocess.CompletedProcess[str]:
+    """Run a command in a folder, with some of the environment changed, or gone where it is None."""
+    environment = {**os.environ, **more}
+    return subprocess.run(
+        [sys.executable, "-m", "linkanim", *words],
+        cwd=folder,
+        env={key: value for key, value in environment.items() if value is not None},
+        capture_output=True,
+        encoding="utf-8",
+        errors="replace",
+        check=False,
+    )
+
+
+MACHINES: dict[str, dict[str, str | None]] = {
+    "no home": {"HOME": None, "XDG_CACHE_HOME": None, "XDG_CONFIG_HOME": None},
+    "a home that is not there": {"HOME": "/nowhere/at/all"},
+    "the C locale": {"LC_ALL": "C", "LANG": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
+    "256 colours": {"TERM": "xterm-256color", "COLORTERM": None},
+    "no colours": {"NO_COLOR": "1", "TERM": "dumb"},
+    "no terminal": {"TERM": None},
+}
+
+
+@pytest.mark.parametrize("machine", MACHINES.values(), ids=MACHINES)
+def test_it_tells_and_records(tmp_path: Path, machine: dict[str, str | None]) -> None:
+    done = linkanim(*RECORD, folder=tmp_path, **machine)
+    assert (done.returncode, done.stdout) == (0, "kite.gif\n")
+    assert done.stderr.startswith("kite.gif: 2 frames at ")
+    assert done.stderr.rstrip("\n").isprintable()  # one line, and no colours in it
+    assert [path.name for path in tmp_path.iterdir()] == ["kite.gif"]
+
+
+def test_a_path_with_spaces_and_chinese_characters(tmp_path: Path) -> None:
+    folder = tmp_path / "my linkages 机构 %d"
+    folder.mkdir()
+    kite = 'title = "风筝"\n[four-bar]\nground = 4\ncrank = 2\ncoupler = 2\nrocker = 4\n'
+    (folder / "风 筝.toml").write_text(kite, encoding="utf-8")
+    for ending in ("gif", "mp4", "png"):
+        done = linkanim("record", "风 筝.toml", "-o", f"风 筝.{ending}", *RECORD[2:], folder=folder)
+        assert (done.returncode, done.stderr.count("\n")) == (0, 1)
+    assert {"风 筝.gif", "风 筝.mp4", "风 筝-0001.png"} <= {path.name for path in folder.iterdir()}
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write anywhere")
+def test_a_folder_that_cannot_be_written_is_one_line(tmp_path: Path) -> None:
+    tmp_path.chmod(0o555)
+    done = linkanim(*RECORD, folder=tmp_path)
+    tmp_path.chmod(0o755)
+    assert done.returncode == 1
+    assert done.stderr == "linkanim: kite.gif: cannot be written: permission denied\n"
+
+
+@pytest.mark.skipif(not Path("/proc/version").exists(), reason="needs a folder that nobody may write to")
+def test_where_nothing_can_be_written_it_still_tells(tmp_path: Path) -> None:
+    assert linkanim("info", "kite", folder=Path("/proc")).returncode == 0
+    done = linkanim(*RECORD, folder=Path("/proc"))
+    assert done.returncode == 1
+    assert done.stderr.startswith("linkanim: kite.gif: cannot be written: ")
+    assert done.stderr.count("\n") == 1
