@@ -109,6 +109,15 @@ def test_every_room_is_read() -> None:
     assert {"mechanics", "scenes", "picture", "paper", "player", "recorder", "cli"} <= rooms
 
 
+def test_a_class_has_one_name_and_a_name_one_class() -> None:
+    homes: dict[str, list[str]] = {}
+    for path in SOURCES:
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                homes.setdefault(node.name, []).append(str(path.relative_to(PACKAGE)))
+    assert {name: paths for name, paths in homes.items() if len(paths) > 1} == {}
+
+
 HEAVY = ("numpy", "pygame", "PIL", "imageio", "imageio_ffmpeg", "tqdm")
 NO_WINDOW = ("pygame", "PIL", "imageio", "imageio_ffmpeg")
 

@@ -80,7 +80,7 @@ REFUSED = [
     (["--quantity", ","], "--quantity names none"),
     (["--quantity", "rocker.angle", "-o", "out.eps"], ".svg, .png, .pdf, .csv"),
     (["--quantity", "rocker.angle", "-o", "missing/out.png"], "there is no folder"),
-    (["--quantity", "rocker.angle", "--speeds", "5"], "--speeds: \"5\" has no unit"),
+    (["--quantity", "rocker.angle", "--speeds", "5"], '--speeds: "5" has no unit'),
     (["--quantity", "rocker.angle", "--speeds", "0 rpm"], "other than zero"),
     (["--quantity", "rocker.angle", "--speeds", ","], "other than zero"),
     (["--quantity", "rocker.angle", "--size", "9999999x2"], "9999999"),

@@ -90,8 +90,9 @@ def test_dyads_and_geared_cranks_follow_it() -> None:
         RRP("C", "B", 500.0, Line("Q", 0.2), 1),
         Crank("D", "Q", 50.0, Gear("A", Fraction(-1), 0.3)),
         Crank("E", "Q", 50.0, Gear("A", Fraction(5, 2), 0.3)),
+        Crank("F", "Q", 50.0, Gear("A", Fraction(2), 0.3)),
     )
-    check(boom(200.0, 280.0, *further, start=1.0), 1, "ABCDE")
+    check(boom(200.0, 280.0, *further, start=1.0), 1, "ABCDEF")
 
 
 def test_the_length_runs_as_it_is_asked() -> None:

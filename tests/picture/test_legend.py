@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from linkanim.bench.question import FourBarLengths, scene_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
 from linkanim.picture.legend import Legend, legend_for
@@ -48,3 +49,14 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
 
 def test_there_is_no_key_without_arrows() -> None:
     assert legend_for((), layout((640, 360)), Type(), LIGHT) is None
+
+
+def test_arrows_are_as_long_however_small_the_unit_s_numbers_are() -> None:
+    small, large = (
+        scene_of(FourBarLengths(size, 0.3 * size, 0.9 * size, 0.8 * size), 1) for size in (1, 100)
+    )
+    metres, centimetres = (
+        arrows_of(figure(scene), "v", 720, gauge(1.0, 100.0), LIGHT).scale(1.0) for scene in (small, large)
+    )
+    assert metres == pytest.approx(100 * centimetres)
+    assert centimetres > 0

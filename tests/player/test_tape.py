@@ -15,7 +15,7 @@ from linkanim.errors import BadInput
 from linkanim.player.action import Action
 from linkanim.player.advance import advance
 from linkanim.player.state import State, begin
-from linkanim.player.tape import Tape, starting, taped
+from linkanim.player.tape import Reel, Tape, starting, taped
 from linkanim.player.tape_file import from_document, read, to_document, write
 from linkanim.scenes import load
 
@@ -226,3 +226,14 @@ def test_a_file_that_is_not_json_is_refused(tmp_path: Path, text: str) -> None:
 def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path, name: str, said: str) -> None:
     with pytest.raises(BadInput, match=said):
         read(tmp_path / name)
+
+
+def test_a_tape_that_plays_over_and_over_starts_anew_at_its_end_only() -> None:
+    start = starting(begin("press"))
+    reel = Reel(Tape(start, 3, ((1, Action("trace")),)))
+    state, seen = start, []
+    for _ in range(8):
+        seen.append((state.frame, state.look.trace))
+        state = reel.rewound(advance(state, reel.actions(state.frame)))
+    first, second = start.look.trace, not start.look.trace
+    assert seen == 2 * [(0, first), (1, first), (2, second)] + [(0, first), (1, first)]
