@@ -20,7 +20,7 @@ from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, disc, segments, unit
 from linkanim.picture.view import Box, Rect
 
-_TITLES = {1: ("velocity polygon", "/s"), 2: ("acceleration polygon", "/s²")}
+_TITLES = {1: ("velocity polygon", "velocities", "/s"), 2: ("acceleration polygon", "accelerations", "/s²")}
 _NOTHING = 1e-9
 """Of a polygon's greatest extent: what is shorter has no direction."""
 _LABELLED = 1.1
@@ -59,12 +59,11 @@ class Polygon:
 
     def group(self, pose: Pose) -> Group:
         """Return the polygon of a pose with its title and the bar of its scale."""
-        words, per = _TITLES[self.order]
-        title = Caption(words, (self.rect.x, self.rect.y), self.pen.text, self.pen.theme.ink)
+        words, _, per = _TITLES[self.order]
         scale = self.scale(pose.input_speed)
         pole = self.pole(pose.input_speed)
         found = self._arrows(pose, pole, scale)
-        layers, captions = [*self._drawn(found), self._dot(pole)], [title, *self._symbols(found)]
+        layers, captions = [*self._drawn(found), self._dot(pole)], [self._title, *self._symbols(found)]
         if scale > 0:
             layers += self._bar(scale)
             captions.append(self._told(scale, per))
@@ -73,6 +72,15 @@ class Polygon:
             at = (pole.real, pole.imag + 0.6 * self.pen.small)
             captions.append(Caption(why, at, self.pen.small, self.pen.theme.dim, "centre"))
         return Group(words.replace(" ", "-"), layers, captions)
+
+    @cached_property
+    def _title(self) -> Caption:
+        """The title, as long and as large as there is room for."""
+        pen, (full, brief, _) = self.pen, _TITLES[self.order]
+        ways = [(words, size) for words in (full, brief) for size in (pen.text, pen.small)]
+        fits = (way for way in ways if pen.type.width(*way) <= self.rect.width)
+        words, size = next(fits, ways[-1])
+        return Caption(words, (self.rect.x, self.rect.y), size, pen.theme.ink)
 
     def scale(self, speed: float) -> float:
         """Return pixels for one unit of length and second at this input speed; 0 where nothing moves.

@@ -75,6 +75,14 @@ def test_vectors_are_named_and_one_that_is_all_of_another_is_drawn_once() -> Non
     assert {"a_{B}", "aᵗ_{BA}"} <= set(found)
 
 
+@pytest.mark.parametrize("size", [(1280, 720), (320, 180), (180, 320)])
+def test_titles_have_room(size: tuple[int, int]) -> None:
+    for panel in panels("press", layout(size, polygons=True)):
+        title = drawn(panel, 1.0).captions[0]
+        assert title.text.startswith(("velocit", "acceleration"))
+        assert Type().width(title.text, title.size) <= panel.rect.width
+
+
 def test_what_rests_says_so() -> None:
     for panel in panels("press"):
         group = drawn(panel, 1.0, 0.0)
