@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import linkanim
 from linkanim.mechanics.polygon import Chain, Order, chains, image
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
@@ -22,10 +24,8 @@ def polygon(name: str, order: Order, share: float = 0.1, speed: float = 2.0) -> 
     return chains(scene.pose(share * scene.period, speed=speed), scene.linkage, order)
 
 
-@pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("name", names())
-def test_every_chain_ends_in_the_image_that_solve_gives(name: str, order: Order) -> None:
-    scene = load(name)
+def closes(scene: Scene, order: Order) -> None:
+    """Follow every chain from image to image, each as `solve` gives it."""
     motion = scene.solve(phase=MOMENTS * scene.period, speed=-3.0)
     found = chains(motion, scene.linkage, order)
     assert found
@@ -36,6 +36,21 @@ def test_every_chain_ends_in_the_image_that_solve_gives(name: str, order: Order)
             assert np.abs(side.begin - begin).max() <= CLOSED * size
             begin = side.end
         assert np.abs(begin - image(motion, chain.end, order)).max() <= CLOSED * size, chain
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("name", names())
+def test_every_chain_ends_in_the_image_that_solve_gives(name: str, order: Order) -> None:
+    closes(load(name), order)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_so_does_that_of_a_slot_that_misses_its_pivot(order: Order, tmp_path: Path) -> None:
+    whole = Path(linkanim.__file__).parent / "scenes/catalogue/sliders/inverted-slider-crank.toml"
+    path = tmp_path / "aside.toml"
+    path.write_text(whole.read_text().replace('through = "A" }', 'through = "A", offset = 25 }'))
+    assert load(path).linkage != load("inverted-slider-crank").linkage
+    closes(load(path), order)
 
 
 def sides(found: tuple[Chain, ...]) -> dict[str, complex]:
