@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from pictures import painted, pixels
 
-from linkanim.mechanics.polygon import Order, image
+from linkanim.mechanics.polygon import Order, chains, image
 from linkanim.picture.chart import pen_for
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
@@ -73,6 +73,27 @@ def test_vectors_are_named_and_one_that_is_all_of_another_is_drawn_once() -> Non
     assert "a_{A}" in found
     assert "aⁿ_{A}" not in found
     assert {"a_{B}", "aᵗ_{BA}"} <= set(found)
+
+
+@pytest.mark.parametrize("phase", [0.4, 1.5, 3.1, 5.0])
+@pytest.mark.parametrize("name", ["crank-rocker", "press"])
+def test_a_symbol_stands_beside_the_vector_that_it_names(name: str, phase: float) -> None:
+    for panel in panels(name):
+        pose = panel.figure.scene.pose(phase)
+        pole, scale = panel.pole(pose.input_speed), panel.scale(pose.input_speed)
+        sides = {
+            side.symbol: (pole + scale * side.begin.conjugate(), pole + scale * side.end.conjugate())
+            for chain in chains(pose, panel.figure.linkage, panel.order)
+            for side in chain.sides
+        }
+        for caption in panel.group(pose).captions:
+            if caption.text in sides:
+                begin, end = sides[caption.text]
+                middle = complex(caption.at[0], caption.at[1] + 0.5 * caption.size)
+                along = ((middle - begin) / (end - begin)).real
+                away = abs(((middle - begin) / (end - begin)).imag) * abs(end - begin)
+                assert 0.3 < along < 0.7
+                assert away < 0.5 * Type().width(caption.text, caption.size) + caption.size
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (320, 180), (180, 320)])
