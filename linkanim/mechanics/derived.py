@@ -152,9 +152,23 @@ def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:
     output, crank = output_body(linkage), linkage.joint(linkage.drive.joint)
     assert output is not None
     if output.slider is None:
-        return lambda motion: abs(over(motion.crank_rate, motion.angular_velocity[output.name]))
+        return lambda motion: _faster(motion, 1.0, ("angular_velocity", "angular_acceleration"), output.name)
     length = crank.length if isinstance(crank, Crank) else 1.0
-    return lambda motion: abs(over(length * motion.crank_rate, motion.travel_velocity[output.name]))
+    return lambda motion: _faster(motion, length, ("travel_velocity", "travel_acceleration"), output.name)
+
+
+def _faster(motion: Any, length: float, rates: tuple[str, str], output: str) -> Any:
+    """Return how many times as fast the input moves, at `length` from its pivot, as the output.
+
+    Where both rest for an instant it is how they start to move.
+    """
+    first, other = length * motion.crank_rate, getattr(motion, rates[0])[output]
+    found = abs(over(first, other))
+    rests = np.asarray((first == 0) & (other == 0))
+    if not rests.any():
+        return found
+    starting = abs(over(length * motion.crank_second, getattr(motion, rates[1])[output]))
+    return np.where(rests, starting, found)[()]
 
 
 def input_rate(motion: Any) -> Any:

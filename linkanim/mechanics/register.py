@@ -120,7 +120,7 @@ _BY_ANGLE = {
 }
 _BY_TRAVEL = {
     True: _coefficients("h", "q", ("rad/{}", "rad/{}²"), "travel"),
-    False: _coefficients("f", "s", ("", "1/{}"), "travel"),
+    False: _coefficients("f", "s", ("{0}/{0}", "{0}/{0}²"), "travel"),
 }
 
 

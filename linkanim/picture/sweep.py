@@ -122,6 +122,8 @@ def _swept(figure: Figure) -> Iterator[Points]:
     for body in figure.bodies:
         for one, other in combinations(body.joints, 2):
             yield _between(_path(figure, one), _path(figure, other))
+    for centre, reach in _body_wheels(figure):
+        yield (_path(figure, centre)[:, None] + reach * _ROUND).ravel()
     for strut in figure.struts:
         yield _between(*(_path(figure, name) for name in strut.between))
     for name in figure.shown:
@@ -149,6 +151,11 @@ def _rims(figure: Figure) -> Iterator[Points]:
 def _round(figure: Figure) -> Iterator[tuple[str, float]]:
     """Yield the centres and radii of gears, and of bodies that are drawn as wheels."""
     yield from ((wheel.centre, wheel.reach) for wheel in wheels(figure))
+    yield from _body_wheels(figure)
+
+
+def _body_wheels(figure: Figure) -> Iterator[tuple[str, float]]:
+    """Yield the centre of each body that is drawn as a wheel, and how far its furthest joint is from it."""
     for body in figure.linkage.bodies:
         if body.look == "wheel":
             centre, *others = body.joints
