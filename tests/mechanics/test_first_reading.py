@@ -98,3 +98,12 @@ def test_the_inputs_own_motion_is_that_of_a_pose(scene: str) -> None:
             assert np.broadcast_to(getattr(motion, name), PHASES.shape)[index] == pytest.approx(
                 getattr(pose, name), rel=1e-14
             )
+
+
+def test_a_motion_run_faster_stands_where_it_stood() -> None:
+    motion = load("double-rocker").solve(phase=PHASES, speed=2.0)
+    paced = motion.paced(-3.0)
+    for name, power in (("phase", 1.0), ("crank_angle", 1.0), ("crank_rate", -3.0), ("crank_second", 9.0)):
+        assert np.array_equal(getattr(paced, name), getattr(motion, name) * power)
+    assert np.array_equal(paced.position["B"], motion.position["B"])
+    assert np.array_equal(paced.velocity["B"], motion.velocity["B"] * -3.0)
