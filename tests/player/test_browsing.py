@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from pathlib import Path
 
 import pygame
@@ -154,6 +155,10 @@ def test_the_grid_fills_any_window_and_overlaps_nothing(
     assert len(found.headings) in (0, len(counts))
     for heading in found.headings:
         assert not any(heading.meets(cell) for cell in found.cells)
+    for one, other in combinations(found.cells, 2):
+        assert not one.inset(0.5).meets(other.inset(0.5))
+    right, low = (max(getattr(cell, side) for cell in found.cells) for side in ("right", "bottom"))
+    assert right > 0.9 * size[0] or low > 0.9 * size[1]
     for n, cell in enumerate(found.cells):
         assert cell.x >= 0
         assert cell.right <= size[0]
