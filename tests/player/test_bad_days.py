@@ -15,7 +15,7 @@ from playing import SIZE, Player, fake_start
 
 from linkanim.player import display, rendering
 from linkanim.player.scene_file import SceneFile
-from linkanim.player.state import begin
+from linkanim.player.state import State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load
 from linkanim.scenes.write import save
@@ -256,3 +256,50 @@ def test_a_recording_keeps_to_the_scene_it_began_with(
 def test_without_a_scene_file_there_is_none_to_load_again(player: Player) -> None:
     player.press(pygame.K_F5)
     assert said(player).startswith("there is no scene file to load again")
+
+
+@pytest.mark.parametrize(
+    ("screen", "size"),
+    [
+        ((800, 600), (720, 405)),
+        ((1366, 768), (1229, 691)),
+        ((3840, 2160), (1280, 720)),
+        ((320, 200), (288, 162)),
+    ],
+)
+def test_a_window_fits_its_screen(
+    here: Path, monkeypatch: pytest.MonkeyPatch, screen: tuple[int, int], size: tuple[int, int]
+) -> None:
+    monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [screen])
+    with display.opened():
+        player = Player(begin(load("kite")))
+        assert display.surface().get_size() == size
+        assert len(set(player.pixels)) > 20
+
+
+PRESSED = {10: "t", 30: "d", 50: "+", 70: "e", 90: "5", 110: "\r", 130: "e", 150: "\t", 170: "v", 190: "c"}
+"""Keys by the frame they come at."""
+
+
+def played(step: int) -> tuple[State, bytes]:
+    """Return the state and the picture after 240 frames, as many of them late as `step` says."""
+
+    def on(player: Player, frame: int) -> None:
+        while player.state.frame < frame:
+            player.tick(min(step, frame - player.state.frame))
+
+    with display.opened(SIZE):
+        player = Player(begin(load("crank-rocker")))
+        for frame, text in PRESSED.items():
+            on(player, frame - 1)
+            pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=ord(text), mod=0, unicode=text))
+        on(player, 240)
+        return player.state, player.pixels
+
+
+def test_state_and_picture_are_the_same_whatever_the_rate_of_frames() -> None:
+    state, pixels = played(1)
+    assert state.editing.open is False
+    assert (state.scene.name, state.look.zoom > 1, bool(state.look.chart)) == ("drag-link", False, True)
+    for step in (2, 7, 19):
+        assert played(step) == (state, pixels)
