@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -15,59 +15,15 @@ from linkanim.digits import degrees, short, significant
 from .chain import Touch
 from .effort import Demand, demand, effort_token
 from .exact import HALF_TURN, Sum
-from .joint import Joint
-from .kinds import RRR
-from .linkage import Linkage
 from .loop import Gearing
 from .mechanism import Mechanism
-from .motion import Motion
+from .naming import SAMPLES, FourBar, class_name, four_bar_of, one_cycle
 from .path import Path
 from .roots import Kind
 from .search import around, sign_changes
 from .transmission import transmission
 
-SAMPLES = 1440
 SAME_ANGLE = 1e-9
-TRIPLE_ROCKERS = {
-    "ground": "outward/outward",
-    "input": "outward/inward",
-    "output": "inward/outward",
-    "coupler": "inward/inward",
-}
-GRASHOF = {
-    "ground": "drag-link (double crank)",
-    "input": "crank-rocker",
-    "output": "crank-rocker driven at its rocker",
-    "coupler": "double-rocker",
-}
-
-
-@dataclass(frozen=True)
-class FourBar:
-    """The four lengths of a four-bar seen from its input, and which of the two closures it has."""
-
-    ground: float
-    input: float
-    coupler: float
-    output: float
-    sign: int
-    change_points: int
-
-    @property
-    def links(self) -> dict[str, float]:
-        """The links by their part."""
-        return {
-            "ground": self.ground,
-            "input": self.input,
-            "coupler": self.coupler,
-            "output": self.output,
-        }
-
-    @property
-    def margin(self) -> float:
-        """p + q - s - l: positive for Grashof linkages, zero at a change point."""
-        s, p, q, longest = sorted(self.links.values())
-        return 0.0 if self.change_points else math.fsum((p, q, -s, -longest))
 
 
 @dataclass(frozen=True)
@@ -86,7 +42,7 @@ class Info:
     @cached_property
     def class_name(self) -> str:
         """The class, in words."""
-        return _class_name(self.mechanism, self._four_bar)
+        return class_name(self.mechanism, self._four_bar)
 
     @cached_property
     def grashof(self) -> str | None:
@@ -199,7 +155,7 @@ class Info:
 
     @cached_property
     def _four_bar(self) -> FourBar | None:
-        return _four_bar(self.mechanism)
+        return four_bar_of(self.mechanism)
 
     @cached_property
     def _slider(self) -> _Slider | None:
@@ -209,133 +165,6 @@ class Info:
 def classify(mechanism: Mechanism, length_unit: str) -> Info:
     """Return what is told of a linkage."""
     return Info(mechanism, length_unit)
-
-
-def _four_bar(mechanism: Mechanism) -> FourBar | None:
-    """Return the four-bar loop that the input drives directly, where there is one."""
-    for name, loop in mechanism.assembly.loops.items():
-        joint = mechanism.linkage.joint(name)
-        if isinstance(joint, RRR) and loop.pin == mechanism.linkage.drive.joint and loop.ground:
-            a, b = joint.lengths[::-1] if loop.swapped else joint.lengths
-            sign = mechanism.assembly.signs[name] * (-1 if loop.swapped else 1)
-            scale = mechanism.assembly.unscale
-            touching = (loop.root.u.kind, loop.root.w.kind).count(Kind.CHANGE_POINT)
-            return FourBar(loop.ground.length * scale, loop.crank.length * scale, a, b, sign, touching)
-    return None
-
-
-def _class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
-    linkage = mechanism.linkage
-    dyads = [joint for joint in linkage.joints if joint.dyad]
-    geared = any(crank.gear for crank in linkage.cranks)
-    slider = " with slider" if any(joint.travels for joint in dyads) else ""
-    if geared and any(isinstance(joint, RRR) for joint in dyads):
-        return f"geared five-bar{slider}"
-    if four_bar is not None:
-        name = _four_bar_name(four_bar)
-        return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"
-    if not dyads:
-        return _cranks_name(linkage)
-    if linkage.slides:
-        return _slider_driven_name(linkage, dyads)
-    own = dyads[0].linkage_name(mechanism.assembly) if len(dyads) == 1 else None
-    return own or f"{_bars(len(dyads))} linkage{slider}"
-
-
-def _slider_driven_name(linkage: Linkage, dyads: list[Joint]) -> str:
-    """Name a linkage that a slider drives."""
-    first = dyads[0]
-    ends = set(first.ends) if isinstance(first, RRR) else set()
-    cranked = linkage.drive.joint in ends and any(pin.name in ends for pin in linkage.pins)
-    if cranked and len(dyads) == 1:
-        return "slider-crank driven at its slider"
-    return f"{_bars(len(dyads))} linkage driven by a slider"
-
-
-def _cranks_name(linkage: Linkage) -> str:
-    """Name a linkage without dyads by how its cranks turn."""
-    if linkage.slides:
-        return "slider"
-    if linkage.drive.cylinder is not None:
-        return "crank driven by a cylinder"
-    geared = [crank for crank in linkage.cranks if crank.gear]
-    if any(not linkage.joint(crank.pivot).fixed for crank in geared):
-        return "epicyclic gear train"
-    return "geared cranks" if geared else "crank"
-
-
-def _bars(dyads: int) -> str:
-    """Name the linkage by its links: ground, crank and two for each dyad."""
-    return {1: "four-bar", 2: "six-bar", 3: "eight-bar"}.get(dyads, f"{2 * dyads + 2}-bar")
-
-
-def _rest(mechanism: Mechanism, dyads: int) -> str:
-    """Name the loops after the first, as far as they are four-bars; else say how many dyads follow."""
-    further = [_four_bar_name(bar) for bar in _further_loops(mechanism)]
-    if len(further) == dyads - 1:
-        return "".join(f", then {name}" for name in further)
-    return " and a second dyad" if dyads == 2 else f" and {dyads - 1} further dyads"
-
-
-def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
-    """Yield the four-bars down the chain: dyads between a fixed pin and one that turns about a fixed pin.
-
-    Their sign tells a parallelogram, whose coupler keeps along the ground, from an antiparallelogram.
-    """
-    linkage, cycle = mechanism.linkage, _cycle(mechanism, 0)
-    pins = {pin.name: complex(*pin.position) for pin in linkage.pins}
-    for joint in linkage.joints:
-        if not isinstance(joint, RRR) or joint.name in mechanism.assembly.loops:
-            continue
-        for (moving, fixed), (a, b) in ((joint.ends, joint.lengths), (joint.ends[::-1], joint.lengths[::-1])):
-            pivot, crank = _turns_about(linkage, moving)
-            if fixed in pins and pivot is not None:
-                ground = abs(pins[fixed] - pins[pivot])
-                along = cycle.position[joint.name] - cycle.position[moving]
-                apart = along - (cycle.position[fixed] - cycle.position[pivot])
-                sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
-                yield FourBar(ground, crank, a, b, sign, _change_point_count(ground, crank, a, b))
-                break
-
-
-def _turns_about(linkage: Linkage, moving: str) -> tuple[str | None, float]:
-    """Return the fixed pin that a joint turns about, and how far from it; None where there is none."""
-    for frame in linkage.frames[1:]:
-        pivot = next((pin.name for pin in linkage.pins if pin.name in frame), None)
-        if moving in frame and pivot not in (None, moving):
-            assert pivot is not None
-            return pivot, abs(frame[moving] - frame[pivot])
-    return None, 0.0
-
-
-def _change_point_count(g: float, r: float, a: float, b: float) -> int:
-    """Return how many change points the lengths have, each of them rounded: to 1e-12 of the perimeter."""
-    least = 1e-12 * (g + r + a + b)
-    return int(abs(a + b - g - r) <= least) + int(min(abs(g - r - a + b), abs(g - r + a - b)) <= least)
-
-
-def _four_bar_name(bar: FourBar) -> str:
-    if bar.change_points:
-        return _change_point_name(bar)
-    if bar.margin > 0:
-        return "Grashof " + GRASHOF[_part(bar, min)]
-    return f"triple-rocker ({TRIPLE_ROCKERS[_part(bar, max)]})"
-
-
-def _part(bar: FourBar, pick: Callable[..., str]) -> str:
-    """Return the part of the shortest (min) or longest (max) link."""
-    return pick(bar.links, key=lambda part: bar.links[part])
-
-
-def _change_point_name(bar: FourBar) -> str:
-    same = math.isclose
-    if same(bar.ground, bar.coupler, rel_tol=1e-15) and same(bar.input, bar.output, rel_tol=1e-15):
-        return "parallelogram" if bar.sign > 0 else "antiparallelogram"
-    g, r, a, b = bar.ground, bar.input, bar.coupler, bar.output
-    pairs = (g, r, a, b), (g, b, a, r)
-    if any(same(a, b, rel_tol=1e-15) and same(c, d, rel_tol=1e-15) for a, b, c, d in pairs):
-        return "kite (change point)"
-    return "change-point " + GRASHOF[_part(bar, min)]
 
 
 def _grashof(bar: FourBar) -> str:
@@ -379,11 +208,6 @@ def _reached(path: Path, gearing: Gearing, angle: Sum) -> Iterator[float]:
     return (here for turn in range(abs(p)) if path.holds(here := first + turn * step, q))
 
 
-def _cycle(mechanism: Mechanism, derivatives: int) -> Motion:
-    phases = np.linspace(0.0, 2 * math.pi * mechanism.periods, SAMPLES, endpoint=False)
-    return mechanism.solve(phase=phases, speed=1.0, derivatives=derivatives)
-
-
 class _Slider(NamedTuple):
     """How a slider goes to and fro: the phases of its dead centres are None where it rests."""
 
@@ -413,7 +237,7 @@ def _stroke(mechanism: Mechanism) -> _Slider | None:
 
 def _turning(mechanism: Mechanism) -> Iterator[str]:
     """Yield the bodies that turn fully over one true period."""
-    motion = _cycle(mechanism, 1)
+    motion = one_cycle(mechanism, 1)
     closing = 2 * math.pi * mechanism.periods / SAMPLES
     for body in mechanism.linkage.bodies:
         if body.slider is None:
