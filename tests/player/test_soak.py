@@ -13,6 +13,7 @@ import random
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from fractions import Fraction
+from itertools import islice
 from pathlib import Path
 
 import pygame
@@ -127,9 +128,15 @@ def resident_mb() -> float:
 
 
 @pytest.mark.withstands("frames run", 1_000)
-def test_states_stay_finite_whatever_is_asked() -> None:
-    for state in states(1_000, 0.3):
+@needs_proc
+def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, object], None]) -> None:
+    run = states(1_000, 0.3)
+    for state in islice(run, 500):
         finite(state)
+    before = resident_mb()
+    for state in run:
+        finite(state)
+    record_property("memory growth, MB", resident_mb() - before)
 
 
 @pytest.mark.withstands("frames run", 108)
