@@ -16,6 +16,8 @@ from .motion import Motion
 from .roots import Kind
 
 SAMPLES = 1440
+_TOLD = 4
+"""Of so many four-bars in a row each is named; of more only the first."""
 TRIPLE_ROCKERS = {
     "ground": "outward/outward",
     "input": "outward/inward",
@@ -119,9 +121,10 @@ def _bars(dyads: int) -> str:
 
 def _rest(mechanism: Mechanism, dyads: int) -> str:
     """Name the loops after the first, as far as they are four-bars; else say how many dyads follow."""
-    further = [_four_bar_name(bar) for bar in _further_loops(mechanism)]
-    if len(further) == dyads - 1:
-        return "".join(f", then {name}" for name in further)
+    if dyads <= _TOLD:
+        further = [_four_bar_name(bar) for bar in _further_loops(mechanism)]
+        if len(further) == dyads - 1:
+            return "".join(f", then {name}" for name in further)
     return " and a second dyad" if dyads == 2 else f" and {dyads - 1} further dyads"
 
 
@@ -148,10 +151,9 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
 
 def _turns_about(linkage: Linkage, moving: str) -> tuple[str | None, float]:
     """Return the fixed pin that a joint turns about, and how far from it; None where there is none."""
-    for frame in linkage.frames[1:]:
+    for frame in (frame for frame in linkage.frames[1:] if moving in frame):
         pivot = next((pin.name for pin in linkage.pins if pin.name in frame), None)
-        if moving in frame and pivot not in (None, moving):
-            assert pivot is not None
+        if pivot is not None and pivot != moving:
             return pivot, abs(frame[moving] - frame[pivot])
     return None, 0.0
 

@@ -58,11 +58,22 @@ class Figure:
 
         Those bars lie in line with it at every moment: what is drawn of them is the body.
         """
-        bare = [other.joints for other in self.bodies if not other.name and other != body]
-        ends = [end for ends in bare for end in ends if set(ends) & set(body.joints)]
+        ends = sorted({end for joint in body.joints for end in self._bare_ends.get(joint, ())})
         return tuple(
-            name for name in dict.fromkeys(ends) if name not in body.joints and self._kept(body, name)
+            name
+            for name in dict.fromkeys(name for _, name in ends)
+            if name not in body.joints and self._kept(body, name)
         )
+
+    @cached_property
+    def _bare_ends(self) -> dict[str, list[tuple[int, str]]]:
+        """The far ends of the bare bars at each joint, each with its bar's number."""
+        found: dict[str, list[tuple[int, str]]] = {}
+        for number, body in enumerate(self.bodies):
+            if not body.name:
+                for near, far in (body.joints[:2], body.joints[1::-1]):
+                    found.setdefault(near, []).append((number, far))
+        return found
 
     def _kept(self, body: Body, name: str) -> bool:
         """Whether a joint keeps its place in a body's frame over the cycle."""

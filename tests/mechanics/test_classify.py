@@ -267,6 +267,26 @@ def test_a_second_dyad_is_classed_by_what_it_hangs_on(
     assert classify(mechanism(changed), "mm").class_name == f"six-bar: Grashof crank-rocker{rest}"
 
 
+# A row of rockers, each carried along by the one before: four names are read, a page of them is not.
+@pytest.mark.parametrize(
+    ("dyads", "name"),
+    [
+        (4, "10-bar: Grashof crank-rocker, then parallelogram, then parallelogram, then parallelogram"),
+        (5, "12-bar: Grashof crank-rocker and 4 further dyads"),
+    ],
+)
+def test_of_many_loops_in_a_row_the_first_is_named(dyads: int, name: str) -> None:
+    linkage = four_bar((100, 20, 100, 60))
+    pins = [Pin(f"Q{n}", (100.0 * n, 0.0)) for n in range(2, dyads + 1)]
+    moving = ["B", *(f"B{n}" for n in range(2, dyads + 1))]
+    rockers = [
+        RRR(end, (begin, pin.name), (100, 60))
+        for begin, end, pin in zip(moving, moving[1:], pins, strict=False)
+    ]
+    chain = replace(linkage, joints=(*linkage.joints, *pins, *rockers))
+    assert classify(mechanism(chain), "mm").class_name == name
+
+
 @pytest.mark.parametrize(("side", "name"), [(1, "then parallelogram"), (-1, "then antiparallelogram")])
 def test_a_parallelogram_down_the_chain_is_told_from_the_crossed_one(side: int, name: str) -> None:
     info = classify(mechanism(six_bar((100, 30, 90, 80), PARALLELOGRAM, side=side)), "mm")
