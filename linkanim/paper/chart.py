@@ -14,7 +14,7 @@ import pygame
 from linkanim.digits import stepped
 from linkanim.paper.curves import Curve, Curves, Peak, extremes
 from linkanim.paper.measured import MeasuredCurve
-from linkanim.picture.axis import Axis, around
+from linkanim.picture.axis import Axis, linear, range_around, zeros_level
 from linkanim.picture.chart import (
     Pen,
     Plot,
@@ -121,27 +121,32 @@ class Page:
             area = Rect(rect.x + edges[0], top, max(rect.width - sum(edges), 1), tall)
             yield from self._plot(area, x if last else _unlabelled(x), sides)
             if last:
-                yield x_title(Plot(area, x, self._axis(sides[0], tall)), self.curves.title, pen)
+                yield x_title(Plot(area, x, self._axes(sides, tall)[0]), self.curves.title, pen)
 
     def _margins(self, sides: list[list[Curve]], high: float) -> tuple[float, float]:
         """Return how much room the tick labels at either side take."""
         pen = self.pen
         wide = [
-            max((pen.type.width(label, pen.small) for _, label in self._axis(side, high).ticks), default=0)
-            for side in sides
+            max((pen.type.width(label, pen.small) for _, label in axis.ticks), default=0)
+            for axis in self._axes(sides, high)
         ]
         return wide[0] + 0.6 * pen.small, (wide[1] if len(wide) > 1 else 0) + 1.4 * pen.small
 
-    def _axis(self, side: Sequence[Curve], high: float) -> Axis:
-        """Return the vertical axis of curves of one unit."""
-        values = np.concatenate([curve.values for curve in side])
-        unit = side[0].quantity.shown_unit(self.curves.scene.length_unit)
+    def _axes(self, sides: list[list[Curve]], high: float) -> list[Axis]:
+        """Return the vertical axes of a plot, a unit each; two about zero have it at one height."""
+        ranges = [range_around(np.concatenate([curve.values for curve in side]), _ROOM) for side in sides]
+        if len(ranges) == _TOGETHER and all(low < 0 < high for low, high in ranges):
+            ranges = zeros_level(ranges)
         most = max(min(round(high / (2.0 * self.pen.small)), 6), 3)
-        return around(values, most=most, unit="°" if unit == "°" else "", room=_ROOM)
+        units = [side[0].quantity.shown_unit(self.curves.scene.length_unit) for side in sides]
+        return [
+            linear(*ends, most=most, unit="°" if unit == "°" else "")
+            for ends, unit in zip(ranges, units, strict=True)
+        ]
 
     def _plot(self, area: Rect, x: Axis, sides: list[list[Curve]]) -> Iterator[Item]:
         pen = self.pen
-        plots = [Plot(area, x, self._axis(side, area.height)) for side in sides]
+        plots = [Plot(area, x, axis) for axis in self._axes(sides, area.height)]
         yield from axes(plots[0], pen)
         yield from self._y_titles(area, sides)
         if len(plots) > 1:

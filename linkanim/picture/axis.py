@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, floor, log10
 from typing import Any
@@ -60,13 +61,31 @@ def decades(low: float, high: float, *, most: int = 8) -> Axis:
 
 def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "", room: float = _LITTLE) -> Axis:
     """Return a linear axis that holds the finite values, with a little room; wild peaks run out of it."""
+    low, high = range_around(values, room)
+    return linear(low, high, most=most, unit=unit)
+
+
+def range_around(values: NDArray[np.float64], room: float = _LITTLE) -> tuple[float, float]:
+    """Return from where to where an axis runs that holds the finite values, with a little room."""
     finite = values[np.isfinite(values)]
     low, high = _span(finite) if finite.size else (0.0, 1.0)
     size = max(abs(low), abs(high))
     if high - low <= 1e-9 * size or high == low:
         low, high = (low - 0.5 * size, high + 0.5 * size) if size else (-1.0, 1.0)
     beyond = room * (high - low)
-    return linear(low - beyond, high + beyond, most=most, unit=unit)
+    return low - beyond, high + beyond
+
+
+def zeros_level(ranges: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return two ranges about zero stretched, both by one factor, until their zeros lie at one height.
+
+    Below zero lie the shares a < b of the two. With the zero at s the one is stretched (1 - a) / (1 - s)
+    times and the other b / s times, which is alike where s = b / (1 - a + b).
+    """
+    shares = sorted(-low / (high - low) for low, high in ranges)
+    zero = shares[1] / (1 - shares[0] + shares[1])
+    spans = (max(-low / zero, high / (1 - zero)) for low, high in ranges)
+    return [(-zero * span, (1 - zero) * span) for span in spans]
 
 
 def _span(finite: NDArray[np.float64]) -> tuple[float, float]:

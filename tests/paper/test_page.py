@@ -83,6 +83,16 @@ def test_units_have_axes_of_their_own(tokens: tuple[str, ...], titles: list[str]
     assert _said(page).count("crank angle θ₂ (°)") == 1
 
 
+# One line of zero crosses the plot: a curve that crosses it is zero there, whichever axis it is read on.
+def test_two_axes_about_zero_have_it_at_one_height() -> None:
+    page = _page("press", "5.travel_velocity", "3.angular_velocity")
+    zeros = [item.at for item in page.items() if isinstance(item, Caption) and item.text == "0"]
+    assert len(zeros) == 2
+    (left, height), (right, other) = zeros
+    assert height == pytest.approx(other)
+    assert left < right
+
+
 @pytest.mark.parametrize("size", [SIZE, (320, 180), (200, 900), (64, 64)])
 @pytest.mark.parametrize("name", ["press", "double-rocker"])
 def test_no_two_extremes_are_told_in_one_place_and_all_stays_on_the_page(

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkanim.picture.axis import around, decades, linear
+from linkanim.picture.axis import around, decades, linear, zeros_level
 
 
 @pytest.mark.parametrize(
@@ -86,3 +86,26 @@ def test_a_wild_peak_is_cut_so_that_the_rest_can_be_seen() -> None:
     assert around(values).high < 10
     values[50] = 5.0
     assert around(values).high > 5
+
+
+# Below and above zero, each; how many times both are stretched.
+@pytest.mark.parametrize(
+    ("one", "other", "stretched"),
+    [
+        ((-1.0, 1.0), (-30.0, 30.0), 1.0),
+        ((-1.0, 3.0), (-30.0, 10.0), 1.5),
+        ((-30.0, 10.0), (-1.0, 3.0), 1.5),
+        # one that hardly falls below zero, beside one that hardly rises above it
+        ((-0.01, 0.99), (-99.0, 1.0), 1.98),
+    ],
+)
+def test_two_ranges_have_their_zeros_level_and_hold_what_they_held(
+    one: tuple[float, float], other: tuple[float, float], stretched: float
+) -> None:
+    ranges = zeros_level([one, other])
+    heights = [-low / (high - low) for low, high in ranges]
+    assert heights[0] == pytest.approx(heights[1])
+    for (low, high), (least, most) in zip(ranges, (one, other), strict=True):
+        assert low <= least + 1e-12 * abs(least)
+        assert high >= most * (1 - 1e-12)
+        assert high - low == pytest.approx(stretched * (most - least))
