@@ -1,4 +1,4 @@
-"""The bytes of some frames and of a GIF: one hash each, kept beside this file.
+"""The bytes of some frames, of a tape's and of GIFs: one hash each, kept beside this file.
 
 `python tests/recorder/frame_bits.py` prints the hashes; with --write it keeps them, which is what a change
 of the picture asks for. Those of pictures with words are compared within one machine alone: letters are
@@ -15,8 +15,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from linkanim.picture.look import Look
+from linkanim.player.action import Action
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.scene_frames import SceneFrames, record
+from linkanim.recorder.tape_frames import TapeFrames
 from linkanim.scenes import load
 
 KEPT = Path(__file__).with_name("frame_bits.json")
@@ -34,12 +38,23 @@ LOOKS = {
 }
 PHASES = (0.0, 1.0, 2.5, 5.9)
 CLIPS = ("press", "scotch-yoke")
+DONE = (
+    (5, Action("speed", 2)),
+    (9, Action("direction")),
+    (15, Action("closure")),
+    (20, Action("zoom", (2.0, 0.3, -0.1))),
+    (30, Action("vectors", "v")),
+    (40, Action("theme")),
+    (45, Action("pause")),
+    (46, Action("scrub", 2.5)),
+)
+"""What a tape does, frame by frame."""
 
 
 def hashes() -> dict[str, str]:
-    """Return the hashes of frames by their scene, and those of GIFs."""
+    """Return the hashes of frames by their scene, that of a tape's, and those of GIFs."""
     found = {name: _frames(name.removeprefix(WORDED), look) for name, look in LOOKS.items()}
-    return {**found, **{f"{name}.gif": _gif(name) for name in CLIPS}}
+    return {**found, "tape": _tape(), **{f"{name}.gif": _gif(name) for name in CLIPS}}
 
 
 def kept() -> dict[str, str]:
@@ -58,6 +73,16 @@ def _frames(name: str, look: Look) -> str:
     for phase in PHASES:
         clip = Clip(scene.linkage.drive.speed, scene.period, 25.0, start=phase)
         found.update(SceneFrames(scene, make_plan(clip, "png"), SIZE, look).draw(0))
+    return found.hexdigest()
+
+
+def _tape() -> str:
+    frames, found = (
+        TapeFrames(Tape(begin(load("crank-rocker"), look=BARE), 60, DONE), 30.0, SIZE),
+        hashlib.sha256(),
+    )
+    for n in range(30):
+        found.update(frames.draw(n))
     return found.hexdigest()
 
 
