@@ -190,8 +190,10 @@ def test_a_tape_is_drawn_at_its_own_speed(tmp_path: Path) -> None:
     assert picture != drawn(scene.linkage.drive.speed)
 
 
-def test_a_loop_runs_at_its_tapes_speed(tmp_path: Path) -> None:
-    still = tape()
+# A loop's length follows from it; of what was done it is what is told of the recording.
+@pytest.mark.parametrize("done", [(), ((1, Action("theme")),)], ids=["a loop", "something done"])
+def test_a_recording_is_told_at_its_tapes_speed(done: tuple[tuple[int, Action], ...], tmp_path: Path) -> None:
+    still = tape(*done)
     faster = replace(still, start=replace(still.start, clock=replace(still.start.clock, level=4)))
     made = record_tape(kept(faster, tmp_path), tmp_path / "tape.mp4", size=SIZE, fps=10)
     assert made.speed == pytest.approx(faster.start.clock.speed)
