@@ -9,7 +9,7 @@ from linkanim.cli.tree import Tree
 from linkanim.digits import significant
 from linkanim.mechanics.kinds import Pin
 from linkanim.mechanics.linkage import Linkage
-from linkanim.mechanics.register import (
+from linkanim.mechanics.measures import (
     DAMPER,
     POINT,
     SPRING,
@@ -17,8 +17,8 @@ from linkanim.mechanics.register import (
     TURNING,
     Measure,
     coefficients_of,
-    plain_unit,
 )
+from linkanim.mechanics.symbols import plain_unit
 from linkanim.scenes.scene import Scene
 
 

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.columns import components
 from linkanim.mechanics.linkage import Body, Linkage
+from linkanim.mechanics.measures import CENTRE, DAMPER, POINT, SPRING, Measure, measures_of
 from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.register import CENTRE, DAMPER, POINT, SPRING, Measure, measures_of, parts
 from linkanim.scenes.scene import Scene
 
 Leaf = NDArray[np.float64]
@@ -51,7 +52,7 @@ def _leaf(found: Any, motion: Motion) -> Leaf | list[Leaf]:
     """Return a vector as [x, y], and NaN at every instant for what is not known (None)."""
     if found is None:
         return np.full(np.shape(motion.phase), np.nan)
-    return list(parts(found)) if np.ndim(found) > np.ndim(motion.phase) else found
+    return list(components(found)) if np.ndim(found) > np.ndim(motion.phase) else found
 
 
 def mapped(change: Callable[[Any], Any], node: Any) -> Any:

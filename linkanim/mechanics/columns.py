@@ -101,3 +101,8 @@ class Scaled(Mapping[str, Array]):
 
     def __len__(self) -> int:
         return len(self._columns)
+
+
+def components(vector: Any) -> tuple[Any, Any]:
+    """Return x and y of a pair of floats, or of an array (..., 2)."""
+    return vector if isinstance(vector, tuple) else (vector[..., 0], vector[..., 1])

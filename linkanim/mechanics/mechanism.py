@@ -16,10 +16,10 @@ from .expression import Graph, Value
 from .input_state import InputState
 from .limits import restricted
 from .linkage import Linkage
+from .measures import DERIVATIVE_OF, NUMBERS, VECTORS
 from .motion import Array, Motion, Pose, Setting
 from .planar import MovingPoint, Slope
 from .program import Batch, batch, scalar
-from .register import DERIVATIVE_OF, NUMBERS, VECTORS
 from .request import CRANK, Programs, Request, Variant
 from .walk import Kinematics
 

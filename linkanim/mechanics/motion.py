@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .columns import components
 from .linkage import Body, Damper, Linkage, Spring
 from .loop import Gearing
-from .register import parts
 from .request import ORDER, Paced, Request
 
 Array = NDArray[np.float64]
@@ -122,7 +122,7 @@ class Derived(ABC):
         crank = self.setting.crank_of(body)
         if crank is not None:
             return _crank_angle(self.crank_angle, *crank) + 0.0 * self.phase  # where there is no phase, NaN
-        (x0, y0), (x1, y1) = (parts(self.position[joint]) for joint in body.joints[:2])
+        (x0, y0), (x1, y1) = (components(self.position[joint]) for joint in body.joints[:2])
         return self._continuous(y1 - y0, x1 - x0, self.angular_velocity.get(name))
 
     @abstractmethod
@@ -164,12 +164,12 @@ class Derived(ABC):
         return Lazy(tuple(by_name), lambda name: self._strut(by_name[name]))
 
     def _strut(self, item: Spring | Damper) -> Strut:
-        (x0, y0), (x1, y1) = (parts(self.position[joint]) for joint in item.between)
+        (x0, y0), (x1, y1) = (components(self.position[joint]) for joint in item.between)
         dx, dy = x1 - x0, y1 - y0
         length = _root(dx * dx + dy * dy)
         rate = turning = None
         if self.velocity:
-            (u0, v0), (u1, v1) = (parts(self.velocity[joint]) for joint in item.between)
+            (u0, v0), (u1, v1) = (components(self.velocity[joint]) for joint in item.between)
             du, dv = u1 - u0, v1 - v0
             rate, turning = (dx * du + dy * dv) / length, (dx * dv - dy * du) / (length * length)
         force = _force(item, self.setting.linkage.metre, length, rate)

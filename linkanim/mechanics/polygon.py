@@ -21,7 +21,7 @@ from .exact import unit
 from .joint import Slide
 from .kinds import Rigid
 from .linkage import Linkage
-from .register import indexed
+from .symbols import indexed
 
 Order = Literal[1, 2]
 """1 for velocities, 2 for accelerations."""

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .columns import Columns, Floats, ResultLayout, Scaled
+from .measures import DERIVATIVE_OF, FAMILIES
 from .reach import WaysLeft
-from .register import DERIVATIVE_OF, FAMILIES
 
 if TYPE_CHECKING:
     from .motion import Motion

@@ -10,8 +10,9 @@ from .derived import crank_body, output_body
 from .effort import effort_token
 from .kinds import Pin
 from .linkage import Body, Damper, Linkage, Spring
+from .measures import TURNING
 from .motion import Motion
-from .register import TURNING, Quantity, register
+from .register import Quantity, register
 
 _LEAST, _MOST = 6, 10
 _LEVEL = 1e-6

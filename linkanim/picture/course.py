@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.register import indexed, link_labels
+from linkanim.mechanics.symbols import indexed, link_labels
 from linkanim.picture.axis import Axis, linear
 from linkanim.picture.driven import driven_body, driven_name, driven_words
 from linkanim.picture.quantities import Series

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bits import rows
 
-from linkanim.mechanics.register import FAMILIES
+from linkanim.mechanics.measures import FAMILIES
 from linkanim.mechanics.request import CRANK
 from linkanim.scenes import load
 

@@ -10,7 +10,8 @@ import pytest
 
 from linkanim.errors import BadInput
 from linkanim.mechanics.linkage import Body, Drive, Linkage
-from linkanim.mechanics.register import link_labels, look_up, plain, register
+from linkanim.mechanics.register import look_up, register
+from linkanim.mechanics.symbols import link_labels
 from linkanim.scenes import load, names
 
 # token, symbol, words, unit
@@ -30,15 +31,15 @@ TOLD = [
     ("press", "3.angular_velocity", "ω₃", "Link 3: angular velocity", "rad/s"),
     ("press", "5.travel_velocity", "v₅", "Slider 5: velocity", "{}/s"),
     ("press", "5.travel_acceleration", "a₅", "Slider 5: acceleration", "{}/s²"),
-    # a vector has a magnitude and two components; what is no number stays as it is in plain text
-    ("press", "B.position", "r_B", "B: position", "{}"),
-    ("press", "B.position.x", "x_B", "B: position, x", "{}"),
-    ("press", "B.velocity", "v_B", "B: velocity", "{}/s"),
-    ("press", "B.velocity.y", "v_By", "B: velocity, y", "{}/s"),
-    ("press", "3.com_acceleration.x", "a_G3x", "Link 3, centre of mass: acceleration, x", "{}/s²"),
-    ("press", "return.length", "L_return", "Spring return: length", "{}"),
-    ("press", "return.force", "F_return", "Spring return: force", "N"),
-    ("press", "cushion.rate", "v_cushion", "Damper cushion: rate of length", "{}/s"),
+    # a vector has a magnitude and two components; what is no number stands in braces
+    ("press", "B.position", "r_{B}", "B: position", "{}"),
+    ("press", "B.position.x", "x_{B}", "B: position, x", "{}"),
+    ("press", "B.velocity", "v_{B}", "B: velocity", "{}/s"),
+    ("press", "B.velocity.y", "v_{By}", "B: velocity, y", "{}/s"),
+    ("press", "3.com_acceleration.x", "a_{G3x}", "Link 3, centre of mass: acceleration, x", "{}/s²"),
+    ("press", "return.length", "L_{return}", "Spring return: length", "{}"),
+    ("press", "return.force", "F_{return}", "Spring return: force", "N"),
+    ("press", "cushion.rate", "v_{cushion}", "Damper cushion: rate of length", "{}/s"),
 ]
 
 
@@ -47,7 +48,7 @@ def test_a_quantity_has_symbol_words_and_unit(
     scene: str, token: str, symbol: str, words: str, unit: str
 ) -> None:
     found = register(load(scene).linkage)[token]
-    assert (found.token, plain(found.symbol), found.words, found.unit) == (token, symbol, words, unit)
+    assert (found.token, found.symbol, found.words, found.unit) == (token, symbol, words, unit)
 
 
 @pytest.mark.parametrize("name", names())
