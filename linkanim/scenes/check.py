@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Self
 
 from linkanim import units
 from linkanim.bounds import MOST_NAMES
-from linkanim.document import Section
+from linkanim.document import Section, few, meant
 from linkanim.errors import BadInput, SceneError, UnitError
 from linkanim.mechanics.joint import Point
 
@@ -61,6 +61,14 @@ class Table(Section):
         if len(set(value)) != len(value):
             raise self.error(key, "names the same joint twice")
         return tuple(value)
+
+    def members(self, key: str, joints: Iterable[str], count: int | None = None) -> tuple[str, ...]:
+        """Return a list of names that are all joints, all different, `count` of them if given."""
+        members = self.names(key, count)
+        for member in members:
+            if member not in joints:
+                raise self.error(key, no_joint(member, joints))
+        return members
 
     def length(self, key: str) -> float:
         """Return a length in the scene's unit, above zero."""
@@ -137,6 +145,11 @@ class Table(Section):
         if number < 1.0 / _LARGEST:
             raise self.error(key, f"is beyond what can be computed; write more than {1.0 / _LARGEST:g}")
         return number
+
+
+def no_joint(name: str, joints: Iterable[str]) -> str:
+    """Say that no joint has this name, and which there are."""
+    return f"no joint is called {units.shown(name)}{meant(name, joints)}; there are {few(joints)}"
 
 
 def _fraction(value: object) -> Fraction | None:

@@ -13,9 +13,10 @@ from functools import reduce
 from typing import Any
 
 from linkanim import units
+from linkanim.scenes.drive import DEFAULT_SPEED
 from linkanim.scenes.joints import DimensionKind, Key, reader_of
 from linkanim.scenes.labels import label
-from linkanim.scenes.read import DEFAULT_SPEED, scene_from
+from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS
 

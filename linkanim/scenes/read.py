@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from linkanim import units
-from linkanim.document import few, meant
 from linkanim.errors import AssemblyError, BadInput
 from linkanim.mechanics.frames import coincide, frames_of, holding
 from linkanim.mechanics.joint import Frame, Joint, Need
-from linkanim.mechanics.kinds import RRR, Crank, DrivenSlider, Pin
-from linkanim.mechanics.linkage import Body, Cylinder, Damper, Drive, Linkage, Spring, Travel
-from linkanim.scenes.check import Table
-from linkanim.scenes.joints import LOOKS, read_joint, read_pin
+from linkanim.mechanics.kinds import RRR, Crank, Pin
+from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
+from linkanim.scenes.bodies import read_bodies
+from linkanim.scenes.check import Table, no_joint
+from linkanim.scenes.drive import read_drive
+from linkanim.scenes.joints import read_joint, read_pin
 from linkanim.scenes.order import circle, solved_order
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
@@ -23,8 +23,6 @@ _TOP = (
     "title", "source", "chapter", "look_at", "notes", "length_unit",
     "gravity", "drive", "ground", "joints", "bodies", "springs", "dampers", "trace", *SHORTHANDS,
 )  # fmt: skip
-_HEX = re.compile(r"#[0-9a-f]{6}", re.I | re.A)
-DEFAULT_SPEED = "20 rpm"
 
 
 def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
@@ -48,10 +46,10 @@ def drafted(document: Mapping[str, Any], *, name: str, where: str, towards: Scen
     joints = _joints(top, short)
     rigid = frames_of(joints)
     _check_rigid(top, joints, rigid)
-    bodies = _bodies(top, joints, rigid, short.bodies)
+    bodies = read_bodies(top, joints, rigid, short.bodies)
     linkage = Linkage(
         joints=joints,
-        drive=_drive(top, joints, short.drive),
+        drive=read_drive(top, joints, short.drive),
         bodies=bodies,
         springs=tuple(_spring(name, table, joints) for name, table in top.tables("springs")),
         dampers=tuple(_damper(name, table, joints) for name, table in top.tables("dampers")),
@@ -130,7 +128,7 @@ def _check_needs(top: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
     table = top.table("joints").table(joint.name)
     for need in joint.needs:
         if need.joint not in joints:
-            raise _at(table, need.key, _no_joint(need.joint, joints))
+            raise _at(table, need.key, no_joint(need.joint, joints))
         if need.joint == joint.name:
             raise _at(table, need.key, "a joint cannot be found from itself")
     for need in joint.needs:
@@ -156,10 +154,6 @@ def _unfit(need: Need, joints: Mapping[str, Joint]) -> str | None:
     if need.must == "crank" and not isinstance(found, Crank):
         return f"{need.joint} is not a crank"
     return None
-
-
-def _no_joint(name: str, joints: Iterable[str]) -> str:
-    return f"no joint is called {units.shown(name)}{meant(name, joints)}; there are {few(joints)}"
 
 
 def _check_rigid(top: Table, joints: tuple[Joint, ...], rigid: tuple[Frame, ...]) -> None:
@@ -196,138 +190,6 @@ def _check_brace(table: Table, joint: RRR, frame: Frame) -> None:
         )
 
 
-def _drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Drive:
-    table = top.table("drive")
-    table.only("joint", "speed", "start", "cylinder", "slider")
-    if "slider" in table or any(isinstance(joint, DrivenSlider) for joint in joints):
-        return _slider_drive(top, table, joints)
-    cranks = [joint for joint in joints if isinstance(joint, Crank)]
-    free = [crank.name for crank in cranks if crank.gear is None]
-    if not free:
-        raise top.table("joints").wrong("no crank is free to be driven; add one without a gear, as the input")
-    cylinder = table.table("cylinder")
-    cylinder.only("between", "from", "to", "joint")
-    name = cylinder.text("joint", table.text("joint", usual or free[0]))
-    if name not in free:
-        raise table.error("joint", f"is not a crank that can be driven; that is {free[0]}")
-    if len(free) > 1:
-        other = next(crank for crank in free if crank != name)
-        way_out = f"gear it: gear = {{ with = {units.shown(name)}, ratio = -1 }}"
-        raise top.table("joints").wrong(f"{other} is a second input beside {name}; {way_out}")
-    speed, start = table.speed("speed", DEFAULT_SPEED), table.angle("start", "0 deg")
-    return Drive(name, speed, start, _cylinder(cylinder, joints, name) if "cylinder" in table else None)
-
-
-def _slider_drive(top: Table, table: Table, joints: tuple[Joint, ...]) -> Drive:
-    """Read a slider that drives: the one joint that is declared by its line alone."""
-    driven = [joint.name for joint in joints if isinstance(joint, DrivenSlider)]
-    if "slider" not in table:
-        way_out = f"drive it: [drive] slider = {{ joint = {units.shown(driven[0])}, from = 0, to = 100 }}"
-        raise top.table("joints").table(driven[0]).wrong(f"has a line, but no bar that moves it; {way_out}")
-    for key in ("joint", "start", "cylinder"):
-        if key in table:
-            raise table.error(key, "does not go with a slider that drives; leave it out")
-    slider = table.table("slider")
-    slider.only("joint", "from", "to")
-    name = slider.text("joint")
-    if name not in driven:
-        known = f"; that is {driven[0]}" if driven else ""
-        raise slider.error("joint", f"is no slider that is declared by its line alone{known}")
-    others = [joint.name for joint in joints if isinstance(joint, Crank) or joint.name in driven]
-    if len(others) > 1:
-        other = next(joint for joint in others if joint != name)
-        raise top.table("joints").wrong(
-            f"{other} is a second input beside {name}; let it follow: give it from and length"
-        )
-    for key in ("from", "to"):
-        slider.need(key)
-    first, last = slider.offset("from"), slider.offset("to")
-    if first == last:
-        raise slider.error("to", "is the same place as from, so nothing would move")
-    return Drive(name, table.speed("speed", DEFAULT_SPEED), travel=Travel(first, last))
-
-
-def _cylinder(table: Table, joints: tuple[Joint, ...], driven: str) -> Cylinder:
-    """Read a cylinder between a fixed pin and a joint of the driven crank's body, named in either order."""
-    known = {joint.name: joint for joint in joints}
-    first, second = _members(table, "between", known, 2)
-    fixed, moving = (first, second) if known[first].fixed else (second, first)
-    crank = known[driven]
-    assert isinstance(crank, Crank)
-    if not known[fixed].fixed or fixed == crank.pivot:
-        raise table.error("between", f"names no fixed pin beside {crank.pivot}; one end stands on the ground")
-    carried = [frame for frame in frames_of(joints)[1:] if {crank.pivot, driven, moving} <= frame.keys()]
-    if not carried or coincide(carried[0], crank.pivot, moving):
-        raise table.error("between", f"{moving} is no joint of the body that turns with {driven}")
-    start, end = table.length("from"), table.length("to")
-    if start == end:
-        raise table.error("to", "is the same length as from, so nothing would move")
-    return Cylinder((fixed, moving), start, end)
-
-
-def _bodies(
-    top: Table, joints: tuple[Joint, ...], rigid: tuple[Frame, ...], usual: tuple[Body, ...]
-) -> tuple[Body, ...]:
-    """Return the shorthand's bodies and the file's; the file's takes the place of one of the same name."""
-    found = {body.name: body for body in usual}
-    known = {joint.name: joint for joint in joints}
-    for name, table in top.tables("bodies"):
-        found[name] = _block(name, table, known) if "slider" in table else _bar(name, table, known, rigid)
-    return tuple(found.values())
-
-
-def _block(name: str, table: Table, joints: Mapping[str, Joint]) -> Body:
-    table.only("slider", "mass", "colour")
-    slider = table.text("slider")
-    if slider not in joints:
-        raise table.error("slider", _no_joint(slider, joints))
-    if not joints[slider].travels:
-        raise table.error("slider", "does not travel on a line; name a joint that has one")
-    return Body(name, slider=slider, mass=_mass(table), colour=_colour(table))
-
-
-def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: tuple[Frame, ...]) -> Body:
-    table.only("joints", "com", "mass", "inertia", "look", "colour")
-    members = _members(table, "joints", joints)
-    if len(members) < 2:
-        raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
-    n = holding(rigid, members)
-    if n is None:
-        raise table.error("joints", f"{', '.join(members)} are not joints of one rigid body")
-    if coincide(rigid[n], members[0], members[1]):
-        raise table.error(
-            "joints", f"{members[0]} and {members[1]} are one point; name another first or second"
-        )
-    if "mass" in table and "com" not in table:
-        half = abs(rigid[n][members[1]] - rigid[n][members[0]]) / 2
-        halfway = f"com = [{half:g}, 0] is halfway from {members[0]} to {members[1]}"
-        raise table.error("mass", f"needs to be known where it is; {halfway}")
-    return Body(
-        name,
-        members,
-        table.point("com") if "com" in table else None,
-        mass=_mass(table),
-        inertia=table.positive("inertia", units.inertia) if "inertia" in table else None,
-        look=table.choice("look", LOOKS) if "look" in table else None,
-        colour=_colour(table),
-    )
-
-
-def _colour(table: Table) -> tuple[int, int, int] | None:
-    """Return a colour from "#rrggbb"; None where the table has none."""
-    if "colour" not in table:
-        return None
-    value = table.text("colour")
-    if not _HEX.fullmatch(value):
-        raise table.error("colour", 'is no colour; write red, green and blue as in "#d55e00"')
-    red, green, blue = bytes.fromhex(value[1:])
-    return red, green, blue
-
-
-def _mass(table: Table) -> float | None:
-    return table.positive("mass", units.mass) if "mass" in table else None
-
-
 def _gravity(top: Table, bodies: tuple[Body, ...]) -> float:
     """Return the scene's gravity in m/s², 0 where it states none; refused where it could pull at nothing."""
     if "gravity" not in top:
@@ -338,18 +200,9 @@ def _gravity(top: Table, bodies: tuple[Body, ...]) -> float:
     return gravity
 
 
-def _members(table: Table, key: str, joints: Iterable[str], count: int | None = None) -> tuple[str, ...]:
-    """Return a list of names that are all joints."""
-    members = table.names(key, count)
-    for member in members:
-        if member not in joints:
-            raise table.error(key, _no_joint(member, joints))
-    return members
-
-
 def _spring(name: str, table: Table, joints: tuple[Joint, ...]) -> Spring:
     table.only("between", "stiffness", "free_length")
-    start, end = _members(table, "between", [joint.name for joint in joints], 2)
+    start, end = table.members("between", [joint.name for joint in joints], 2)
     if ("stiffness" in table) != ("free_length" in table):
         raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
     if "stiffness" not in table:
@@ -360,7 +213,7 @@ def _spring(name: str, table: Table, joints: tuple[Joint, ...]) -> Spring:
 
 def _damper(name: str, table: Table, joints: tuple[Joint, ...]) -> Damper:
     table.only("between", "coefficient")
-    start, end = _members(table, "between", [joint.name for joint in joints], 2)
+    start, end = table.members("between", [joint.name for joint in joints], 2)
     known = "coefficient" in table
     return Damper(name, (start, end), table.positive("coefficient", units.damping) if known else None)
 
@@ -368,4 +221,4 @@ def _damper(name: str, table: Table, joints: tuple[Joint, ...]) -> Damper:
 def _trace(top: Table, joints: tuple[Joint, ...], usual: tuple[str, ...]) -> tuple[str, ...]:
     table = top.table("trace")
     table.only("joints")
-    return _members(table, "joints", [joint.name for joint in joints]) if "joints" in table else usual
+    return table.members("joints", [joint.name for joint in joints]) if "joints" in table else usual
