@@ -11,6 +11,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -114,7 +115,7 @@ def _stored(file: Path, scene: Scene, plan: Plan) -> NDArray[np.uint8]:
 
 def _encode(stored: NDArray[np.uint8], scene: Scene, plan: Plan, target: Path) -> None:
     form: Format = "gif" if target.suffix == ".gif" else "mp4"
-    palette = palette_of(SceneFrames(scene, plan, SIZE, LOOK), plan.frames) if form == "gif" else ()
+    palette = partial(palette_of, SceneFrames(scene, plan, SIZE, LOOK), plan.frames)
     with encoding(Stream(SIZE, plan.rate), form, target, palette) as send:
         for frame in stored:
             send(frame.data)

@@ -14,8 +14,13 @@ def offscreen(size: tuple[int, int], *, alpha: bool = False) -> pygame.Surface:
 
 
 def pixel_bytes(surface: pygame.Surface) -> bytes:
-    """Return a copy of a surface's pixels, row by row; a view of them would lock the surface."""
+    """Return a copy of a surface's pixels, row by row."""
     return surface.get_buffer().raw
+
+
+def pixel_view(surface: pygame.Surface) -> memoryview:
+    """Return a surface's pixels, row by row, as they are; it cannot be drawn on while the view is held."""
+    return memoryview(surface.get_buffer())  # type: ignore[arg-type]
 
 
 def png_bytes(surface: pygame.Surface) -> bytes:

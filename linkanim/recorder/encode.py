@@ -1,8 +1,8 @@
 """Frames to a file: a GIF by a process of ours, MP4 and PNG by the ffmpeg that imageio-ffmpeg carries.
 
-Frames go through a pipe as they are drawn, so that drawing and encoding overlap and memory does not
-grow with their number. An MP4 is H.264 as slides play it, its colours tagged bt709 so that they come
-back as they were.
+Frames, or of a GIF what changes in them, go through a pipe as they are drawn, so that drawing and
+encoding overlap and memory does not grow with their number. An MP4 is H.264 as slides play it, its
+colours tagged bt709 so that they come back as they were.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import asdict, dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -21,6 +21,7 @@ from pathlib import Path
 from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim.errors import RecordingFailed
+from linkanim.recorder.changes import Comparing
 from linkanim.recorder.gif import Job
 from linkanim.recorder.palette import Colour
 from linkanim.recorder.plan import Format
@@ -47,16 +48,17 @@ class Stream:
 
 
 def encoding(
-    stream: Stream, form: Format, part: Path, palette: Sequence[Colour] = ()
+    stream: Stream, form: Format, part: Path, palette: Callable[[], Sequence[Colour]]
 ) -> AbstractContextManager[Callable[[Frame], None]]:
     """Give a function that takes the frames, one after the other, and have them encoded into `part`.
 
-    `part` is a file, for PNG a folder that gets 0001.png, ...; `palette` is for GIF. When the block
-    ends the encoder is done; whatever else ends it, the encoder is gone. `RecordingFailed` where
-    the encoder cannot be started, stops early or reports an error.
+    `part` is a file, for PNG a folder that gets 0001.png, ...; the palette, for GIF, is asked for while
+    the encoder starts. Of a frame nothing is kept. When the block ends the encoder is done; whatever
+    else ends it, the encoder is gone. `RecordingFailed` where the encoder cannot be started, stops early
+    or reports an error.
     """
     if form == "gif":
-        return running(_gif(stream, part, palette), surroundings=_same_packages())
+        return _gif(stream, part, palette)
     return running(_ffmpeg_to(stream, form, part), ahead=_AHEAD[form])
 
 
@@ -82,10 +84,18 @@ def ffmpeg() -> str:
         raise RecordingFailed("imageio-ffmpeg has no ffmpeg here; set IMAGEIO_FFMPEG_EXE to one") from error
 
 
-def _gif(stream: Stream, part: Path, palette: Sequence[Colour]) -> list[str]:
-    colours = tuple(palette) or ((0, 0, 0),)
-    job = Job(str(part), *stream.size, round(100 / stream.rate), colours, stream.alpha)
-    return [sys.executable, "-P", "-m", "linkanim.recorder.gif", json.dumps(asdict(job))]
+@contextmanager
+def _gif(
+    stream: Stream, part: Path, palette: Callable[[], Sequence[Colour]]
+) -> Iterator[Callable[[Frame], None]]:
+    width, height = stream.size
+    command = [sys.executable, "-P", "-m", "linkanim.recorder.gif"]
+    with running(command, surroundings=_same_packages()) as write:
+        colours = tuple(palette()) or ((0, 0, 0),)
+        job = Job(str(part), width, height, round(100 / stream.rate), colours, stream.alpha)
+        write(json.dumps(asdict(job)).encode() + b"\n")
+        changed = Comparing(width * height)
+        yield lambda frame: write(changed(frame))
 
 
 def _same_packages() -> dict[str, str]:

@@ -1,9 +1,9 @@
-"""Raw frames to a GIF: one palette, exact delays, and little to say for each frame.
+"""Frames to a GIF: one palette, exact delays, and little to say for each frame.
 
-A process of its own reads frames from stdin, so that drawing and encoding overlap. Of each frame
-only the rectangle that changed is written, and what did not change in it is transparent, save where
-its colour carries on from beside it: the longer the runs of one value, the shorter their code (Welch
-1984). That makes 3 to 8 % over leaving out all that did not change.
+A process of its own reads from stdin what changed from frame to frame, so that drawing and encoding
+overlap. Only the rectangle that changed is written, and what did not change in it is transparent, save
+where its colour carries on from beside it: the longer the runs of one value, the shorter their code
+(Welch 1984). That makes 3 to 8 % over leaving out all that did not change.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ import struct
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from io import BufferedReader
 from pathlib import Path
 from typing import NamedTuple
 
@@ -21,11 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-Indices = NDArray[np.uint8]
-Words = NDArray[np.uint32]
-"""Pixels as numbers: opacity, red, green, blue from the highest byte down."""
+from linkanim.recorder.changes import Change, Words, changes
 
-Places = NDArray[np.intp]
+Indices = NDArray[np.uint8]
+Numbers = NDArray[np.intp]
 
 TRANSPARENT = 0
 """The index that stands for what shows through; the palette's colours come after it."""
@@ -94,31 +92,37 @@ class Nearest:
             self._known[some] = nearness.argmax(axis=1) + 1
 
 
-def pieces(job: Job, frames: Iterator[Words]) -> Iterator[bytes]:
-    """Yield the GIF's bytes: its head, then those of each frame (height, width), then its end."""
+def pieces(job: Job, told: Iterator[Change]) -> Iterator[bytes]:
+    """Yield the GIF's bytes: its head, then those of each frame, told by what changes, then its end."""
     yield _head(job)
     nearest = Nearest(job.palette)
-    yield from _standing_alone(job, nearest, frames) if job.alpha else _changing(job, nearest, frames)
+    yield from _standing_alone(job, nearest, told) if job.alpha else _changing(job, nearest, told)
     yield b";"
 
 
-def _changing(job: Job, nearest: Nearest, frames: Iterator[Words]) -> Iterator[bytes]:
+def _changing(job: Job, nearest: Nearest, told: Iterator[Change]) -> Iterator[bytes]:
     """Yield frames each of which is drawn over the one before."""
-    before = np.zeros((job.height, job.width), np.uint32)
-    shown = np.full((job.height, job.width), TRANSPARENT, np.uint8)
-    for number, frame in enumerate(frames):
-        area = _around(frame != before) if number else Area(0, 0, job.width, job.height)
-        indices, old = nearest(frame[area.inside]), shown[area.inside]
-        yield _picture(job, area, _thinned(indices, indices == old), _KEEP)
-        old[:] = indices
-        before[area.inside] = frame[area.inside]
+    shown = np.empty((job.height, job.width), np.uint8)
+    for number, (place, words) in enumerate(told):
+        if number == 0:
+            shown[:] = nearest(np.zeros(1, np.uint32))
+            shown.put(place, nearest(words))
+            yield _picture(job, Area(0, 0, job.width, job.height), shown, _KEEP)
+            continue
+        area, at = _around(place.astype(np.intp), job.width)
+        indices = nearest(words)
+        other = indices != shown.take(place)
+        shown.put(place, indices)
+        yield _picture(job, area, _thinned(shown[area.inside], at[other]), _KEEP)
 
 
-def _standing_alone(job: Job, nearest: Nearest, frames: Iterator[Words]) -> Iterator[bytes]:
+def _standing_alone(job: Job, nearest: Nearest, told: Iterator[Change]) -> Iterator[bytes]:
     """Yield frames each of which is drawn on nothing, and gone before the next."""
-    for frame in frames:
+    frame = np.zeros((job.height, job.width), np.uint32)
+    for place, words in told:
+        frame.put(place, words)
         opaque = frame >> 24 >= _OPAQUE
-        area = _around(opaque)
+        area, _ = _around(np.flatnonzero(opaque), job.width)
         indices = np.where(opaque[area.inside], nearest(frame[area.inside]), np.uint8(TRANSPARENT))
         yield _picture(job, area, indices, _CLEAR)
 
@@ -130,40 +134,47 @@ def _head(job: Job) -> bytes:
     return b"GIF89a" + sizes + table.tobytes() + _FOR_EVER
 
 
-def _around(marked: NDArray[np.bool_]) -> Area:
-    """Return the smallest area with all that is marked; of a single pixel where nothing is."""
-    rows = np.flatnonzero(marked.any(axis=1))
-    if not len(rows):
-        return Area(0, 0, 1, 1)
-    top, bottom = int(rows[0]), int(rows[-1]) + 1
-    columns = np.flatnonzero(marked[top:bottom].any(axis=0))
-    return Area(int(columns[0]), top, int(columns[-1]) + 1, bottom)
+def _around(place: Numbers, width: int) -> tuple[Area, Numbers]:
+    """Return the smallest area with all these pixels of a picture so wide, and their numbers within it.
 
-
-def _thinned(indices: Indices, same: NDArray[np.bool_]) -> Indices:
-    """Return a frame's indices, transparent where they are the same as before and do not carry on."""
-    flat = indices.reshape(-1)
-    thinned = np.where(same.reshape(-1), np.uint8(TRANSPARENT), flat)
-    first, length = _carried(flat, same.reshape(-1))
-    kept = np.repeat(first - np.cumsum(length) + length, length) + np.arange(length.sum())
-    thinned[kept] = flat[kept]
-    return thinned.reshape(indices.shape)
-
-
-def _carried(indices: Indices, same: NDArray[np.bool_]) -> tuple[Places, Places]:
-    """Return where runs of unchanged pixels begin that keep their colour, and how long they are.
-
-    They are of one colour, which the pixel before or after them has, too, and not too long.
+    The area is of a single pixel where there are none.
     """
-    edges = np.flatnonzero(same[1:] != same[:-1]) + 1
-    edges = np.concatenate([[0] * bool(same[0]), edges, [len(same)] * bool(same[-1])]).astype(np.intp)
-    first, end = edges[::2], edges[1::2]
-    turns = np.flatnonzero(indices[1:] != indices[:-1])
-    plain = np.searchsorted(turns, first) == np.searchsorted(turns, end - 1)
-    left = (first > 0) & (indices[first] == indices[first - 1])
-    right = (end < len(same)) & (indices[end - 1] == indices[np.minimum(end, len(same) - 1)])
-    kept = plain & (left | right) & (end - first <= _LONGEST_CARRIED)
-    return first[kept], (end - first)[kept]
+    if not len(place):
+        return Area(0, 0, 1, 1), place
+    rows, columns = np.divmod(place, width)
+    area = Area(int(columns.min()), int(rows[0]), int(columns.max()) + 1, int(rows[-1]) + 1)
+    return area, (rows - area.top) * (area.right - area.left) + columns - area.left
+
+
+def _thinned(indices: Indices, other: Numbers) -> Indices:
+    """Return an area's indices, transparent but for these that are others now, and what carries them on."""
+    flat = indices.reshape(-1)
+    kept = np.concatenate([other, _carried(flat, other)])
+    thinned = np.full(indices.shape, TRANSPARENT, np.uint8)
+    thinned.put(kept, flat.take(kept))
+    return thinned
+
+
+def _carried(indices: Indices, other: Numbers) -> Numbers:
+    """Return the pixels between these that are as they were and keep their colour all the same.
+
+    They make runs of one colour, which the pixel before or after them has, too, and not too long.
+    """
+    first, end = np.append(0, other + 1), np.append(other, len(indices))
+    short = (first < end) & (end - first <= _LONGEST_CARRIED)
+    first, end = first[short], end[short]
+    before, begin, last, after = (
+        indices.take(place, mode="clip") for place in (first - 1, first, end - 1, end)
+    )
+    left, right = (first > 0) & (begin == before), (end < len(indices)) & (last == after)
+    likely = (begin == last) & (left | right)
+    first, length = first[likely], (end - first)[likely]
+    runs = np.repeat(np.arange(len(first)), length)
+    inside = np.repeat(first - np.cumsum(length) + length, length) + np.arange(len(runs))
+    strange = indices.take(inside) != indices.take(first).take(runs)
+    plain = np.bincount(runs[strange], minlength=len(first)) == 0
+    kept: Numbers = inside[plain.take(runs)]
+    return kept
 
 
 def _picture(job: Job, area: Area, indices: Indices, disposal: int) -> bytes:
@@ -175,28 +186,14 @@ def _picture(job: Job, area: Area, indices: Indices, disposal: int) -> bytes:
     return b"".join((b"!\xf9\x04", control, b"\0,", place, bytes([job.bits]), code, b"\0"))
 
 
-def serve(source: BufferedReader, job: Job) -> None:
-    """Write the frames from `source` until it ends; EOFError where it ends within one."""
-    with Path(job.path).open("wb") as target:
-        target.writelines(pieces(job, _frames(source, job)))
-
-
-def _frames(source: BufferedReader, job: Job) -> Iterator[Words]:
-    """Yield frames; each is overwritten by the next."""
-    frame = np.zeros((job.height, job.width), "<u4")
-    while held := source.readinto(frame.data.cast("B")):
-        if held < frame.nbytes:
-            raise EOFError("the frames broke off")
-        yield frame
-
-
 def main() -> None:
-    """Do the job that the command line tells as JSON; one line on stderr where it cannot be done."""
-    told = json.loads(sys.argv[1])
-    job = Job(**{**told, "palette": tuple(map(tuple, told["palette"]))})
+    """Do the job that the first line of stdin tells as JSON; one line on stderr where it cannot be done."""
     try:
         with open(sys.stdin.fileno(), "rb", closefd=False) as source:
-            serve(source, job)
+            told = json.loads(source.readline())
+            job = Job(**{**told, "palette": tuple(map(tuple, told["palette"]))})
+            with Path(job.path).open("wb") as target:
+                target.writelines(pieces(job, changes(source)))
     except (OSError, EOFError) as error:
         sys.exit(str(getattr(error, "strerror", None) or error))
 

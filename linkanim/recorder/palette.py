@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -45,7 +46,8 @@ def make_palette(
 
 def _counted(samples: Iterable[Bytes], alpha: bool) -> tuple[Bytes, NDArray[np.int64]]:
     """Return each opaque colour (n, 3) of the samples once, and how many pixels have it."""
-    runs = [_runs(sample, alpha) for sample in samples]
+    # map lets go of each sample before it asks for the next, which may be drawn in its place
+    runs = list(map(partial(_runs, alpha=alpha), samples))
     values = np.concatenate([values for values, _ in runs])
     lengths = np.concatenate([lengths for _, lengths in runs])
     unique, where = np.unique(values, return_inverse=True)
@@ -53,7 +55,7 @@ def _counted(samples: Iterable[Bytes], alpha: bool) -> tuple[Bytes, NDArray[np.i
     return np.stack([unique >> 16 & 255, unique >> 8 & 255, unique & 255], axis=1).astype(np.uint8), counts
 
 
-def _runs(sample: Bytes, alpha: bool) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
+def _runs(sample: Bytes, *, alpha: bool) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
     """Return the opaque runs of equal pixels: 0xrrggbb and length; far fewer than the pixels."""
     pixels = np.ascontiguousarray(sample).view("<u4").reshape(-1)
     starts = np.flatnonzero(np.concatenate([[True], pixels[1:] != pixels[:-1]]))

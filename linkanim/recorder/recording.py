@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Protocol, cast
 
@@ -41,7 +42,7 @@ class Frames(Protocol):
         """The colours that a GIF's palette has to have exactly."""
 
     def draw(self, frame: int) -> Frame:
-        """Return a frame's bytes."""
+        """Return a frame's bytes, to be let go before the next is drawn: that may be in their place."""
 
 
 @dataclass(frozen=True)
@@ -131,9 +132,8 @@ def _saying_why(target: Path) -> Iterator[None]:
 
 
 def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Progress | None) -> None:
-    palette = palette_of(frames, plan.frames) if form == "gif" else ()
     stream = Stream(frames.size, plan.rate, frames.alpha)
-    with encoding(stream, form, part, palette) as send:
+    with encoding(stream, form, part, partial(palette_of, frames, plan.frames)) as send:
         for frame in range(plan.frames):
             send(frames.draw(frame))
             if progress is not None:

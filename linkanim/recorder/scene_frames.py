@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkanim.picture.canvas import Canvas
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen, pixel_bytes
+from linkanim.picture.offscreen import offscreen, pixel_view
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.theme import theme_of
 from linkanim.recorder.plan import Clip, Plan, make_plan, refuse_size
@@ -35,9 +35,9 @@ class SceneFrames:
         self._surface = offscreen(size, alpha=self.alpha)
 
     def draw(self, frame: int) -> Frame:
-        """Return the bytes of a frame."""
+        """Return the bytes of a frame, to be let go before the next is drawn in their place."""
         self._canvas.paint(self._surface, self._plan.phase(frame), self._plan.speed, self._over)
-        return pixel_bytes(self._surface)
+        return pixel_view(self._surface)
 
 
 def record(

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkanim.picture.canvas import Canvas
-from linkanim.picture.offscreen import offscreen, pixel_bytes
+from linkanim.picture.offscreen import offscreen, pixel_view
 from linkanim.picture.overlay import Overlay
 from linkanim.player import tape_file
 from linkanim.recorder.plan import Clip, make_plan, refuse_size
@@ -43,10 +43,10 @@ class TapeFrames:
         self._next = 0
 
     def draw(self, frame: int) -> Frame:
-        """Return the bytes of a frame."""
+        """Return the bytes of a frame, to be let go before the next is drawn in their place."""
         state, phase = self._at(frame)
         self._canvas_for(state).paint(self._surface, phase, state.clock.speed, Overlay())
-        return pixel_bytes(self._surface)
+        return pixel_view(self._surface)
 
     def _at(self, frame: int) -> tuple[State, float]:
         if frame < self._next or not self._next:

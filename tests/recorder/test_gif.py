@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import pytest
@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from linkanim.recorder import gif
-from linkanim.recorder.gif import Job, Nearest, Words, pieces
+from linkanim.recorder.changes import Change, Comparing, Words, changes
+from linkanim.recorder.gif import Job, Nearest, pieces
 
 Colour = tuple[int, int, int]
 WHITE, RED, GREEN, BLACK = (255, 255, 255), (255, 0, 0), (0, 128, 0), (0, 0, 0)
@@ -34,6 +35,12 @@ def picture(rows: str, opacity: int = 0) -> Words:
     lines = rows.split()
     found = words(np.array([[colours[letter] for letter in line] for line in lines]), opacity)
     return np.where(np.array([[letter == "." for letter in line] for line in lines]), np.uint32(0), found)
+
+
+def told(frames: Sequence[Words]) -> Iterator[Change]:
+    """Tell frames by what changes, through what is a pipe when a scene is recorded."""
+    change = Comparing(frames[0].size)
+    return changes(io.BytesIO(b"".join(change(frame.tobytes()) for frame in frames)))
 
 
 def shown(data: bytes, mode: str = "RGB") -> Iterator[NDArray[np.uint8]]:
@@ -67,7 +74,7 @@ SEQUENCES = [
 def test_every_picture_is_as_it_was(why: str, rows: list[str]) -> None:
     frames = [picture(row) for row in rows]
     height, width = frames[0].shape
-    data = b"".join(pieces(job(width, height), iter(frames)))
+    data = b"".join(pieces(job(width, height), told(frames)))
     assert [found.tolist() for found in shown(data)] == [rgb_of(frame).tolist() for frame in frames]
 
 
@@ -78,7 +85,7 @@ def test_any_number_of_colours_comes_out(count: int, size: tuple[int, int]) -> N
     palette = rng.permutation(1 << 12)[:count] * 4095  # spread over all colours, each once
     frames = [palette[rng.integers(0, count, size)].astype(np.uint32) for _ in range(3)]
     colours = tuple((int(c) >> 16 & 255, int(c) >> 8 & 255, int(c) & 255) for c in palette)
-    data = b"".join(pieces(job(size[1], size[0], colours), iter(frames)))
+    data = b"".join(pieces(job(size[1], size[0], colours), told(frames)))
     assert all((found == rgb_of(frame)).all() for found, frame in zip(shown(data), frames, strict=True))
 
 
@@ -94,13 +101,13 @@ def test_pictures_with_moving_boxes_are_as_they_were() -> None:
         )
         frame[top : top + rng.integers(1, 12), left : left + rng.integers(1, 250)] = colour
         frames.append(frame)
-    data = b"".join(pieces(job(300, 60), iter(frames)))
+    data = b"".join(pieces(job(300, 60), told(frames)))
     assert all((found == rgb_of(frame)).all() for found, frame in zip(shown(data), frames, strict=True))
 
 
 def test_what_is_not_opaque_shows_through_in_every_picture() -> None:
     frames = [picture(rows, 255) for rows in ("r.. ...", "... ..g", "... ...", "rrr ggg")]
-    data = b"".join(pieces(job(3, 2, alpha=True), iter(frames)))
+    data = b"".join(pieces(job(3, 2, alpha=True), told(frames)))
     for found, frame in zip(shown(data, "RGBA"), frames, strict=True):
         opaque = frame >> 24 == 255
         assert ((found[..., 3] == 255) == opaque).all()
@@ -124,7 +131,7 @@ def test_opacity_is_no_part_of_a_colour() -> None:
 
 
 def size(*frames: Words, width: int = 100) -> int:
-    return len(b"".join(pieces(job(width, len(frames[0])), iter(frames))))
+    return len(b"".join(pieces(job(width, len(frames[0])), told(frames))))
 
 
 def test_what_stays_costs_next_to_nothing() -> None:
