@@ -65,9 +65,10 @@ def input_effort(motion: Any) -> Any:
     """
     pace = _pace(motion, _MOVING)
     found = over(_power(motion, _MOVING), pace)
-    rests = _rests(motion) & (np.asarray(pace) == 0)
-    if not (rests.any() and motion.acceleration):
+    rests = np.asarray(pace) == 0
+    if not rests.any() or not motion.acceleration:
         return found
+    rests = rests & _rests(motion)
     return np.where(rests, over(_power(motion, _STARTING), _pace(motion, _STARTING)), found)[()]
 
 

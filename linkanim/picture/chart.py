@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim.picture.axis import Axis
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import Layout
+from linkanim.picture.parts import Stamp
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import disc, segments, stroke
 from linkanim.picture.text import Type
@@ -31,7 +32,7 @@ class Plot:
 
     def place(self, x: ArrayLike, y: ArrayLike) -> Loop:
         """Return pixels for values; above and below the axis they stay at its edge, NaN stays NaN."""
-        across, up = self.x.share(x), np.clip(self.y.share(y), -0.0, 1.0)
+        across, up = self.x.share(x), np.minimum(np.maximum(self.y.share(y), -0.0), 1.0)
         pixels: Loop = (self.area.x + across * self.area.width) + 1j * (
             self.area.bottom - up * self.area.height
         )
@@ -141,9 +142,13 @@ def curve_layer(plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, width: f
 
 def point_layers(plot: Plot, points: list[tuple[float, float]], colour: Colour, pen: Pen) -> list[Layer]:
     """Return dots at values, in a ring of the background."""
-    places = [complex(plot.place(*point)) for point in points]
-    ring = Layer(pen.theme.background, [place + disc(3.6 * pen.line) for place in places])
-    return [ring, Layer(colour, [place + disc(2.7 * pen.line) for place in places])]
+    return dot(colour, pen).at([complex(plot.place(*point)) for point in points])
+
+
+def dot(colour: Colour, pen: Pen) -> Stamp:
+    """Return a dot about 0 in a ring of the background."""
+    ring = Layer(pen.theme.background, [disc(3.6 * pen.line)])
+    return Stamp((ring, Layer(colour, [disc(2.7 * pen.line)])))
 
 
 def _runs(pixels: Loop) -> Iterator[Loop]:

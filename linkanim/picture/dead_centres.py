@@ -43,8 +43,9 @@ class DeadCentres:
     layout: Layout
     sized: bool
 
+    @cached_property
     def group(self) -> Group:
-        """Return ticks and words; an empty group where there is no such slider."""
+        """Ticks and words; an empty group where there is no such slider."""
         return Group("dead-centres", list(self._layers()), self.captions)
 
     @cached_property

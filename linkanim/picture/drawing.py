@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import zip_longest
-
-import numpy as np
+from math import isfinite
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
@@ -84,6 +83,7 @@ class Drawing:
     def __init__(self, scenery: Scenery, *, apart: bool = False) -> None:
         self.scenery, self._apart = scenery, apart
         self.cast = _cast(scenery, self.symbols)
+        self._placed: tuple[Pose, Places] | None = None
 
     @cached_property
     def symbols(self) -> Symbols | None:
@@ -125,9 +125,15 @@ class Drawing:
         return (mine == theirs and same) or (glides and mine[:3] == theirs[:3])
 
     def places(self, pose: Pose) -> Places:
-        """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside."""
-        view = self.scenery.view
-        return {name: _somewhere(view.place(point)) for name, point in pose.position.items()}
+        """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside.
+
+        Those of the last pose are kept: all that is drawn of a frame asks for them.
+        """
+        if self._placed is None or self._placed[0] is not pose:
+            view = self.scenery.view
+            places = {name: _somewhere(view.place(point)) for name, point in pose.position.items()}
+            self._placed = pose, places
+        return self._placed[1]
 
     def discs(self) -> Group:
         """Return what stands still behind everything: the wheels without their teeth, and belts."""
@@ -174,7 +180,7 @@ class Drawing:
             recent = trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
             yield Group(f"recent-{trace.joint}", recent)
         if self.dead_centres:
-            yield self.dead_centres.group()
+            yield self.dead_centres.group
         for item, strut in zip(self.scenery.figure.struts, cast.struts, strict=True):
             yield Group(f"strut-{item.name}", strut.layers(places))
         yield from self._pinned(places)
@@ -242,4 +248,4 @@ def _cast(scenery: Scenery, known: Symbols | None) -> Cast:
 
 
 def _somewhere(place: complex) -> complex:
-    return place if np.isfinite(place.real) and np.isfinite(place.imag) else complex(-1e6, -1e6)
+    return place if isfinite(place.real) and isfinite(place.imag) else complex(-1e6, -1e6)

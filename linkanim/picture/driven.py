@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import degrees, pi
 
 from linkanim.digits import short, stepped, typeset
@@ -49,7 +50,12 @@ def driven_words(scene: Scene, value: float) -> str:
 
 def speed_unit(scene: Scene) -> str:
     """Return the unit in which the scene states its input's speed, rpm where it states none."""
-    stated = str(scene.document.get("drive", {}).get("speed", ""))
+    return _unit_of(str(scene.document.get("drive", {}).get("speed", "")))
+
+
+@lru_cache(maxsize=64)
+def _unit_of(stated: str) -> str:
+    """Return the unit of a speed as it is stated; asked for at every frame, the last ones are kept."""
     try:
         unit = split(stated)[1]
     except UnitError:

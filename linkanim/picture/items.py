@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby
 from typing import NamedTuple
 
 import pygame
@@ -69,13 +68,15 @@ class Scribe:
 
     def draw(self, surface: pygame.Surface, items: Iterable[Item]) -> None:
         """Draw items in their order; changes the surface only."""
-        for shapes, run in groupby(items, lambda item: isinstance(item, Layer)):
-            if shapes:
-                paint(surface, [item for item in run if isinstance(item, Layer)])
+        shapes: list[Layer] = []
+        for item in items:
+            if isinstance(item, Layer):
+                shapes.append(item)
                 continue
-            for item in run:
-                assert isinstance(item, Caption)
-                self._write(surface, item)
+            paint(surface, shapes)
+            shapes.clear()
+            self._write(surface, item)
+        paint(surface, shapes)
 
     def _write(self, surface: pygame.Surface, line: Caption) -> None:
         """Draw a line of text; one in a halo to a part of a pixel, as labels on a drawing are."""

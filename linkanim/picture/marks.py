@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import pygame
 
@@ -10,9 +11,10 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.board import Board
 from linkanim.picture.layout import Gauge
 from linkanim.picture.overlay import DimensionLine
-from linkanim.picture.raster import Layer, paint
+from linkanim.picture.parts import Stamp
+from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import arrows, box, disc, segments, unit
-from linkanim.picture.theme import ORANGE
+from linkanim.picture.theme import ORANGE, Theme
 from linkanim.picture.view import Rect, View
 
 _LIT = 0.45
@@ -72,13 +74,14 @@ def glow(view: View, pose: Pose, joint: str, gauge: Gauge) -> Iterator[Layer]:
         yield Layer(ORANGE, [middle + disc(reach * gauge.bar)], alpha)
 
 
-def grip(foot: complex, board: Board) -> Iterator[Layer]:
-    """Yield the grip at the foot of the chart's cursor."""
-    unit_ = board.layout.unit
-    yield Layer(board.theme.ink, [foot + box(11 * unit_, 15 * unit_, 4 * unit_)])
-    ribs = segments(
-        [foot + (side - 3.5j) * unit_ for side in (-1.8, 1.8)],
-        [foot + (side + 3.5j) * unit_ for side in (-1.8, 1.8)],
-        1.2 * unit_,
-    )
-    yield Layer(board.theme.background, ribs)
+def grip(foot: complex, unit_: float, theme: Theme) -> list[Layer]:
+    """Return the grip at the foot of the chart's cursor, for a layout's unit."""
+    return _grip(unit_, theme.ink, theme.background).at([foot])
+
+
+@lru_cache(maxsize=4)
+def _grip(unit_: float, ink: Colour, back: Colour) -> Stamp:
+    """Return the grip about 0: the same at every frame."""
+    begin, end = ([unit_ * (side + way) for side in (-1.8, 1.8)] for way in (-3.5j, 3.5j))
+    ribs = segments(begin, end, 1.2 * unit_)
+    return Stamp((Layer(ink, [box(11 * unit_, 15 * unit_, 4 * unit_)]), Layer(back, ribs)))

@@ -72,7 +72,7 @@ class Painter:
         self.names: Names | None = self.drawing.names(self._type, *last)
         self._legend = legend_for(self.drawing.cast.arrows, self._layout, self._type, self._theme)
         self._still = self._drawn_once()
-        self._charted: pygame.Surface | None = None
+        self._paced: tuple[float, pygame.Surface] | None = None
         self._polygons = self.drawing.polygons(self._type)
         self._scribe: Scribe = before._scribe if before and before._type is self._type else Scribe(self._type)
 
@@ -105,8 +105,6 @@ class Painter:
             self._strip.draw_reading(canvas, pose)
         if self._hud:
             self._hud.draw(canvas, pose, noted=overlay.noted, backed=self.look.overrun)
-        if self._legend:
-            self._legend.draw_values(canvas, pose.input_speed)
         self._handled(canvas, pose, overlay)
         self._panels.draw(canvas, overlay)
         if canvas is not surface:
@@ -135,7 +133,7 @@ class Painter:
         if self._strip:
             yield from self._strip.cursor(pose)
             if grasped:
-                yield from grip(self._strip.foot(pose), self._panels.board)
+                yield from grip(self._strip.foot(pose), self._layout.unit, self._theme)
 
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
         """Return where the pin that the phase drives lies, in pixels."""
@@ -182,13 +180,18 @@ class Painter:
         return still
 
     def _still_at(self, speed: float) -> pygame.Surface:
-        """Return the layer that stands still, with the chart of the motion at this speed on it."""
-        if not self._strip:
+        """Return the layer that stands still, with what goes by the speed: chart and key's values."""
+        if not (self._strip or self._legend):
             return self._still
-        if self._charted is None or self._strip.speed != speed:
-            self._strip, self._charted = self._strip.at(speed), self._still.copy()
-            self._strip.draw(self._charted)
-        return self._charted
+        if self._paced is None or self._paced[0] != speed:
+            still = self._still.copy()
+            if self._strip:
+                self._strip = self._strip.at(speed)
+                self._strip.draw(still)
+            if self._legend:
+                self._legend.draw_values(still, speed)
+            self._paced = speed, still
+        return self._paced[1]
 
     def _canvas(self, surface: pygame.Surface) -> pygame.Surface:
         """Return the surface itself where it can be written to directly, else one like the static layer."""

@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate, pairwise
+from typing import NamedTuple
 
-from linkanim.picture.raster import Colour, Layer, Outlines, outlines_of
+import numpy as np
+
+from linkanim.picture.raster import Colour, Layer, Loop, Outlines, outlines_of
 from linkanim.picture.shapes import rounded, unit
 
 _GLAZED = 0.6
@@ -14,6 +18,39 @@ _GLAZED = 0.6
 
 Places = Mapping[str, complex]
 """Where the joints lie in pixels, as x + yi."""
+
+
+class Cut(NamedTuple):
+    """What a layer is of a sheaf: its points from `begin` to `end`, so many in each of its loops."""
+
+    colour: Colour
+    begin: int
+    end: int
+    counts: tuple[int, ...]
+    alpha: float
+
+
+class Sheaf(NamedTuple):
+    """Layers whose points lie in one array, so that they are placed together."""
+
+    points: Loop
+    cuts: tuple[Cut, ...]
+
+    def laid(self, points: Loop, times: int = 1) -> list[Layer]:
+        """Return the layers at the points (n,) as they lie now, or `times` over in as many rows."""
+        return [
+            Layer(colour, Outlines(points[..., begin:end].ravel(), counts * times), alpha)
+            for colour, begin, end, counts, alpha in self.cuts
+        ]
+
+
+def sheaf(layers: Sequence[Layer]) -> Sheaf:
+    """Return layers in one array."""
+    counts = [tuple(map(len, layer.loops)) for layer in layers]
+    ends = pairwise((0, *accumulate(map(sum, counts))))
+    parts = zip(layers, ends, counts, strict=True)
+    cuts = tuple(Cut(layer.colour, *end, count, layer.alpha) for layer, end, count in parts)
+    return Sheaf(outlines_of([loop for layer in layers for loop in layer.loops]).points, cuts)
 
 
 @dataclass(frozen=True)
@@ -37,16 +74,12 @@ class Part:
 
     def placed(self, places: Places) -> list[Layer]:
         """Return the layers where the joints now lie."""
-        origin = places[self.at]
         turn = unit(places[self.head] - places[self.tail])
-        return [
-            Layer(layer.colour, outlines.placed(origin, turn), layer.alpha)
-            for layer, outlines in zip(self.layers, self._outlines, strict=True)
-        ]
+        return self._sheaf.laid(places[self.at] + turn * self._sheaf.points)
 
     @cached_property
-    def _outlines(self) -> tuple[Outlines, ...]:
-        return tuple(outlines_of(layer.loops) for layer in self.layers)
+    def _sheaf(self) -> Sheaf:
+        return sheaf(self.layers)
 
 
 @dataclass(frozen=True)
@@ -57,14 +90,12 @@ class Stamp:
 
     def at(self, centres: Sequence[complex]) -> list[Layer]:
         """Return the layers at all places at once."""
-        return [
-            Layer(layer.colour, outlines.repeated(centres), layer.alpha)
-            for layer, outlines in zip(self.layers, self._outlines, strict=True)
-        ]
+        places = np.array(centres, np.complex128)
+        return self._sheaf.laid(np.add.outer(places, self._sheaf.points), len(centres))
 
     @cached_property
-    def _outlines(self) -> tuple[Outlines, ...]:
-        return tuple(outlines_of(layer.loops) for layer in self.layers)
+    def _sheaf(self) -> Sheaf:
+        return sheaf(self.layers)
 
 
 def placed(parts: Iterable[Part], places: Places) -> list[Layer]:

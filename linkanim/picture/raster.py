@@ -35,7 +35,7 @@ class Outlines(Sequence[Loop]):
 
     def repeated(self, places: Sequence[complex] | Loop) -> Outlines:
         """Return the loops about each of the places."""
-        points = np.concatenate([self.points[:0], *(place + self.points for place in places)])
+        points = np.add.outer(np.asarray(places, np.complex128), self.points).ravel()
         return Outlines(points, self.counts * len(places))
 
     def joined(self, other: Outlines) -> Outlines:

@@ -58,8 +58,7 @@ def stroke(path: ArrayLike, width: float, *, closed: bool = False) -> list[Loop]
 
 def strokes(path: ArrayLike, widths: Iterable[float], *, closed: bool = False) -> Iterator[list[Loop]]:
     """Yield the outlines of a line along the path in several widths."""
-    path = np.asarray(path, np.complex128)
-    path = path[np.concatenate(([True], path[1:] != path[:-1]))]
+    path = distinct(np.asarray(path, np.complex128))
     if closed and path[0] == path[-1]:
         path = path[:-1]
     if len(path) < 2:
@@ -70,6 +69,12 @@ def strokes(path: ArrayLike, widths: Iterable[float], *, closed: bool = False) -
     else:
         sides = offsets(path)
         yield from ([_ribbon(path, sides * (width / 2), _cap(width / 2))] for width in widths)
+
+
+def distinct(path: Loop) -> Loop:
+    """Return a path without the points that are where the ones before them are."""
+    moves = path[1:] != path[:-1]
+    return path if moves.all() else np.concatenate((path[:1], path[1:][moves]))
 
 
 def _ribbon(path: Loop, sides: Loop, cap: Loop) -> Loop:
@@ -114,13 +119,22 @@ def arrows(feet: ArrayLike, reaches: ArrayLike, width: float, rim: ArrayLike = 0
     rim = np.asarray(rim, np.float64)
     long = lengths(reaches)
     head = np.minimum(4.2 * width, 0.6 * long)
-    half = np.minimum(width / 2, head / 5) + rim
-    neck, barb, wide = long - 0.9 * head - rim, long - head - rim, 0.42 * head + 1.5 * rim
-    tip = long + 2 * rim
-    x = np.stack((0 * neck - rim, neck, barb, tip, barb, neck, 0 * neck - rim))
-    y = np.stack((-half, -half, -wide, 0 * half, wide, half, half))
+    half = np.minimum(width / 2, head / 5)
+    of_length, of_head, of_width, of_rim = _ARROW
+    corners = of_length * long + of_head * head + of_width * half + of_rim * rim
     turn = reaches / np.where(long > 0, long, 1)
-    return list((feet + turn * (x + 1j * y)).T)
+    return list((feet + turn * corners).T)
+
+
+_ARROW = np.array(
+    (
+        (0, 1, 1, 1, 1, 1, 0),
+        (0, -0.9, -1 - 0.42j, 0, -1 + 0.42j, -0.9, 0),
+        (-1j, -1j, 0, 0, 0, 1j, 1j),
+        (-1 - 1j, -1 - 1j, -1 - 1.5j, 2, -1 + 1.5j, -1 + 1j, -1 + 1j),
+    )
+)[..., None]
+"""An arrow's corners in shares of its length, of its head's, of half its width and of its rim."""
 
 
 def unit(vector: complex) -> complex:

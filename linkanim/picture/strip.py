@@ -20,15 +20,16 @@ from linkanim.picture.chart import (
     axes,
     beside_title,
     curve_layer,
+    dot,
     marked,
     plot_area,
-    point_layers,
     x_title,
 )
 from linkanim.picture.course import Course, Floats, course
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Item, draw
 from linkanim.picture.layout import Layout
+from linkanim.picture.parts import Stamp
 from linkanim.picture.quantities import Series, cleared, quantity, series_of
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import segments
@@ -140,13 +141,19 @@ class Strip:
 
     def cursor(self, pose: Pose) -> list[Layer]:
         """Return the line at a pose and the dots where it meets the curves."""
-        x, foot = float(self.course.x_of(pose.phase)), self.foot(pose)
-        head = foot - 1j * self.plot.area.height
-        layers = [Layer(self.pen.theme.ink, segments(foot, head, 0.8 * self.pen.line))]
-        for n, value in enumerate(self.values_at(pose)):
-            if np.isfinite(value):
-                layers += point_layers(self.plot, [(x, float(value))], self.colour(n), self.pen)
+        line, dots = self._marks
+        x, values = float(self.course.x_of(pose.phase)), self.values_at(pose)
+        layers = line.at([self.foot(pose)])
+        for n in np.flatnonzero(np.isfinite(values)):
+            layers += dots[n].at([complex(self.plot.place(x, values[n]))])
         return layers
+
+    @cached_property
+    def _marks(self) -> tuple[Stamp, tuple[Stamp, ...]]:
+        """The line up from the axis, and each curve's dot, about 0."""
+        pen, head = self.pen, -1j * self.plot.area.height
+        line = Stamp((Layer(pen.theme.ink, segments(0, head, 0.8 * pen.line)),))
+        return line, tuple(dot(self.colour(n), pen) for n in range(len(self.series.labels)))
 
     def reading(self, values: NDArray[np.float64]) -> tuple[str, ...]:
         """Return values in words, one for each curve."""

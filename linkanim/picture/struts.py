@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import pi
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ from linkanim.picture.directions import directions, length, lengths
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
-from linkanim.picture.raster import Layer, Loop, Outlines, outlines_of
+from linkanim.picture.raster import Colour, Layer, Loop, Outlines, outlines_of
 from linkanim.picture.shapes import box, rod, stroke, strokes, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
@@ -60,20 +60,23 @@ class Coil:
         span, turn = length(end - start), unit(end - start)
         lead = min(self.lead, 0.2 * span)
         pitch = (span - 2 * lead) / self.coils
-        along = (lead + pitch * np.arange(self.coils)).astype(np.complex128)
-        feet = start + turn * along
-        wire, low = 1.5 * self.gauge.line, -1j * self.radius
-        far, near = (pitch * along + round_ for along, round_ in self._halves)
-        (first,) = stroke([0, lead, lead + low], wire)
-        (back,) = stroke(turn * far, wire)
-        (edge,), (core,) = strokes(turn * near, (2.6 * wire, 1.5 * wire))
-        leads = outlines_of([start + turn * first, end - turn * first.conj()[::-1]])
-        shade = mixed(self.theme.outline, self.theme.metal, 0.35)
+        feet = np.asarray(start + turn * (lead + pitch * np.arange(self.coils)), np.complex128)
+        wire = 1.5 * self.gauge.line
+        far, near = (turn * (pitch * along + round_) for along, round_ in self._halves)
+        (back,) = stroke(far, wire)
+        (edge,), (core,) = strokes(near, (2.6 * wire, 1.5 * wire))
+        one, other = _leads(lead, self.radius, wire)
+        leads = Outlines(np.concatenate((start + turn * one, end + turn * other)), (len(one), len(other)))
         return [
-            Layer(shade, leads.joined(_repeated(feet, back))),
+            Layer(self._shade, leads.joined(_repeated(feet, back))),
             Layer(self.theme.outline, _repeated(feet, edge)),
             Layer(self.theme.metal, _repeated(feet, core)),
         ]
+
+    @cached_property
+    def _shade(self) -> Colour:
+        """The colour of the far halves."""
+        return mixed(self.theme.outline, self.theme.metal, 0.35)
 
     @cached_property
     def _halves(self) -> tuple[tuple[Loop, Loop], ...]:
@@ -84,6 +87,13 @@ class Coil:
             way = directions(2 * pi * along.real - pi / 2)
             found.append((along, self.radius * (_TILT * way.real + 1j * way.imag).astype(np.complex128)))
         return tuple(found)
+
+
+@lru_cache(maxsize=16)
+def _leads(lead: float, radius: float, wire: float) -> tuple[Loop, Loop]:
+    """Return a spring's wire at its start and at its end, each about 0, the spring along the real axis."""
+    (first,) = stroke([0, lead, lead - 1j * radius], wire)
+    return first, -first.conj()[::-1]
 
 
 def _repeated(feet: Loop, outline: Loop) -> Outlines:

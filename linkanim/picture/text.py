@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 from unicodedata import normalize
 
 import pygame
@@ -35,8 +35,8 @@ _LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
 _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 
 
-_KEPT = 512
-"""How many lines are remembered, set."""
+_KEPT = 2048
+"""How many lines are remembered, set: as many as a turn of a scene with a dozen values has."""
 
 
 class Run(NamedTuple):
@@ -90,11 +90,11 @@ class Type:
         self._glyphs: dict[tuple[str, int, Colour, str, int], pygame.Surface] = {}
         self._steps: dict[tuple[str, str, int, str], int] = {}
         self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
+        self._inked: dict[tuple[str, int, str, Colour], list[tuple[pygame.Surface, int, int]]] = {}
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
         """Return how wide a line is in pixels; `strong` is the semibold weight."""
-        *_, end = self._set(text, size, _face(strong))
-        return -(-end.x // _FINE)
+        return -(-self._set(text, size, _face(strong))[-1].x // _FINE)
 
     def glyph(
         self, char: str, size: int, colour: Colour, *, strong: bool = False, part: int = 0
@@ -124,24 +124,30 @@ class Type:
         at a whole pixel, for text that glides reads worse than text that steps; its glyphs stand
         to a quarter of one, which spaces small text evenly.
         """
-        *places, end = self._set(text, size, _face(strong))
-        width = -(-end.x // _FINE)
+        width = self.width(text, size, strong=strong)
         x, y = _left(at[0], width, anchor), round(at[1]) + round(_BASE * size)
-        surface.fblits(
-            (
-                self.glyph(char, small, colour, strong=strong, part=right % _FINE),
-                (x + right // _FINE, y + top),
-            )
-            for char, small, right, top in places
-        )
+        glyphs = self._glyphs_of(text, size, colour, strong=strong)
+        surface.fblits([(glyph, (x + right, y + down)) for glyph, right, down in glyphs])
         return width
+
+    def _glyphs_of(
+        self, text: str, size: int, colour: Colour, *, strong: bool
+    ) -> list[tuple[pygame.Surface, int, int]]:
+        """Return the glyphs of a line, each so many pixels right of its baseline's left end and below it."""
+        key = (text, size, _face(strong), colour)
+        if key not in self._inked:
+            _make_room(self._inked)
+            self._inked[key] = [
+                (self.glyph(char, small, colour, strong=strong, part=x % _FINE), x // _FINE, y)
+                for char, small, x, y in self._set(text, size, _face(strong))[:-1]
+            ]
+        return self._inked[key]
 
     def _set(self, text: str, size: int, face: str) -> tuple[_Place, ...]:
         """Return where the glyphs of a line stand and its end; the last lines are kept, being drawn again."""
         key = (text, size, face)
         if key not in self._lines:
-            if len(self._lines) >= _KEPT:
-                self._lines.clear()
+            _make_room(self._lines)
             self._lines[key] = tuple(self._setting(text, size, face))
         return self._lines[key]
 
@@ -200,6 +206,12 @@ class Type:
                 pieces.append("")
             pieces[-1] += char
         return pieces
+
+
+def _make_room(lines: dict[Any, Any]) -> None:
+    """Forget the lines that are kept where they are many."""
+    if len(lines) >= _KEPT:
+        lines.clear()
 
 
 def _runs(text: str) -> Iterator[Run]:

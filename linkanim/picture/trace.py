@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
-from itertools import pairwise
+from functools import cached_property, lru_cache
+from itertools import accumulate, pairwise
 from math import ceil, floor, pi
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import offsets, stroke
+from linkanim.picture.shapes import distinct, offsets, stroke
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
@@ -51,25 +51,47 @@ class Trace:
         count = len(self.path)
         here = phase / self.period * count
         tail = max(round(_RECENT / self.period * count), _SHADES)
-        sign = 1 if forward else -1
-        last = floor(here) if forward else ceil(here)
+        # run backwards, the curve is passed through from its end
+        last = floor(here) if forward else -ceil(here) - 1
+        first = (last - tail) % count
         path = np.empty(tail + 2, np.complex128)
-        path[:-1] = self.path[(last - sign * np.arange(tail, -1, -1)) % count]
+        path[:-1] = self._twice[not forward][first : first + tail + 1]
         path[-1] = place
-        moves = path[1:] != path[:-1]
-        if not moves.all():
-            path = np.concatenate((path[:1], path[1:][moves]))
+        path = distinct(path)
         if len(path) < 2:
             return []
-        side = offsets(path) * (self.width / 2 * (1 + (_SWELL - 1) / (len(path) - 1) * np.arange(len(path))))
-        return list(self._shaded(path - side, path + side))
+        side = offsets(path) * _swelling(len(path), self.width)
+        corners, ends = _cuts(len(path))
+        edges = np.concatenate((path - side, path + side)).take(corners)
+        return [
+            Layer(colour, [edges[begin:end]])
+            for colour, (begin, end) in zip(self.shades, pairwise(ends), strict=True)
+        ]
 
-    def _shaded(self, right: Loop, left: Loop) -> Iterator[Layer]:
-        """Yield the recent part cut into shades; each runs on a little below the next."""
-        cuts = [round(len(right) * shade / _SHADES) for shade in range(_SHADES + 1)]
-        for colour, (begin, end) in zip(self.shades, pairwise(cuts), strict=True):
-            piece = slice(begin, end + 2)
-            yield Layer(colour, [np.concatenate((right[piece], left[piece][::-1]))])
+    @cached_property
+    def _twice(self) -> tuple[Loop, Loop]:
+        """Two rounds of the path, and two the other way."""
+        twice = np.concatenate((self.path, self.path))
+        return twice, twice[::-1]
+
+
+@lru_cache(maxsize=16)
+def _swelling(count: int, width: float) -> NDArray[np.float64]:
+    """Return half the width of a recent part at each of its points."""
+    return np.asarray(width / 2 * (1 + (_SWELL - 1) / (count - 1) * np.arange(count)), np.float64)
+
+
+@lru_cache(maxsize=16)
+def _cuts(count: int) -> tuple[NDArray[np.int64], tuple[int, ...]]:
+    """Return how a part of so many points is cut into shades, each running on a little below the next.
+
+    That is which corners follow each other, of all on its right and then all on its left, and where each
+    shade begins among them, and the end.
+    """
+    cuts = [round(count * shade / _SHADES) for shade in range(_SHADES + 1)]
+    sides = [np.arange(begin, min(end + 2, count)) for begin, end in pairwise(cuts)]
+    pieces = [np.concatenate((side, count + side[::-1])) for side in sides]
+    return np.concatenate(pieces), (0, *accumulate(map(len, pieces)))
 
 
 def traces(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Trace, ...]:

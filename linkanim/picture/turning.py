@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import pi, remainder, tau
 
 import numpy as np
@@ -13,7 +14,7 @@ from linkanim.picture.directions import directions
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
-from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.raster import Colour, Layer, Loop, Outlines, outlines_of
 from linkanim.picture.shapes import arrows, segments, strokes, unit
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
@@ -53,17 +54,11 @@ class Turning:
         if not abs(sweep) > 0.02:
             return []
         centre, way = self._bar(places)
-        side = 1 if sweep > 0 else -1
         ink, back = self.colours
-        line, rim = 1.7 * self.gauge.line, 0.9 * self.gauge.line
-        bend, head = self._bend(sweep, side), self._head(abs(sweep))
-        tip, foot = bend[-1] / self.arrow, centre + way * bend[-1]
-        widths = (line + 2 * rim, line)
-        found = []
-        for colour, wider, outline in zip((back, ink), (rim, 0.0), strokes(bend, widths), strict=True):
-            barb = _barb(head + 2 * wider) * (way * tip * 1j * side)
-            found.append(Layer(colour, [centre + way * outline[0], foot + barb]))
-        return found
+        return [
+            Layer(colour, outlines.placed(centre, way))
+            for colour, outlines in zip((back, ink), _bent(sweep, self.arrow, self.gauge.line), strict=True)
+        ]
 
     def angle(self, places: Places) -> list[Layer]:
         """Return the arc from the horizontal to the bar, and the line it begins at."""
@@ -79,14 +74,21 @@ class Turning:
     def _bar(self, places: Places) -> tuple[complex, complex]:
         return places[self.pivot], unit(places[self.pin] - places[self.pivot])
 
-    def _bend(self, sweep: float, side: int) -> Loop:
-        """Return the arrow's bend about the pivot, the bar along the real axis."""
-        angles = side * _AHEAD + sweep * np.linspace(0, 1, 16)
-        return np.asarray(self.arrow * directions(angles), np.complex128)
 
-    def _head(self, sweep: float) -> float:
-        """Return the head's length, less where the arrow is short."""
-        return min(6.5 * self.gauge.line, 0.8 * sweep * self.arrow)
+@lru_cache(maxsize=16)
+def _bent(sweep: float, radius: float, thick: float) -> tuple[Outlines, Outlines]:
+    """Return an arrow about the pivot, the bar along the real axis, in its rim and without.
+
+    It bends by `sweep` (rad, negative to the left); its head is smaller where it is short. An input of
+    steady speed has the same arrow at every frame: the last ones are kept.
+    """
+    side, line, rim = 1 if sweep > 0 else -1, 1.7 * thick, 0.9 * thick
+    bend: Loop = radius * directions(side * _AHEAD + sweep * np.linspace(0, 1, 16))
+    head, turn = min(6.5 * thick, 0.8 * abs(sweep) * radius), bend[-1] / radius * 1j * side
+    (rimmed,), (bare,) = strokes(bend, (line + 2 * rim, line))
+    barbs = (bend[-1] + _barb(length) * turn for length in (head + 2 * rim, head))
+    first, second = (outlines_of(pair) for pair in zip((rimmed, bare), barbs, strict=True))
+    return first, second
 
 
 def _barb(length: float) -> Loop:

@@ -72,7 +72,7 @@ def test_with_dimensions_stroke_and_time_ratio_are_those_of_info() -> None:
 
 def test_the_ticks_cross_the_guide_where_the_slider_turns_back() -> None:
     found, scene = ticks("slider-crank"), load("slider-crank")
-    lines = np.concatenate([loop for layer in found.group().layers for loop in layer.loops])
+    lines = np.concatenate([loop for layer in found.group.layers for loop in layer.loops])
     for phase in scene.info.dead_centres or ():
         at = found.view.place(scene.pose(phase).position["B"])
         near = lines[np.abs(lines.real - at.real) < 2]
