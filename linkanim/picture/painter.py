@@ -7,7 +7,6 @@ from functools import cached_property
 
 import pygame
 
-from linkanim.mechanics.kinds import Crank
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.blend import Mix, mix
 from linkanim.picture.chart import pen_for
@@ -138,12 +137,6 @@ class Painter:
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
         """Return where the pin that the phase drives lies, in pixels."""
         return self.view.to_pixel(*pose.position[self.scene.linkage.drive.joint])
-
-    def crank_pivot_px(self) -> tuple[float, float]:
-        """Return where the driven crank turns, in pixels."""
-        crank = self.scene.linkage.joint(self.scene.linkage.drive.joint)
-        pivot = self._figure.start(crank.pivot if isinstance(crank, Crank) else crank.name)
-        return self.view.to_pixel(pivot.real, pivot.imag)
 
     def chart_phase_at(self, px: float, py: float) -> float | None:
         """Return the phase under a pixel of the chart, 0 to one true period; None beside the chart."""

@@ -14,9 +14,6 @@ from linkanim.player.action import Action
 Mode = Literal["play", "edit", "list", "shelf"]
 """What the keys are for: the picture, or the overlay that is open."""
 
-SUBJECTS = ("play", "look", "measure", "edit", "keep")
-"""What the keys of the picture are about, in the order in which the help shows them."""
-
 
 class Bind(NamedTuple):
     """One key and what it asks for; `repeats` where holding the key goes on asking."""

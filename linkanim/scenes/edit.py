@@ -64,11 +64,6 @@ def dimensions(scene: Scene) -> tuple[Dimension, ...]:
     return tuple(_dimension(scene, key, kind) for key, kind in _keys(scene.document))
 
 
-def with_dimension(scene: Scene, key: Key, value: float | str) -> Scene:
-    """Return the scene with one dimension changed; see `with_dimensions`."""
-    return with_dimensions(scene, {tuple(key): value})
-
-
 def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
     """Return the scene with some dimensions changed at once; `scene` itself stays as it is.
 

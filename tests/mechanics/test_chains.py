@@ -15,7 +15,7 @@ from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.path import Swing
 from linkanim.scenes import load
-from linkanim.scenes.edit import with_dimension
+from linkanim.scenes.edit import with_dimensions
 from linkanim.scenes.read import scene_from
 
 Lengths = tuple[float, float, float, float]
@@ -73,14 +73,14 @@ CHANGED: list[tuple[str, list[tuple[Key, float]]]] = [
 def test_changed_scenes_run_smoothly(name: str, changes: list[tuple[Key, float]]) -> None:
     scene = load(name)
     for key, value in changes:
-        scene = with_dimension(scene, key, value)
+        scene = with_dimensions(scene, {key: value})
     runs_smoothly(scene.mechanism)
     assert scene.info.lines
 
 
 def test_the_dyad_that_limits_is_named_not_the_one_that_stands_on_it() -> None:
     # The press's slider hangs on B: where B's bars end, the slider has no margin at all.
-    path = with_dimension(load("press"), ("joints", "B", "length", 0), 261.11).mechanism.assembly.path
+    path = with_dimensions(load("press"), {("joints", "B", "length", 0): 261.11}).mechanism.assembly.path
     assert isinstance(path, Swing)
     assert path.ends == ("B", "B")
 

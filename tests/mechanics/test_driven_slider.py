@@ -20,7 +20,7 @@ from linkanim.mechanics.linkage import Body, Drive, Linkage, Travel
 from linkanim.mechanics.mechanism import mechanism
 from linkanim.mechanics.register import register
 from linkanim.scenes import load
-from linkanim.scenes.edit import dimensions, with_dimension
+from linkanim.scenes.edit import dimensions, with_dimensions
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.toml import parse
 from linkanim.scenes.write import text
@@ -209,8 +209,8 @@ def test_a_scene_file_says_it_is_edited_and_written_back_to_the_same_motion() ->
     assert again.linkage == scene.linkage
     assert scene.info.input_range == (90.0, 150.0)
     assert {"Slider, from", "Slider, to"} <= {item.label for item in dimensions(scene)}
-    turning = with_dimension(scene, ("drive", "slider", "from"), 80)
-    turning = with_dimension(turning, ("drive", "slider", "to"), "1.6 m")
+    turning = with_dimensions(scene, {("drive", "slider", "from"): 80})
+    turning = with_dimensions(turning, {("drive", "slider", "to"): "1.6 m"})
     assert turning.info.toggles == pytest.approx((80.0, 160.0))
     assert turning.info.change_points == ()
     assert dict(turning.info.lines)["input"] == "slides 80…160 cm"

@@ -10,7 +10,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
-from linkanim.picture.raster import Layer, paint
+from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.scenes.scene import Scene
 
 BARE = Look(hud=False)
@@ -54,3 +54,15 @@ def alphas(surface: pygame.Surface) -> Pixels:
 def coverage(surface: pygame.Surface) -> Pixels:
     """Return how far white covers black in each pixel, 0 to 1."""
     return pixels(surface)[..., 0] / 255
+
+
+def contrast(one: Colour, other: Colour) -> float:
+    """Return the contrast of two colours, 1 to 21, as WCAG 2 defines it."""
+    darker, lighter = sorted((_luminance(one), _luminance(other)))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def _luminance(colour: Colour) -> float:
+    parts = [value / 255 for value in colour]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from pictures import pixels
+from pictures import contrast, pixels
 
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
@@ -21,7 +21,7 @@ from linkanim.picture.painter import Painter
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.sweep import sweep_of
-from linkanim.picture.theme import DARK, LIGHT, Theme, contrast
+from linkanim.picture.theme import DARK, LIGHT, Theme
 from linkanim.picture.trace import traces
 from linkanim.picture.vectors import LONGEST, arrows_of
 from linkanim.picture.view import View
@@ -274,7 +274,9 @@ def test_a_moving_bar_s_pixels_follow_it_without_a_shiver() -> None:
         near = np.clip(1 - np.abs(pixels(surface) - colour).sum(axis=-1) / 60, 0, 1)
         rows, columns = np.indices(near.shape)
         centres.append(complex((columns * near).sum(), (rows * near).sum()) / near.sum())
-        truth.append((complex(*painter.crank_pin_px(pose)) + complex(*painter.crank_pivot_px())) / 2)
+        truth.append(
+            (complex(*painter.crank_pin_px(pose)) + complex(*painter.view.to_pixel(*pose.position["O2"]))) / 2
+        )
     drift = np.array(centres) - np.array(truth)
     assert np.sqrt(np.mean(np.abs(drift - drift.mean()) ** 2)) <= 0.1
 

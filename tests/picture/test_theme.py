@@ -6,9 +6,10 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from pictures import contrast
 
 from linkanim.picture.raster import Colour
-from linkanim.picture.theme import DARK, LIGHT, Theme, contrast, mixed, theme_of
+from linkanim.picture.theme import DARK, LIGHT, Theme, mixed, theme_of
 
 THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
 

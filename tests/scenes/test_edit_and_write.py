@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from linkanim.errors import AssemblyError, SceneError, WorkFailed
 from linkanim.mechanics.kinds import Crank
 from linkanim.scenes import load, names
-from linkanim.scenes.edit import dimensions, with_dimension, with_dimensions
+from linkanim.scenes.edit import dimensions, with_dimensions
 from linkanim.scenes.joints import Key
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
@@ -144,7 +144,7 @@ def test_the_speed_can_be_edited_where_the_file_leaves_it_out() -> None:
         where="bare",
     )
     assert labels(bare)[-1] == "Input speed"
-    faster = with_dimension(bare, ("drive", "speed"), 40)
+    faster = with_dimensions(bare, {("drive", "speed"): 40})
     assert faster.linkage.drive.speed == 2 * bare.linkage.drive.speed
 
 
@@ -179,7 +179,7 @@ def test_a_value_takes_its_place_in_the_document(
     name: str, key: Key, typed: float | str, written: object
 ) -> None:
     before = load(name)
-    after = with_dimension(before, key, typed)
+    after = with_dimensions(before, {key: typed})
     found: Any = after.document
     for part in key:
         found = found[part]
@@ -206,21 +206,21 @@ def test_a_value_takes_its_place_in_the_document(
 )
 def test_a_value_that_cannot_be_is_refused_and_names_its_key(key: Key, typed: float | str, said: str) -> None:
     with pytest.raises(SceneError) as refusal:
-        with_dimension(load("crank-rocker"), key, typed)
+        with_dimensions(load("crank-rocker"), {key: typed})
     assert str(refusal.value).startswith("crank-rocker: " + ".".join(str(part) for part in key))
     assert said in str(refusal.value)
 
 
 def test_only_dimensions_can_be_changed() -> None:
     with pytest.raises(KeyError):
-        with_dimension(load("crank-rocker"), ("four-bar", "assembly"), "crossed")
+        with_dimensions(load("crank-rocker"), {("four-bar", "assembly"): "crossed"})
 
 
 @pytest.mark.parametrize("name", names())
 def test_every_dimension_given_its_own_value_changes_nothing(name: str) -> None:
     scene = load(name)
     for dimension in dimensions(scene):
-        assert with_dimension(scene, dimension.key, dimension.value).linkage == scene.linkage
+        assert with_dimensions(scene, {dimension.key: dimension.value}).linkage == scene.linkage
 
 
 @pytest.mark.parametrize("name", names())
@@ -245,7 +245,7 @@ def edited(scene: Scene) -> Scene:
     for dimension in dimensions(scene):
         for share in (1.001, 0.997):
             with contextlib.suppress(SceneError, AssemblyError):
-                other = with_dimension(scene, dimension.key, dimension.value * share)
+                other = with_dimensions(scene, {dimension.key: dimension.value * share})
                 if other.linkage != scene.linkage:
                     return other
     raise AssertionError(f"{scene.name}: no dimension can be changed")
@@ -296,7 +296,7 @@ def test_whatever_a_document_says_is_written_to_the_last_bit(
 
 
 def test_saving_never_takes_the_place_of_a_file(tmp_path: Path) -> None:
-    scene = with_dimension(load("press"), ("joints", "A", "length"), 54)
+    scene = with_dimensions(load("press"), {("joints", "A", "length"): 54})
     (tmp_path / "press.toml").write_text("mine")
     paths = [save(scene, tmp_path) for _ in range(2)]
     assert [path.name for path in paths] == ["press-2.toml", "press-3.toml"]

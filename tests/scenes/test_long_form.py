@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
 from linkanim.mechanics.linkage import Body, Damper, Drive, Spring
 from linkanim.scenes import load
-from linkanim.scenes.edit import dimensions, with_dimension
+from linkanim.scenes.edit import dimensions, with_dimensions
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -71,7 +71,7 @@ def test_a_yoke_slides_along_its_line_and_can_be_edited() -> None:
     keys = [item.key for item in dimensions(scene) if item.key[:2] == ("joints", "Y")]
     lasts = (("slot",), ("line", "angle"), ("line", "offset"))
     assert keys == [("joints", "Y", "slide", *last) for last in lasts]
-    moved = with_dimension(scene, ("joints", "Y", "slide", "line", "offset"), 6.0)
+    moved = with_dimensions(scene, {("joints", "Y", "slide", "line", "offset"): 6.0})
     assert moved.linkage.by_name["Y"].lengths == (6.0,)
 
 
