@@ -1,4 +1,4 @@
-"""Quantities that follow from solved ones: paths' normals and curvature, poles, transmission, torque.
+"""Quantities that follow from solved ones: paths' normals and curvature, poles, transmission, advantage.
 
 Every function takes a Motion, and works on arrays, or a Pose, and works on floats. What has no value at
 an instant (how a path bends where its point rests) is NaN, what is not bounded is infinite.

@@ -60,8 +60,8 @@ def input_effort(motion: Any) -> Any:
     """Return the torque (N m) at the input, or the force (N) of a cylinder or a slider that drives.
 
     Positive where it turns the input on counter-clockwise, lengthens the cylinder or pushes the slider
-    forward. Unbounded at a limit
-    of the input; NaN where the input stands still and does not start to move either.
+    forward. Unbounded at a limit of the input; NaN where the input stands still and does not start to move
+    either.
     """
     pace = _pace(motion, _MOVING)
     found = over(_power(motion, _MOVING), pace)

@@ -1,4 +1,4 @@
-"""The dimensions of a scene as a list to be edited, and the scene with one of them changed.
+"""The dimensions of a scene as a list to be edited, and the scene with some of them changed.
 
 A change is made to the document and read again, so that it is checked exactly as a file is.
 """
@@ -56,8 +56,8 @@ def dimensions(scene: Scene) -> tuple[Dimension, ...]:
     """Return what can be edited.
 
     In this order: the shorthand's, the joints', the pins', the bodies', the springs', the dampers', gravity,
-    the drive's.
-    Only what the file says is there, and always the drive's speed. None for a scene without a document.
+    the drive's. Only what the file says is there, and always the drive's speed; nothing of a scene without a
+    document.
     """
     if not scene.document:
         return ()

@@ -171,6 +171,22 @@ def test_a_gallery_is_a_gif_for_each_scene_and_a_sheet(
     assert files(tmp_path / "shown") == ["contact-sheet.png", "parallelogram.gif"]
 
 
+def test_a_gallery_has_the_chart_of_speed_and_error_where_it_can_be_measured(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def charted(path: Path) -> Path:
+        path.touch()
+        return path
+
+    monkeypatch.setattr("linkanim.cli.gallery.names", lambda: ("parallelogram",))
+    monkeypatch.setattr("linkanim.cli.gallery.require_extra", lambda: None)
+    monkeypatch.setattr("linkanim.cli.gallery._charted", charted)
+    assert main(["gallery", "--into", "shown"]) == 0
+    printed = capsys.readouterr()
+    assert printed.out.splitlines()[-1] == "shown/speed-vs-error.png"
+    assert files(tmp_path / "shown") == ["contact-sheet.png", "parallelogram.gif", "speed-vs-error.png"]
+
+
 # Ctrl-C and SIGTERM in the middle of the work: what was there stays, and nothing else is there
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_stopped_in_the_middle_it_leaves_the_old_file_alone(
