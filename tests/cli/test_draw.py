@@ -40,6 +40,13 @@ def test_angle_and_phase_say_the_same_pose(folder: Path) -> None:
     assert texts[0] == texts[1] != texts[2]
 
 
+def test_no_pose_lies_behind_where_none_is_asked_for(folder: Path) -> None:
+    assert main(["draw", "kite", "-o", "none.svg", "--size", "320x180"]) == 0
+    assert main(["draw", "kite", "-o", "one.svg", "--size", "320x180", "--poses", "1"]) == 0
+    none, one = ((folder / f"{name}.svg").read_text(encoding="utf-8") for name in ("none", "one"))
+    assert len(none) < len(one)
+
+
 @pytest.mark.parametrize(
     ("options", "said"),
     [
