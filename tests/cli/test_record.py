@@ -64,6 +64,25 @@ def test_the_file_is_named_after_the_scene_where_no_name_is_given(
     assert files(tmp_path) == made
 
 
+# what each preset stands for: size, and the frames of a fifth of a second
+@pytest.mark.parametrize(
+    ("words", "file", "size", "frames"),
+    [
+        ([], "kite.gif", (1280, 720), 5),
+        (["--for", "slides"], "kite.gif", (1280, 720), 5),
+        (["--for", "web"], "kite.gif", (640, 360), 4),
+        (["--for", "beamer"], "kite-0005.png", (1280, 720), 1),
+    ],
+)
+def test_a_preset_stands_for_a_size_and_a_rate(
+    words: list[str], file: str, size: tuple[int, int], frames: int, tmp_path: Path
+) -> None:
+    assert main(["record", "kite", *words, "--seconds", "0.2"]) == 0
+    assert files(tmp_path)[-1] == file
+    with Image.open(file) as picture:
+        assert (picture.size, getattr(picture, "n_frames", 1)) == (size, frames)
+
+
 def test_a_preset_gives_way_to_what_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["record", "crank-rocker", "--for", "web", "--seconds", "0.2"]) == 0
     with Image.open("crank-rocker.gif") as gif:
