@@ -75,7 +75,7 @@ def test_markdown_is_for_the_table_only() -> None:
 def test_it_prints_the_table_and_writes_the_chart(
     measured: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert command.run(options("--into", str(tmp_path / "new"))) == 0
+    assert main(["bench", "--into", str(tmp_path / "new")]) == 0
     told = capsys.readouterr()
     assert told.out.startswith("A processor")
     assert told.err == f"{tmp_path / 'new' / command.CHART}\n"
