@@ -40,8 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: Namespace, progress: Progress | None = None) -> int:
-    """Measure what was asked, print it and return 0.
+def run(options: Namespace, progress: Progress | None = None) -> None:
+    """Measure what was asked and print it.
 
     BadInput where the extra is not installed or the folder cannot be one, before anything is measured.
     """
@@ -50,15 +50,16 @@ def run(options: Namespace, progress: Progress | None = None) -> int:
             "--markdown is the table of speed and error; leave it out with --draw, --record and --scaling"
         )
     if options.draw:
-        return _drawing(options)
-    if options.record:
-        return _recordings(options)
-    if options.scaling:
-        return _scaling(options, progress)
-    return _speed_and_error(options, progress)
+        _drawing(options)
+    elif options.record:
+        _recordings(options)
+    elif options.scaling:
+        _scaling(options, progress)
+    else:
+        _speed_and_error(options, progress)
 
 
-def _speed_and_error(options: Namespace, progress: Progress | None) -> int:
+def _speed_and_error(options: Namespace, progress: Progress | None) -> None:
     from linkanim.bench.extra import require_extra
 
     require_extra()
@@ -73,7 +74,6 @@ def _speed_and_error(options: Namespace, progress: Progress | None) -> int:
         form, flags = (report.as_markdown, ["--markdown"]) if options.markdown else (report.as_text, [])
         print("\n\n".join([form(found), *([again.printed(without, flags)] if without else [])]))
     print(drawing.draw(found, into / CHART), file=sys.stderr)
-    return 0
 
 
 def _both_objects(found: str, without: tuple[str, ...]) -> str:
@@ -87,30 +87,27 @@ def _both_objects(found: str, without: tuple[str, ...]) -> str:
     return _json({**json.loads(found), "without_avx512": json.loads(again.printed(without, ["--json"]))})
 
 
-def _drawing(options: Namespace) -> int:
+def _drawing(options: Namespace) -> None:
     from linkanim.bench import window
 
     found = window.run()
     print(_json(window.as_object(found)) if options.json else window.as_text(found))
-    return 0
 
 
-def _recordings(options: Namespace) -> int:
+def _recordings(options: Namespace) -> None:
     from linkanim.bench import recording
 
     found = recording.run()
     print(_json(recording.as_object(found)) if options.json else recording.as_text(found))
-    return 0
 
 
-def _scaling(options: Namespace, progress: Progress | None) -> int:
+def _scaling(options: Namespace, progress: Progress | None) -> None:
     into = made_folder(options.into)
     from linkanim.bench import scaling
 
     found = scaling.run(progress)
     print(_json(scaling.as_object(found)) if options.json else scaling.as_text(found))
     print(scaling.draw(found, into / GROWTH), file=sys.stderr)
-    return 0
 
 
 def _json(value: Any) -> str:
