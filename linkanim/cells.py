@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 from io import StringIO
 
 import numpy as np
-import orjson
 from numpy.typing import ArrayLike
 
 NULL = "null"
@@ -19,6 +18,8 @@ def lines(columns: Sequence[ArrayLike]) -> list[str]:
 
     What is not finite is `null`.
     """
+    import orjson
+
     block = np.stack([np.asarray(column, np.float64) for column in columns], axis=1)
     if not block.size:
         return []

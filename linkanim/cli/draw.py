@@ -5,8 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from math import isnan
 
-from linkanim.cli.picture_options import scene_size_target
-from linkanim.cli.record import centres_of
+from linkanim.cli.picture_options import centres_of, scene_size_target
 from linkanim.cli.solve import out_of_range
 from linkanim.paper.figure import SUFFIXES, Figured, write
 from linkanim.picture.look import Look

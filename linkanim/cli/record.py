@@ -13,9 +13,9 @@ from typing import NoReturn
 from tqdm import tqdm
 
 from linkanim.cli.commands import parse
+from linkanim.cli.picture_options import centres_of
 from linkanim.cli.presets import DEFAULT, PRESETS
 from linkanim.errors import BadInput
-from linkanim.mechanics.derived import coupler_body
 from linkanim.picture.look import Look
 from linkanim.recorder.recording import Progress, Recording
 from linkanim.recorder.scene_frames import record
@@ -84,16 +84,6 @@ def _of_tape(options: Namespace) -> Callable[..., Recording]:
                 f"--{name} is for a scene; a tape keeps its own (--size, --fps and --for are free)"
             )
     return partial(record_tape, options.scene)
-
-
-def centres_of(scene: Scene, options: Namespace) -> int:
-    """Return what of the instant centres the options ask for, as `Look.centres` says it.
-
-    `BadInput` for centrodes where every link turns about a fixed pin, or slides.
-    """
-    if options.centrodes and coupler_body(scene.linkage) is None:
-        raise BadInput(f"--centrodes: {scene.name} has no coupler; --instant-centres marks what there is")
-    return 2 if options.centrodes else int(options.instant_centres)
 
 
 def look_of(scene: Scene, options: Namespace) -> Look:
