@@ -47,22 +47,33 @@ class Obstacles(NamedTuple):
     weight: _Floats
 
 
+class Solid(NamedTuple):
+    """What a link covers: all within its corners (n moments, c), in their order, and `half` round it."""
+
+    corners: Loop
+    half: float
+
+
 @dataclass(frozen=True)
 class Clutter:
-    """What labels must stay off: discs (n moments, m), rectangles, all that is not `inside`; and bars."""
+    """What labels must stay off: discs (n moments, m), rectangles, all that is not `inside`; and bars.
+
+    Off the solids only those stay that shun them.
+    """
 
     discs: Loop
     radii: _Floats
     rects: tuple[Rect, ...]
     inside: Rect
     bars: Obstacles
+    solids: tuple[Solid, ...] = ()
 
 
 class Wish(NamedTuple):
     """A label: how large, where it may stand at each of n moments (n, k), and the price of each place.
 
     `frame` is (origin, direction) of what it belongs to at each moment, in which it had better rest.
-    `own` are the numbers of the bars that it may lie on; `shunned` (k, m) says of each place which bars
+    `own` are the numbers of the bars that it may lie on; `shunned` (k, m) says of each place which solids
     its middle must not lie on, since the label would seem to be theirs.
     """
 
@@ -191,15 +202,24 @@ def _blocked(
 
 
 def _mistaken(places: Loop, wish: Wish, clutter: Clutter, chosen: NDArray[np.int64] | None = None) -> _Bools:
-    """Return whether the label's middle would lie on a bar that it must shun there."""
-    bars, shunned = clutter.bars, wish.shunned
-    if shunned is None or not shunned.any():
-        return np.zeros(places.shape, np.bool_)
-    which = np.flatnonzero(shunned.any(axis=0))
+    """Return whether the label's middle would lie on a solid that it must shun there."""
+    mistaken, shunned = np.zeros(places.shape, np.bool_), wish.shunned
+    if shunned is None:
+        return mistaken
     at = shunned[None] if chosen is None else shunned[chosen][:, None]
-    away = _distance(places[:, :, None], bars.begin[:, None, which], bars.end[:, None, which])
-    near = away < bars.half[which] + _CLOSE * wish.size[1]
-    return np.asarray((near & at[..., which]).any(axis=2))
+    for n in np.flatnonzero(shunned.any(axis=0)):
+        solid = clutter.solids[n]
+        mistaken |= at[..., n] & (_off(places, solid.corners) < solid.half + _CLOSE * wish.size[1])
+    return mistaken
+
+
+def _off(points: Loop, corners: Loop) -> _Floats:
+    """Return how far points (n, k) are from what corners (n, c) enclose, 0 inside."""
+    begin, end = corners[:, None], np.roll(corners, -1, axis=1)[:, None]
+    away = _distance(points[:, :, None], begin, end).min(axis=2)
+    left = ((points[:, :, None] - begin) * np.conj(end - begin)).imag
+    # of one corner, or two, all points are "inside" that lie in line with them
+    return np.where((left > 0).all(axis=2) | (left < 0).all(axis=2), 0.0, away)
 
 
 def _distance(points: Loop, begin: Loop, end: Loop) -> _Floats:

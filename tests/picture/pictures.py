@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pygame
 
 from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.look import Look
+from linkanim.picture.names import Names
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
 from linkanim.picture.raster import Colour, Layer, paint
+from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 
 BARE = Look(hud=False)
@@ -66,3 +70,19 @@ def _luminance(colour: Colour) -> float:
     parts = [value / 255 for value in colour]
     linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def labelled(painter: Painter) -> Names:
+    """Return the names that a painter has."""
+    assert painter.names is not None
+    return painter.names
+
+
+def standing(painter: Painter, pose: Pose) -> Iterator[tuple[str, Rect]]:
+    """Yield what is written and the rectangle it takes, for every label that shows."""
+    names, places = labelled(painter), painter.drawing.places(pose)
+    for label in names.labels:
+        middle, shown = label.placed(pose.phase / names.period, places)
+        wide, high = label.lettering.size
+        if shown:
+            yield label.lettering.text, Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)

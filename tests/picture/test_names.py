@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 import pytest
-from pictures import BARE, painted, pixels
+from pictures import BARE, labelled, painted, pixels, standing
 
-from linkanim.mechanics.motion import Pose
 from linkanim.picture.dimensions import numbered, symbols, written
 from linkanim.picture.figure import figure
 from linkanim.picture.lettering import Lettering
 from linkanim.picture.look import Look
-from linkanim.picture.names import Names
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
-from linkanim.picture.placing import Clutter, Obstacles, Wish, place
 from linkanim.picture.text import Type
 from linkanim.picture.turning import Sliding, Turning
 from linkanim.picture.view import Rect
@@ -27,21 +23,6 @@ from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 
 SIZES = [(320, 180), (1280, 720), (720, 1280)]
-
-
-def _names(painter: Painter) -> Names:
-    assert painter.names is not None
-    return painter.names
-
-
-def _standing(painter: Painter, pose: Pose) -> Iterator[tuple[str, Rect]]:
-    """Yield what is written and the rectangle it takes, for every label that shows."""
-    names, places = _names(painter), painter.drawing.places(pose)
-    for label in names.labels:
-        middle, shown = label.placed(pose.phase / names.period, places)
-        wide, high = label.lettering.size
-        if shown:
-            yield label.lettering.text, Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)
 
 
 def _gap(one: Rect, other: Rect) -> float:
@@ -62,7 +43,7 @@ def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size:
     assert words
     for phase in np.linspace(0, scene.period, 31):
         pose = scene.pose(float(phase))
-        labels = list(_standing(painter, pose))
+        labels = list(standing(painter, pose))
         pins = [painter.drawing.places(pose)[pin] for pin in painter._figure.pins]
         for (one, box), (other, second) in combinations(labels, 2):
             assert _gap(box, second) > -1.0, (one, other, phase)
@@ -75,35 +56,6 @@ def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size:
                 assert abs(pin - complex(x, y)) > gauge.pin - 1.0, (text, phase)
 
 
-@pytest.mark.parametrize("name", ["wiper", "roberts-line", "triple-rocker", "pumpjack", "hoecken", "jansen"])
-def test_no_link_s_name_stands_on_another_link(name: str) -> None:
-    """Where its middle is, no bar lies that is drawn over its own, which it would seem to name."""
-    scene = load(name)
-    painter = Painter(scene, (1280, 720), Look(names=1))
-    bodies = painter._figure.bodies
-    called = {number: body for body, number in numbered(painter._figure).items()}
-    called |= {body.name: body for body in bodies}
-    for phase in np.linspace(0, scene.period, 31):
-        pose = scene.pose(float(phase))
-        places = painter.drawing.places(pose)
-        for text, box in _standing(painter, pose):
-            own = called.get(text)
-            if own is None or len(own.joints) < 2:
-                continue
-            middle = complex(box.x + box.width / 2, box.y + box.height / 2)
-            order = bodies.index(own)
-            over = [
-                bar
-                for bar in bodies
-                if len(bar.joints) == 2 and (len(own.joints) > 2 or bodies.index(bar) > order)
-            ]
-            for bar in over:
-                begin, end = (places[joint] for joint in bar.joints)
-                share = min(max(((middle - begin) / (end - begin)).real, 0.0), 1.0)
-                away = abs(middle - begin - share * (end - begin))
-                assert away > painter.drawing.scenery.gauge.bar - 1.0, (text, bar.name, phase)
-
-
 @pytest.mark.parametrize("name", ["watt-line", "roberts-line", "rocker-driven", "crank-rocker"])
 def test_the_angle_s_arc_runs_as_far_as_the_hud_says(name: str) -> None:
     """Also below the horizontal, where a swing's angle is negative; its symbol stays at the arc."""
@@ -114,7 +66,7 @@ def test_the_angle_s_arc_runs_as_far_as_the_hud_says(name: str) -> None:
     for phase in np.linspace(0.1, 6.2, 9):
         angle = scene.pose(float(phase)).crank_angle
         assert turning.turned(angle + math.tau) == pytest.approx(angle if swings else angle % math.tau)
-    (symbol,) = [label for label in _names(painter).labels if label.lettering.text.startswith("θ")]
+    (symbol,) = [label for label in labelled(painter).labels if label.lettering.text.startswith("θ")]
     for phase in np.linspace(0, math.tau, 9):
         pose = scene.pose(float(phase))
         middle, shown = symbol.placed(pose.phase / scene.period, painter.drawing.places(pose))
@@ -127,7 +79,7 @@ def test_no_name_jumps_from_frame_to_frame(name: str) -> None:
     """Beside its joint a name moves by a seventh of its height, and rounding, in a 300th of a turn."""
     scene = load(name)
     painter = Painter(scene, (1280, 720), Look(names=2))
-    names = _names(painter)
+    names = labelled(painter)
     steps = round(300 * scene.period / math.tau)
     for label in names.labels:
         way = [label.path.at(step / steps) for step in range(steps + 1)]
@@ -143,7 +95,7 @@ def test_no_name_jumps_from_frame_to_frame(name: str) -> None:
 )
 def test_every_joint_and_link_is_named_for_most_of_the_cycle(name: str) -> None:
     scene = load(name)
-    labels = _names(Painter(scene, (1280, 720), Look(names=1))).labels
+    labels = labelled(Painter(scene, (1280, 720), Look(names=1))).labels
     shown = {label.lettering.text: label.path.shown.mean() for label in labels}
     joints = {joint.replace("2", "₂").replace("4", "₄") for joint in ("O2", "A", "B")}
     assert joints <= shown.keys()
@@ -179,7 +131,7 @@ def test_the_symbols_are_the_textbook_s(name: str, wanted: dict[str, float]) -> 
 
 def test_dimensions_and_the_angle_come_with_the_second_level() -> None:
     scene = load("crank-rocker")
-    one, two = (_names(Painter(scene, (1280, 720), Look(names=level))).labels for level in (1, 2))
+    one, two = (labelled(Painter(scene, (1280, 720), Look(names=level))).labels for level in (1, 2))
     words = {label.lettering.text for label in two} - {label.lettering.text for label in one}
     assert words == {
         written(f"r{'₀₁₂₃₄₅₆'[n]}", value, "mm") for n, value in enumerate((0, 100, 50, 85, 80, 80, -70)) if n
@@ -188,7 +140,7 @@ def test_dimensions_and_the_angle_come_with_the_second_level() -> None:
 
 def test_where_bars_are_short_links_are_called_by_their_numbers() -> None:
     scene = load("crank-rocker")
-    texts = {label.lettering.text for label in _names(Painter(scene, (320, 180), Look(names=1))).labels}
+    texts = {label.lettering.text for label in labelled(Painter(scene, (320, 180), Look(names=1))).labels}
     assert {"2", "3", "4"} <= texts
     assert list(numbered(figure(load("press"))).values()) == ["2", "3", "4", "5", "6", "7"]
 
@@ -244,37 +196,6 @@ def test_the_ground_line_runs_from_pivot_to_pivot() -> None:
     assert 0.4 < (between > 20).any(axis=0).mean() < 0.95
 
 
-def test_a_label_keeps_still_where_nothing_comes_in_its_way_and_is_gone_where_it_must_be() -> None:
-    """A disc sweeps over the only place of one label, and past one of two places of another."""
-    count = 72
-    none = np.zeros((count, 0), np.complex128)
-    disc = np.full((count, 1), 500 + 500j)
-    disc[30:33] = 100 + 100j
-    bars = Obstacles(none, none, np.zeros(0), np.zeros(0))
-    clutter = Clutter(disc, np.array([5.0]), (), Rect(0, 0, 400, 400), bars)
-    frame = np.zeros(count, np.complex128), np.ones(count, np.complex128)
-    only = Wish((20.0, 10.0), np.full((count, 1), 100 + 100j), np.zeros(1), frame)
-    free = Wish(
-        (20.0, 10.0),
-        np.stack([disc[:, 0] * 0 + 100 + 100j, disc[:, 0] * 0 + 100 + 120j], 1),
-        np.array([0, 0.1]),
-        frame,
-    )
-    (stuck,) = place([only], clutter)
-    assert stuck.at(31 / count)[1] < 0.05
-    assert stuck.at(60 / count)[1] == 1.0
-    (still,) = place([free], clutter)
-    assert np.all(still.offset == still.offset[0])
-    assert still.offset[0] == 100 + 120j
-    assert still.shown.all()
-    first, second = place(
-        [only, only],
-        replace(clutter, discs=none, radii=np.zeros(0)),
-    )
-    assert first.shown.all()
-    assert not second.shown.any()
-
-
 def test_words_glide_by_quarters_of_a_pixel() -> None:
     lettering = Lettering("O₂", Type(), 20, ((0, 0, 0), (255, 255, 255)), 2.0)
     centres = []
@@ -310,10 +231,10 @@ def test_a_name_keeps_its_place_on_its_link_in_an_enlarged_view() -> None:
     for zoom in (1.0, 2.5):
         painter = Painter(scene, size, Look(names=1, zoom=zoom))
         places = painter.drawing.places(pose)
-        (crank,) = [label for label in _names(painter).labels if label.lettering.text == "crank"]
+        (crank,) = [label for label in labelled(painter).labels if label.lettering.text == "crank"]
         middle, _ = crank.placed(pose.phase / scene.period, places)
         shares.append((middle - places["O2"]) / (places["A"] - places["O2"]))
     assert shares[0].real == pytest.approx(shares[1].real)
     assert 0 < shares[0].real < 1
-    joints = {label.lettering.text for label in _names(painter).labels}
+    joints = {label.lettering.text for label in labelled(painter).labels}
     assert {"O₂", "A", "B", "O₄", "P"} <= joints

@@ -1,0 +1,142 @@
+"""A name stands on or by what it names, on no other link; of crowded places it takes the one that is free."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pictures import standing
+
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.dimensions import numbered
+from linkanim.picture.look import Look
+from linkanim.picture.painter import Painter
+from linkanim.picture.placing import Clutter, Obstacles, Solid, Wish, place
+from linkanim.picture.shapes import hull
+from linkanim.picture.view import Rect
+from linkanim.scenes import load
+
+COUNT = 72
+FRAME = np.zeros(COUNT, np.complex128), np.ones(COUNT, np.complex128)
+NONE = np.zeros((COUNT, 0), np.complex128)
+
+
+def _off(point: complex, corners: list[complex]) -> float:
+    """Return how far a point is from what corners enclose, 0 inside."""
+    ends = list(zip(corners, corners[1:] + corners[:1], strict=True))
+    turned = [((end - begin).conjugate() * (point - begin)).imag for begin, end in ends]
+    if len(corners) > 2 and (min(turned) > 0 or max(turned) < 0):
+        return 0.0
+    shares = [((point - begin) / (end - begin)).real for begin, end in ends]
+    feet = zip(ends, shares, strict=True)
+    return min(abs(point - begin - min(max(share, 0), 1) * (end - begin)) for (begin, end), share in feet)
+
+
+def _links(painter: Painter, pose: Pose) -> Iterator[tuple[str, tuple[str, ...], list[complex]]]:
+    """Yield every link, spring and damper: what it is called, its joints, and its corners in pixels."""
+    shown, places = painter._figure, painter.drawing.places(pose)
+    called = {body.name: number for body, number in numbered(shown).items()}
+    for body in shown.bodies:
+        corners = hull([places[joint] for joint in body.joints])
+        yield called.get(body.name, body.name), body.joints, corners
+    for strut in shown.struts:
+        yield strut.name, strut.between, [places[joint] for joint in strut.between]
+
+
+SCENES = ("wiper", "roberts-line", "triple-rocker", "pumpjack", "hoecken", "jansen", "watt-1", "klann")
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_no_link_s_name_stands_on_another_link(name: str) -> None:
+    """Where its middle is, nothing lies that is drawn over its own; off its own, no other link at all."""
+    scene = load(name)
+    painter = Painter(scene, (1280, 720), Look(names=1))
+    bar, bodies = painter.drawing.scenery.gauge.bar, [body.joints for body in painter._figure.bodies]
+    words = {body.name: number for body, number in numbered(painter._figure).items()}
+    for phase in np.linspace(0, scene.period, 31):
+        pose = scene.pose(float(phase))
+        links = list(_links(painter, pose))
+        for text, box in standing(painter, pose):
+            own = next((one for one in links if words.get(text, text) == one[0]), None)
+            if own is None:
+                continue
+            middle = complex(box.x + box.width / 2, box.y + box.height / 2)
+            on_it, wide = _off(middle, own[2]) < bar, len(own[2]) > 2
+            for other, joints, corners in links:
+                hides = len(corners) == 2 and (wide or bodies.index(joints) > bodies.index(own[1]))
+                if joints != own[1] and joints in bodies and (hides or not on_it):
+                    assert _off(middle, corners) > bar - 1.0, (text, other, phase)
+
+
+@pytest.mark.parametrize("name", ["press", "slider-crank", "scotch-yoke", "elliptic-trammel"])
+def test_a_slider_s_name_stands_by_its_block_and_on_no_link(name: str) -> None:
+    """Also not on the bar that leads to the block, nor on a spring below it."""
+    scene = load(name)
+    painter = Painter(scene, (1280, 720), Look(names=1))
+    bar, numbers = painter.drawing.scenery.gauge.bar, numbered(painter._figure)
+    sliders = {text: body.slider for body in numbers if body.slider for text in (body.name, numbers[body])}
+    seen = 0
+    for phase in np.linspace(0, scene.period, 31):
+        pose = scene.pose(float(phase))
+        for text, box in standing(painter, pose):
+            middle = complex(box.x + box.width / 2, box.y + box.height / 2)
+            for other, _, corners in _links(painter, pose) if text in sliders else ():
+                seen += 1
+                assert _off(middle, corners) > bar - 1.0, (text, other, phase)
+    assert seen > 20
+
+
+def _clutter(solids: tuple[Solid, ...], discs: np.ndarray = NONE) -> Clutter:
+    bars = Obstacles(NONE, NONE, np.zeros(0), np.zeros(0))
+    return Clutter(discs, np.full(discs.shape[1], 5.0), (), Rect(0, 0, 400, 400), bars, solids)
+
+
+def _wish(places: list[complex], price: list[float]) -> Wish:
+    return Wish((20.0, 10.0), np.tile(np.array(places), (COUNT, 1)), np.array(price), FRAME)
+
+
+@pytest.mark.parametrize(
+    ("corners", "taken"),
+    [
+        # the middle of a plate, far from its sides; of either turn
+        ((0j, 200 + 0j, 200 + 200j, 200j), 100 + 300j),
+        ((0j, 200j, 200 + 200j, 200 + 0j), 100 + 300j),
+        # a bar right through it, and a bar that ends before it
+        ((0 + 100j, 200 + 100j), 100 + 300j),
+        ((200 + 100j, 300 + 100j), 100 + 100j),
+        # a plate beside it
+        ((200 + 0j, 300 + 0j, 300 + 200j), 100 + 100j),
+    ],
+)
+def test_a_label_keeps_off_the_solids_that_it_shuns(corners: tuple[complex, ...], taken: complex) -> None:
+    solid = Solid(np.tile(np.array(corners), (COUNT, 1)), 8.0)
+    wish = _wish([100 + 100j, 100 + 300j], [0.0, 0.5])
+    heedful = wish._replace(shunned=np.ones((2, 1), np.bool_))
+    (found,) = place([heedful], _clutter((solid,)))
+    assert np.all(found.offset == taken)
+    assert found.shown.all()
+    (careless,) = place([wish], _clutter((solid,)))
+    assert np.all(careless.offset == 100 + 100j)
+
+
+def test_a_label_keeps_still_where_nothing_comes_in_its_way_and_is_gone_where_it_must_be() -> None:
+    """A disc sweeps over the only place of one label, and past one of two places of another."""
+    disc = np.full((COUNT, 1), 500 + 500j)
+    disc[30:33] = 100 + 100j
+    clutter = _clutter((), disc)
+    only, free = _wish([100 + 100j], [0.0]), _wish([100 + 100j, 100 + 120j], [0.0, 0.1])
+    (stuck,) = place([only], clutter)
+    assert stuck.at(31 / COUNT)[1] < 0.05
+    assert stuck.at(60 / COUNT)[1] == 1.0
+    (still,) = place([free], clutter)
+    assert np.all(still.offset == still.offset[0])
+    assert still.offset[0] == 100 + 120j
+    assert still.shown.all()
+    first, second = place(
+        [only, only],
+        replace(clutter, discs=NONE, radii=np.zeros(0)),
+    )
+    assert first.shown.all()
+    assert not second.shown.any()
