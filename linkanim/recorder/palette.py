@@ -16,6 +16,8 @@ Bytes = NDArray[np.uint8]
 MOST = 255
 """A GIF has 256 colours; one stands for what does not change, or is transparent."""
 _FLAT = 64
+_LENGTH_BITS = np.uint64(32)
+_LENGTH = np.uint64((1 << 32) - 1)
 _OPAQUE = 128
 """Alpha from which a pixel counts as opaque: half, as in the encoder."""
 
@@ -47,22 +49,23 @@ def make_palette(
 def _counted(samples: Iterable[Bytes], alpha: bool) -> tuple[Bytes, NDArray[np.int64]]:
     """Return each opaque colour (n, 3) of the samples once, and how many pixels have it."""
     # map lets go of each sample before it asks for the next, which may be drawn in its place
-    runs = list(map(partial(_runs, alpha=alpha), samples))
-    values = np.concatenate([values for values, _ in runs])
-    lengths = np.concatenate([lengths for _, lengths in runs])
-    unique, where = np.unique(values, return_inverse=True)
-    counts = np.bincount(where, weights=lengths, minlength=len(unique)).astype(np.int64)
+    runs = np.concatenate(list(map(partial(_runs, alpha=alpha), samples)))
+    runs.sort()
+    values = (runs >> _LENGTH_BITS).astype(np.uint32)
+    first = np.flatnonzero(np.append(True, values[1:] != values[:-1])[: len(values)])
+    unique, counts = values[first], np.add.reduceat((runs & _LENGTH).astype(np.int64), first)
     return np.stack([unique >> 16 & 255, unique >> 8 & 255, unique & 255], axis=1).astype(np.uint8), counts
 
 
-def _runs(sample: Bytes, *, alpha: bool) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
-    """Return the opaque runs of equal pixels: 0xrrggbb and length; far fewer than the pixels."""
+def _runs(sample: Bytes, *, alpha: bool) -> NDArray[np.uint64]:
+    """Return the opaque runs of equal pixels, far fewer than these: 0xrrggbb, and their length below it."""
     pixels = np.ascontiguousarray(sample).view("<u4").reshape(-1)
     starts = np.flatnonzero(np.concatenate([[True], pixels[1:] != pixels[:-1]]))
-    lengths = np.diff(starts, append=len(pixels)).astype(np.int64)
-    values = pixels[starts].astype(np.uint32)
+    lengths = np.diff(starts, append=len(pixels)).astype(np.uint64)
+    values = pixels[starts]
     opaque = (values >> 24 >= _OPAQUE) | (not alpha)
-    return values[opaque] & np.uint32(0xFFFFFF), lengths[opaque]
+    colours = (values & np.uint32(0xFFFFFF)).astype(np.uint64)
+    return (colours << _LENGTH_BITS | lengths)[opaque]
 
 
 class _Box(NamedTuple):
