@@ -14,7 +14,7 @@ import numpy as np
 
 from linkanim.cells import csv_head, csv_rows, lines
 from linkanim.cli import table
-from linkanim.cli.commands import EVERY_ANGLE
+from linkanim.cli.options import EVERY_ANGLE
 from linkanim.cli.strict import json_text
 from linkanim.cli.sweeping import RowBlock, Steps, blocks
 from linkanim.cli.tree import Leaf, Tree, input_key, leaves, mapped, rows, tree

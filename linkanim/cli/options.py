@@ -1,0 +1,263 @@
+"""Which options each command takes; those that several take are written once."""
+
+from __future__ import annotations
+
+from argparse import BooleanOptionalAction
+from pathlib import Path
+
+from linkanim import units
+from linkanim.cli import values
+from linkanim.cli.parser import Parser, valued
+from linkanim.cli.presets import PRESETS
+
+IN_SCENE = "a built-in scene's name (see `linkanim scenes`), or the path of a scene file"
+EVERY_ANGLE = object()
+"""What `--phase` without a value stands for: each angle of the sweep."""
+
+
+def play(parser: Parser) -> None:
+    """Add what the window takes."""
+    parser.add_argument("scene", nargs="?", metavar="SCENE", help=f"{IN_SCENE}, or of a tape")
+    parser.add_argument(
+        "--attract", action="store_true", help="walk through the scenes when no key is pressed for a minute"
+    )
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="the window's, in pixels")
+    _theme(parser)
+
+
+def record(parser: Parser) -> None:
+    """Add what a recording takes."""
+    parser.add_argument("scene", metavar="SCENE", help=f"{IN_SCENE}, or of a tape")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="OUT",
+        help="OUT.gif, OUT.mp4 or OUT.png (default: SCENE.gif here)",
+    )
+    parser.add_argument(
+        "--for", dest="preset", choices=tuple(PRESETS), help="size, fps and format for a purpose"
+    )
+    _clip(parser)
+    _look(parser)
+    parser.add_argument("--progress", action="store_true", help="show it also where stderr is no terminal")
+
+
+def _clip(parser: Parser) -> None:
+    """How long, how fast and how large."""
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    parser.add_argument(
+        "--fps", type=valued(values.positive), metavar="N", help="frames a second (default: 25)"
+    )
+    _speed(parser)
+    length = parser.add_mutually_exclusive_group()
+    length.add_argument("--periods", type=valued(values.count), metavar="N", help="true periods (default: 1)")
+    length.add_argument(
+        "--seconds", type=valued(values.positive), metavar="S", help="the clip's length; it need not close"
+    )
+    parser.add_argument("--reverse", action="store_true", help="run backwards")
+
+
+def _look(parser: Parser) -> None:
+    """What is shown."""
+    _shown(parser)
+    parser.add_argument("--hud", action=BooleanOptionalAction, default=True, help="the lines of text")
+    parser.add_argument(
+        "--noted", action="store_true", help="say in them where a limit or a change point is near"
+    )
+    parser.add_argument("--chart", metavar="QTY", help="a quantity over the period, such as rocker.angle")
+    _theme(parser)
+    parser.add_argument("--transparent", action="store_true", help="no background (GIF and PNG)")
+
+
+def _shown(parser: Parser) -> None:
+    """What is shown of the motion itself."""
+    parser.add_argument(
+        "--trace", action=BooleanOptionalAction, default=True, help="curves of the traced joints"
+    )
+    parser.add_argument(
+        "--vectors",
+        type=valued(values.vectors),
+        default=frozenset(),
+        metavar="v,a",
+        help="velocity, acceleration",
+    )
+    parser.add_argument(
+        "--names",
+        action="count",
+        default=0,
+        help="name joints and links; twice: their dimensions and the input's angle, too",
+    )
+    parser.add_argument(
+        "--polygons", action="store_true", help="velocity and acceleration polygons beside the linkage"
+    )
+    parser.add_argument(
+        "--instant-centres",
+        action="store_true",
+        help="mark the instant centres of all links, of more than five those to the ground",
+    )
+    parser.add_argument(
+        "--centrodes", action="store_true", help="and the curves that the coupler's runs along"
+    )
+
+
+def _theme(parser: Parser) -> None:
+    parser.add_argument("--theme", choices=("light", "dark"), default="light", help="default: light")
+
+
+def solve(parser: Parser) -> None:
+    """Add what solving takes."""
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument(
+        "--angle", type=valued(units.angle), metavar="ANGLE", help='crank angle, such as "87 deg"'
+    )
+    parser.add_argument(
+        "--phase",
+        type=valued(units.angle),
+        nargs="?",
+        const=EVERY_ANGLE,
+        metavar="PHASE",
+        help="phase instead of the crank angle, through limits too; 360 deg is one period of the drive "
+        "(without a value, beside --sweep: sweep the phase)",
+    )
+    parser.add_argument(
+        "--sweep",
+        type=valued(values.sweep),
+        metavar="A:B:STEP",
+        help="a row for each angle from A to B, in degrees",
+    )
+    _speed(parser)
+    parser.add_argument(
+        "--acceleration",
+        type=valued(units.angular_acceleration),
+        default=0.0,
+        metavar="ACC",
+        help='such as "2 rad/s^2" (default: 0)',
+    )
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="one object, or a list of them for a sweep")
+    form.add_argument("--csv", metavar="OUT", help="write the sweep to the file OUT (- for stdout)")
+
+
+def _speed(parser: Parser) -> None:
+    parser.add_argument(
+        "--speed",
+        type=valued(units.angular_speed),
+        metavar="SPEED",
+        help='such as "30 rpm" (default: the scene\'s)',
+    )
+
+
+def info(parser: Parser) -> None:
+    """Add what telling of a linkage takes."""
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument("--json", action="store_true", help="one object; angles in radians, time in s")
+
+
+def check(parser: Parser) -> None:
+    """Add what checking scene files takes."""
+    parser.add_argument("files", nargs="*", metavar="FILE", help="scene files")
+    parser.add_argument("--json", action="store_true", help="a list of objects, one for each file")
+    parser.add_argument("--schema", action="store_true", help="print the JSON Schema of scene files")
+
+
+def scenes(parser: Parser) -> None:
+    """Add what listing the scenes takes."""
+    parser.add_argument(
+        "word",
+        nargs="?",
+        metavar="WORD",
+        help="only those whose title, class or chapter has this in it (default: all)",
+    )
+
+
+def chart(parser: Parser) -> None:
+    """Add what a chart takes."""
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument(
+        "--quantity",
+        required=True,
+        metavar="Q[,Q...]",
+        help="such as rocker.angular_velocity or B.velocity.x; a wrong one is answered with the list",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="OUT",
+        help="OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png here)",
+    )
+    parser.add_argument(
+        "--over",
+        choices=("angle", "time", "phase"),
+        help="default: the driven bar's angle, of an input that swings the time",
+    )
+    parser.add_argument(
+        "--speeds",
+        metavar="SPEED[,SPEED...]",
+        help='a curve for each, such as "5 rad/s,10 rad/s" (default: the scene\'s)',
+    )
+    parser.add_argument(
+        "--data", type=Path, metavar="OTHER.csv", help="lay a table over it: angle in degrees, value"
+    )
+    parser.add_argument(
+        "--label", metavar="TEXT", help="what that table is called (default: its file's name)"
+    )
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    _theme(parser)
+
+
+def draw(parser: Parser) -> None:
+    """Add what a figure takes."""
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="OUT",
+        help="OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg here)",
+    )
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--angle", type=valued(units.angle), metavar="ANGLE", help='crank angle, such as "87 deg"'
+    )
+    where.add_argument(
+        "--phase", type=valued(units.angle), metavar="PHASE", help="phase instead (default: the start)"
+    )
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    _shown(parser)
+    parser.add_argument("--ghost", action="store_true", help="the other closure, faintly")
+    parser.add_argument(
+        "--poses", type=valued(values.poses), metavar="N", help="N faint poses over the period behind it"
+    )
+    _theme(parser)
+    parser.add_argument("--transparent", action="store_true", help="no background")
+
+
+def report(parser: Parser) -> None:
+    """Add what a report takes."""
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="DIR", help="the folder to make, or to make anew"
+    )
+    parser.add_argument(
+        "--angles",
+        metavar="ANGLE[,ANGLE...]",
+        help='where to tell every quantity, such as "87 deg,306 deg" (default: the start and the extremes)',
+    )
+    parser.add_argument(
+        "--speeds",
+        metavar="SPEED[,SPEED...]",
+        help='for tables and charts, such as "5 rad/s,10 rad/s" (default: the scene\'s)',
+    )
+
+
+def gallery(parser: Parser) -> None:
+    """Add what the gallery takes."""
+    parser.add_argument(
+        "--into",
+        type=Path,
+        default=Path("recordings"),
+        metavar="FOLDER",
+        help="where to (default: recordings)",
+    )
