@@ -15,6 +15,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 from .expression import Expr, Value, rint
 
@@ -52,23 +53,27 @@ def tangent(angle: Value, share: float) -> Value:
     return angle + square * poles * angle
 
 
+class Squares(NamedTuple):
+    """sin², cos² and sin × cos of half an angle, times one factor."""
+
+    sine: Value
+    cosine: Value
+    product: Value
+
+
 @dataclass(frozen=True)
 class Half:
     """Half an angle, worked out as far as it is asked for.
 
-    `sides` gives sine and cosine, signed over two turns, `squares` sin², cos² and sin × cos.
+    `sides` gives sine and cosine, signed over two turns, `squares` what is free of that sign, times a factor.
     """
 
     sides: Callable[[], Pair]
-    squares: Callable[[], tuple[Value, Value, Value]]
+    squares: Callable[[float], Squares]
 
     @cached_property
     def _sides(self) -> Pair:
         return self.sides()
-
-    @cached_property
-    def _squares(self) -> tuple[Value, Value, Value]:
-        return self.squares()
 
     @property
     def sine(self) -> Value:
@@ -80,36 +85,21 @@ class Half:
         """The cosine of half the angle."""
         return self._sides[1]
 
-    @property
-    def square(self) -> Value:
-        """The sine's square."""
-        return self._squares[0]
-
-    @property
-    def cosine_square(self) -> Value:
-        """The cosine's square."""
-        return self._squares[1]
-
-    @property
-    def difference(self) -> Value:
-        """The cosine's square less the sine's: the cosine of the whole angle."""
-        return self._squares[1] - self._squares[0]
-
-    @property
-    def product(self) -> Value:
-        """Sine times cosine."""
-        return self._squares[2]
-
 
 def half_of(sine: Value, cosine: Value) -> Half:
     """Return the half angle of a sine and a cosine."""
-    return Half(lambda: (sine, cosine), lambda: (sine * sine, cosine * cosine, sine * cosine))
+
+    def squares(factor: float) -> Squares:
+        return Squares(sine * sine * factor, cosine * cosine * factor, sine * cosine * factor)
+
+    return Half(lambda: (sine, cosine), squares)
 
 
-def half_angle(angle: Value, rest: Value = 0.0) -> Half:
+def half_angle(angle: Value, rest: Value = 0.0, size: float = 1.0) -> Half:
     """Return half of angle + rest; the cosine to the last digit of 1, the sine to its own.
 
-    Both are rational in the tangent t of half of it: (1 - t²)/(1 + t²) and 2t/(1 + t²).
+    Both are rational in the tangent t of half of it: (1 - t²)/(1 + t²) and 2t/(1 + t²). Squares times
+    `size` cost no more than those alone.
     """
     if _is_exact(angle):
         return _exact_half(angle, rest)
@@ -122,11 +112,11 @@ def half_angle(angle: Value, rest: Value = 0.0) -> Half:
         share = _sign(n) / norm
         return t * share * 8.0, rest_of_norm * share
 
-    def squares() -> tuple[Value, Value, Value]:
-        share = 64.0 / (norm * norm)
+    def squares(factor: float) -> Squares:
+        share = 64.0 * size / (norm * norm) * (factor / size)
         # cos² of its own: 1 - sin² would hand its error on doubled to cos² - sin².
         cosine_square = rest_of_norm * rest_of_norm * share * (1 / 64)
-        return square * share, cosine_square, t * share * rest_of_norm * 0.125
+        return Squares(square * share, cosine_square, t * share * rest_of_norm * 0.125)
 
     return Half(sides, squares)
 

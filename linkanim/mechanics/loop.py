@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING
 
 from linkanim.errors import AssemblyError
@@ -79,8 +80,10 @@ class Loop:
 
     @property
     def form(self) -> Callable[[Value, Value], Half]:
-        """How ψ/2 is worked out: with as many digits of its cosine as the root needs."""
-        return sharp_half_angle if self.root.u.kind is Kind.PLAIN and not self.root.wide else half_angle
+        """How ψ/2 is worked out: with as many digits of its cosine as the root needs, squares times 2r."""
+        if self.root.u.kind is Kind.PLAIN and not self.root.wide:
+            return sharp_half_angle
+        return partial(half_angle, size=2.0 * self.crank.length)
 
 
 def own_loop(crank: str, loops: Mapping[str, Loop]) -> Loop | None:

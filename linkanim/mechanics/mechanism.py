@@ -20,7 +20,7 @@ from .measures import DERIVATIVE_OF, NUMBERS, VECTORS
 from .motion import Array, Motion, Pose, Setting
 from .planar import MovingPoint, Slope
 from .program import Batch, batch, scalar
-from .request import CRANK, Programs, Request, Variant
+from .request import CRANK, Programs, Request, Variant, shaped
 from .walk import Kinematics
 
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
@@ -138,19 +138,13 @@ class Mechanism:
     ) -> Motion:
         """Return the motion at crank angles, or at phases; scalar or any shape."""
         given = np.asarray(angle if phase is None else phase, dtype=np.float64)
-        w, a = (np.asarray(rate, dtype=np.float64) for rate in (speed, acceleration))
-        if w.ndim or a.ndim:
-            shape = np.broadcast_shapes(given.shape, w.shape, a.shape)
-            variant = Variant(phase is not None, True, True)
-            rates: tuple[Any, Any] = (_kept(w, shape), _kept(a, shape))
-            told: tuple[Any, Any] = rates[0].reshape(shape), rates[1].reshape(shape)
-        else:
-            shape, told = given.shape, (float(w), float(a))
-            variant, rates = Variant(phase is not None, told[1] != 0.0), told
+        rates, shape = _rates(speed, acceleration, given.shape)
+        varying = isinstance(rates[0], np.ndarray)
+        variant = Variant(phase is not None, varying or rates[1] != 0.0, varying)
         x = _kept(given, shape)
         reached = self.assembly.path.reach(x) if phase is None else None
         request = Request(self.programs(variant), x, reached, rates, shape, derivatives)
-        return Motion(self.setting, *told, request)
+        return Motion(self.setting, shaped(rates[0], shape), shaped(rates[1], shape), request)
 
     def programs(self, variant: Variant) -> Programs:
         """Return the programs over arrays for one way of asking."""
@@ -184,6 +178,19 @@ def _dict_display(values: Mapping[str, tuple[Value, ...]]) -> str:
         for name, components in values.items()
     )
     return "{{" + ", ".join(items) + "}}"
+
+
+def _rates(
+    speed: float | ArrayLike, acceleration: float | ArrayLike, shape: tuple[int, ...]
+) -> tuple[tuple[Any, Any], tuple[int, ...]]:
+    """Return one speed and acceleration for all instants, or arrays of them, and the shape of the answer."""
+    if isinstance(speed, float) and isinstance(acceleration, float):
+        return (speed, acceleration), shape
+    w, a = (np.asarray(rate, dtype=np.float64) for rate in (speed, acceleration))
+    if w.ndim or a.ndim:
+        shape = np.broadcast_shapes(shape, w.shape, a.shape)
+        return (_kept(w, shape), _kept(a, shape)), shape
+    return (float(w), float(a)), shape
 
 
 def _kept(values: Array, shape: tuple[int, ...]) -> Array:

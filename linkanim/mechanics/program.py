@@ -247,7 +247,9 @@ def _prelude(
 class _Plan:
     """Where each varying node's values live: its result row, or a place that is free by then.
 
-    A result row is free until its own values are worked out: that keeps what is in use in the cache.
+    A result row is free until its own values are worked out: that keeps what is in use in the cache. And a
+    value takes a place that can be handed on down to a result, each written over one of its arguments: a
+    row less to fetch, which is what a pass costs.
     """
 
     def __init__(self, nodes: Sequence[Expr], outputs: Sequence[Value]) -> None:
@@ -278,11 +280,22 @@ class _Plan:
             if node.index not in self.places:
                 ending.setdefault(last[node.index], []).append(node.index)
         free = sorted(filled, key=filled.__getitem__, reverse=True)
+        heirs = self._heirs(last)
         for position, node in enumerate(self.nodes):
             free += [self.places[index] for index in ending.get(position, ())]
             if node.index not in self.places:
-                until = (position, last[node.index])
-                self.places[node.index] = _taken(free, until, filled) or self._grow()
+                until, goal = heirs[node.index]
+                found = _taken_from(free, position, (until, last[node.index]), goal, filled)
+                self.places[node.index] = found or self._grow()
+
+    def _heirs(self, last: Mapping[int, int]) -> dict[int, tuple[int, str]]:
+        """Return until when each value's place can be handed on, and the result's row that would be best."""
+        heirs: dict[int, tuple[int, str]] = {}
+        for node in reversed(self.nodes):
+            if node.index not in self.places:
+                user = self.nodes[last[node.index]].index
+                heirs[node.index] = heirs.get(user) or (last[node.index], self.places[user])
+        return heirs
 
     def _grow(self) -> str:
         self.buffers += 1
@@ -309,6 +322,16 @@ class _Plan:
                 yield f"{node.op}({', '.join(arguments)}, {target})"
         for row, value in self.copies:
             yield f"o{row}[...] = {self.name(value)}"
+
+
+def _taken_from(
+    free: list[str], position: int, until: tuple[int, int], goal: str, filled: Mapping[str, int]
+) -> str | None:
+    """Take the goal, else a place that stays free until one of two positions, the first if there is any."""
+    if goal in free:
+        free.remove(goal)
+        return goal
+    return _taken(free, (position, until[0]), filled) or _taken(free, (position, until[1]), filled)
 
 
 def _taken(free: list[str], until: tuple[int, int], filled: Mapping[str, int]) -> str | None:

@@ -58,14 +58,14 @@ ALWAYS = Factor(1.0, 1.0, quarter_turns(2), Sum(0.0))
 class LoopRoot:
     """U, W and K of one loop. `reference` is the angle of the crank at ψ = 0.
 
-    `spread` is K, by which each factor varies over a turn; 1 in a four-bar, whose factors are taken over
-    4 g r.
+    `spread` is K, by which each factor varies over a turn; lengths squared are taken over `unit`.
     """
 
     spread: float
     u: Factor
     w: Factor
     reference: Sum
+    unit: float = 1.0
 
     @property
     def wide(self) -> bool:
@@ -98,23 +98,25 @@ def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
 def four_bar_root(ground: float, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:
     """Return the root of crank pin against fixed pin: ground r1, crank r2, bars r3, r4.
 
-    cU = (r3+r4-r1-r2)(r3+r4+r1+r2) and cW = (r1-r2-r3+r4)(r1-r2+r3-r4), here over 4 r1 r2: so is q, and
-    K is 1.
+    cU = (r3+r4-r1-r2)(r3+r4+r1+r2) and cW = (r1-r2-r3+r4)(r1-r2+r3-r4). Where neither root vanishes they
+    are taken over 2 r1, as q is: K is 2 r2, which the crank's pin needs anyway. Else over 4 r1 r2: K is 1,
+    of which the root is exact.
     """
     coupler, rocker = bars
     g, r, a, b = (Fraction(length) for length in (ground, crank, coupler, rocker))
-    scale = 4 * g * r
     u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2
     u_least = gap(coupler, rocker, -ground, -crank) * math.fsum((coupler, rocker, ground, crank))
     w_least = gap(ground, -crank, -coupler, rocker) * gap(ground, -crank, coupler, -rocker)
-    size = float(scale)
     touching_u = gap(coupler, rocker, -ground, crank) == 0
     touching_w = 0 in (gap(ground, crank, -coupler, rocker), gap(ground, crank, coupler, -rocker))
+    spread = 2 * r if u_least > 0 and w_least > 0 else Fraction(1)
+    unit = 4 * g * r / spread
     return LoopRoot(
-        1.0,
-        factor(u_least / size, _unless(touching_u, u_most / scale), Fraction(1), u_most / scale),
-        factor(w_least / size, _unless(touching_w, w_most / scale), Fraction(1), w_most / scale),
+        float(spread),
+        factor(u_least / float(unit), _unless(touching_u, u_most / unit), spread, u_most / unit),
+        factor(w_least / float(unit), _unless(touching_w, w_most / unit), spread, w_most / unit),
         reference,
+        float(unit),
     )
 
 

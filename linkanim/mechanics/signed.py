@@ -20,7 +20,8 @@ Shigley, Theory of Machines and Mechanisms, for the loop; the half angles take i
 
 The c are products of sums of lengths as they were given, so nothing cancels. A slider (U, W = b ∓ e, with
 e = e₀ - r cos ψ and K = 2 r) and a slot (W alone) have the same form; `roots` has all three, there a
-four-bar's divided by 4 g r, so that its K is 1. What a factor does is the sign of its c:
+four-bar's over 2 g, so that its K is 2 r, or over 4 g r where a factor vanishes: its K is 1. What a factor
+does is the sign of its c:
 
 - c > 0: it never vanishes. Where both are positive the crank turns fully, each closure on its own.
 - c = 0: a **change point**. √U is √K cos(ψ/2), with the cosine's sign: it goes through zero as smoothly as
@@ -126,18 +127,19 @@ def sign_of_root(root: LoopRoot, half: Half) -> int:
 
 def _spread_rates(root: LoopRoot, half: Half, pace: Slope) -> Moving:
     """Return K sin²(ψ/2) with its two derivatives."""
-    w, square = pace.value, half.square * root.spread
-    bend = (0.5 * root.spread - square) * (w * w)
-    return Moving(square, half.product * (w * root.spread), bend + half.product * (pace.rate * root.spread))
+    w, squares = pace.value, half.squares(root.spread)
+    bend = (0.5 * root.spread - squares.sine) * (w * w)
+    return Moving(squares.sine, squares.product * w, bend + squares.product * pace.rate)
 
 
 def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value, Value]:
     """Return U, W and half of U - W (1/2 where there is no U)."""
-    spread = half.square * root.spread
+    squares = half.squares(root.spread)
+    spread = squares.sine
     w = spread + root.w.least
     if root.single:
         return 1.0, w, 0.5
-    u = root.u.most - spread if root.wide else half.cosine_square * root.spread + root.u.least
+    u = root.u.most - spread if root.wide else squares.cosine + root.u.least
     return u, w, 0.5 * (root.u.most - root.w.least) - spread
 
 
@@ -206,7 +208,7 @@ def sharpened(root: LoopRoot, half: Half, swing: Swinging | None) -> Half:
 def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:
     """Return q as the product of its two signed roots, and ρ with what vanishes in both divided out."""
     half_rate, scale = pace.value * 0.5, math.sqrt(root.spread)
-    first = half.product * (pace.value * root.spread)
+    first = half.squares(root.spread).product * pace.value
     u, w, _ = factor_values(root, half)
     sine = Slope(half.sine, half.cosine * half_rate)
     cosine = Slope(half.cosine, -(half.sine * half_rate))

@@ -172,9 +172,10 @@ class CylinderStroke(Stroke):
         sine, cosine = sqrt(beyond * (length + abs(g - r))), sqrt(short * (g + r + length))
         scale = 0.5 / math.sqrt(g * r)
         half = half_of(sine * (scale * self.side), cosine * scale)
-        product = half.product * (2 * g * r)
-        turning = length * rate / product
-        bend = (rate * rate + length * second - half.difference * (g * r) * turning * turning) / product
+        squares = half.squares(2 * g * r)
+        turning = length * rate / squares.product
+        along = (squares.cosine - squares.sine) * 0.5
+        bend = (rate * rate + length * second - along * turning * turning) / squares.product
         angle = arctan2(half.sine, half.cosine) * 2.0
         return HalfState(angle, self.base, turning, bend, pace, own=half)
 

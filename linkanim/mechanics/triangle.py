@@ -34,9 +34,9 @@ class Triangle:
 
 @dataclass(frozen=True, slots=True)
 class PinLoop:
-    """A crank pin against a fixed pin: ground vector (length, unit), crank, and the pin's ψ.
+    """A crank pin against a fixed pin: ground vector (length, direction), crank, and the pin's ψ.
 
-    `half` is ψ/2, `pace` is ψ' with its derivative.
+    `half` is ψ/2, `pace` is ψ' with its derivative; K and the unit of lengths squared are the root's.
     """
 
     ground: float
@@ -44,29 +44,31 @@ class PinLoop:
     crank: float
     half: Half
     pace: Slope
+    spread: float
+    unit: float
 
     def across(self) -> Vec:
         """Return D from the crank pin to the fixed pin, exact where the two nearly meet."""
-        twice = 2.0 * self.crank
-        along = self.half.square * twice + (self.ground - self.crank)
-        return Vec(along, -(self.half.product * twice)).times(self.direction)
+        squares = self.half.squares(2.0 * self.crank)
+        return Vec(squares.sine + (self.ground - self.crank), -squares.product).times(self.direction)
 
 
 def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) -> Triangle:
     """Return the triangle of a crank pin and a fixed pin, without cancellation.
 
-    Lengths squared are taken over 4 g r, so that L² is sin²(ψ/2) and a constant; so is the root.
+    Lengths squared are taken over the root's unit, so that L² is K sin²(ψ/2) and a constant.
     """
     (a, b), g, r = lengths, loop.ground, loop.crank
     if g == r and a == b:
         return _kite(loop, root)
     w, wd = loop.pace.value, loop.pace.rate
-    square, unit = loop.half.square, 4.0 * g * r
+    unit, squares = loop.unit, loop.half.squares(loop.spread)
+    square = squares.sine
     share = 0.5 / (square + (g - r) * (g - r) / unit)
     # (L²)'/(4 L⁴): what the shares of D and e both change with.
-    change = loop.half.product * w * share * share
+    change = squares.product * w * share * share
     excess, outer = 2.0 * (b - a) * (b + a) / unit, 2.0 * (g - r) * (g + r) / unit
-    turn = Slope(*(_turn(square, share, (g, r), rate) for rate in (w, wd)))
+    turn = Slope(*(_turn(loop, square, share, rate) for rate in (w, wd)))
     across = loop.across()
     return Triangle(
         across=across,
@@ -78,15 +80,15 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
     )
 
 
-def _turn(square: Value, share: Value, lengths: tuple[float, float], rate: Value) -> Value:
+def _turn(loop: PinLoop, square: Value, share: Value, rate: Value) -> Value:
     """Return e for a rate of ψ, (r² - g r cos ψ)/L² of it: half, and a share where g and r are alike.
 
     Where one is much the longer, the half would cancel and leave few digits of a small rest.
     """
-    g, r = lengths
+    g, r, unit = loop.ground, loop.crank, loop.unit
     if g < 8 * r and r < 8 * g:
-        return share * (rate * ((r - g) * (r + g) / (4.0 * g * r))) + rate * 0.5
-    return (square + (r - g) / (2.0 * g)) * share * rate
+        return share * (rate * ((r - g) * (r + g) / unit)) + rate * 0.5
+    return (square + (r - g) * (2.0 * r) / unit) * share * rate
 
 
 def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:

@@ -96,7 +96,8 @@ class Walk:
         """Return the root of a loop between a crank pin and a fixed pin, and where the two are."""
         assert loop.ground is not None
         root, half, pace = self.loop_root(loop, sign)
-        return root, PinLoop(loop.ground.length, loop.ground.direction, loop.crank.length, half, pace)
+        ground, units = loop.ground, (loop.root.spread, loop.root.unit)
+        return root, PinLoop(ground.length, ground.direction, loop.crank.length, half, pace, *units)
 
     def span_root(self, name: str, across: MovingPoint, lengths: tuple[float, float]) -> SignedRoot:
         """Return the root of two bars on points that both move, D apart."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from mpmath import mp, mpf
 
 from linkanim.mechanics.circular import (
     PI_PARTS,
+    Half,
     cosine_within,
     direction,
     half_angle,
@@ -75,18 +77,39 @@ def test_what_is_left_of_an_angle_has_all_its_digits(turns: float) -> None:
             assert abs(left - true) <= abs(true) * mpf(2) ** -53 * 1.01 + least
 
 
-FORMS = {"half": half_angle, "sharp": sharp_half_angle}
+FORMS: Mapping[str, Callable[[float, float], Half]] = {
+    "half": half_angle,
+    "grown": partial(half_angle, size=0.3),
+    "sharp": sharp_half_angle,
+}
+RATIONAL = {"sine": 2, "cosine": 2.5, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2}
 BOUNDS = {
-    "half": {"sine": 2, "cosine": 2.5, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2},
+    "half": RATIONAL,
+    "grown": RATIONAL,
     "sharp": {"sine": 1.2, "cosine": 1.2, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2},
 }
+SIZES = {"half": 1.0, "grown": 0.3, "sharp": 1.0}
+"""What the squares are asked times."""
 
 
-def true_half(angle: float, rest: float) -> dict[str, Any]:
+def values(half: Half, size: float) -> dict[str, Value]:
+    """Return all that half an angle tells, squares times a size."""
+    square, cosine_square, product = half.squares(size)
+    return {
+        "sine": half.sine,
+        "cosine": half.cosine,
+        "square": square,
+        "cosine_square": cosine_square,
+        "product": product,
+        "difference": cosine_square - square,
+    }
+
+
+def true_half(angle: float, rest: float, size: float) -> dict[str, Any]:
     x = (mpf(angle) + mpf(rest)) / 2
     s, c = mp.sin(x), mp.cos(x)
     squares = {"square": s * s, "cosine_square": c * c, "product": s * c, "difference": c * c - s * s}
-    return {"sine": s, "cosine": c, **squares}
+    return {"sine": s, "cosine": c} | {name: size * square for name, square in squares.items()}
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -94,9 +117,10 @@ def test_half_an_angle_is_good_to_a_few_last_digits_of_one(form: str) -> None:
     worst = dict.fromkeys(BOUNDS[form], 0.0)
     for angle in ANGLES:
         rest = 3e-17 * angle
-        half = FORMS[form](angle, rest)
-        for name, true in true_half(angle, rest).items():
-            worst[name] = max(worst[name], units(getattr(half, name), true))
+        found, size = values(FORMS[form](angle, rest), SIZES[form]), SIZES[form]
+        for name, true in true_half(angle, rest, size).items():
+            whole = size if "square" in name or name in ("product", "difference") else 1
+            worst[name] = max(worst[name], units(found[name], true, of=whole))
     assert all(worst[name] <= bound for name, bound in BOUNDS[form].items()), worst
 
 
@@ -106,9 +130,10 @@ def test_half_an_angle_is_good_to_a_few_last_digits_of_one(form: str) -> None:
 )
 def test_next_to_a_zero_there_are_still_all_digits(form: str, names: list[str]) -> None:
     for angle in NEAR_ZEROS:
-        half, true = FORMS[form](angle, 0.0), true_half(angle, 0.0)
+        found = values(FORMS[form](angle, 0.0), SIZES[form])
+        true = true_half(angle, 0.0, SIZES[form])
         for name in names:
-            assert units(getattr(half, name), true[name], of=true[name]) <= 4, (angle, name)
+            assert units(found[name], true[name], of=true[name]) <= 4, (angle, name)
 
 
 @pytest.mark.parametrize(
@@ -137,19 +162,16 @@ def test_a_direction_of_floats() -> None:
 def test_floats_and_arrays_get_the_same_bits(form: str) -> None:
     # Plain operators on arrays: neither a formula graph nor a compiled program between.
     angles = np.array(ANGLES)
+    together = _on_arrays(FORMS[form], angles, SIZES[form])
+    alone = [values(FORMS[form](angle, 0.0), SIZES[form]) for angle in ANGLES]
     for name in BOUNDS[form]:
-        alone = [getattr(FORMS[form](angle, 0.0), name) for angle in ANGLES]
-        together = getattr(_on_arrays(FORMS[form], angles), name)
-        assert np.array(alone).tobytes() == together.tobytes()
+        assert np.array([one[name] for one in alone]).tobytes() == together[name].tobytes()
 
 
-def _on_arrays(form: Callable[..., Any], angles: Any) -> Any:
+def _on_arrays(form: Callable[..., Any], angles: Any, size: float) -> Any:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("linkanim.mechanics.circular.rint", np.rint)
-        half = form(angles, 0.0)
-        for name in ("sine", "square"):
-            getattr(half, name)
-        return half
+        return values(form(angles, 0.0), size)
 
 
 @pytest.mark.parametrize("x", [0.0, -0.0, 0.5, 1.5, -0.5, -2.5, 0.49999999999999994, 2.0**51 - 0.5])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING
 
 from linkanim.mechanics.circular import half_angle
@@ -64,11 +65,12 @@ class Crank(Joint):
         """
         gearing = walk.assembly.gears[self.name]
         loop = own_loop(self.name, walk.assembly.loops)
-        half = walk.state.half(-gearing.offset, gearing.ratio, form=loop.form if loop else half_angle)
-        twice = 2.0 * self.length
+        form = loop.form if loop else partial(half_angle, size=2.0 * self.length)
+        half = walk.state.half(-gearing.offset, gearing.ratio, form=form)
+        squares = half.squares(2.0 * self.length)
         spans = loop is not None and loop.ground is not None
-        along = self.length - half.square * twice if spans else half.difference * self.length
-        arm = Vec(along, half.product * twice)
+        along = self.length - squares.sine if spans else (squares.cosine - squares.sine) * 0.5
+        arm = Vec(along, squares.product)
         pace = walk.pace(gearing)
         walk.points[self.name] = walk.points[self.pivot] + carried(arm, pace)
         walk.add_piece(pace, (self.pivot, self.name), arm)
