@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 import linkanim
 from linkanim.cli import main
 from linkanim.scenes import chapter_of, chapters
+from linkanim.scenes.write import save
 
 KEYS = {
     "class",
@@ -35,6 +38,15 @@ def test_info_of_every_scene_is_strict_json_with_the_agreed_keys(
     scene = linkanim.load(name)
     assert told["true_period"] == round(scene.period / (2 * math.pi))
     assert told["period_seconds"] == pytest.approx(scene.period / abs(scene.linkage.drive.speed), rel=1e-12)
+
+
+def test_json_tells_names_as_they_are_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    save(replace(linkanim.load("kite"), name="Größe"), Path())
+    assert main(["info", "Größe.toml", "--json"]) == 0
+    assert '"scene": "Größe"' in capsys.readouterr().out
 
 
 # a slider has a stroke; a four-bar has none, and says nothing of it
