@@ -30,6 +30,8 @@ def test_a_figure_is_written_where_it_was_asked_for(folder: Path, capsys: pytest
 def test_without_a_name_it_is_the_scenes(folder: Path) -> None:
     assert main(["draw", "kite"]) == 0
     assert [path.name for path in folder.iterdir()] == ["kite.svg"]
+    root = ElementTree.parse(folder / "kite.svg").getroot()
+    assert (root.get("width"), root.get("height")) == ("1280", "720")
 
 
 def test_angle_and_phase_say_the_same_pose(folder: Path) -> None:

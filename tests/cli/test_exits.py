@@ -114,6 +114,7 @@ USAGE = [
     (["solve", "press", "--sweep", "0:360"], "FIRST:LAST:STEP"),
     (["solve", "press", "--sweep", "0:360:0"], "step"),
     (["solve", "press", "--sweep", "0:360:-1"], "step"),
+    (["solve", "press", "--sweep", "360:10:5"], "step"),
     (["solve", "press", "--sweep", "0:360:1e-9"], "rows"),
     (["solve", "press", "--sweep", "0:inf:1"], "inf"),
     (["solve", "press", "--sweep", "a:b:c"], "'a'"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 import subprocess
@@ -10,11 +11,12 @@ from pathlib import Path
 
 import pytest
 from PIL import Image
+from tqdm import tqdm
 
 import linkanim
 from linkanim.cli import main
 from linkanim.cli.commands import parse
-from linkanim.cli.record import look_of
+from linkanim.cli.record import advance, look_of
 from linkanim.errors import BadInput
 from linkanim.player import tape_file
 from linkanim.player.action import Action
@@ -164,7 +166,20 @@ def test_progress_is_told_where_it_is_asked_for(
     words: list[str], seen: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["record", "crank-rocker", *SMALL, *words]) == 0
-    assert ("frames [" in capsys.readouterr().err) is seen
+    said = capsys.readouterr().err
+    assert ("frames [" in said) is seen
+    assert said.count("\n") == 1  # its line is used again
+
+
+def test_the_largest_side_is_taken() -> None:
+    assert parse(["record", "press", "--size", "16384x16"]).size == (16384, 16)
+
+
+def test_a_bar_stands_where_the_work_does() -> None:
+    with tqdm(file=io.StringIO()) as drawn:
+        for done in (3, 7):
+            advance(drawn, done, 10)
+            assert (drawn.n, drawn.total) == (done, 10)
 
 
 def test_a_gallery_that_cannot_be_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
