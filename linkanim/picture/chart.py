@@ -75,18 +75,28 @@ def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
     for foot, (_, label) in zip(columns, plot.x.ticks, strict=True):
         at = (foot.real, area.bottom + 0.4 * pen.small)
         yield Caption(label, at, pen.small, theme.dim, "centre")
-    for foot, (_, label) in zip(rows, plot.y.ticks, strict=True):
-        at = (area.x - 0.5 * pen.small, foot.imag - 0.5 * pen.small)
+    for y, label in _levels(plot, pen):
+        at = (area.x - 0.5 * pen.small, y - 0.5 * pen.small)
         yield Caption(label, at, pen.small, theme.dim, "right")
 
 
 def right_axis(plot: Plot, pen: Pen) -> Iterator[Item]:
     """Yield the ticks of a second vertical axis, at the right."""
-    for value, label in plot.y.ticks:
-        foot = complex(plot.place(plot.x.high, value))
-        yield Layer(pen.theme.dim, segments(foot - 0.3 * pen.small, foot, 0.6 * pen.line))
-        at = (foot.real + 0.4 * pen.small, foot.imag - 0.5 * pen.small)
+    feet = np.array([complex(plot.place(plot.x.high, value)) for value, _ in plot.y.ticks])
+    yield Layer(pen.theme.dim, _lines(feet - 0.3 * pen.small, 0.3 * pen.small, pen))
+    for y, label in _levels(plot, pen):
+        at = (plot.area.right + 0.4 * pen.small, y - 0.5 * pen.small)
         yield Caption(label, at, pen.small, pen.theme.dim)
+
+
+def _levels(plot: Plot, pen: Pen) -> Iterator[tuple[float, str]]:
+    """Yield how far down ticks of a vertical axis lie, and their labels, but for those that have no room."""
+    below = np.inf
+    for value, label in plot.y.ticks:
+        y = complex(plot.place(plot.x.low, value)).imag
+        if y <= below - pen.small:
+            below = y
+            yield y, label
 
 
 def x_title(plot: Plot, title: str, pen: Pen, *, foot: bool = True) -> Caption:

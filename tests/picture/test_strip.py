@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -16,6 +18,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.chart import pen_for
 from linkanim.picture.course import input_symbol
 from linkanim.picture.figure import figure
+from linkanim.picture.items import Caption
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
@@ -23,10 +26,15 @@ from linkanim.picture.painter import Painter
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
+from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 
 WINDOW: Layout = layout((640, 360), chart=True)
+WINDOWS = [
+    *((size, False) for size in [(320, 180), (640, 360), (360, 640)]),
+    *((size, True) for size in [(640, 360), (1280, 720)]),
+]
 
 
 def _strip(scene: str, token: str, speed: float | None = None) -> Strip:
@@ -96,6 +104,28 @@ def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:
         pose = _pose(chart, float(chart.course.phase_of(place)))
         assert f"{math.degrees(pose.crank_angle):.1f}°" == label
     assert _strip("crank-rocker", "rocker.angle").course.marks == ()
+
+
+def _worded(chart: Strip) -> Iterator[Rect]:
+    """Yield where the words of a chart stand."""
+    for item in chart.items():
+        if isinstance(item, Caption) and item.text:
+            wide = chart.pen.type.width(item.text, item.size)
+            left = item.at[0] - wide * {"left": 0.0, "centre": 0.5, "right": 1.0}[item.anchor]
+            yield Rect(left, item.at[1], wide, item.size)
+
+
+# one that turns once and one that turns twice, one that swings, with the names of its limits
+@pytest.mark.parametrize("name", ["crank-rocker", "kite", "double-rocker"])
+@pytest.mark.parametrize(("size", "beside"), WINDOWS)
+def test_no_words_of_a_chart_lie_on_others(size: tuple[int, int], beside: bool, name: str) -> None:
+    window = layout(size, chart=True, beside=beside)
+    for token in ("rocker.angle", "rocker.angular_velocity"):
+        chart = strip(figure(load(name)), token, window, pen_for(window, Type(), LIGHT))
+        rects = list(_worded(chart))
+        assert len(rects) >= 5
+        assert not [pair for pair in combinations(rects, 2) if pair[0].meets(pair[1])]
+        assert not [rect for rect in rects if rect.x < 0 or rect.right > size[0]]
 
 
 def _input_told(scene: Scene, value: float) -> str:
