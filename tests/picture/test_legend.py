@@ -47,6 +47,17 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
         assert wide < legend.column.width
 
 
+@pytest.mark.parametrize("size", [(480, 270), (640, 360), (1280, 720)])
+@pytest.mark.parametrize("name", ["press", "crank-rocker", "jansen"])
+def test_the_key_stands_below_the_words_in_the_window(name: str, size: tuple[int, int]) -> None:
+    parts = staged(load(name), None, Staged(size, False, 2, True, False), Type()).arrangement.layout
+    assert parts.hud
+    assert parts.legend
+    assert parts.legend.y >= parts.hud.bottom
+    assert parts.legend.bottom <= size[1]
+    assert parts.legend.width > 0
+
+
 def test_there_is_no_key_without_arrows() -> None:
     assert legend_for((), layout((640, 360)), Type(), LIGHT) is None
 

@@ -179,6 +179,8 @@ def test_a_shelf_too_small_for_titles_has_the_chosen_one_s_at_its_foot() -> None
     small, large = (grid(size, [12, 11, 3, 18, 10]) for size in ((320, 180), (1280, 720)))
     assert (small.line, small.headings) == (0.0, ())
     assert large.line > 2 * large.text
+    assert len(large.headings) == 5
+    assert grid((1280, 720), [12]).headings == ()
     assert max(cell.bottom for cell in small.cells) < 180 - 11
 
 
