@@ -54,6 +54,14 @@ def test_a_look_reaches_from_joint_to_joint_and_little_further(look: str, points
     assert 0 <= bottom <= 4 * bar
 
 
+@pytest.mark.parametrize("look", ["bar", "hook"])
+def test_a_bar_s_edge_is_an_outline_wide(look: str) -> None:
+    gauge = Gauge(8.0, 1.5, 1.0, 3.0)
+    edge, fill = (np.concatenate(layer.loops) for layer in SHAPES[look](CORNERS[:2], gauge, COLOURS))
+    assert fill.real.min() - edge.real.min() == pytest.approx(1.5, abs=0.05)
+    assert fill.imag.min() - edge.imag.min() == pytest.approx(1.5, abs=0.05)
+
+
 def test_a_wheel_goes_round_its_first_joint_and_its_furthest() -> None:
     radius = wheel_radius(CORNERS, GAUGE)
     assert radius > 100

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pygame
 import pytest
 
 from linkanim.picture.axis import decades, linear
-from linkanim.picture.chart import Plot, curve_layer
+from linkanim.picture.chart import Pen, Plot, axes, curve_layer, point_layers, right_axis
+from linkanim.picture.items import Caption
+from linkanim.picture.raster import Layer
 from linkanim.picture.scatter import Dot, ScatterTitles, scatter
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
+
+PEN = Pen(Type(), LIGHT, 12, 16, 1.8)
 
 
 def test_a_curve_is_broken_where_its_value_is_not_bounded() -> None:
@@ -27,6 +33,25 @@ def test_what_lies_beyond_the_axis_stays_at_its_edge() -> None:
     plot = Plot(Rect(0, 0, 100, 50), linear(0, 10), linear(-1, 1))
     assert complex(plot.place(5, 100)) == 50 + 0j
     assert complex(plot.place(5, -100)) == 50 + 50j
+
+
+def test_every_tick_has_its_line_and_its_label() -> None:
+    plot = Plot(Rect(40, 20, 200, 100), linear(0, 10), linear(-1, 1))
+    grid, *labels = axes(plot, PEN)
+    ticks = (*plot.x.ticks, *plot.y.ticks)
+    assert isinstance(grid, Layer)
+    assert len(grid.loops) == len(ticks)
+    assert [item.text for item in labels if isinstance(item, Caption)] == [label for _, label in ticks]
+    marks, *values = right_axis(plot, PEN)
+    assert isinstance(marks, Layer)
+    assert len(marks.loops) == len(values) == len(plot.y.ticks)
+
+
+@pytest.mark.parametrize("line", [0.6, 1.8, 5.4])
+def test_a_dot_fills_most_of_its_ring(line: float) -> None:
+    plot = Plot(Rect(40, 20, 200, 100), linear(0, 10), linear(-1, 1))
+    ring, dot = point_layers(plot, [(5.0, 0.0)], (1, 2, 3), replace(PEN, line=line))
+    assert 0.7 < np.ptp(dot.loops[0].real) / np.ptp(ring.loops[0].real) < 0.8
 
 
 def test_a_log_log_picture_has_its_points_at_their_decades() -> None:

@@ -11,7 +11,7 @@ import pytest
 from pictures import contrast, pixels
 
 from linkanim.mechanics.kinds import Crank, Gear, Pin
-from linkanim.mechanics.linkage import Drive, Linkage
+from linkanim.mechanics.linkage import Damper, Drive, Linkage
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.gears import WheelPair, pairs, wheel_layers, wheel_parts, wheels
 from linkanim.picture.layout import gauge
@@ -85,6 +85,14 @@ def test_a_damper_s_piston_slides_inside_its_cylinder(press: Figure) -> None:
         assert cylinder[1] < length
         pistons.append(head[0])
     assert np.all(np.diff(pistons) > 0)
+
+
+def test_a_cylinder_is_longer_than_a_damper(press: Figure) -> None:
+    still = "O2", "O7"
+    dampers = Damper("ram", still), Damper("cushion", still, 200.0)
+    shown = figure(replace(press.scene, linkage=replace(press.linkage, dampers=dampers)))
+    cylinder, damper = cushions(shown, VIEW, GAUGE, LIGHT)
+    assert cylinder.length > 2 * damper.length
 
 
 def geared(

@@ -10,15 +10,16 @@ import numpy as np
 import pytest
 from pictures import BARE, labelled, painted, pixels, standing
 
-from linkanim.picture.dimensions import numbered, symbols, written
+from linkanim.picture.dimensions import leg_part, numbered, symbols, written
 from linkanim.picture.figure import figure
+from linkanim.picture.layout import Gauge
 from linkanim.picture.lettering import Lettering
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
 from linkanim.picture.text import Type
 from linkanim.picture.turning import Sliding, Turning
-from linkanim.picture.view import Rect
+from linkanim.picture.view import Rect, View
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 
@@ -173,8 +174,38 @@ def test_the_arrow_runs_the_way_the_driven_slider_does() -> None:
         line = sliding.direction(pose, places, abs(drive.speed / speed))[-1]
         ahead = line.loops[0].real - places["C"].real
         assert np.sign(ahead).tolist() == [np.sign(pose.crank_rate)] * len(ahead)
+        assert np.abs(ahead).min() > 2 * sliding.gauge.bar  # off its block
+        assert np.ptp(ahead) > 3 * sliding.gauge.bar
         assert not sliding.angle(places)
     assert not sliding.direction(scene.pose(0.0), painter.drawing.places(scene.pose(0.0)), 1.0)
+
+
+@pytest.mark.parametrize("line", [0.7, 1.4, 3.0])
+def test_a_leg_s_dashes_lead_to_its_point_and_stand_apart(line: float) -> None:
+    shown = figure(load("crank-rocker"))
+    view, thick = View(4.0, 0.0, 0.0), Gauge(8.0, 1.0, 3.0, line)
+    (legs,) = symbols(shown).legs
+    (layer,) = leg_part(legs, view, thick, (0, 0, 0)).layers
+    along, left = (4.0 * place for place in legs.point.at)
+    corners = np.concatenate(layer.loops)
+    assert np.abs(corners - complex(along, -left)).min() < 4 * line
+    assert np.abs(corners.real).max() < along + 4 * line
+    assert np.abs(corners.imag).max() < abs(left) + 4 * line
+    drawn = sum(np.ptp(loop.real) + np.ptp(loop.imag) - 0.9 * line for loop in layer.loops)
+    assert 0.4 < drawn / (along + abs(left)) < 0.8
+
+
+@pytest.mark.parametrize("line", [0.7, 1.4, 3.0])
+def test_the_angle_is_measured_from_a_line_of_dashes(line: float) -> None:
+    scene = load("crank-rocker")
+    turning = Painter(scene, (1280, 720), replace(BARE, names=2)).drawing.cast.turning
+    assert isinstance(turning, Turning)
+    turning = replace(turning, gauge=replace(turning.gauge, line=line))
+    _, ink = turning.angle({turning.pivot: 0j, turning.pin: 100j})
+    dashes = [loop.real for loop in ink.loops if np.ptp(loop.imag) < line]
+    assert dashes
+    drawn = sum(map(np.ptp, dashes))
+    assert 0.4 < drawn / (1.45 * turning.arc) < 0.8
 
 
 def test_an_input_that_stands_still_has_no_arrow() -> None:

@@ -93,7 +93,10 @@ def test_a_symbol_stands_beside_the_vector_that_it_names(name: str, phase: float
                 along = ((middle - begin) / (end - begin)).real
                 away = abs(((middle - begin) / (end - begin)).imag) * abs(end - begin)
                 assert 0.3 < along < 0.7
-                assert away < 0.5 * Type().width(caption.text, caption.size) + caption.size
+                across = 1j * (end - begin) / abs(end - begin)
+                wide = Type().width(caption.text, caption.size)
+                assert away > 0.5 * (abs(across.real) * wide + abs(across.imag) * caption.size)
+                assert away < 0.5 * wide + caption.size
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (320, 180), (180, 320)])
