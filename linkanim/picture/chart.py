@@ -82,7 +82,7 @@ def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
 
 def right_axis(plot: Plot, pen: Pen) -> Iterator[Item]:
     """Yield the ticks of a second vertical axis, at the right."""
-    feet = np.array([complex(plot.place(plot.x.high, value)) for value, _ in plot.y.ticks])
+    feet = plot.place(plot.x.high, [value for value, _ in plot.y.ticks])
     yield Layer(pen.theme.dim, _lines(feet - 0.3 * pen.small, 0.3 * pen.small, pen))
     for y, label in _levels(plot, pen):
         at = (plot.area.right + 0.4 * pen.small, y - 0.5 * pen.small)
