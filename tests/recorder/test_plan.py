@@ -155,6 +155,28 @@ def test_absurd_clips_are_refused_in_a_sentence(clip: Clip, named: str, form: Fo
         make_plan(clip, form)
 
 
+# (reason, clip, how many frames it has, or None where they are too few)
+FEWEST = [
+    ("two frames a period are a motion to and fro", at(750), 2),
+    ("one is none", at(1500), None),
+    ("two in each of two periods", at(750, periods=2), 4),
+    ("three in two periods", at(1000, periods=2), None),
+    ("a clip that need not close may be a single picture", at(20, seconds=0.04), 1),
+]
+
+
+@pytest.mark.parametrize(("reason", "clip", "frames"), FEWEST)
+@pytest.mark.parametrize("form", ["gif", "mp4", "png"])
+def test_two_frames_a_period_are_the_fewest(
+    reason: str, clip: Clip, frames: int | None, form: Format
+) -> None:
+    if frames is not None:
+        assert make_plan(clip, form).frames == frames
+        return
+    with pytest.raises(BadInput, match="too short"):
+        make_plan(clip, form)
+
+
 @pytest.mark.parametrize("size", [(0, 720), (1280, 8), (16_385, 720), (1280, -1)])
 def test_sizes_that_cannot_be_recorded_are_refused(size: tuple[int, int]) -> None:
     with pytest.raises(BadInput, match=f"{size[0]}x{size[1]}"):
