@@ -107,6 +107,21 @@ def test_a_window_may_have_any_size(here: Path) -> None:
         resized(25, (400, 400))
 
 
+@pytest.mark.parametrize("size", [(240, 135), (135, 240), (640, 200)])
+def test_a_resized_window_shows_what_a_window_of_that_size_does(here: Path, size: tuple[int, int]) -> None:
+    def shown(*sizes: tuple[int, int]) -> bytes:
+        with display.opened(sizes[0]):
+            player = Player(begin(load("crank-rocker")))
+            player.press(pygame.K_SPACE)
+            player.settle()
+            for other in sizes[1:]:
+                pygame.display.set_mode(other, pygame.RESIZABLE)
+                player.tick()
+            return player.pixels
+
+    assert shown(SIZE, size) == shown(size)
+
+
 @pytest.mark.long
 @pytest.mark.withstands("frames run", 1_000)
 def test_a_window_may_have_a_thousand_sizes(here: Path) -> None:
