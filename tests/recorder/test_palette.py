@@ -57,5 +57,12 @@ def test_the_others_lie_near_a_palette_colour() -> None:
     assert nearest[6800:].mean() < 25
 
 
+def test_given_colours_take_their_room_among_thousands() -> None:
+    given = [(1, 2, 3), (250, 1, 1)]
+    palette = make_palette([ramps()], given)
+    assert palette[:2].tolist() == [list(colour) for colour in given]
+    assert len(palette) == 255
+
+
 def test_equal_samples_give_equal_palettes() -> None:
     assert make_palette([ramps()]).tobytes() == make_palette([ramps()]).tobytes()
