@@ -198,7 +198,7 @@ def _kept(values: Array, shape: tuple[int, ...]) -> Array:
     if values.base is not None or values.flags.writeable or values.shape != shape:
         values = values.copy() if values.shape == shape else np.array(np.broadcast_to(values, shape))
         values.flags.writeable = False
-    return values.reshape(-1)
+    return values if values.ndim == 1 else values.reshape(-1)
 
 
 def _quantities(k: Kinematics, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:

@@ -192,7 +192,7 @@ class Batch:
     def _buffers(self, size: int, dtype: type[np.floating[Any]]) -> list[Array]:
         """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
         work = self.spare.pop() if self.spare else []
-        if work and work[0].shape[0] == size and work[0].dtype == dtype:
+        if work and len(work[0]) == size and work[0].dtype.type is dtype:
             return work
         return list(aligned_rows(self.buffers, size, dtype))
 
@@ -210,9 +210,10 @@ def aligned_rows(rows: int, count: int, dtype: type[np.floating[Any]]) -> Array:
 
 
 def _block_size(count: int) -> int:
-    """Return the size of equal blocks, whole cache lines of them."""
-    blocks = max(-(-count // BLOCK), 1)
-    return -(-count // (blocks * CACHE_LINE)) * CACHE_LINE if blocks > 1 else max(count, 1)
+    """Return the size of equal blocks, whole cache lines of them; all where one is enough."""
+    if count <= BLOCK:
+        return count
+    return -(-count // (-(-count // BLOCK) * CACHE_LINE)) * CACHE_LINE
 
 
 def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:

@@ -88,7 +88,7 @@ class Request(NamedTuple):
     def worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
         """Return these quantities."""
         places, results = self._run(kinds)
-        results.flags.writeable = False
+        results.setflags(write=False)
         return {kind: Columns(names, results, self.shape) for kind, names in places.places.items()}
 
     def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Floats]:
