@@ -142,7 +142,7 @@ def demand(solved: Callable[[Array], Any], periods: int, *, limited: bool) -> De
     seconds = math.tau * periods / abs(float(cycle.input_speed))
     work = _mean(power) * seconds
     known = effort[np.isfinite(effort)]
-    usual = float(np.median(np.abs(known))) if known.size else math.nan
+    usual = _median(np.abs(known)) if known.size else math.nan
     beyond = limited and np.abs(power[:: _SAMPLES // 2]).max() > _BOUNDED * np.abs(power).max()
     if beyond or known.size < count:
         return Demand(work, None, None, usual)
@@ -153,6 +153,12 @@ def demand(solved: Callable[[Array], Any], periods: int, *, limited: bool) -> De
     place = highest(lambda near: sign * input_effort(solved(near)), float(phases[index]), step, ends)
     peak = float(input_effort(solved(np.array([place])))[0])
     return Demand(work, peak, _mean(effort), usual)
+
+
+def _median(values: Array) -> float:
+    """Return the median of values, none of them NaN; numpy's own loads masked arrays at its first call."""
+    ordered = np.sort(values)
+    return 0.5 * float(ordered[(values.size - 1) // 2] + ordered[values.size // 2])
 
 
 def _mean(values: Array) -> float:

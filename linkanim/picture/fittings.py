@@ -78,19 +78,26 @@ def fittings(bench: Bench) -> tuple[Fitting, ...]:
     return tuple(FITTINGS[type(joint)](joint, bench) for joint in joints if type(joint) in FITTINGS)
 
 
-def outlines(figure: Figure) -> Iterator[Loop]:
-    """Yield where the outlines of slotted bars and guides pass, x + yi in the scene's unit, drawn thin."""
+def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
+    """Yield the outlines of slotted bars and guides, drawn thin, and the places and directions of each.
+
+    x + yi in the scene's unit, y up, at some of the cycle's moments; where a joint is nowhere none.
+    """
     box = figure.box
     thin = 1e-6 * max(figure.shortest, 1e-6 * (box.right - box.left + box.high - box.low))
     bench = Bench(figure, View(1.0, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
     parts = [part for fitting in fittings(bench) for part in (*fitting.behind, *fitting.before)]
-    cycle = {name: np.atleast_2d(points) @ DOWN for name, points in figure.cycle.position.items()}
-    for n in range(0, len(figure.cycle.phase), max(len(figure.cycle.phase) // _TRIED, 1)):
-        places = {name: complex(path[n]) for name, path in cycle.items() if np.isfinite(path[n])}
-        for part in (part for part in parts if {part.at, part.tail, part.head} <= places.keys()):
-            for loop in (loop for layer in part.placed(places) for loop in layer.loops):
-                outline: Loop = np.conj(loop)
-                yield outline
+    step = max(len(figure.cycle.phase) // _TRIED, 1)
+    for part in parts:
+        at, tail, head = (
+            np.atleast_2d(figure.cycle.position[name])[::step] @ DOWN.conj()
+            for name in (part.at, part.tail, part.head)
+        )
+        way = head - tail
+        turn = np.where(way == 0, 1, way / np.where(way == 0, 1, lengths(way)))
+        known = np.isfinite(at + way)
+        for loop in (loop for layer in part.layers for loop in layer.loops):
+            yield np.conj(loop), at[known], turn[known]
 
 
 def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[Loop]:

@@ -111,7 +111,7 @@ class _Grid:
 def sweep_of(figure: Figure) -> Sweep:
     """Return what a figure's bodies, springs, dampers, traces and wheels pass over in its cycle."""
     swept = np.concatenate([np.zeros(0, complex), *_swept(figure)])
-    swept = np.concatenate([swept, *(_edged(outline) for outline in outlines(figure))])
+    swept = np.concatenate([swept, *_fitted(figure)])
     guided = (joint.name for joint in figure.linkage.joints if joint.travels)
     feet = np.concatenate([np.zeros(0, complex), *(_path(figure, name) for name in (*figure.fixed, *guided))])
     rims = np.concatenate([np.zeros(0, complex), *_rims(figure)])
@@ -128,6 +128,12 @@ def _swept(figure: Figure) -> Iterator[Points]:
         yield _between(*(_path(figure, name) for name in strut.between))
     for name in figure.shown:
         yield _path(figure, name, every=1)
+
+
+def _fitted(figure: Figure) -> Iterator[Points]:
+    """Yield where slotted bars and guides pass."""
+    for outline, places, turns in outlines(figure):
+        yield (places[:, None] + turns[:, None] * _edged(outline)).ravel()
 
 
 def _edged(loop: Points) -> Points:

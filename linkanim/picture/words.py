@@ -100,12 +100,12 @@ class WordBlock:
 
 def said_of(scenes: Sequence[Scene], type_: Type) -> tuple[Said, ...]:
     """Return the rows of a scene, and of those beside it, each with the widest value that it ever has."""
-    found: dict[str, Said] = {}
+    widest: dict[str, tuple[int, Said]] = {}
     for said in (said for scene in scenes for said in _ever_said(scene)):
-        known = found.setdefault(said.row.label, said)
-        if type_.width(said.row.value, _MEASURED) > type_.width(known.row.value, _MEASURED):
-            found[said.row.label] = said
-    return tuple(found.values())
+        width = type_.width(said.row.value, _MEASURED)
+        if width > widest.get(said.row.label, (-1, said))[0]:
+            widest[said.row.label] = width, said
+    return tuple(said for _, said in widest.values())
 
 
 def _ever_said(scene: Scene) -> Iterator[Said]:
