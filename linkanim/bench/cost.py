@@ -1,9 +1,10 @@
-"""What a recording costs and what it loses: time beside encoding alone, size, decibels, memory."""
+"""What a recording costs and what it loses: time, also of encoding alone, size, decibels, memory."""
 
 from __future__ import annotations
 
 import json
 import math
+import os
 import re
 import subprocess
 import sys
@@ -39,6 +40,13 @@ class Memory(NamedTuple):
     encoding: float
 
 
+class Work(NamedTuple):
+    """Processor time of the recording process and of its encoder, s; NaN where it is not told."""
+
+    drawing: float
+    encoding: float
+
+
 @dataclass(frozen=True)
 class Cost:
     """One recording measured: seconds in all, and for encoding the same frames alone."""
@@ -50,6 +58,7 @@ class Cost:
     megabytes: float
     decibels: float
     memory: Memory
+    work: Work
 
     @property
     def ratio(self) -> float:
@@ -70,11 +79,11 @@ def cost(name: str, form: Format, *, frames: int = FRAMES) -> Cost:
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder, f"out.{form}")
         stored = _stored(Path(folder, "frames"), scene, plan)
-        encode_seconds = _timed(lambda: _encode(stored, scene, plan, target))
-        seconds = _timed(lambda: write(SceneFrames(scene, plan, SIZE, LOOK), plan, target))
+        encode_seconds, _ = _timed(lambda: _encode(stored, scene, plan, target))
+        seconds, work = _timed(lambda: write(SceneFrames(scene, plan, SIZE, LOOK), plan, target))
         megabytes = target.stat().st_size / 1e6
         decibels = _decibels(_decoded(target), stored)
-    return Cost(form, plan.frames, seconds, encode_seconds, megabytes, decibels, memory)
+    return Cost(form, plan.frames, seconds, encode_seconds, megabytes, decibels, memory, work)
 
 
 def peak_memory(name: str, form: Format, *, frames: int = FRAMES) -> Memory:
@@ -121,10 +130,15 @@ def _encode(stored: NDArray[np.uint8], scene: Scene, plan: Plan, target: Path) -
             send(frame.data)
 
 
-def _timed(work: Callable[[], object]) -> float:
-    start = time.perf_counter()
+def _timed(work: Callable[[], object]) -> tuple[float, Work]:
+    """Return how long some work takes, s, and the processor time that it takes here and in what it starts."""
+    start, before = time.perf_counter(), os.times()
     work()
-    return time.perf_counter() - start
+    seconds, after = time.perf_counter() - start, os.times()
+    own, own_system, started, started_system = (
+        now - then for now, then in zip(after[:4], before[:4], strict=True)
+    )
+    return seconds, Work(own + own_system, started + started_system or math.nan)
 
 
 def _decoded(path: Path) -> Iterator[NDArray[np.uint8]]:

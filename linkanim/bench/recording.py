@@ -14,7 +14,16 @@ from linkanim.bench.report import columns
 from linkanim.recorder.plan import Format
 
 SCENE = "press"
-TITLES = ("press, 1280x720", "frames", "time", "to encoding", "size", "quality", "memory + encoder's")
+TITLES = (
+    "press, 1280x720",
+    "frames",
+    "time",
+    "to encoding",
+    "processor + encoder's",
+    "size",
+    "quality",
+    "memory + encoder's",
+)
 FORMATS: tuple[Format, ...] = ("gif", "mp4")
 
 
@@ -62,8 +71,9 @@ def _beside(found: Recordings) -> str:
 def _line(cost: Cost) -> tuple[str, ...]:
     memory = f"{cost.memory.drawing:.0f} + {cost.memory.encoding:.0f} MB"
     quality = "exact" if math.isinf(cost.decibels) else f"{cost.decibels:.1f} dB"
-    times = (f"{cost.seconds:.1f} s", f"{cost.ratio:.2f} ×", f"{cost.megabytes:.2f} MB")
-    return (cost.form.upper(), str(cost.frames), *times, quality, memory)
+    work = f"{cost.work.drawing:.1f} + {cost.work.encoding:.1f} s"
+    times = (f"{cost.seconds:.1f} s", f"{cost.ratio:.2f} ×", work)
+    return (cost.form.upper(), str(cost.frames), *times, f"{cost.megabytes:.2f} MB", quality, memory)
 
 
 def as_object(found: Recordings) -> dict[str, Any]:
@@ -77,6 +87,7 @@ def as_object(found: Recordings) -> dict[str, Any]:
                 "s": cost.seconds,
                 "encode_s": cost.encode_seconds,
                 "ratio": cost.ratio,
+                "processor_s": {name: _finite(spent) for name, spent in cost.work._asdict().items()},
                 "MB": cost.megabytes,
                 "dB": _finite(cost.decibels),
                 "peak_MB": {name: _finite(peak) for name, peak in cost.memory._asdict().items()},

@@ -15,7 +15,7 @@ from PIL import Image, ImageSequence
 
 from linkanim.bench import again, command, drawing, extra, recording, window
 from linkanim.bench import result as results
-from linkanim.bench.cost import Cost, Memory
+from linkanim.bench.cost import Cost, Memory, Work
 from linkanim.bench.machine import this_machine
 from linkanim.cli import main
 from linkanim.errors import BadInput, WorkFailed
@@ -173,8 +173,10 @@ def test_the_figures_of_drawing_stand_beside_their_bounds() -> None:
 
 def test_the_figures_of_recordings_are_the_recorders() -> None:
     costs = {
-        "gif": Cost("gif", 300, 3.0, 1.5, 2.14, 60.9, Memory(104.0, 104.0)),
-        "mp4": Cost("mp4", 300, 4.0, 2.0, 0.4, float("inf"), Memory(100.0, float("nan"))),
+        "gif": Cost("gif", 300, 3.0, 1.5, 2.14, 60.9, Memory(104.0, 104.0), Work(2.5, 1.25)),
+        "mp4": Cost(
+            "mp4", 300, 4.0, 2.0, 0.4, float("inf"), Memory(100.0, float("nan")), Work(2.0, float("nan"))
+        ),
     }
     asked = []
 
@@ -188,14 +190,16 @@ def test_the_figures_of_recordings_are_the_recorders() -> None:
     assert "2.00 ×" in text
     assert "60.9 dB" in text
     assert "104 + 104 MB" in text
+    assert "2.5 + 1.2 s" in text
     gif, mp4 = recording.as_object(found)["recordings"]
     assert (gif["ratio"], mp4["dB"], mp4["peak_MB"]["encoding"]) == (2.0, None, None)
+    assert (gif["processor_s"], mp4["processor_s"]["encoding"]) == ({"drawing": 2.5, "encoding": 1.25}, None)
     assert "27.0 s, 9.0 times as long" in text
     assert recording.as_object(found)["times_as_long"] == 9.0
 
 
 def test_recordings_are_measured_without_matplotlib_too_and_say_what_is_missing() -> None:
-    cost = Cost("gif", 300, 3.0, 1.5, 2.14, 60.9, Memory(104.0, 104.0))
+    cost = Cost("gif", 300, 3.0, 1.5, 2.14, 60.9, Memory(104.0, 104.0), Work(2.5, 1.25))
     found = recording.run(lambda *_, **__: cost, frames=300, animate=lambda *_, **__: None)
     assert "matplotlib is not installed" in recording.as_text(found)
     assert recording.as_object(found)["times_as_long"] is None

@@ -18,4 +18,5 @@ def test_the_cost_of_a_recording_is_measured(form: Format, least: float) -> None
     assert 0.001 < found.megabytes < 1
     assert found.seconds > 0
     assert found.encode_seconds > 0
+    assert all(0.01 < spent < 100 for spent in found.work if not math.isnan(spent))
     assert all(20 < megabytes < 1000 for megabytes in found.memory if not math.isnan(megabytes))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import select
 import signal
@@ -120,7 +121,8 @@ def test_an_encoder_that_cannot_be_started_is_one_line(
 ) -> None:
     monkeypatch.setattr(encode, "get_ffmpeg_exe", lambda: "/no/such/encoder")
     frames = disc(form)
-    with pytest.raises(RecordingFailed, match="/no/such/encoder"):
+    said = f"/no/such/encoder cannot be started: {os.strerror(errno.ENOENT)}$"
+    with pytest.raises(RecordingFailed, match=said):
         write(frames, frames.plan, target)
     assert untouched(target.parent)
 
