@@ -4,6 +4,8 @@ from __future__ import annotations
 
 MOST_NAMES = 500
 """Joints, pins, bodies, springs or dampers of a scene, each."""
+LONGEST_TEXT = 1_000
+"""Characters of a title or any other text that is shown on a line."""
 MOST_FRAMES = 100_000
 """Frames of a recording."""
 MOST_POSES = 360

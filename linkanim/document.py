@@ -11,12 +11,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self, TypeVar
 
+from linkanim.bounds import LONGEST_TEXT
 from linkanim.errors import BadInput
 from linkanim.units import shown
 
 Option = TypeVar("Option", bound=str)
 
 _FEW = 12
+_LONG = 60
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?")
 
 
@@ -102,6 +104,8 @@ class Section:
         value = self.need(key) if default is None else self.values.get(key, default)
         if not isinstance(value, str):
             raise self.error(key, "must be a text in quotes")
+        if len(value) > LONGEST_TEXT:
+            raise self.error(key, f"is longer than {LONGEST_TEXT:,} characters; cut it")
         return value
 
     def texts(self, key: str) -> tuple[str, ...]:
@@ -141,14 +145,15 @@ class Section:
 
 
 def _written(key: str) -> str:
-    return key if _BARE_KEY.fullmatch(key) else shown(key)
+    return key if len(key) <= _LONG and _BARE_KEY.fullmatch(key) else shown(key)
 
 
 def meant(name: str, known: Iterable[str]) -> str:
     """Return ' (did you mean "crank"?)' for a name close to a known one, else an empty text."""
     from difflib import get_close_matches  # for what is wrong only: a window opens sooner without
 
-    near = get_close_matches(name, list(known), n=1, cutoff=0.6)
+    # what is far longer than any name is near to none, and takes long to compare
+    near = get_close_matches(name[:_LONG], list(known), n=1, cutoff=0.6)
     return f" (did you mean {shown(near[0])}?)" if near else ""
 
 

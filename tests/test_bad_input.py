@@ -1,13 +1,15 @@
-"""Whatever is thrown at it, it answers in one line, or it has a scene that plays.
+"""Whatever is thrown at it, it answers in one line, or it has a scene that plays; in a second and 200 MB.
 
 2,000 cases as a rule, 20,000 with `pytest -m long`. Each is read in this process: what a command adds,
-its exit code and its one line, is tested in cli/test_exits.py.
+its exit code and its one line, is tested in cli/test_exits.py, and has some 40 MB by then.
 """
 
 from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +18,9 @@ import pytest
 import tomli_w
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from limits import Limits
 
+from linkanim.cli import main
 from linkanim.cli.commands import parse as parse_arguments
 from linkanim.cli.exits import one_line
 from linkanim.errors import BadInput
@@ -30,6 +34,8 @@ from linkanim.scenes.toml import parse
 
 FEW, MANY = 500, 5_000
 """Cases of each of the four tests: together 2,000, or 20,000 on request."""
+SECONDS, MEGABYTES = 1.0, 150
+"""What each may take: processor time, and memory beside what was there before."""
 
 anything = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 usual = settings(max_examples=FEW, deadline=None, derandomize=True, suppress_health_check=anything)
@@ -132,12 +138,7 @@ def plays(scene: Scene) -> None:
     assert np.abs(first - last).max() <= 1e-6 * max(np.abs(first).max(), 1e-300)
 
 
-def hold_scene(data: st.DataObject) -> None:
-    document = spoilt(a_document(data), data)
-    try:
-        text = tomli_w.dumps(document)
-    except (TypeError, ValueError):  # a null, or a text that is none
-        text = "x = "
+def refused_or_plays(text: str) -> None:
     try:
         scene = scene_from(parse(text, "my.toml"), name="my", where="my.toml")
     except BadInput as error:
@@ -146,17 +147,25 @@ def hold_scene(data: st.DataObject) -> None:
         plays(scene)
 
 
-def hold_text(data: st.DataObject) -> None:
+def a_scene_in_which_anything_is_wrong(data: st.DataObject, limits: Limits) -> None:
+    document = spoilt(a_document(data), data)
+    try:
+        text = tomli_w.dumps(document)
+    except (TypeError, ValueError):  # a null, or a text that is none
+        text = "x = "
+    with limits.held():
+        refused_or_plays(text)
+
+
+def a_text_that_is_broken_anywhere(data: st.DataObject, limits: Limits) -> None:
     whole = tomli_w.dumps(a_document(data))
     at = data.draw(st.integers(0, len(whole)))
     junk = data.draw(
         st.text(max_size=12) | st.sampled_from(["[[", "{" * 40, '"""', "= =", "\r", "a." * 30, "#"])
     )
     text = whole[:at] + junk + whole[at + data.draw(st.sampled_from([0, 0, 5, len(whole)])) :]
-    try:
-        plays(scene_from(parse(text, "my.toml"), name="my", where="my.toml"))
-    except BadInput as error:
-        refused_in_a_line(error, "my.toml: ")
+    with limits.held():
+        refused_or_plays(text)
 
 
 TAPE = to_document(Tape(begin(load("crank-rocker")), 90, ()))
@@ -169,15 +178,17 @@ TAPE["actions"] = [
 ]
 
 
-def hold_tape(data: st.DataObject) -> None:
-    try:
-        tape = from_document(spoilt(TAPE, data), "my.tape.json")
-    except BadInput as error:
-        refused_in_a_line(error, "my.tape.json: ")
-        return
-    for state, phase in tape.pictures(2):
-        assert math.isfinite(phase)
-        assert state.scene.linkage.joints
+def a_tape_in_which_anything_is_wrong(data: st.DataObject, limits: Limits) -> None:
+    document = spoilt(TAPE, data)
+    with limits.held():
+        try:
+            tape = from_document(document, "my.tape.json")
+        except BadInput as error:
+            refused_in_a_line(error, "my.tape.json: ")
+            return
+        for state, phase in tape.pictures(2):
+            assert math.isfinite(phase)
+            assert state.scene.linkage.joints
 
 
 # a line of them is read more easily than a list
@@ -188,47 +199,57 @@ play record solve info scenes press kite my.toml -o out.gif out.xyz --size 1280x
 """.split()  # noqa: SIM905
 
 
-def hold_arguments(data: st.DataObject) -> None:
+def any_command_line(data: st.DataObject, limits: Limits) -> None:
     words = data.draw(st.lists(st.sampled_from(WORDS) | TEXTS, max_size=8))
-    try:
-        assert parse_arguments(words).command
-    except BadInput as error:
-        refused_in_a_line(error, "")
+    with limits.held():
+        try:
+            assert parse_arguments(words).command
+        except BadInput as error:
+            refused_in_a_line(error, "")
+
+
+Case = Callable[[st.DataObject, Limits], None]
+Record = Callable[[str, object], None]
+cases = pytest.mark.parametrize(
+    "case",
+    [
+        a_scene_in_which_anything_is_wrong,
+        a_text_that_is_broken_anywhere,
+        a_tape_in_which_anything_is_wrong,
+        any_command_line,
+    ],
+)
+
+
+def tried(case: Case, how: settings, record: Record) -> None:
+    """Try as many cases as `how` says, each held to its limits; record the most that any took."""
+    limits = Limits(SECONDS, MEGABYTES)
+
+    @how
+    @given(st.data())
+    def one(data: st.DataObject) -> None:
+        case(data, limits)
+
+    one()
+    told(limits, record)
+
+
+def told(limits: Limits, record: Record) -> None:
+    record("bad inputs, s of processor time at most", limits.most_seconds)
+    record("bad inputs, MB at most", limits.most_mb)
 
 
 @pytest.mark.withstands("bad inputs tried", FEW)
-@usual
-@given(st.data())
-def test_a_scene_in_which_anything_is_wrong(data: st.DataObject) -> None:
-    hold_scene(data)
-
-
-@pytest.mark.withstands("bad inputs tried", FEW)
-@usual
-@given(st.data())
-def test_a_text_that_is_broken_anywhere(data: st.DataObject) -> None:
-    hold_text(data)
-
-
-@pytest.mark.withstands("bad inputs tried", FEW)
-@usual
-@given(st.data())
-def test_a_tape_in_which_anything_is_wrong(data: st.DataObject) -> None:
-    hold_tape(data)
-
-
-@pytest.mark.withstands("bad inputs tried", FEW)
-@usual
-@given(st.data())
-def test_any_command_line(data: st.DataObject) -> None:
-    hold_arguments(data)
+@cases
+def test_bad_input(case: Case, record_property: Record) -> None:
+    tried(case, usual, record_property)
 
 
 @pytest.mark.long
 @pytest.mark.withstands("bad inputs tried", MANY)
-@pytest.mark.parametrize("hold", [hold_scene, hold_text, hold_tape, hold_arguments])
-def test_ten_times_as_many(hold: Any) -> None:
-    long(given(st.data())(hold))()
+@cases
+def test_ten_times_as_many(case: Case, record_property: Record) -> None:
+    tried(case, long, record_property)
 
 
 @pytest.mark.withstands("bad inputs tried")
@@ -242,3 +263,51 @@ def test_bytes_that_are_no_document(tmp_path: Path, junk: bytes, suffix: str) ->
     with pytest.raises(BadInput) as refusal:
         load(path) if suffix == ".toml" else read(path)
     refused_in_a_line(refusal.value, f"{path}: ")
+
+
+HEAD = '[ground]\nO = [0, 0]\nQ = [100, 0]\n[joints.A]\ncrank = "O"\nlength = 30\n'
+SHORT = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
+MEGABYTE = 999_000
+
+# As heavy as a file may be, each in what something here might take its time over.
+HEAVY = {
+    "one key of a megabyte": "a" * MEGABYTE + " = 1",
+    "keys in keys": "a" + ".a" * 499_000 + " = 1",
+    "one number": "a = " + "1" * MEGABYTE,
+    "a title of a megabyte": f'title = "{"x" * MEGABYTE}"\n{SHORT}',
+    "escaped letters": 'notes = ["' + "\\u0041" * 166_000 + '"]\n' + SHORT,
+    "empty lines": SHORT + "\n" * MEGABYTE,
+    "comments": SHORT + "#\n" * (MEGABYTE // 2),
+    "lines of one text": SHORT + 'x = """' + "\n" * MEGABYTE + '"""',
+    "numbers in a list": SHORT + "x = [" + "1.5," * 49_000 + "]",
+    "a number a line": SHORT + "x = [" + "1.5,\n" * 49_000 + "]",
+    "unknown keys": SHORT + "".join(f"k{i} = 1\n" for i in range(24_000)),
+    "unknown tables": SHORT + "".join(f"[a.b{i}]\n" for i in range(24_000)),
+    "tables in tables": SHORT + "".join(f"k.j{i}.l.m.n.o = 1\n" for i in range(24_000)),
+    "too many joints": HEAD + "".join(f"[joints.J{i}]\n" for i in range(5_000)),
+    "names that are too long": HEAD + "".join(f"[joints.{'J' * 1_900}{i}]\n" for i in range(490)),
+    "a circle of joints": HEAD
+    + "".join(f'[joints.J{i}]\non = ["J{(i + 1) % 490}", "A"]\nat = [{i}, 1]\n' for i in range(490)),
+    "bars in a row": HEAD
+    + "".join(
+        f'[joints.J{i}]\nfrom = ["{f"J{i - 1}" if i else "A"}", "Q"]\nlength = [90, 80]\n' for i in range(490)
+    ),
+}
+
+
+@pytest.mark.withstands("bad inputs tried")
+@pytest.mark.parametrize("text", HEAVY.values(), ids=HEAVY)
+def test_a_file_as_heavy_as_can_be(
+    tmp_path: Path, text: str, record_property: Record, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(text)
+    limits = Limits(SECONDS, MEGABYTES)
+    with limits.held(), suppress(BadInput):
+        load(path)
+    told(limits, record_property)
+    with Limits(3 * SECONDS, MEGABYTES).held():  # reads a file again after each problem
+        main(["check", str(path)])
+    printed = capsys.readouterr().out.splitlines()
+    assert 0 < max(map(len, printed)) < 1000
+    assert len(printed) <= 100

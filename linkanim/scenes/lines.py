@@ -2,38 +2,54 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
+from collections.abc import Iterator
 from typing import Any
 
 Keys = tuple[str, ...]
 
-_PATIENCE = 3_000_000
-"""Characters looked at, at the most: a list over very many lines is looked at anew for each of them."""
+_PATIENCE = 500_000
+"""Characters looked at, at the most: a list of lists over very many lines is looked at anew for each."""
+_IDLE = re.compile(r"\s*(#.*)?\s*")
+_ENDS = re.compile(r"[\]}]|\"{3}|'{3}")
+"""What a statement over several lines has in its last."""
 
 
 def lines_of(text: str) -> dict[Keys, int]:
     """Return the line, from 1, of every table and key of a TOML text; few of one that is very long."""
     found: dict[Keys, int] = {}
     table: Keys = ()
-    begun, statement, seen = 1, "", 0
-    for number, line in enumerate(text.splitlines(keepends=True), 1):
-        statement += line
-        seen += len(statement)
-        if seen > _PATIENCE:
-            break
-        try:
-            document = tomllib.loads(statement)
-        except ValueError:  # goes on in the next line
-            continue
-        at = begun if len(statement) > len(line) else number
+    for at, statement, document in _statements(text):
         if statement.lstrip().startswith("["):
             table = _way(document)
             found.setdefault(table, at)
         else:
             for keys in _keys(document):
                 found.setdefault((*table, *keys), at)
-        statement, begun = "", number + 1
     return found
+
+
+def _statements(text: str) -> Iterator[tuple[int, str, Any]]:
+    """Yield the line at which a statement begins, its text and the document in it, while patience lasts."""
+    begun, lines, seen = 1, list[str](), 0
+    for number, line in enumerate(text.splitlines(keepends=True), 1):
+        begun = begun if lines else number
+        if not lines and _IDLE.fullmatch(line):
+            continue
+        lines.append(line)
+        if begun < number and not _ENDS.search(line):
+            continue
+        statement = "".join(lines)
+        seen += len(statement)
+        if seen > _PATIENCE:
+            return
+        try:
+            document = tomllib.loads(statement)
+        except ValueError:  # goes on in the next line
+            continue
+        yield begun, statement, document
+        lines = []
 
 
 def _way(document: Any) -> Keys:

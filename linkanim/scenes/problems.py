@@ -77,6 +77,8 @@ def _stops(document: Mapping[str, Any], *, name: str, where: str) -> Iterator[_S
         if not _mend(mended, stop, where):
             return
         moved = moved or "unknown key" not in stop.message
+    else:  # there may be more
+        return
     if not moved:
         try:
             scene_from(mended, name=name, where=where)
@@ -160,5 +162,6 @@ def _candidates(document: Mapping[str, Any], keys: Keys, *, whole: bool) -> Iter
 
 def _line(lines: Mapping[Keys, int], keys: Keys) -> int | None:
     """Return the line of a key, or of the nearest table around it."""
-    plain = tuple(_ITEM.sub(r"\1", key) for key in keys)
+    items = [(key, _ITEM.fullmatch(key)) for key in keys]
+    plain = tuple(item[1] if item else key for key, item in items)
     return next((lines[plain[:n]] for n in range(len(plain), 0, -1) if plain[:n] in lines), None)

@@ -118,7 +118,8 @@ def _joints(top: Table, short: Expansion) -> tuple[Joint, ...]:
         _check_needs(top, joint, joints)
     order = solved_order(joints)
     if len(order) < len(joints):
-        chain = " -> ".join(circle(joints, joints.keys() - {joint.name for joint in order}))
+        first, *others = circle(joints, joints.keys() - {joint.name for joint in order})
+        chain = " -> ".join([first, *others[:12], *["..."] * (len(others) > 12)])
         raise top.table("joints").wrong(f"{chain}: a joint cannot depend on itself; start from a crank")
     return order
 

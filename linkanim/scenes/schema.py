@@ -10,13 +10,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkanim import units
-from linkanim.bounds import MOST_NAMES
+from linkanim.bounds import LONGEST_TEXT, MOST_NAMES
 from linkanim.scenes.joints import LOOKS, OPEN
 from linkanim.scenes.shorthand import SHORTHANDS
 
 _NUMBER = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*"
 _NAME: dict[str, Any] = {"type": "string", "minLength": 1, "maxLength": 32}
-_TEXT = {"type": "string"}
+_TEXT = {"type": "string", "maxLength": LONGEST_TEXT}
 
 
 def _quantity(names: tuple[str, ...], *, bare: bool, above: bool = False) -> dict[str, Any]:
@@ -133,7 +133,7 @@ _SPRING = {
 
 _SECTIONS: dict[str, Any] = {
     **dict.fromkeys(("title", "source", "chapter", "look_at"), _TEXT),
-    "notes": {"type": "array", "items": _TEXT},
+    "notes": {"type": "array", "items": {"type": "string"}},
     "length_unit": _choice(*units.LENGTH_UNITS),
     "gravity": _quantity(units.FALL_UNITS, bare=False),
     "drive": _table(joint=_NAME, speed=_SPEED, start=_ANGLE_TEXT, cylinder=_CYLINDER, slider=_TRAVEL),

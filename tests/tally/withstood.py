@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterable, Iterator
 MARK = "withstands"
 ROWS: dict[str, Callable[[Iterable[float]], float]] = {
     "bad inputs tried": sum,
+    "bad inputs, s of processor time at most": max,
+    "bad inputs, MB at most": max,
     "faults survived": sum,
     "frames run": sum,
     "memory growth, MB": max,

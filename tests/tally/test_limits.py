@@ -1,0 +1,51 @@
+"""What is held to limits is stopped at them, and told what it took."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from contextlib import suppress
+
+import pytest
+from limits import Limits, TooLongError
+
+linux = pytest.mark.skipif(sys.platform != "linux", reason="the limits are Linux's")
+
+
+def forever() -> None:
+    while True:
+        pass
+
+
+@linux
+def test_what_never_ends_is_stopped() -> None:
+    before = signal.getsignal(signal.SIGPROF)
+    with pytest.raises(TooLongError, match=r"^more than 0\.05 s"), Limits(0.05, 100).held():
+        forever()
+    assert signal.getsignal(signal.SIGPROF) is before
+    assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
+
+
+@linux
+def test_what_swallows_the_alarm_is_found_out() -> None:
+    limits = Limits(0.05, 100)
+    with pytest.raises(TooLongError, match=r"^\d\.\d\d s"), limits.held(), suppress(TooLongError):
+        forever()
+    assert limits.most_seconds > 0
+
+
+@linux
+def test_memory_beyond_the_limit_is_refused_and_there_again_after() -> None:
+    with pytest.raises(MemoryError), Limits(1.0, 50).held():
+        bytearray(60_000_000)
+    assert len(bytearray(60_000_000)) == 60_000_000
+
+
+@linux
+def test_the_most_of_all_is_kept() -> None:
+    limits = Limits(1.0, 100)
+    for size in (1_000_000, 40_000_000, 2_000_000):
+        with limits.held():
+            sum(bytearray(size)[:: size // 1000])
+    assert 35 < limits.most_mb < 60
+    assert 0 < limits.most_seconds < 1
