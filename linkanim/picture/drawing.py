@@ -155,8 +155,15 @@ class Drawing:
         layers = (layer for group in self._pinned(self.places(pose)) for layer in group.layers)
         return [Layer(mixed(layer.colour, back, _FAINT), layer.loops, layer.alpha) for layer in layers]
 
-    def standing(self) -> Iterator[Group]:
-        """Yield what else stands still: the ground, its line and the whole curves."""
+    def standing(self) -> tuple[Group, ...]:
+        """Return what else stands still: the ground, its line and the whole curves."""
+        return self._standing
+
+    @cached_property
+    def _standing(self) -> tuple[Group, ...]:
+        return tuple(self._ground())
+
+    def _ground(self) -> Iterator[Group]:
         figure, look = self.scenery.figure, self.scenery.look
         yield Group("ground", ground_layers(*self.scenery.known))
         if look.names:

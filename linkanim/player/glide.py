@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,18 +13,22 @@ from linkanim.scenes.scene import Scene
 
 FRAMES = 16
 EVERY = 2
-"""A scene on the way stands for so many frames: working one out takes as long as drawing two."""
+"""A scene on the way stands for so many frames: one is worked out in the last of them, and then drawn."""
 _TRIED = 90
 _FOLLOWED = ("length", "offset", "angle")
 
 
 @dataclass(frozen=True)
 class Glide:
-    """Dimensions on their way since frame `since`: (key, from, to), and the scene shown meanwhile."""
+    """Dimensions on their way since frame `since`: (key, from, to), and the scene shown meanwhile.
+
+    `coming` is the one that is worked out for the next frame, if any.
+    """
 
     scene: Scene
     since: int
     ways: tuple[tuple[Key, float, float], ...]
+    coming: Scene | None = None
 
 
 def glide(before: Scene, after: Scene, frame: int) -> Glide | None:
@@ -44,21 +48,25 @@ def followed(way: Glide, after: Scene, frame: int) -> Glide | None:
 
     A scene on the way that cannot be assembled all along is left out: the last one stays.
     """
-    gone = frame - way.since
-    if gone >= FRAMES:
+    gone = frame + 1 - way.since
+    if gone > FRAMES:
         return None
-    if gone % EVERY:
-        return way
-    part = gone / FRAMES
+    if gone % EVERY == 0 and gone < FRAMES:
+        return replace(way, coming=_on_the_way(way, after, gone / FRAMES))
+    return replace(way, scene=way.coming, coming=None) if way.coming else way
+
+
+def _on_the_way(way: Glide, after: Scene, part: float) -> Scene | None:
+    """Return the scene after a part of the way; None where it cannot be assembled all along."""
     eased = part * part * (3.0 - 2.0 * part)
     try:
         scene = passing(after, {key: start + (end - start) * eased for key, start, end in way.ways})
     except LinkanimError:
-        return way
-    return Glide(scene, way.since, way.ways) if closes(scene) else way
+        return None
+    return scene if closes(scene) else None
 
 
 def closes(scene: Scene) -> bool:
-    """Tell whether every joint is somewhere at all phases."""
-    places = scene.cycle(_TRIED).position.values()
+    """Tell whether every joint is somewhere at all phases; worked out as its poses are, all in one pass."""
+    places = scene.cycle(_TRIED).every["position"].values()
     return all(bool(np.isfinite(place).all()) for place in places)

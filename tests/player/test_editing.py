@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any
 
 import pytest
 
@@ -14,6 +15,7 @@ from linkanim.player.state import FLASH_FRAMES, State, begin
 from linkanim.scenes import load
 from linkanim.scenes.edit import dimensions, passing
 from linkanim.scenes.read import scene_from
+from linkanim.scenes.scene import Scene
 
 
 def value(state: State, label: str) -> float:
@@ -330,6 +332,27 @@ def test_nothing_is_classified_on_the_way(monkeypatch: pytest.MonkeyPatch) -> No
         state = advance(state)
     assert len(seen) > 2
     assert state.effects == ()
+
+
+def test_a_scene_on_the_way_is_worked_out_in_the_frame_before_it_is_drawn(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Both in one frame would take longer than a frame has."""
+    state = on_the_way("press", 0, 1)
+    worked: list[int] = []
+    drawn: list[int] = []
+
+    def noted(*given: Any) -> Scene:
+        worked.append(state.frame)
+        return passing(*given)
+
+    monkeypatch.setattr("linkanim.player.glide.passing", noted)
+    while state.glide:
+        before, state = state.shown, advance(state)
+        drawn += [state.frame] if state.shown is not before else []
+    assert len(worked) > 2
+    assert [frame + 2 for frame in worked] == drawn[:-1]
+    assert drawn[-1] - drawn[-2] == EVERY
 
 
 def test_a_way_past_lengths_that_do_not_close_leaves_them_out() -> None:

@@ -108,7 +108,7 @@ def test_a_scene_that_fails_is_not_put_on(
 def test_a_way_that_fails_is_left_out(crank: State, monkeypatch: pytest.MonkeyPatch) -> None:
     state = advance(crank, [Action("nudge", 1)])
     monkeypatch.setattr("linkanim.player.glide.passing", raising(HOLES[0]))
-    after = advance(advance(state))
+    after = advance(state)
     assert (after.glide, after.shown) == (None, state.scene)
     assert [effect.name for effect in after.effects] == ["report"]
 
