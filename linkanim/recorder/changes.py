@@ -37,7 +37,7 @@ class Comparing:
         place = np.flatnonzero(now != self._before)
         words = now.take(place)
         self._before[place] = words
-        return _COUNT.pack(len(place)) + place.astype(_NUMBER).tobytes() + words.tobytes()
+        return b"".join((_COUNT.pack(len(place)), place.astype(_NUMBER).data, words.data))
 
 
 def changes(source: BinaryIO) -> Iterator[Change]:
