@@ -22,6 +22,8 @@ _DEVICES = frozenset(
     {"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10))}
 )
 """Names that Windows keeps for devices, whatever their ending."""
+_IN_USE = (5, 32)
+"""Windows' numbers for a file that may not be touched and for one that is open elsewhere."""
 _PART = re.compile(r"\.linkanim-(\d+)-[0-9a-f]+\.part")
 
 
@@ -187,8 +189,14 @@ def _saying_why(target: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise WorkFailed(f"{target}: cannot be written: {reason}") from error
+        raise WorkFailed(f"{target}: cannot be written: {_reason(error)}") from error
+
+
+def _reason(error: OSError) -> str:
+    """Return why the system refused; Windows refuses to replace what another program has open."""
+    if getattr(error, "winerror", None) in _IN_USE:
+        return "it is open in another program; close it there, or choose another name"
+    return (error.strerror or str(error)).lower()
 
 
 def _part(folder: Path) -> Path:

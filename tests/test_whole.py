@@ -28,6 +28,16 @@ def replaced(path: Path) -> None:
         part.write_bytes(b"new")
 
 
+def numbers_replaced(path: Path) -> None:
+    with whole.numbering(path.with_suffix(".png")) as part:
+        (part / "0001.png").write_bytes(b"new")
+
+
+def folder_replaced(path: Path) -> None:
+    with whole.replacing_folder(path.with_name("report")) as part:
+        (part / "page.html").write_bytes(b"new")
+
+
 def added(path: Path) -> None:
     assert whole.add(b"new", path, [path.with_name("out-2.csv")]) == path.with_name("out-2.csv")
 
@@ -64,6 +74,28 @@ def test_a_disk_that_refuses_is_one_line(target: Path, monkeypatch: pytest.Monke
             write(target)
     assert target.read_bytes() == BEFORE
     assert list(target.parent.iterdir()) == [target]
+
+
+# As Windows has it: what a viewer shows cannot be replaced, and a folder of which a file is open has to stay.
+@pytest.mark.withstands("faults survived")
+@pytest.mark.parametrize("number", [5, 32], ids=["access is denied", "is being used"])
+def test_a_target_that_is_open_in_another_program_stays_as_it_was(
+    target: Path, number: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(path: Path, goal: Path) -> Path:
+        error = PermissionError(13, "Access is denied", str(path))
+        vars(error)["winerror"] = number
+        raise error
+
+    (target.parent / "out-0001.png").write_bytes(BEFORE)
+    (target.parent / "report").mkdir()
+    monkeypatch.setattr(Path, "replace", refused)
+    monkeypatch.setattr(Path, "rename", refused)
+    for write in (replaced, numbers_replaced, folder_replaced):
+        with pytest.raises(WorkFailed, match=r"it is open in another program; close it there, or choose"):
+            write(target)
+    assert target.read_bytes() == BEFORE == (target.parent / "out-0001.png").read_bytes()
+    assert {path.name for path in target.parent.iterdir()} == {"out.csv", "out-0001.png", "report"}
 
 
 # A machine that stops just after a file took its name must not leave it empty.

@@ -16,7 +16,7 @@ import pygame
 REGULAR = "SourceSansPro-Regular.ttf"
 SEMIBOLD = "SourceSansPro-Semibold.ttf"
 
-_NOWHERE = "\U0010fffe"
+_NOWHERE = "\ufdd0"
 """Not a character: a font draws its sign for what it lacks."""
 _WIDE = (
     *("notosanscjksc", "notosanscjkjp", "notosanscjk", "sourcehansanssc", "wenquanyimicrohei"),
@@ -124,8 +124,11 @@ def _files() -> Iterator[str]:
 
 def _has(font: pygame.Font, char: str) -> bool:
     """Tell whether a font has a character with something to be seen; else it draws its sign for none."""
-    if font.metrics(char) != font.metrics(_NOWHERE):
-        return font.size(char)[0] > 0
+    if font.size(char)[0] == 0:
+        return False
+    measured = font.metrics(char)
+    if None not in measured and measured != font.metrics(_NOWHERE):  # older ones measure none past U+FFFF
+        return True
     drawn = [font.render(text, True, (0, 0, 0)) for text in (char, _NOWHERE)]
     ours, none = (pygame.image.tobytes(one, "RGBA") for one in drawn)
     return ours != none

@@ -7,7 +7,9 @@ import re
 import subprocess
 import sys
 import tempfile
+from contextlib import suppress
 from pathlib import Path
+from typing import BinaryIO
 
 from linkanim.errors import WorkFailed
 from linkanim.player import tape_file
@@ -23,10 +25,11 @@ class Rendering:
     """`linkanim record TAPE` under way.
 
     What it says goes into a file without a name, and not into a pipe, which would break under it
-    when the window closes.
+    when the window closes. We read it through an opening of our own: the process's has the place
+    it writes at.
     """
 
-    def __init__(self, target: Path, process: subprocess.Popen[bytes], said: int) -> None:
+    def __init__(self, target: Path, process: subprocess.Popen[bytes], said: BinaryIO) -> None:
         self.target = target
         self._process = process
         self._said = said
@@ -51,11 +54,13 @@ class Rendering:
 
     def close(self) -> None:
         """Let go of what it says; the process itself goes on."""
-        os.close(self._said)
+        self._said.close()
+        _forgotten(self._said.name)
 
     def _tail(self) -> str:
-        size = os.fstat(self._said).st_size
-        return os.pread(self._said, _TAIL, max(size - _TAIL, 0)).decode("utf-8", "replace")
+        size = os.fstat(self._said.fileno()).st_size
+        self._said.seek(max(size - _TAIL, 0))
+        return self._said.read(_TAIL).decode("utf-8", "replace")
 
 
 def render(tape: Tape, form: str) -> Rendering:
@@ -65,15 +70,24 @@ def render(tape: Tape, form: str) -> Rendering:
     kept, target = into / f"{stem}{tape_file.SUFFIX}", into / f"{stem}.{form}"
     tape_file.write(tape, kept)
     command = [sys.executable, "-m", "linkanim", "record", str(kept), "-o", str(target), "--progress"]
-    said, name = tempfile.mkstemp()
+    number, name = tempfile.mkstemp()
+    # it stays open as long as the rendering
+    said = Path(name).open("rb", buffering=0)  # noqa: SIM115
     try:
-        process = _start(command, said)
+        process = _start(command, number)
     except OSError as error:
-        os.close(said)
+        said.close()
         raise WorkFailed(f"{target}: the recording process cannot be started: {error.strerror}") from None
     finally:
-        Path(name).unlink()
+        os.close(number)
+        _forgotten(name)
     return Rendering(target, process, said)
+
+
+def _forgotten(name: str) -> None:
+    """Have a temporary file lose its name, at once where it may while it is open: not on Windows."""
+    with suppress(OSError):
+        Path(name).unlink()
 
 
 def _start(command: list[str], said: int) -> subprocess.Popen[bytes]:

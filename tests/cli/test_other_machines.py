@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import subprocess
 import sys
@@ -9,6 +10,9 @@ from pathlib import Path
 
 import pytest
 
+import linkanim as package
+
+PACKAGE = Path(package.__file__).parent
 RECORD = ["record", "kite", "--size", "64x36", "--seconds", "0.1"]
 
 
@@ -72,3 +76,37 @@ def test_where_nothing_can_be_written_it_still_tells(tmp_path: Path) -> None:
     assert done.returncode == 1
     assert done.stderr.startswith("linkanim: kite.gif: cannot be written: ")
     assert done.stderr.count("\n") == 1
+
+
+# Windows and macOS start a process afresh, without what its parent had in memory.
+SPAWNED = """
+import multiprocessing, linkanim
+if __name__ == "__main__":
+    multiprocessing.set_start_method("spawn")
+    words = (linkanim.load("kite"), "kite.gif")
+    process = multiprocessing.Process(target=linkanim.record, args=words, kwargs={"size": (64, 36)})
+    process.start()
+    process.join()
+    print(process.exitcode)
+"""
+
+
+def test_a_process_that_was_spawned_records(tmp_path: Path) -> None:
+    (tmp_path / "spawned.py").write_text(SPAWNED)
+    words = [sys.executable, "spawned.py"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("0\n", "")
+    assert (tmp_path / "kite.gif").read_bytes().startswith(b"GIF89a")
+
+
+ELSEWHERE = {"pread", "pwrite", "mkfifo", "fork", "forkpty", "getuid", "geteuid", "chown", "setsid", "killpg"}
+
+
+@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: path.name)
+def test_nothing_is_asked_of_the_system_that_windows_lacks(path: Path) -> None:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        match node:
+            case ast.Attribute(value=ast.Name(id="os" | "signal"), attr=attribute):
+                assert attribute not in ELSEWHERE
+            case ast.Import(names=names):
+                assert not {name.name for name in names} & {"multiprocessing", "pwd", "grp", "resource"}
