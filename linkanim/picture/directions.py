@@ -8,6 +8,7 @@ begins and ends or how a tooth's flank bends, and exponentials where a label res
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import pi, sqrt
 from typing import Any
 
@@ -17,6 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim.mechanics.circular import PI_PARTS, tangent
 
 Directions = NDArray[np.complex128]
+
+_GRAIN = float(1 << 24)
+"""Steps to a radian that directions are rounded to."""
 
 
 def directions(angles: ArrayLike) -> Directions:
@@ -31,6 +35,23 @@ def directions(angles: ArrayLike) -> Directions:
     turned.real, turned.imag = (4.0 - half * half) / norm, 4.0 * half / norm
     found: Directions = turned * np.array([1, 1j, -1, -1j])[quarters.astype(np.int64) & 3]
     return found
+
+
+def folded(turn: complex, fold: int) -> complex:
+    """Return the direction nearest to 1 in which looks alike what does so `fold` (3 or more) times a turn.
+
+    It is rounded to a step far below what shows, so that a direction that comes again after some such
+    parts of a turn is found again to the last digit.
+    """
+    nearest = max((turn * way for way in _ways(fold)), key=lambda way: way.real)
+    side = round(nearest.imag * _GRAIN) / _GRAIN
+    return complex(sqrt(1.0 - side * side), side)
+
+
+@lru_cache(maxsize=64)
+def _ways(fold: int) -> tuple[complex, ...]:
+    ways: list[complex] = directions(2 * pi / fold * np.arange(fold)).tolist()
+    return tuple(ways)
 
 
 def lengths(vectors: Directions) -> NDArray[np.float64]:

@@ -15,7 +15,7 @@ from linkanim.picture.chart import pen_for
 from linkanim.picture.dead_centres import DeadCentres
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import Figure
-from linkanim.picture.gears import wheel_layers, wheel_parts
+from linkanim.picture.gears import turning_apart, wheel_layers, wheel_parts
 from linkanim.picture.ground import ground_layers, ground_line
 from linkanim.picture.items import Group
 from linkanim.picture.layout import Gauge, Layout
@@ -143,6 +143,11 @@ class Drawing:
         """Yield what turns on them."""
         for part in self.cast.wheels:
             yield Group(f"wheel-{part.head}", part.placed(places))
+
+    @cached_property
+    def turning_apart(self) -> tuple[tuple[Part, ...], ...]:
+        """The wheels in sets each of which may be painted without the others; none where that is not so."""
+        return turning_apart(self.scenery.figure, self.cast.wheels)
 
     @property
     def moves_behind(self) -> bool:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import permutations
 from math import ceil, cos, pi, radians
 
 import numpy as np
@@ -28,6 +29,8 @@ _TIP, _FOOT = 0.85, 1.0
 """How far a tooth reaches beyond the pitch circle and the gap below it, in modules."""
 _SHADED = 0.3
 """How much of the ground's colour is in the driven wheel's."""
+_HOLES, _HOLED, _HOLE = 5, 0.62, 0.19
+"""How many holes a wheel has, how far from its middle, and how large: shares of what is within its teeth."""
 _BELT = 0.3
 """The larger pulley's radius, as a share of the distance between the pivots."""
 
@@ -221,9 +224,36 @@ def _wheel(
         lines = [loop for outline in rim for loop in stroke(outline, gauge.outline, closed=True)]
         return Layer(tone, rim), Layer(edge, lines)
     root = _root(wheel, view, gauge)
-    holes = [turn * (0.62 * root) + disc(0.19 * root) for turn in directions(2 * pi / 5 * np.arange(5))]
+    ways = directions(2 * pi / _HOLES * np.arange(_HOLES))
+    holes = [way * (_HOLED * root) + disc(_HOLE * root) for way in ways]
     line = stroke(rim[0], gauge.outline, closed=True)
     return Layer(tone, rim), Layer(mixed(tone, theme.background, 0.6), holes), Layer(edge, line)
+
+
+def turning_apart(figure: Figure, parts: Sequence[Part]) -> tuple[tuple[Part, ...], ...]:
+    """Return the parts of wheels in sets that never lie over each other: rims with their lines, and holes.
+
+    None where a wheel goes round, or lies before another's holes.
+    """
+    turning = [wheel for wheel in wheels(figure) if wheel.arm or not _stays(figure, wheel)]
+    if not all(_stays(figure, wheel) for wheel in turning) or _overlapping(figure, turning):
+        return ()
+    rims = (replace(part, layers=(part.layers[0], part.layers[2])) for part in parts)
+    # the outline of a pulley has equal sides instead of teeth
+    folds = (wheel.teeth or len(part.layers[0].loops[0]) for part, wheel in zip(parts, turning, strict=True))
+    return (
+        tuple(replace(rim, fold=fold) for rim, fold in zip(rims, folds, strict=True)),
+        tuple(replace(part, layers=part.layers[1:2], fold=_HOLES) for part in parts),
+    )
+
+
+def _overlapping(figure: Figure, turning: Sequence[Wheel]) -> bool:
+    """Return whether one of these wheels reaches to where another has its holes."""
+    holed = _HOLED + _HOLE
+    return any(
+        abs(figure.start(one.centre) - figure.start(other.centre)) < one.reach + holed * other.radius
+        for one, other in permutations(turning, 2)
+    )
 
 
 def _tone(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cached_property
 
 import pygame
@@ -26,6 +26,7 @@ from linkanim.picture.staging import Staging, staged, wanted_of
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, theme_of
+from linkanim.picture.turned import Turned
 from linkanim.picture.view import View
 from linkanim.scenes.scene import Scene
 
@@ -91,7 +92,7 @@ class Painter:
         canvas = self._canvas(surface)
         self._wipe(canvas, self._still_at(pose.input_speed))
         if self.drawing.moves_behind:
-            self._paint_behind(canvas, self._behind(pose, ghost if self.look.ghost else None))
+            self._paint_behind(canvas, pose, ghost if self.look.ghost else None)
         moving = list(self.drawing.moving(pose))
         beside = [polygon.group(pose) for polygon in self._polygons]
         on_chart = self._on_chart(pose, grasped=overlay.grip)
@@ -109,12 +110,17 @@ class Painter:
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 
-    def _paint_behind(self, canvas: pygame.Surface, behind: Iterable[Layer]) -> None:
+    def _paint_behind(self, canvas: pygame.Surface, pose: Pose, ghost: Pose | None) -> None:
         """Paint what moves behind what stands still, and that; a stencil pays from the second pose on."""
+        places, faint = self.drawing.places(pose), self.drawing.faint(ghost) if ghost else ()
         if self._brief:
-            paint(canvas, (*behind, *flat(self.drawing.standing())), ends=self._ends)
+            behind = *flat(self.drawing.wheels(places)), *faint, *flat(self.drawing.standing())
+            paint(canvas, behind, ends=self._ends)
             return
-        paint(canvas, behind, ends=self._ends)
+        for turned in self._turned:
+            turned.paint(canvas, self._still_at(pose.input_speed), places)
+        wheels = () if self._turned else flat(self.drawing.wheels(places))
+        paint(canvas, (*wheels, *faint), ends=self._ends)
         mix(pixels_of(canvas), self._stencil, clear=bool(canvas.get_flags() & pygame.SRCALPHA))
 
     def _handled(self, canvas: pygame.Surface, pose: Pose, overlay: Overlay) -> None:
@@ -206,10 +212,10 @@ class Painter:
             canvas.fill((0, 0, 0, 0))
         canvas.blit(still, (0, 0))
 
-    def _behind(self, pose: Pose, ghost: Pose | None) -> Iterator[Layer]:
-        """Yield what moves behind all that stands still."""
-        yield from flat(self.drawing.wheels(self.drawing.places(pose)))
-        yield from self.drawing.faint(ghost) if ghost else ()
+    @cached_property
+    def _turned(self) -> tuple[Turned, ...]:
+        """What turns behind it about fixed joints, each that may be painted alone."""
+        return tuple(Turned(parts, self._ends) for parts in self.drawing.turning_apart)
 
     @cached_property
     def _stencil(self) -> Mix:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from linkanim.picture.directions import folded
 from linkanim.picture.raster import Colour, Layer, Loop, Outlines, outlines_of
 from linkanim.picture.shapes import rounded, unit
 
@@ -58,6 +59,7 @@ class Part:
     """Layers about the joint `at`, drawn for the direction from `tail` to `head` being 1.
 
     Without a direction (`tail` == `head`) the part keeps its own. The pins of `joints` go through it.
+    One that looks the same `fold` times in a turn (3 or more) is turned by no more than to there.
     """
 
     at: str
@@ -66,6 +68,7 @@ class Part:
     layers: tuple[Layer, ...]
     joints: tuple[str, ...] = ()
     name: str = ""
+    fold: int = 1
 
     @property
     def title(self) -> str:
@@ -74,8 +77,12 @@ class Part:
 
     def placed(self, places: Places) -> list[Layer]:
         """Return the layers where the joints now lie."""
+        return self._sheaf.laid(places[self.at] + self.turn(places) * self._sheaf.points)
+
+    def turn(self, places: Places) -> complex:
+        """Return the direction that the part is turned by."""
         turn = unit(places[self.head] - places[self.tail])
-        return self._sheaf.laid(places[self.at] + turn * self._sheaf.points)
+        return folded(turn, self.fold) if self.fold > 2 else turn
 
     @cached_property
     def _sheaf(self) -> Sheaf:

@@ -102,6 +102,17 @@ class _Pixels(NamedTuple):
     bounds: Ints
 
 
+class Patch(NamedTuple):
+    """Pixels of a surface, and what was painted there."""
+
+    place: Ints
+    words: Words
+
+    def lay(self, surface: pygame.Surface) -> None:
+        """Paint the same again, on a surface that is as the first one was."""
+        pixels_of(surface)[self.place] = self.words
+
+
 def paint(
     surface: pygame.Surface,
     layers: Iterable[Layer],
@@ -114,21 +125,15 @@ def paint(
     Where there are `ends`, columns and rows from them on are left as they are; those `over` the layers may
     reach beyond. Where the surface has alpha, it is kept straight (not multiplied into the colours).
     """
-    size = surface.get_size()
-    limited, free = ([layer for layer in some if layer.loops] for some in (layers, over))
-    if not limited and not free:
-        return
-    layers, limits = [*limited, *free], np.repeat([ends or size, size], (len(limited), len(free)), axis=0).T
-    edges, boxes = _outlined(layers, np.minimum(limits, np.array(size)[:, None]))
-    levels = _levels(boxes)
-    order = np.argsort(levels, kind="stable")
-    within = room(boxes.top[order], (boxes.end - boxes.top)[order], limits[0][order], size[0])
-    outline, spans = covered(edges._replace(layer=np.argsort(order)[edges.layer]), within)
-    inks = _inks(surface, [layers[n] for n in order])
-    lines = within.first[np.searchsorted(levels[order], np.arange(levels.max() + 2))]
-    edge, inside = (_inked(runs, within, inks, lines) for runs in (outline, spans))
-    full = inside.share == WHOLE
-    _put(surface, _spread(inside, spans.length, full), (edge, _spread(inside, spans.length, ~full)))
+    _put(surface, _covered(surface, layers, ends or surface.get_size(), over))
+
+
+def patch(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int]) -> Patch:
+    """Fill layers as `paint` does, and return what they made of the surface."""
+    found = _covered(surface, layers, ends, ())
+    _put(surface, found)
+    place = np.concatenate([np.zeros(0, np.int64), *(part.place for part in found)])
+    return Patch(place, pixels_of(surface).take(place))
 
 
 def stencil(layers: Iterable[Layer], like: pygame.Surface, *, ends: tuple[int, int] | None = None) -> Mix:
@@ -167,6 +172,27 @@ def pixels_of(surface: pygame.Surface) -> Words:
 def paints(surface: pygame.Surface) -> bool:
     """Return whether `paint` can write to this surface."""
     return surface.get_bytesize() == 4 and surface.get_pitch() == 4 * surface.get_width()
+
+
+def _covered(
+    surface: pygame.Surface, layers: Iterable[Layer], ends: tuple[int, int], over: Iterable[Layer]
+) -> list[_Pixels]:
+    """Return the pixels that are covered in full, those on outlines, and those of spans covered in part."""
+    size = surface.get_size()
+    limited, free = ([layer for layer in some if layer.loops] for some in (layers, over))
+    if not limited and not free:
+        return []
+    layers, limits = [*limited, *free], np.repeat([ends, size], (len(limited), len(free)), axis=0).T
+    edges, boxes = _outlined(layers, np.minimum(limits, np.array(size)[:, None]))
+    levels = _levels(boxes)
+    order = np.argsort(levels, kind="stable")
+    within = room(boxes.top[order], (boxes.end - boxes.top)[order], limits[0][order], size[0])
+    outline, spans = covered(edges._replace(layer=np.argsort(order)[edges.layer]), within)
+    inks = _inks(surface, [layers[n] for n in order])
+    lines = within.first[np.searchsorted(levels[order], np.arange(levels.max() + 2))]
+    edge, inside = (_inked(runs, within, inks, lines) for runs in (outline, spans))
+    full = inside.share == WHOLE
+    return [_spread(inside, spans.length, full), edge, _spread(inside, spans.length, ~full)]
 
 
 def _outlined(layers: Sequence[Layer], limits: Ints) -> tuple[Edges, _Boxes]:
@@ -244,8 +270,11 @@ def _places(begin: Ints, counts: Ints) -> Ints:
     return np.cumsum(steps, out=steps)
 
 
-def _put(surface: pygame.Surface, full: _Pixels, partly: Sequence[_Pixels]) -> None:
+def _put(surface: pygame.Surface, found: Sequence[_Pixels]) -> None:
     """Fill the pixels that are covered in full and mix the others, level by level."""
+    if not found:
+        return
+    full, *partly = found
     pixels, clear = pixels_of(surface), bool(surface.get_flags() & pygame.SRCALPHA)
     mixes = [(mixed_in(part.place, part.share, part.ink), part.bounds.tolist()) for part in partly]
     bounds = full.bounds.tolist()
