@@ -26,6 +26,8 @@ def as_complex(vector: Any) -> Any:
 
 def over(dividend: Any, divisor: Any) -> Any:
     """Return a quotient, infinite or NaN where the divisor is 0."""
+    if type(dividend) is type(divisor) is float and divisor:
+        return dividend / divisor
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         return np.true_divide(dividend, divisor)
 

@@ -29,7 +29,7 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.trace import Trace, traces
 from linkanim.picture.turning import Sliding, Turning, motion_of, turning_of
-from linkanim.picture.vectors import Arrows, arrows_of
+from linkanim.picture.vectors import Arrows, arrow_layers, arrows_of
 from linkanim.picture.view import View
 
 _FAINT = 0.78
@@ -200,8 +200,8 @@ class Drawing:
         yield Group("input", list(self._turning(pose, places)))
         masses = [self.scenery.view.place(at) for at in pose.com_position.values()]
         yield Group("centres-of-mass", cast.mass.at(masses))
-        for kind in cast.arrows:
-            yield Group(kind.words, kind.layers(pose, self.scenery.view, self.scenery.figure.scene.trace))
+        arrows = arrow_layers(cast.arrows, pose, self.scenery.view, self.scenery.figure.scene.trace)
+        yield from (Group(kind.words, layers) for kind, layers in zip(cast.arrows, arrows, strict=True))
         if cast.centres:
             yield cast.centres.marks(pose, places)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import exp
 from typing import NamedTuple
 
 import numpy as np
@@ -98,9 +99,10 @@ class Drift(NamedTuple):
         """Return place and showing at a share of the cycle (1 is the whole), of several labels in a row."""
         count = len(self.offset)
         middle = share * count
-        near = np.arange(round(middle) - _REACH, round(middle) + _REACH + 1)
-        weight = np.exp(-0.5 * ((near - middle) / _SOFT) ** 2)
-        offset, shown = ((part[near % count].T * weight).sum(axis=-1) / weight.sum() for part in self)
+        first = round(middle) - _REACH
+        weights = [exp(-0.5 * ((first + n - middle) / _SOFT) ** 2) for n in range(2 * _REACH + 1)]
+        near, whole = np.arange(first, first + len(weights)) % count, sum(weights)
+        offset, shown = ((part.take(near, axis=0).T * weights).sum(axis=-1) / whole for part in self)
         return offset, shown
 
 

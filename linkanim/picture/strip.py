@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import isfinite
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -141,19 +142,16 @@ class Strip:
 
     def cursor(self, pose: Pose) -> list[Layer]:
         """Return the line at a pose and the dots where it meets the curves."""
-        line, dots = self._marks
-        x, values = float(self.course.x_of(pose.phase)), self.values_at(pose)
-        layers = line.at([self.foot(pose)])
-        for n in np.flatnonzero(np.isfinite(values)):
-            layers += dots[n].at([complex(self.plot.place(x, values[n]))])
-        return layers
+        places = self.plot.place(self.course.x_of(pose.phase), [self.plot.y.low, *self.values_at(pose)])
+        found = [mark.at([place]) for mark, place in zip(self._marks, places, strict=True) if isfinite(place)]
+        return [layer for layers in found for layer in layers]
 
     @cached_property
-    def _marks(self) -> tuple[Stamp, tuple[Stamp, ...]]:
+    def _marks(self) -> tuple[Stamp, ...]:
         """The line up from the axis, and each curve's dot, about 0."""
         pen, head = self.pen, -1j * self.plot.area.height
         line = Stamp((Layer(pen.theme.ink, segments(0, head, 0.8 * pen.line)),))
-        return line, tuple(dot(self.colour(n), pen) for n in range(len(self.series.labels)))
+        return line, *(dot(self.colour(n), pen) for n in range(len(self.series.labels)))
 
     def reading(self, values: NDArray[np.float64]) -> tuple[str, ...]:
         """Return values in words, one for each curve."""

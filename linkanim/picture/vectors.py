@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate, pairwise
 from typing import Any, Literal
 
 import numpy as np
@@ -48,20 +49,36 @@ class Arrows:
         faster = abs(speed / self.drive) ** _ORDER[self.kind]
         return self.longest / (self.most * faster) if self.most > 0 and faster > 0 else 0.0
 
-    def layers(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[Layer]:
-        """Return the arrows of a pose, in a halo that parts them from what is below."""
+    def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[tuple[complex, complex]]:
+        """Return foot and reach of each arrow of a pose that is long enough to be seen, in pixels."""
         scale = self.scale(pose.input_speed)
         found = [
             (view.place(place), complex(scale * x, -scale * y))
             for place, (x, y) in _values(pose, self.kind, joints)
         ]
-        seen = [(foot, reach) for foot, reach in found if 0.01 < abs(reach) / self.longest < 100]
-        if not seen:
-            return []
-        feet, reaches = np.array(seen + seen).T
-        rims = np.repeat([0.75 * self.gauge.line, 0.0], len(seen))
-        drawn = arrows(feet, reaches, 1.6 * self.gauge.line, rims)
-        return [Layer(self.halo, drawn[: len(seen)]), Layer(self.colour, drawn[len(seen) :])]
+        return [arrow for arrow in found if 0.01 < abs(arrow[1]) / self.longest < 100]
+
+
+def arrow_layers(
+    kinds: Sequence[Arrows], pose: Pose, view: View, joints: tuple[str, ...]
+) -> list[list[Layer]]:
+    """Return the arrows of a pose, kind by kind, each in a halo that parts them from what is below.
+
+    All kinds go through the arithmetic together.
+    """
+    seen = [kind.seen(pose, view, joints) for kind in kinds]
+    every = [arrow for arrows_ in seen for arrow in arrows_]
+    if not every:
+        return [[] for _ in kinds]
+    line, count = kinds[0].gauge.line, len(every)
+    feet, reaches = np.array(every + every).T
+    drawn = arrows(feet, reaches, 1.6 * line, np.repeat([0.75 * line, 0.0], count))
+    rims, bare = drawn[:count], drawn[count:]
+    ends = pairwise((0, *accumulate(map(len, seen))))
+    return [
+        [Layer(kind.halo, rims[begin:end]), Layer(kind.colour, bare[begin:end])] if begin < end else []
+        for kind, (begin, end) in zip(kinds, ends, strict=True)
+    ]
 
 
 def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[Any, Any]]:

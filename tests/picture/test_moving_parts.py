@@ -23,7 +23,7 @@ from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.sweep import sweep_of
 from linkanim.picture.theme import DARK, LIGHT, Theme
 from linkanim.picture.trace import traces
-from linkanim.picture.vectors import LONGEST, arrows_of
+from linkanim.picture.vectors import LONGEST, arrow_layers, arrows_of
 from linkanim.picture.view import View
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
@@ -257,7 +257,8 @@ def test_another_speed_keeps_the_arrows_length_and_only_velocity_turns_with_it(
     scene = press.scene
     drive = scene.linkage.drive.speed
     loops = [
-        arrows.layers(scene.pose(1.0, speed=speed), VIEW, ("B",))[1].loops[0] for speed in (drive, -4 * drive)
+        arrow_layers([arrows], scene.pose(1.0, speed=speed), VIEW, ("B",))[0][1].loops[0]
+        for speed in (drive, -4 * drive)
     ]
     foot = VIEW.place(scene.pose(1.0).position["B"])
     reaches = [loop[3] - foot for loop in loops]
@@ -266,7 +267,7 @@ def test_another_speed_keeps_the_arrows_length_and_only_velocity_turns_with_it(
 
 def test_no_motion_has_no_arrows(press: Figure) -> None:
     arrows = arrows_of(press, "v", 720, GAUGE, LIGHT)
-    assert arrows.layers(press.scene.pose(1.0, speed=0.0), VIEW, ("B",)) == []
+    assert arrow_layers([arrows], press.scene.pose(1.0, speed=0.0), VIEW, ("B",)) == [[]]
 
 
 def test_a_moving_bar_s_pixels_follow_it_without_a_shiver() -> None:
