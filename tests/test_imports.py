@@ -183,4 +183,7 @@ def test_the_first_frame_loads_nothing_that_it_does_not_need() -> None:
     told = next(line for line in done.stdout.splitlines() if line.startswith("loaded:"))
     assert set(told.split()) & set(UNSEEN) == set()
     assert "linkanim.picture.painter" in told
+    assert not any(
+        f"linkanim.picture.{name}" in told for name in ("names", "polygons", "centres", "dead_centres")
+    )
     assert not any(name in told for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "rendering"))

@@ -7,12 +7,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import zip_longest
 from math import isfinite
+from typing import TYPE_CHECKING
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
-from linkanim.picture.centres import Centres
 from linkanim.picture.chart import pen_for
-from linkanim.picture.dead_centres import DeadCentres
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import Figure
 from linkanim.picture.gears import turning_apart, wheel_layers, wheel_parts
@@ -20,9 +19,7 @@ from linkanim.picture.ground import ground_layers, ground_line
 from linkanim.picture.items import Group
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
-from linkanim.picture.names import Hand, Names, names_of
 from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
-from linkanim.picture.polygons import Polygon, polygons_of
 from linkanim.picture.raster import Layer
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.text import Type
@@ -31,6 +28,14 @@ from linkanim.picture.trace import Trace, traces
 from linkanim.picture.turning import Sliding, Turning, motion_of, turning_of
 from linkanim.picture.vectors import Arrows, arrow_layers, arrows_of
 from linkanim.picture.view import View
+
+if TYPE_CHECKING:
+    from linkanim.picture.centres import Centres
+    from linkanim.picture.dead_centres import DeadCentres
+    from linkanim.picture.names import Names
+    from linkanim.picture.polygons import Polygon
+
+# What only some looks ask for is imported where they do: the first frame does not wait for it.
 
 _FAINT = 0.78
 """How much of the background is in the colours of what is drawn faintly."""
@@ -96,6 +101,8 @@ class Drawing:
         look = self.scenery.look
         if not look.names:
             return None
+        from linkanim.picture.dead_centres import DeadCentres
+
         return DeadCentres(*self.scenery.known, self.scenery.layout, sized=look.names > 1)
 
     def names(self, type_: Type, before: Drawing | None = None, kept: Names | None = None) -> Names | None:
@@ -109,6 +116,8 @@ class Drawing:
             return None
         if kept and before and self._names_as(before.scenery):
             return kept
+        from linkanim.picture.names import Hand, names_of
+
         words = (*set_.layout.words, *(self.dead_centres.rects(type_) if self.dead_centres else ()))
         hand = Hand(type_, replace(set_.layout, words=words), set_.theme, set_.gauge)
         turning = turning_of(set_.figure, set_.fitted, set_.gauge, set_.theme)
@@ -208,7 +217,11 @@ class Drawing:
     def polygons(self, type_: Type) -> tuple[Polygon, ...]:
         """Return the polygons beside the linkage, where the look asks for them."""
         set_, place = self.scenery, self.scenery.layout.polygons
-        return polygons_of(set_.figure, place, pen_for(set_.layout, type_, set_.theme)) if place else ()
+        if not place:
+            return ()
+        from linkanim.picture.polygons import polygons_of
+
+        return polygons_of(set_.figure, place, pen_for(set_.layout, type_, set_.theme))
 
     def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
         """Yield the way the input turns, and its angle."""
@@ -255,8 +268,14 @@ def _cast(scenery: Scenery, known: Symbols | None) -> Cast:
         arrows=tuple(arrows_of(figure, kind, height, gauge, theme) for kind in kinds),
         turning=motion_of(*scenery.known) if look.names else None,
         legs=tuple(leg_part(legs, view, gauge, theme.dim) for legs in known.legs) if known else (),
-        centres=Centres(*scenery.known, scenery.layout, rolling=look.centres > 1) if look.centres else None,
+        centres=_centres(scenery) if look.centres else None,
     )
+
+
+def _centres(scenery: Scenery) -> Centres:
+    from linkanim.picture.centres import Centres
+
+    return Centres(*scenery.known, scenery.layout, rolling=scenery.look.centres > 1)
 
 
 def _somewhere(place: complex) -> complex:

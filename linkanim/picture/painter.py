@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import pygame
 
@@ -18,7 +19,6 @@ from linkanim.picture.layout import Layout
 from linkanim.picture.legend import legend_for
 from linkanim.picture.look import Look
 from linkanim.picture.marks import draw_measure, glow, grip
-from linkanim.picture.names import Names
 from linkanim.picture.overlay import DimensionLine, Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.raster import Layer, keep_memory, paint, paints, pixels_of, stencil
@@ -29,6 +29,9 @@ from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.turned import Turned
 from linkanim.picture.view import View
 from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from linkanim.picture.names import Names
 
 
 class Painter:
