@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .expression import WHOLE, Expr, Value
+from .places import places
 from .precise import cosine, sine, square_root
 
 Array = NDArray[np.floating[Any]]
@@ -220,7 +221,7 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
     """Compile the outputs; `inputs` says of each name whether it is an array, those first, or uniform."""
     nodes = needed(outputs)
     fixed = [node for node in nodes if node.uniform and node.op != "input"]
-    plan = _Plan([node for node in nodes if not node.uniform], outputs)
+    block = _Block([node for node in nodes if not node.uniform], outputs)
     arrays = tuple(name for name, array in inputs.items() if array)
     uniform = [name for name, array in inputs.items() if not array]
     asked = {_name(node) for node in nodes} & set(uniform)
@@ -228,10 +229,10 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
     return Batch(
         arrays,
         tuple(outputs),
-        _block(arrays, told, plan),
+        block.function(arrays, told),
         _prelude(uniform, fixed, told),
-        tuple(np.array(float.fromhex(digits)) for digits in plan.constants),
-        plan.buffers,
+        tuple(np.array(float.fromhex(digits)) for digits in block.constants),
+        block.places.buffers,
     )
 
 
@@ -245,75 +246,32 @@ def _prelude(
     return _define(source, "prelude", FLOAT_NAMES)
 
 
-class _Plan:
-    """Where each varying node's values live: its result row, or a place that is free by then.
-
-    A result row is free until its own values are worked out: that keeps what is in use in the cache. And a
-    value takes a place that can be handed on down to a result, each written over one of its arguments: a
-    row less to fetch, which is what a pass costs.
-    """
+class _Block:
+    """The passes over one block of arrays, as text."""
 
     def __init__(self, nodes: Sequence[Expr], outputs: Sequence[Value]) -> None:
         self.nodes = [node for node in nodes if node.op != "input"]
-        self.places: dict[int, str] = {}
-        self.copies: list[tuple[int, Value]] = []
+        self.rows = [f"o{row}" for row in range(len(outputs))]
+        self.places = places(self.nodes, outputs)
         self.constants: dict[str, str] = {}
-        self.buffers = 0
-        self.rows = len(outputs)
-        computed = {node.index for node in self.nodes}
-        for row, value in enumerate(outputs):
-            if isinstance(value, Expr) and value.index in computed and value.index not in self.places:
-                self.places[value.index] = f"o{row}"
-            else:
-                self.copies.append((row, value))
-        self._assign_places()
 
-    def _assign_places(self) -> None:
-        last = {
-            argument.index: position
-            for position, node in enumerate(self.nodes)
-            for argument in node.args
-            if isinstance(argument, Expr)
-        }
-        filled = {self.places[n.index]: at for at, n in enumerate(self.nodes) if n.index in self.places}
-        ending: dict[int, list[int]] = {}
-        for node in self.nodes:
-            if node.index not in self.places:
-                ending.setdefault(last[node.index], []).append(node.index)
-        free = sorted(filled, key=filled.__getitem__, reverse=True)
-        heirs = self._heirs(last)
-        for position, node in enumerate(self.nodes):
-            free += [self.places[index] for index in ending.get(position, ())]
-            if node.index not in self.places:
-                until, goal = heirs[node.index]
-                found = _taken_from(free, position, (until, last[node.index]), goal, filled)
-                self.places[node.index] = found or self._grow()
+    def function(self, arrays: Sequence[str], uniform: Sequence[str]) -> Callable[..., Any]:
+        """Return the function that runs one block: (arrays, numbers, result rows, buffers)."""
+        calls = list(self._calls())
+        unpack = [
+            _unpacking(arrays, "arrays"),
+            _unpacking([*uniform, *self.constants.values()], "numbers"),
+            _unpacking(self.rows, "rows"),
+            _unpacking([f"b{index}" for index in range(self.places.buffers)], "buffers"),
+        ]
+        body = [line for line in (*unpack, *calls) if line]
+        source = "\n    ".join(["def block(arrays, numbers, rows, buffers):", *(body or ["pass"])])
+        return _define(source, "block", {**UFUNCS, "where": np.where})
 
-    def _heirs(self, last: Mapping[int, int]) -> dict[int, tuple[int, str]]:
-        """Return until when each value's place can be handed on, and the result's row that would be best."""
-        heirs: dict[int, tuple[int, str]] = {}
-        for node in reversed(self.nodes):
-            if node.index not in self.places:
-                user = self.nodes[last[node.index]].index
-                heirs[node.index] = heirs.get(user) or (last[node.index], self.places[user])
-        return heirs
-
-    def _grow(self) -> str:
-        self.buffers += 1
-        return f"b{self.buffers - 1}"
-
-    def name(self, value: Value | str) -> str:
-        """Return the variable that holds the value inside the block function."""
-        if isinstance(value, Expr):
-            return self.places.get(value.index) or _name(value)
-        # An array of no dimension: numpy would make one of a plain number at every call.
-        # Known by its digits: as keys, 0.0 and -0.0 would be one.
-        return self.constants.setdefault(float(value).hex(), f"k{len(self.constants)}")
-
-    def lines(self) -> Iterator[str]:
+    def _calls(self) -> Iterator[str]:
         """Yield the numpy calls in order."""
         for node in self.nodes:
-            *arguments, place = [self.name(argument) for argument in (*node.args, node)]
+            *arguments, place = [self._variable(argument) for argument in (*node.args, node)]
             if node.op == "select":
                 a, b, below, otherwise = arguments
                 yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
@@ -321,43 +279,16 @@ class _Plan:
                 # By keyword costs time at every call; numpy asks it only of these two.
                 target = f"out={place}" if node.op in ("minimum", "maximum") else place
                 yield f"{node.op}({', '.join(arguments)}, {target})"
-        for row, value in self.copies:
-            yield f"o{row}[...] = {self.name(value)}"
+        for row, value in self.places.copies:
+            yield f"{self.rows[row]}[...] = {self._variable(value)}"
 
-
-def _taken_from(
-    free: list[str], position: int, until: tuple[int, int], goal: str, filled: Mapping[str, int]
-) -> str | None:
-    """Take the goal, else a place that stays free until one of two positions, the first if there is any."""
-    if goal in free:
-        free.remove(goal)
-        return goal
-    return _taken(free, (position, until[0]), filled) or _taken(free, (position, until[1]), filled)
-
-
-def _taken(free: list[str], until: tuple[int, int], filled: Mapping[str, int]) -> str | None:
-    """Take the place freed last of those that stay free from one position to another, if there is any."""
-    for n in range(len(free) - 1, -1, -1):
-        end = filled.get(free[n], until[1])
-        if end >= until[1]:
-            return free.pop(n)
-        if end < until[0]:
-            del free[n]
-    return None
-
-
-def _block(arrays: Sequence[str], uniform: Sequence[str], plan: _Plan) -> Callable[..., Any]:
-    """Return the function that runs one block: (arrays, numbers, result rows, buffers)."""
-    calls = list(plan.lines())
-    unpack = [
-        _unpacking(arrays, "arrays"),
-        _unpacking([*uniform, *plan.constants.values()], "numbers"),
-        _unpacking([f"o{row}" for row in range(plan.rows)], "rows"),
-        _unpacking([f"b{index}" for index in range(plan.buffers)], "buffers"),
-    ]
-    body = [line for line in (*unpack, *calls) if line]
-    source = "\n    ".join(["def block(arrays, numbers, rows, buffers):", *(body or ["pass"])])
-    return _define(source, "block", {**UFUNCS, "where": np.where})
+    def _variable(self, value: Value | str) -> str:
+        """Return the variable that holds the value inside the function."""
+        if isinstance(value, Expr):
+            return self.places.held.get(value.index) or _name(value)
+        # An array of no dimension: numpy would make one of a plain number at every call.
+        # Known by its digits: as keys, 0.0 and -0.0 would be one.
+        return self.constants.setdefault(float(value).hex(), f"k{len(self.constants)}")
 
 
 def _unpacking(names: Sequence[str], source: str) -> str:
