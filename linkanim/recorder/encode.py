@@ -22,7 +22,7 @@ from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim.errors import RecordingFailed
 from linkanim.recorder.changes import Comparing
-from linkanim.recorder.gif import Job
+from linkanim.recorder.gif import Job, count_pictures
 from linkanim.recorder.palette import Colour
 from linkanim.recorder.plan import Format
 from linkanim.recorder.process import Frame, not_started, running
@@ -66,6 +66,8 @@ def count_frames(part: Path, form: Format) -> int:
     """Read back how many frames a file (for PNG: a folder) holds; 0 where it cannot be read."""
     if form == "png":
         return sum(1 for _ in part.glob("*.png"))
+    if form == "gif":
+        return count_pictures(part)
     # a line for each frame: how many it copied ffmpeg 7 does not say otherwise
     copied = ["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]
     asking = [ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied]
@@ -94,7 +96,7 @@ def _gif(
         colours = tuple(palette()) or ((0, 0, 0),)
         job = Job(str(part), width, height, round(100 / stream.rate), colours, stream.alpha)
         write(json.dumps(asdict(job)).encode() + b"\n")
-        changed = Comparing(width * height)
+        changed = Comparing()
         yield lambda frame: write(changed(frame))
 
 

@@ -33,6 +33,7 @@ _LONGEST_CARRIED = 160
 _OPAQUE = 128
 _KEEP, _CLEAR = 1, 2
 """What becomes of a frame before the next: it stays, or its place gets transparent."""
+_PICTURE, _END = b",;"
 _FOR_EVER = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
 
 
@@ -97,7 +98,7 @@ def pieces(job: Job, told: Iterator[Change]) -> Iterator[bytes]:
     yield _head(job)
     nearest = Nearest(job.palette)
     yield from _standing_alone(job, nearest, told) if job.alpha else _changing(job, nearest, told)
-    yield b";"
+    yield bytes([_END])
 
 
 def _changing(job: Job, nearest: Nearest, told: Iterator[Change]) -> Iterator[bytes]:
@@ -105,7 +106,6 @@ def _changing(job: Job, nearest: Nearest, told: Iterator[Change]) -> Iterator[by
     shown = np.empty((job.height, job.width), np.uint8)
     for number, (place, words) in enumerate(told):
         if number == 0:
-            shown[:] = nearest(np.zeros(1, np.uint32))
             shown.put(place, nearest(words))
             yield _picture(job, Area(0, 0, job.width, job.height), shown, _KEEP)
             continue
@@ -132,6 +132,33 @@ def _head(job: Job) -> bytes:
     table[1 : len(job.palette) + 1] = np.array(job.palette, np.uint8).reshape(-1, 3)
     sizes = struct.pack("<HHBBB", job.width, job.height, 0xF0 | job.bits - 1, TRANSPARENT, 0)
     return b"GIF89a" + sizes + table.tobytes() + _FOR_EVER
+
+
+def count_pictures(file: Path) -> int:
+    """Return how many pictures a GIF holds; 0 where it is none, or is not whole."""
+    data = file.read_bytes()
+    try:
+        return _pictures(data) if data[:6] in (b"GIF87a", b"GIF89a") else 0
+    except IndexError:
+        return 0
+
+
+def _pictures(data: bytes) -> int:
+    """Count the pictures block by block; IndexError where one breaks off."""
+    at, found = 13 + _table_bytes(data[10]), 0
+    while data[at] != _END:
+        picture = data[at] == _PICTURE
+        found += picture
+        at += 11 + _table_bytes(data[at + 9]) if picture else 2
+        while size := data[at]:
+            at += size + 1
+        at += 1
+    return found
+
+
+def _table_bytes(flags: int) -> int:
+    """Return how long the table of colours is that these flags tell of."""
+    return 3 * 2 << (flags & 7) if flags & 0x80 else 0
 
 
 def _around(place: Numbers, width: int) -> tuple[Area, Numbers]:
@@ -193,7 +220,7 @@ def main() -> None:
             told = json.loads(source.readline())
             job = Job(**{**told, "palette": tuple(map(tuple, told["palette"]))})
             with Path(job.path).open("wb") as target:
-                target.writelines(pieces(job, changes(source)))
+                target.writelines(pieces(job, changes(source, job.width * job.height)))
     except (OSError, EOFError) as error:
         sys.exit(str(getattr(error, "strerror", None) or error))
 

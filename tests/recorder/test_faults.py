@@ -24,6 +24,7 @@ pytestmark = pytest.mark.withstands("faults survived")
 FORMS: tuple[Format, ...] = ("gif", "mp4", "png")
 BEFORE = b"what was there before"
 
+by_ffmpeg = pytest.mark.parametrize("form", FORMS[1:], indirect=True)
 needs_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds processes through /proc")
 
 
@@ -116,6 +117,7 @@ def test_a_killed_encoder_is_one_line(target: Path, form: Format) -> None:
     assert untouched(target.parent)
 
 
+@by_ffmpeg
 def test_an_encoder_that_cannot_be_started_is_one_line(
     target: Path, form: Format, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -127,17 +129,25 @@ def test_an_encoder_that_cannot_be_started_is_one_line(
     assert untouched(target.parent)
 
 
+def no_ffmpeg() -> str:
+    raise RuntimeError("No ffmpeg exe could be found.")
+
+
+@by_ffmpeg
 def test_an_encoder_that_is_not_installed_is_one_line(
     target: Path, form: Format, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def missing() -> str:
-        raise RuntimeError("No ffmpeg exe could be found.")
-
-    monkeypatch.setattr(encode, "get_ffmpeg_exe", missing)
+    monkeypatch.setattr(encode, "get_ffmpeg_exe", no_ffmpeg)
     frames = disc(form)
     with pytest.raises(RecordingFailed, match="IMAGEIO_FFMPEG_EXE"):
         write(frames, frames.plan, target)
     assert untouched(target.parent)
+
+
+def test_a_gif_needs_no_ffmpeg(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(encode, "get_ffmpeg_exe", no_ffmpeg)
+    frames = disc("gif")
+    assert write(frames, frames.plan, tmp_path / "disc.gif").path.is_file()
 
 
 def test_missing_frames_are_noticed(target: Path, form: Format, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -148,15 +158,15 @@ def test_missing_frames_are_noticed(target: Path, form: Format, monkeypatch: pyt
     assert untouched(target.parent)
 
 
-def test_counting_tells_a_truncated_file(tmp_path: Path) -> None:
-    frames = disc("mp4")
-    write(frames, frames.plan, tmp_path / "disc.mp4")
-    assert encode.count_frames(tmp_path / "disc.mp4", "mp4") == 50
-    whole = (tmp_path / "disc.mp4").read_bytes()
-    (tmp_path / "disc.mp4").write_bytes(whole[: len(whole) // 2])
-    assert encode.count_frames(tmp_path / "disc.mp4", "mp4") < 50
-    (tmp_path / "disc.mp4").write_bytes(b"")
-    assert encode.count_frames(tmp_path / "disc.mp4", "mp4") == 0
+@pytest.mark.parametrize("form", ["gif", "mp4"])
+def test_counting_tells_a_truncated_file(tmp_path: Path, form: Format) -> None:
+    frames, path = disc(form), tmp_path / f"disc.{form}"
+    write(frames, frames.plan, path)
+    assert encode.count_frames(path, form) == 50
+    whole = path.read_bytes()
+    for held in (len(whole) // 2, 20, 8, 0):
+        path.write_bytes(whole[:held])
+        assert encode.count_frames(path, form) < 50
 
 
 CHILD = """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from PIL import Image
 
 from linkanim.recorder import gif
 from linkanim.recorder.changes import Change, Comparing, Words, changes
-from linkanim.recorder.gif import Job, Nearest, pieces
+from linkanim.recorder.gif import Job, Nearest, count_pictures, pieces
 
 Colour = tuple[int, int, int]
 WHITE, RED, GREEN, BLACK = (255, 255, 255), (255, 0, 0), (0, 128, 0), (0, 0, 0)
@@ -39,8 +40,8 @@ def picture(rows: str, opacity: int = 0) -> Words:
 
 def told(frames: Sequence[Words]) -> Iterator[Change]:
     """Tell frames by what changes, through what is a pipe when a scene is recorded."""
-    change = Comparing(frames[0].size)
-    return changes(io.BytesIO(b"".join(change(frame.tobytes()) for frame in frames)))
+    change = Comparing()
+    return changes(io.BytesIO(b"".join(change(frame.tobytes()) for frame in frames)), frames[0].size)
 
 
 def shown(data: bytes, mode: str = "RGB") -> Iterator[NDArray[np.uint8]]:
@@ -155,3 +156,22 @@ def test_a_colour_that_carries_on_is_written_and_not_left_out(monkeypatch: pytes
     carried = size(*frames, width=200)
     monkeypatch.setattr(gif, "_LONGEST_CARRIED", 0)
     assert carried < 0.8 * size(*frames, width=200)
+
+
+@pytest.mark.parametrize("comment", [b"", b"x" * 700], ids=["the oldest kind", "with a comment"])
+def test_pictures_are_counted_in_any_gif_that_is_whole(tmp_path: Path, comment: bytes) -> None:
+    rng = np.random.default_rng(5)
+    images = [Image.fromarray(rng.integers(0, 256, (40, 60, 3), np.uint8)) for _ in range(7)]
+    path = tmp_path / "any.gif"
+    images[0].save(path, save_all=True, append_images=images[1:], comment=comment)
+    assert count_pictures(path) == 7
+    path.write_bytes(path.read_bytes()[:-1])
+    assert count_pictures(path) == 0
+
+
+@pytest.mark.parametrize(
+    "data", [b"", b"GIF89a", b"GIF89a" + bytes(30), b"P6 1 1 255 abc", b"GIF89a;;;;;;;;;;;"]
+)
+def test_what_is_no_whole_gif_has_no_pictures(tmp_path: Path, data: bytes) -> None:
+    (tmp_path / "some.gif").write_bytes(data)
+    assert count_pictures(tmp_path / "some.gif") == 0
