@@ -18,13 +18,14 @@ DEEPEST = 16
 """Keys within keys, or brackets within brackets; a scene needs four."""
 
 _TEXTS = re.compile(
-    r'"""(?:[^"\\]++|\\.|"(?!""))*+(?:"{3,5}|\Z)'
-    r"|'''(?:[^']++|'(?!''))*+(?:'{3,5}|\Z)"
-    r'|"(?:[^"\\\n]++|\\.)*+"?'
+    r'"""[\s\S]*?(?:(?<!\\)(?:\\\\)*+"{3,5}|\Z)'
+    r"|'''[\s\S]*?(?:'{3,5}|\Z)"
+    r'|"[^\n]*?(?:(?<!\\)(?:\\\\)*+"|(?=\n)|\Z)'
     r"|'[^'\n]*+'?"
-    r"|\#[^\n]*+",
-    re.DOTALL,
+    r"|\#[^\n]*+"
 )
+# Before its fifth patch Python 3.11 errs about groups that are repeated without going back and may match
+# in several ways: there are none here.
 _DOTTED = re.compile(rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{DEEPEST}}}")
 _BRACKETS = re.compile(r"[\[\]{}]")
 _MARKS = "=,:[{"

@@ -22,6 +22,8 @@ DEEP = {
     "header": "[" + "a" + ".a" * 20_000 + "]",
     "in an inline table": 'x = { t = """a"""", ' + "a." * 50 + "a = 1 }",
     "after a text of several lines": "x = '''it's'''\n" + "a." * 50 + "a = 1",
+    "after an escaped backslash": 'x = "\\\\"\n' + "a." * 50 + "a = 1",
+    "after escapes in several lines": 'x = """\\\\\\""" "\\\\"""\n' + "a." * 50 + "a = 1",
     "brackets": "x = " + "[" * 100 + "]" * 100,
     "inline tables": "x = " + "{ a = " * 20 + "1" + " }" * 20,
     "just too deep": "a" + ".a" * DEEPEST + " = 1",

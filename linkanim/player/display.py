@@ -31,6 +31,7 @@ def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
         pygame.display.init()
         if asked is None and pygame.display.get_driver() in _INVISIBLE:
             raise NoDisplay(_NO_SCREEN)
+        _hasten(pygame.display.get_driver())
         pygame.display.set_mode(size or _suiting(), pygame.RESIZABLE)
         connection.check()
         yield connection
@@ -52,11 +53,15 @@ def _prepare() -> None:
         return
     # Pygame has put the script's name there by now; window lists and tools look for ours.
     os.environ["SDL_VIDEO_X11_WMCLASS"] = "linkanim"
-    # A picture that is drawn in memory goes to the screen twenty times as fast past OpenGL.
-    os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
     # Without this folder Wayland only complains on stderr.
     if not os.environ.get("XDG_RUNTIME_DIR"):
         os.environ.setdefault("SDL_VIDEODRIVER", "x11,kmsdrm")
+
+
+def _hasten(driver: str) -> None:
+    """Let pictures go past OpenGL under X, which is twenty times as fast; Wayland knows only OpenGL."""
+    if driver == "x11":
+        os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
 
 
 def _suiting() -> tuple[int, int]:

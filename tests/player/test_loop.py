@@ -17,6 +17,7 @@ from linkanim.errors import BadInput, NoDisplay
 from linkanim.player import display
 from linkanim.player.action import Action
 from linkanim.player.advance import advance
+from linkanim.player.connection import Connection
 from linkanim.player.loop import frames, run
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape, starting
@@ -133,6 +134,19 @@ def test_without_a_display_there_is_one_line_and_code_1(address: str) -> None:
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
     assert "no display" in done.stderr
+
+
+# Past OpenGL there is a way to the screen under X; under Wayland there is none.
+@pytest.mark.parametrize(("driver", "asked"), [("x11", "0"), ("wayland", None), ("windows", None)])
+def test_only_under_x_a_picture_goes_past_opengl(
+    monkeypatch: pytest.MonkeyPatch, driver: str, asked: str | None
+) -> None:
+    monkeypatch.setitem(os.environ, "SDL_FRAMEBUFFER_ACCELERATION", "gone")
+    del os.environ["SDL_FRAMEBUFFER_ACCELERATION"]
+    monkeypatch.setattr(pygame.display, "get_driver", lambda: driver)
+    monkeypatch.setattr(Connection, "check", lambda connection: None)
+    with display.opened((320, 180)):
+        assert os.environ.get("SDL_FRAMEBUFFER_ACCELERATION") == asked
 
 
 @pytest.mark.parametrize("scene", ["no-such-scene", "missing.toml", "missing.tape.json"])

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -346,17 +347,85 @@ def test_a_recording_is_finished_after_the_window_is_closed(
         time.sleep(0.1)
 
 
-@pytest.fixture
-def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[subprocess.Popen[bytes]]:
-    """An X server of its own, which a test may end."""
+@contextmanager
+def serving(monkeypatch: pytest.MonkeyPatch, *screens: str) -> Iterator[subprocess.Popen[bytes]]:
+    """Have an X server of its own, with screens beside each other; it is the display meanwhile."""
     told, number = os.pipe()
-    words = ["Xvfb", "-displayfd", str(number), "-screen", "0", "800x600x24", "-noreset"]
+    asked = [word for at, size in enumerate(screens) for word in ("-screen", str(at), f"{size}x24")]
+    words = ["Xvfb", "-displayfd", str(number), *asked, "+xinerama", "-noreset"]
     with subprocess.Popen(words, pass_fds=[number], stderr=subprocess.DEVNULL) as process:
         os.close(number)
         with os.fdopen(told) as answer:
             monkeypatch.setenv("DISPLAY", f":{answer.readline().strip()}")
         yield process
         process.kill()
+
+
+@pytest.fixture
+def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[subprocess.Popen[bytes]]:
+    """An X server of its own, which a test may end."""
+    with serving(monkeypatch, "800x600") as process:
+        yield process
+
+
+@pytest.mark.withstands("faults survived")
+def test_a_window_is_moved_to_another_screen_and_used_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with serving(monkeypatch, "800x600", "3840x2160"):
+        screen = Screen(tmp_path, "kite", "--size", "640x360")
+        screen.press("space")
+        first = screen.still()
+        xdotool("getwindowfocus", "windowmove", "2000", "700")
+        screen.until(lambda: screen.box() == (2000, 700, 2640, 1060), "the window is moved")
+        screen.until(lambda: screen.picture().tobytes() == first.tobytes(), "the picture is as it was")
+        screen.changed_by("Right", first)
+        screen.press("q")
+        assert screen.ends() == (0, "")
+
+
+COUNTED = """
+import sys
+import pygame
+from linkanim.cli import main
+from linkanim.player.window import Window
+tick, seen = Window.tick, []
+
+def counted(window, frames=1):
+    seen.append(tick(window, frames))
+    return len(seen) < 5 and seen[-1]
+
+Window.tick = counted
+code = main(["play", "kite"])
+print(len(seen), code)
+"""
+
+
+@pytest.mark.skipif(shutil.which("weston") is None, reason="needs weston")
+def test_a_window_opens_under_wayland_on_a_screen_of_scale_2(tmp_path: Path) -> None:
+    tmp_path.chmod(0o700)
+    quiet = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "SDL_VIDEODRIVER")}
+    environment = {**quiet, "XDG_RUNTIME_DIR": str(tmp_path), "WAYLAND_DISPLAY": "wl"}
+    words = ["weston", "--backend=headless-backend.so", "--width=1920", "--height=1080", "--scale=2"]
+    with subprocess.Popen(
+        [*words, "--socket=wl", "--no-config", "--idle-time=0"], env=environment, stderr=subprocess.DEVNULL
+    ) as weston:
+        try:
+            end = time.monotonic() + PATIENCE
+            while not (tmp_path / "wl").exists():
+                assert time.monotonic() < end, "weston starts"
+                time.sleep(0.03)
+            done = subprocess.run(
+                [sys.executable, "-c", COUNTED],
+                env={**environment, "SDL_VIDEODRIVER": "wayland"},
+                capture_output=True,
+                text=True,
+                timeout=3 * PATIENCE,
+                check=False,
+            )
+        finally:
+            weston.kill()
+    assert (done.stdout.splitlines()[-1:], done.stderr) == (["5 0"], "")
 
 
 @pytest.mark.withstands("faults survived")
