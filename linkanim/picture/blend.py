@@ -6,6 +6,7 @@ of such are rounded alike on every machine.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -82,8 +83,7 @@ def _straight(below: Singles, what: Mix) -> Singles:
     return np.concatenate((straight, opacity), axis=1) + _HALF
 
 
-def words(surface: pygame.Surface, colours: NDArray[np.uint8]) -> Words:
-    """Return colours (n, 3) as the surface keeps them, opaque."""
-    inks = np.full((len(colours), 4), 255, np.uint8)
-    inks[:, [shift // 8 for shift in surface.get_shifts()[:3]]] = colours
-    return inks.view(np.uint32)[:, 0]
+def words(surface: pygame.Surface, colours: Iterable[tuple[int, int, int]]) -> Words:
+    """Return colours as the surface keeps them, opaque."""
+    inks = np.array([surface.map_rgb(colour) for colour in colours], np.int64).astype(np.uint32)
+    return inks | np.uint32(0xFFFFFFFF ^ sum(surface.get_masks()[:3]))

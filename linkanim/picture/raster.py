@@ -14,7 +14,7 @@ import pygame
 from numpy.typing import NDArray
 
 from linkanim.picture.blend import WHOLE, Mix, Shares, Words, laid_on, mix, mixed_in, shares, words
-from linkanim.picture.cells import Edges, Floats, Ints, Room, Runs, covered, on_grid, pixel_of, room
+from linkanim.picture.cells import Edges, Ints, Room, Runs, covered, on_grid, pixel_of, room
 from linkanim.picture.cells import Loop as Loop
 
 Colour = tuple[int, int, int]
@@ -90,7 +90,7 @@ class _Inks(NamedTuple):
     """The layers' colours as a surface keeps them, and how much of them is mixed in."""
 
     words: Words
-    alphas: Floats
+    alphas: list[float]
 
 
 class _Pixels(NamedTuple):
@@ -179,35 +179,40 @@ def _covered(
 ) -> list[_Pixels]:
     """Return the pixels that are covered in full, those on outlines, and those of spans covered in part."""
     size = surface.get_size()
-    limited, free = ([layer for layer in some if layer.loops] for some in (layers, over))
-    if not limited and not free:
+    limited, free = (_with_loops(some) for some in (layers, over))
+    drawn = [*limited, *free]
+    if not drawn:
         return []
-    layers, limits = [*limited, *free], np.repeat([ends, size], (len(limited), len(free)), axis=0).T
-    edges, boxes = _outlined(layers, np.minimum(limits, np.array(size)[:, None]))
+    limits = np.repeat([np.minimum(ends, size), size], (len(limited), len(free)), axis=0).T
+    edges, boxes = _outlined([outlines for _, outlines in drawn], limits)
     levels = _levels(boxes)
     order = np.argsort(levels, kind="stable")
     within = room(boxes.top[order], (boxes.end - boxes.top)[order], limits[0][order], size[0])
     outline, spans = covered(edges._replace(layer=np.argsort(order)[edges.layer]), within)
-    inks = _inks(surface, [layers[n] for n in order])
-    lines = within.first[np.searchsorted(levels[order], np.arange(levels.max() + 2))]
-    edge, inside = (_inked(runs, within, inks, lines) for runs in (outline, spans))
+    inks = _inks(surface, [drawn[n][0] for n in order.tolist()])
+    begins = np.searchsorted(levels[order], np.arange(levels.max() + 2))
+    edge, inside = (_inked(runs, within, inks, begins) for runs in (outline, spans))
     full = inside.share == WHOLE
     return [_spread(inside, spans.length, full), edge, _spread(inside, spans.length, ~full)]
 
 
-def _outlined(layers: Sequence[Layer], limits: Ints) -> tuple[Edges, _Boxes]:
+def _with_loops(layers: Iterable[Layer]) -> list[tuple[Layer, Outlines]]:
+    """Return the layers that have loops, with these."""
+    found = ((layer, outlines_of(layer.loops)) for layer in layers)
+    return [(layer, outlines) for layer, outlines in found if outlines.counts]
+
+
+def _outlined(outlines: Sequence[Outlines], limits: Ints) -> tuple[Edges, _Boxes]:
     """Return the layers' edges, and which pixels each may cover before its limits (2, n)."""
-    outlines = [outlines_of(layer.loops) for layer in layers]
     begin = on_grid(np.concatenate([outline.points for outline in outlines]))
     counts = np.array([count for outline in outlines for count in outline.counts])
-    loops = np.array([len(outline) for outline in outlines])
+    sizes = np.array([len(outline.points) for outline in outlines])
     last = np.cumsum(counts) - 1
     end = np.empty_like(begin)
     end[:-1] = begin[1:]
     end[last] = begin[last - counts + 1]
-    number = np.repeat(np.repeat(np.arange(len(layers)), loops), counts)
-    starts = (last - counts + 1)[np.cumsum(loops) - loops]
-    return Edges(begin, end, number), _boxes(begin, starts, limits)
+    number = np.repeat(np.arange(len(outlines)), sizes)
+    return Edges(begin, end, number), _boxes(begin, np.cumsum(sizes) - sizes, limits)
 
 
 def _boxes(points: Loop, starts: Ints, limits: Ints) -> _Boxes:
@@ -240,16 +245,19 @@ def _levels(boxes: _Boxes) -> Ints:
 
 
 def _inks(surface: pygame.Surface, layers: Sequence[Layer]) -> _Inks:
-    colours = np.array([layer.colour for layer in layers], np.uint8)
-    return _Inks(words(surface, colours), np.array([layer.alpha for layer in layers]))
+    inks = words(surface, [layer.colour for layer in layers])
+    return _Inks(inks, [layer.alpha for layer in layers])
 
 
-def _inked(runs: Runs, within: Room, inks: _Inks, lines: Ints) -> _Pixels:
-    """Return the first pixel of each run; the levels begin at these lines."""
-    counts = np.diff(np.searchsorted(runs.line, within.first))
-    cover = runs.cover if inks.alphas.min() >= 1 else runs.cover * np.repeat(inks.alphas, counts)
+def _inked(runs: Runs, within: Room, inks: _Inks, begins: Ints) -> _Pixels:
+    """Return the first pixel of each run; the levels begin at these layers."""
+    bounds = np.searchsorted(runs.line, within.first)
+    cover = runs.cover
+    for n, alpha in enumerate(inks.alphas):
+        if alpha < 1:
+            cover[bounds[n] : bounds[n + 1]] = alpha * cover[bounds[n] : bounds[n + 1]]
     place = within.starts.take(runs.line) + runs.column
-    return _Pixels(place, shares(cover), np.repeat(inks.words, counts), np.searchsorted(runs.line, lines))
+    return _Pixels(place, shares(cover), np.repeat(inks.words, np.diff(bounds)), bounds[begins])
 
 
 def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:
