@@ -15,7 +15,9 @@ from linkanim.picture.look import Look
 from linkanim.picture.painter import Painter
 from linkanim.picture.placing import Clutter, Obstacles, Solid, Wish, place
 from linkanim.picture.shapes import hull
+from linkanim.picture.turning import Turning
 from linkanim.picture.view import Rect
+from linkanim.picture.whereabouts import Whereabouts
 from linkanim.scenes import load
 
 COUNT = 72
@@ -86,6 +88,86 @@ def test_a_slider_s_name_stands_by_its_block_and_on_no_link(name: str) -> None:
                 seen += 1
                 assert _off(middle, corners) > bar - 1.0, (text, other, phase)
     assert seen > 20
+
+
+def _whereabouts(name: str) -> Whereabouts:
+    set_ = Painter(load(name), (640, 360), Look(names=1)).drawing.scenery
+    return Whereabouts(set_.figure, set_.fitted, set_.gauge, set_.layout)
+
+
+@pytest.mark.parametrize(
+    ("name", "joint", "reach", "rings"),
+    # a pin, and a slider's block with the rings of its name
+    [("crank-rocker", "B", 1.0, 2), ("slider-crank", "B", 2.7, 2), ("slider-crank", "B", 2.7, 3)],
+)
+def test_round_a_joint_a_name_stands_off_it_up_and_right_first(
+    name: str, joint: str, reach: float, rings: int
+) -> None:
+    ground, size = _whereabouts(name), (30.0, 12.0)
+    wish = ground.around(joint, size, rings) if rings == 2 else ground.by_slider(joint, size)
+    away = wish.places - wish.frame[0][:, None]
+    best = away[0, wish.price.argmin()]
+    assert best.real == pytest.approx(reach * ground.gauge.bar / np.sqrt(2) + 15 / np.sqrt(2), rel=1e-9)
+    assert best.real > 0 > best.imag
+    for ring, places in enumerate(np.split(away[0], rings)):
+        radius = reach * ground.gauge.bar + 0.7 * 12 * ring
+        along, up = places[0], places[6]
+        assert along == pytest.approx(radius + 15)
+        assert up == pytest.approx(-1j * (radius + 6))
+        assert np.all((np.abs(places.real) > 15) | (np.abs(places.imag) > 6))
+    costs = [part.min() for part in np.split(wish.price, rings)]
+    assert costs == pytest.approx([float(n) for n in range(rings)])
+
+
+def test_what_is_measured_has_its_length_clear_of_it_on_either_side() -> None:
+    ground, size = _whereabouts("crank-rocker"), (60.0, 12.0)
+    begin, end = (ground.figure.path(name, ground.view)[::10] for name in ("O2", "A"))
+    wish = ground.beside("O2", "A", size)
+    along = (end - begin) / np.abs(end - begin)
+    off = ((wish.places - begin[:, None]) * along.conj()[:, None]).imag
+    wide = np.abs(along.imag) * 30 + np.abs(along.real) * 6 + 1.3 * ground.gauge.bar
+    assert np.abs(off) == pytest.approx(np.broadcast_to(wide[:, None], off.shape))
+    assert (np.sign(off) > 0).sum(axis=1).tolist() == [7] * COUNT
+
+
+def test_a_link_s_name_stands_on_its_bar_or_within_its_plate() -> None:
+    ground, size = _whereabouts("crank-rocker"), (30.0, 12.0)
+    bodies = {body.name: body for body in ground.figure.bodies}
+    for name, body in bodies.items():
+        wish = ground.on(body, size)
+        ends = [ground.figure.path(joint, ground.view)[::10] for joint in body.joints]
+        for moment in (0, 20, 50):
+            corners = hull([complex(path[moment]) for path in ends])
+            on_it = wish.places[moment, : None if len(corners) > 2 else 7]
+            assert max(_off(complex(place), corners) for place in on_it) < 1e-9, name
+    assert len(ground.on(bodies["coupler"], size).price) == 1 + 3 * 6
+    assert len(ground.on(bodies["crank"], size).price) == 5 * 7
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "double-rocker"])
+def test_the_angle_s_symbol_stands_outside_its_arc_at_the_middle_of_it(name: str) -> None:
+    """Of an input that turns, where the angle is small, too."""
+    ground, size = _whereabouts(name), (20.0, 12.0)
+    turning = Painter(load(name), (640, 360), Look(names=1)).drawing.cast.turning
+    assert isinstance(turning, Turning)
+    wish = ground.by_arc(turning, size)
+    pivot, pin = (ground.figure.path(joint, ground.view)[::10] for joint in (turning.pivot, turning.pin))
+    angles = [turning.turned(float(angle)) for angle in -np.angle(pin - pivot)]
+    middle = [np.pi / 6 if name == "crank-rocker" else angle / 2 for angle in angles]
+    best = wish.places[:, wish.price.argmin()] - pivot
+    wide, high = turning.arc + 1.2 + 10.0, turning.arc + 1.2 + 6.0
+    assert best == pytest.approx(wide * np.cos(middle) - 1j * high * np.sin(middle))
+
+
+def test_labels_keep_off_pins_and_blocks_and_three_joints_in_line_are_a_bar() -> None:
+    ground = _whereabouts("elliptic-trammel")
+    gauge, radii = ground.gauge, ground.clutter().radii
+    travels = [ground.figure.linkage.joint(name).travels for name in ground.figure.shown]
+    wanted = [0.85 * 2.7 * gauge.bar if moves else gauge.pin + gauge.outline for moves in travels]
+    assert radii == pytest.approx(wanted)
+    rod = next(body for body in ground.figure.bodies if body.name == "rod")
+    assert len(rod.joints) > 2
+    assert len(ground.on(rod, (30.0, 12.0)).price) == 5 * 7
 
 
 def _clutter(solids: tuple[Solid, ...], discs: np.ndarray = NONE) -> Clutter:
