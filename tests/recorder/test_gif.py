@@ -115,6 +115,12 @@ def test_what_is_not_opaque_shows_through_in_every_picture() -> None:
         assert (found[opaque][:, :3] == rgb_of(frame)[opaque]).all()
 
 
+@pytest.mark.parametrize(("opacity", "seen"), [(127, 0), (128, 255)])
+def test_what_is_opaque_by_half_is_seen(opacity: int, seen: int) -> None:
+    data = b"".join(pieces(job(2, 1, alpha=True), told([picture("rr", opacity)])))
+    assert [found[..., 3].tolist() for found in shown(data, "RGBA")] == [[[seen, seen]]]
+
+
 def test_a_colour_goes_to_the_nearest_of_the_palette_and_to_the_first_of_equals() -> None:
     rng = np.random.default_rng(3)
     palette = rng.integers(0, 256, (255, 3))
