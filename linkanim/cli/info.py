@@ -54,7 +54,7 @@ def as_object(scene: Scene) -> dict[str, object]:
     if any(body.slider for body in scene.linkage.bodies):
         facts |= {"stroke": info.stroke, "time_ratio": info.time_ratio}
     if info.demand is not None:
-        work, peak, mean, _ = info.demand
+        work, peak, mean = info.demand
         name = info.effort[0]
         facts |= {"work_per_period": work, f"peak_{name}": peak, f"mean_{name}": mean}
     return facts

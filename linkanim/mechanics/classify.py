@@ -13,10 +13,11 @@ import numpy as np
 from linkanim.digits import degrees, short, significant
 
 from .chain import Touch
-from .effort import Demand, demand, effort_token
+from .effort import Demand, demand, effort_token, usual_effort
 from .exact import HALF_TURN, Sum
 from .loop import Gearing
 from .mechanism import Mechanism
+from .motion import Array, Motion
 from .naming import SAMPLES, FourBar, class_name, four_bar_of, one_cycle
 from .path import Path
 from .roots import Kind
@@ -129,13 +130,20 @@ class Info:
     @cached_property
     def demand(self) -> Demand | None:
         """What a true period at the drive's speed asks of the input; None where nothing has force or mass."""
-        linkage, path = self.mechanism.linkage, self.mechanism.assembly.path
-        if not linkage.forceful:
+        if not self.mechanism.linkage.forceful:
             return None
-        solve, speed = self.mechanism.solve, linkage.drive.speed
-        return demand(
-            lambda phases: solve(phase=phases, speed=speed), path.periods, limited=bool(self.toggles)
-        )
+        return demand(self._driven, self.mechanism.periods, limited=bool(self.toggles))
+
+    @cached_property
+    def usual_effort(self) -> float | None:
+        """The size that the effort at the input has half of the time; None where `demand` is."""
+        if not self.mechanism.linkage.forceful:
+            return None
+        return usual_effort(self._driven, self.mechanism.periods)
+
+    def _driven(self, phases: Array) -> Motion:
+        """Return the motion at the drive's speed."""
+        return self.mechanism.solve(phase=phases, speed=self.mechanism.linkage.drive.speed)
 
     @property
     def effort(self) -> tuple[str, str]:

@@ -119,14 +119,23 @@ def _rests(motion: Any) -> NDArray[np.bool_]:
 class Demand(NamedTuple):
     """What one true period asks of the input: work (J), and its effort (N m, or N).
 
-    `peak` is the effort of the greatest size, `mean` that over time, both None where it is not bounded; half
-    of the time it is larger than `usual`.
+    `peak` is the effort of the greatest size, `mean` that over time, both None where it is not bounded.
     """
 
     work: float
     peak: float | None
     mean: float | None
-    usual: float
+
+
+def usual_effort(solved: Callable[[Array], Any], periods: int) -> float:
+    """Return the size that the effort has half of a true period of so many drive periods; NaN without one.
+
+    `solved` gives the motion at phases; where the effort is not bounded it does not count.
+    """
+    effort = np.asarray(input_effort(solved(_phases(periods))))
+    sizes = np.sort(np.abs(effort[np.isfinite(effort)]))
+    # the median; numpy's own loads masked arrays at its first call
+    return 0.5 * float(sizes[(sizes.size - 1) // 2] + sizes[sizes.size // 2]) if sizes.size else math.nan
 
 
 def demand(solved: Callable[[Array], Any], periods: int, *, limited: bool) -> Demand:
@@ -135,30 +144,28 @@ def demand(solved: Callable[[Array], Any], periods: int, *, limited: bool) -> De
     Where the input is `limited` its ends are limits. The work is that of equal weights on a closed curve,
     which lose nothing of a smooth one.
     """
-    count = _SAMPLES * periods
-    phases: Array = np.arange(count, dtype=np.float64) * (math.tau * periods / count)
+    phases = _phases(periods)
     cycle = solved(phases)
     power, effort = input_power(cycle), np.asarray(input_effort(cycle))
     seconds = math.tau * periods / abs(float(cycle.input_speed))
     work = _mean(power) * seconds
-    known = effort[np.isfinite(effort)]
-    usual = _median(np.abs(known)) if known.size else math.nan
     beyond = limited and np.abs(power[:: _SAMPLES // 2]).max() > _BOUNDED * np.abs(power).max()
-    if beyond or known.size < count:
-        return Demand(work, None, None, usual)
+    if beyond or not np.isfinite(effort).all():
+        return Demand(work, None, None)
     index = int(np.abs(effort).argmax())
     sign = math.copysign(1.0, effort[index])
     ends = (-math.inf, math.inf)
     step = float(phases[1])
     place = highest(lambda near: sign * input_effort(solved(near)), float(phases[index]), step, ends)
     peak = float(input_effort(solved(np.array([place])))[0])
-    return Demand(work, peak, _mean(effort), usual)
+    return Demand(work, peak, _mean(effort))
 
 
-def _median(values: Array) -> float:
-    """Return the median of values, none of them NaN; numpy's own loads masked arrays at its first call."""
-    ordered = np.sort(values)
-    return 0.5 * float(ordered[(values.size - 1) // 2] + ordered[values.size // 2])
+def _phases(periods: int) -> Array:
+    """Return phases at which a true period is looked at."""
+    count = _SAMPLES * periods
+    phases: Array = np.arange(count, dtype=np.float64) * (math.tau * periods / count)
+    return phases
 
 
 def _mean(values: Array) -> float:

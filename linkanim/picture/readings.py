@@ -92,10 +92,10 @@ def _strut_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
 
 def _effort_row(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
     """Yield what the input has to deliver, to three digits of what is usual, where anything has force."""
-    asked = scene.info.demand
-    if asked is not None:
+    usual = scene.info.usual_effort
+    if usual is not None:
         name, unit = scene.info.effort
-        step = 10.0 ** (floor(log10(asked.usual)) - 2) if asked.usual > 0 else 0.1
+        step = 10.0 ** (floor(log10(usual)) - 2) if usual > 0 else 0.1
         yield 2, Reading(f"input {name}", f"{stepped(float(input_effort(pose)), step)} {unit}")
 
 

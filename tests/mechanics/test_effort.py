@@ -173,6 +173,8 @@ def test_at_a_limit_the_torque_is_unbounded_and_said_to_be() -> None:
     told = swinging.info.demand
     assert told is not None
     assert (told.peak, told.mean) == (None, None)
+    torque = np.abs(input_effort(swinging.cycle(100_000)))
+    assert swinging.info.usual_effort == pytest.approx(np.median(torque[np.isfinite(torque)]), rel=1e-2)
     lines = dict(swinging.info.lines)
     assert (lines["work per period"], lines["peak torque"]) == ("0 J", "unbounded")
 
@@ -187,9 +189,10 @@ def test_the_peak_is_the_greatest_torque_and_the_mean_makes_the_work() -> None:
     torque = np.asarray(input_effort(scene.cycle(100_000)))
     assert told.peak == pytest.approx(torque[np.abs(torque).argmax()], rel=1e-8)
     assert np.abs(torque).max() <= abs(told.peak) * (1 + 1e-12)
+    assert scene.info.usual_effort == pytest.approx(np.median(np.abs(torque)), rel=1e-3)
 
 
 def test_what_has_neither_force_nor_mass_asks_for_nothing() -> None:
     scene = load("crank-rocker")
-    assert scene.info.demand is None
+    assert (scene.info.demand, scene.info.usual_effort) == (None, None)
     assert not any(token.startswith("input.t") for token in register(scene.linkage))
