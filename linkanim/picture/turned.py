@@ -7,8 +7,8 @@ import pygame
 from linkanim.picture.parts import Part, Places, placed
 from linkanim.picture.raster import Patch, patch
 
-_MOST_BYTES = 24 << 20
-"""More is not kept; at a speed at which nothing comes again what was kept is thrown away in time."""
+_MOST_PICTURES = 3.0
+"""No more is kept than so many pictures take; where nothing comes again, that is thrown away in time."""
 
 
 class Turned:
@@ -26,10 +26,9 @@ class Turned:
         alike = (canvas.get_shifts(), *(part.turn(places) for part in self._parts))
         if alike in self._kept:
             self._kept[alike].lay(canvas)
-        else:
-            self._keep(alike, patch(canvas, placed(self._parts, places), ends=self._ends))
-
-    def _keep(self, alike: object, made: Patch) -> None:
-        if (len(self._kept) + 1) * (made.place.nbytes + made.words.nbytes) > _MOST_BYTES:
+            return
+        made = patch(canvas, placed(self._parts, places), ends=self._ends)
+        room = _MOST_PICTURES * still.get_buffer().length
+        if (len(self._kept) + 1) * (made.place.nbytes + made.words.nbytes) > room:
             self._kept.clear()
         self._kept[alike] = made

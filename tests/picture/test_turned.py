@@ -82,7 +82,7 @@ def test_what_was_painted_over_another_chart_is_forgotten(speeds: tuple[float, .
 
 
 def test_no_more_is_kept_than_there_is_room_for(monkeypatch: pytest.MonkeyPatch, patched: list[int]) -> None:
-    monkeypatch.setattr(turned, "_MOST_BYTES", 1)
+    monkeypatch.setattr(turned, "_MOST_PICTURES", 1e-6)
     scene, surface = load("press"), offscreen(SIZE)
     painter = Painter(scene, SIZE, LOOK)
     for phase in (0.1, 0.2, 0.1):
