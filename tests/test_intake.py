@@ -35,6 +35,7 @@ FLAT = {
     "in a raw text": "title = '" + "{a." * 100 + "'",
     "in a text of several lines": 'title = """' + "a.\n[" * 100 + '"""',
     "after an escaped quote": r'title = "\"' + "a." * 100 + '"',
+    "after an escaped quote in several lines": 'title = """\\"""' + "a." * 100 + '"""',
     "in a comment": "# it's " + "a." * 100 + "[" * 100,
     "beside each other": "x = [" + "[1.5, 2.5], " * 100 + "]",
     "line by line": "a.b.c = 1.5\n" * 100,
@@ -60,8 +61,9 @@ def test_what_only_looks_deep_is_not(text: str) -> None:
 )
 def test_the_look_takes_no_longer_than_the_text(part: str) -> None:
     patient = Intake("a note", most_bytes=1_000_000, most_values=10_000_000)
-    with suppress(BadInput):
-        patient.refuse_heavy(part * (1_000_000 // len(part)) + "x", "x")
+    for begun in ("", '"""', '"'):
+        with suppress(BadInput):
+            patient.refuse_heavy(begun + part * (1_000_000 // len(part)) + "x", "x")
 
 
 def test_more_values_than_there_can_be_are_refused() -> None:

@@ -40,11 +40,14 @@ class Connection:
             self._watch(now)
 
     def close(self) -> None:
-        """Close the window; of one whose server is gone pygame would wait for an answer for ever."""
+        """Close the window; of one whose server is gone pygame would wait for an answer for ever.
+
+        The rest of pygame stays until the process ends: of fonts that outlive it the memory is lost.
+        """
         if self.lost:
             atexit.unregister(pygame.quit)
         else:
-            pygame.quit()
+            pygame.display.quit()
 
     def _watch(self, server: int) -> None:
         """Ask the library to go on after an error, which versions before 1.7 (2020) cannot."""

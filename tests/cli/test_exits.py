@@ -38,6 +38,8 @@ def raising(error: BaseException) -> Callable[[], None]:
         (MemoryError(), 1, "linkanim: there is not enough memory for this"),
         # several lines in a message are one on stderr
         (BadInput("one\n  two"), 2, "linkanim: one two"),
+        # nothing in one is an order to the terminal
+        (BadInput("a \x1b[31m\u202e"), 2, "linkanim: a ?[31m?"),
         # from outside
         (KeyboardInterrupt(), 130, "linkanim: interrupted"),
         (Terminated(), 143, "linkanim: terminated"),

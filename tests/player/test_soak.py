@@ -146,6 +146,19 @@ def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.Monk
         painted(108, here)
 
 
+@needs_proc
+def test_windows_opened_one_after_the_other_take_no_more_memory(here: Path) -> None:
+    def one_more() -> float:
+        with display.opened(SIZE):
+            player = Player(begin(load("press")))
+            player.type("n")
+            player.window.close()
+        return resident_mb()
+
+    used = [one_more() for _ in range(5)]
+    assert used[-1] - used[1] < 4
+
+
 @pytest.mark.long
 @pytest.mark.withstands("frames run", 1_000_000)
 @needs_proc

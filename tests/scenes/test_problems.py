@@ -175,6 +175,15 @@ def test_every_scene_of_the_catalogue_fits_the_schema(name: str) -> None:
     assert [error.message for error in VALIDATOR.iter_errors(dict(load(name).document))] == []
 
 
+@pytest.mark.parametrize("length", [1, 32, 33])
+def test_the_schema_knows_how_long_names_are(length: int) -> None:
+    crank, pin = "A" * length, "O" * length
+    joints = {crank: {"crank": pin, "length": 1}}
+    document = {"ground": {pin: [0, 0]}, "joints": joints, "trace": {"joints": [crank]}}
+    assert fits(document) == (length <= 32)
+    assert fits({**document, "ground": {"O": [0, 0]}, "joints": {"A": joints[crank]}}) == (length <= 32)
+
+
 # What depends on more than one place, or on numbers, no schema says.
 BEYOND = (
     "no joint is called", "cannot be found from itself", "cannot depend on itself",
