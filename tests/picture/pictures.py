@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 import pygame
 
 from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.motion import Pose
+from linkanim.picture.items import Caption
 from linkanim.picture.look import Look
 from linkanim.picture.names import Names
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
 from linkanim.picture.raster import Colour, Layer, paint
+from linkanim.picture.text import Type
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 
@@ -58,6 +61,20 @@ def alphas(surface: pygame.Surface) -> Pixels:
 def coverage(surface: pygame.Surface) -> Pixels:
     """Return how far white covers black in each pixel, 0 to 1."""
     return pixels(surface)[..., 0] / 255
+
+
+def inked(surface: pygame.Surface, where: Rect, colour: Colour) -> bool:
+    """Return whether some of a rectangle has a colour, or nearly."""
+    x, y, right, bottom = (round(side) for side in (where.x, where.y, where.right, where.bottom))
+    away = np.abs(pixels(surface)[max(y, 0) : bottom, max(x, 0) : right] - colour).max(axis=-1)
+    return bool((away < 40).any())
+
+
+def place_of(caption: Caption, type_: Type) -> Rect:
+    """Return where a line of text stands."""
+    wide = type_.width(caption.text, caption.size, strong=caption.strong)
+    left = caption.at[0] - wide * {"left": 0.0, "centre": 0.5, "right": 1.0}[caption.anchor]
+    return Rect(left, caption.at[1], wide, caption.size)
 
 
 def contrast(one: Colour, other: Colour) -> float:

@@ -6,14 +6,21 @@ import math
 
 import numpy as np
 import pytest
+from pictures import inked, place_of
 
 from linkanim.mechanics.effort import input_effort
+from linkanim.picture.hud import Hud
+from linkanim.picture.offscreen import offscreen
 from linkanim.picture.readings import Reading, note, rows
 from linkanim.picture.staging import Staged, staged
 from linkanim.picture.text import Type
+from linkanim.picture.theme import LIGHT
+from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
+
+TYPE = Type()
 
 
 def test_the_press_tells_angle_speed_spring_and_damper() -> None:
@@ -38,6 +45,46 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
     assert told["damper force"].replace("−", "-") == f"{damper.force:.1f} N"
     torque = input_effort(pose)
     assert told["input torque"].replace("−", "-") == f"{torque:.2f} N m"
+
+
+def _hud(name: str) -> Hud:
+    found = staged(load(name), None, Staged((640, 360), False, 0, True, False), TYPE).arrangement
+    assert found.layout.hud
+    assert found.block
+    return Hud(load(name), found.block, found.layout.hud, TYPE, LIGHT)
+
+
+def test_all_its_words_are_drawn() -> None:
+    hud, surface = _hud("press"), offscreen((640, 360))
+    pose = hud.scene.pose(1.0)
+    surface.fill(LIGHT.background)
+    hud.draw(surface, pose, noted=False, backed=False)
+    lines = [*hud.still(), *hud.values(pose)]
+    assert len(lines) > 8
+    for line in lines:
+        assert inked(surface, place_of(line, TYPE), line.colour), line.text
+
+
+def test_what_is_special_is_said_where_it_is_wanted() -> None:
+    hud = _hud("double-rocker")
+    pose = hud.scene.pose(0.0)
+    below = Rect(hud.place.x, hud.place.y + hud.block.note, hud.block.column, hud.block.size)
+    for noted in (False, True):
+        surface = offscreen((640, 360))
+        surface.fill(LIGHT.background)
+        hud.draw(surface, pose, noted=noted, backed=False)
+        assert inked(surface, below, LIGHT.dim) is noted
+
+
+def test_words_over_the_scene_are_backed_all_round() -> None:
+    hud, over = _hud("press"), (255, 0, 0)
+    edge = hud.place.inset(-0.3 * hud.block.size)
+    for backed in (False, True):
+        surface = offscreen((640, 360))
+        surface.fill(over)
+        hud.draw(surface, hud.scene.pose(1.0), noted=False, backed=backed)
+        for x, y in ((edge.x, edge.y + edge.height / 2), (edge.right - 1, edge.y + edge.height / 2)):
+            assert inked(surface, Rect(x, y, 1, 1), over) is not backed
 
 
 def test_a_cylinder_that_keeps_its_length_is_no_damper() -> None:

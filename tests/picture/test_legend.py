@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
+import numpy as np
 import pytest
+from pictures import inked
 
 from linkanim.bench.question import FourBarLengths, scene_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
 from linkanim.picture.legend import Legend, legend_for
 from linkanim.picture.look import ACCELERATION, VELOCITY
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.raster import Layer
 from linkanim.picture.staging import Staged, staged
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
@@ -56,6 +61,21 @@ def test_the_key_stands_below_the_words_in_the_window(name: str, size: tuple[int
     assert parts.legend.y >= parts.hud.bottom
     assert parts.legend.bottom <= size[1]
     assert parts.legend.width > 0
+
+
+@pytest.mark.parametrize("line", [0.8, 1.6, 3.0])
+def test_the_key_s_arrows_and_words_are_drawn(line: float) -> None:
+    kind = arrows_of(figure(load("press")), "v", 720, replace(gauge(1.0, 100.0), line=line), LIGHT)
+    surface, column = offscreen((320, 64)), Rect(10, 10, 300, 40)
+    surface.fill(LIGHT.background)
+    legend = Legend((kind,), column, 17, Type(), LIGHT)
+    legend.draw(surface)
+    shaft, words = (column._replace(x=x, width=20) for x in (10.0, 72.0))
+    assert inked(surface, shaft, kind.colour)
+    assert inked(surface, words, LIGHT.dim)
+    (arrow,) = (item for item in legend.still() if isinstance(item, Layer))
+    near = arrow.loops[0][arrow.loops[0].real < 12]
+    assert np.ptp(near.imag) == pytest.approx(1.6 * line, rel=0.1)
 
 
 def test_there_is_no_key_without_arrows() -> None:
