@@ -42,6 +42,7 @@ def test_every_tick_has_its_line_and_its_label() -> None:
     assert isinstance(grid, Layer)
     assert len(grid.loops) == len(ticks)
     assert [item.text for item in labels if isinstance(item, Caption)] == [label for _, label in ticks]
+    assert not any(item.strong for item in labels if isinstance(item, Caption))
     marks, *values = right_axis(plot, PEN)
     assert isinstance(marks, Layer)
     assert len(marks.loops) == len(values) == len(plot.y.ticks)
@@ -66,6 +67,25 @@ def test_a_log_log_picture_has_its_points_at_their_decades() -> None:
     assert u < x
     assert v < y
     assert decades(10.0, 1000.0).share(100.0) == pytest.approx(0.5)
+
+
+def _changed(one: pygame.Surface, other: pygame.Surface) -> pygame.Rect:
+    apart = pygame.surfarray.array3d(one) != pygame.surfarray.array3d(other)
+    columns, rows = np.nonzero(apart.any(axis=-1))
+    assert rows.size
+    return pygame.Rect(columns.min(), rows.min(), np.ptp(columns) + 1, np.ptp(rows) + 1)
+
+
+def test_every_point_has_its_label_and_none_lies_on_another() -> None:
+    names = ScatterTitles("title", "across", "up")
+    points = [Dot("first one", 10.0, 1e-8), Dot("second", 12.0, 1.2e-8), Dot("third", 1e3, 1e-16, ours=True)]
+    whole = scatter(points, names, size=(640, 360))
+    found = []
+    for n, point in enumerate(points):
+        blank = [*points[:n], point._replace(label=" " * len(point.label)), *points[n + 1 :]]
+        found.append(_changed(whole, scatter(blank, names, size=(640, 360))))
+    assert whole.get_rect().contains(found[0].unionall(found[1:]))
+    assert not found[0].colliderect(found[1])
 
 
 @pytest.mark.parametrize("points", [[], [Dot("zero", 0.0, 1.0)], [Dot("inf", 1.0, math.inf)]])

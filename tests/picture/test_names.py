@@ -208,6 +208,18 @@ def test_the_angle_is_measured_from_a_line_of_dashes(line: float) -> None:
     assert 0.4 < drawn / (1.45 * turning.arc) < 0.8
 
 
+def test_words_in_a_file_stand_as_high_as_on_the_picture() -> None:
+    scene = load("crank-rocker")
+    painter = Painter(scene, (1280, 720), Look(names=1))
+    pose = scene.pose(1.0)
+    found = dict(standing(painter, pose))
+    captions = labelled(painter).captions(pose, painter.drawing.places(pose))
+    assert len(captions) > 5
+    for caption in captions:
+        box = found[caption.text]
+        assert box.y - 0.5 * caption.size < caption.at[1] < box.y + 0.5 * caption.size
+
+
 def test_an_input_that_stands_still_has_no_arrow() -> None:
     scene = load("crank-rocker")
     painter = Painter(scene, (640, 360), replace(BARE, names=1))

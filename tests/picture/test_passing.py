@@ -1,0 +1,132 @@
+"""What lies over the picture for a while is all there: every word of it, where nothing else of it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pygame
+import pytest
+from pictures import inked, pixels
+
+from linkanim.picture.board import Board
+from linkanim.picture.edit_list import edit_list
+from linkanim.picture.layout import layout
+from linkanim.picture.look import Look
+from linkanim.picture.offscreen import offscreen
+from linkanim.picture.overlay import EditRow, Fading, Overlay, Panel
+from linkanim.picture.painter import Painter
+from linkanim.picture.text import Type
+from linkanim.picture.theme import LIGHT
+from linkanim.picture.view import Rect
+from linkanim.scenes import load
+
+SIZE = (640, 360)
+WORDS = "40 rpm"
+
+
+@pytest.fixture(scope="module")
+def painter() -> Painter:
+    return Painter(load("crank-rocker"), SIZE, Look())
+
+
+def _painted(painter: Painter, overlay: Overlay) -> pygame.Surface:
+    surface = offscreen(SIZE)
+    painter.paint(surface, painter.scene.pose(1.0), overlay)
+    return surface
+
+
+def test_the_bar_that_is_edited_is_lit_and_measured_beside_it(painter: Painter) -> None:
+    bare, lit = _painted(painter, Overlay()), _painted(painter, Overlay(measured=("O2", "O4", "100 mm")))
+    places = painter.drawing.places(painter.scene.pose(1.0))
+    begin, end = places["O2"], places["O4"]
+    bar, middle = painter.drawing.scenery.gauge.bar, (begin + end) / 2
+    changed = np.abs(pixels(bare) - pixels(lit)).max(axis=-1) > 8
+    column = changed[:, round(middle.real) - 30]
+    assert column[round(middle.imag - 1.3 * bar) : round(middle.imag + 1.3 * bar)].all()
+    assert not column[round(middle.imag + 1.8 * bar) :].any()
+    assert column[: round(middle.imag - 1.8 * bar)].any()  # the line above it
+    assert inked(lit, Rect(middle.real - 15, middle.imag - 60, 30, 60 - 1.8 * bar), LIGHT.ink)
+
+
+def _between(one: pygame.Surface, other: pygame.Surface) -> Rect:
+    """Return the rectangle in which two pictures differ."""
+    rows, columns = np.nonzero(np.abs(pixels(one) - pixels(other)).max(axis=-1) > 8)
+    assert rows.size
+    x, y = int(columns.min()), int(rows.min())
+    return Rect(x, y, int(columns.max()) + 1 - x, int(rows.max()) + 1 - y)
+
+
+def _saying(kind: str, words: Fading) -> Overlay:
+    return Overlay(chip=words) if kind == "chip" else Overlay(strip=words)
+
+
+@pytest.mark.parametrize("kind", ["chip", "strip"])
+def test_a_chip_and_the_strip_hold_their_words_and_fade(painter: Painter, kind: str) -> None:
+    bare = _painted(painter, Overlay())
+    there = _painted(painter, _saying(kind, Fading(WORDS)))
+    size = painter._layout.text_size if kind == "chip" else painter._layout.small_size
+    ink = LIGHT.ink if kind == "chip" else LIGHT.dim
+    sheet = _between(bare, there)
+    wide = Type().width(WORDS, size, strong=kind == "chip")
+    assert wide + 0.8 * size < sheet.width < wide + 3 * size
+    assert sheet.height > 1.4 * size
+    middle = sheet.inset(0.3 * size)
+    assert inked(there, middle, ink)
+    going = _painted(painter, _saying(kind, Fading(WORDS, 2)))
+    assert not inked(going, middle, ink)
+
+
+def test_the_picture_recedes_behind_the_help(painter: Painter) -> None:
+    told = Overlay(help=(("look", (("H", "help"),)),))
+    hud = painter._layout.hud
+    assert hud
+    title = hud._replace(height=24)
+    assert inked(_painted(painter, Overlay()), title, LIGHT.ink)
+    assert not inked(_painted(painter, told), title, LIGHT.ink)
+
+
+def _list(rows: Sequence[EditRow], facts: tuple[str, ...] = ("Grashof",), hint: str = "Esc closes") -> Panel:
+    return Panel(tuple(rows), facts=facts, hint=hint)
+
+
+def test_every_line_of_the_edit_list_has_a_place_of_its_own() -> None:
+    board = Board(layout(SIZE, listed=True), Type(), LIGHT)
+    rows = [
+        EditRow("Crank 2", "40 mm", chosen=True),
+        EditRow("Coupler 3", "90 mm"),
+        EditRow("Rocker 4", "80 mm"),
+    ]
+    whole = edit_list(board, _list(rows))
+    others = [
+        _list(rows, facts=("Grxxhof",)),
+        *(_list([*rows[:n], replace(rows[n], value="77 mm"), *rows[n + 1 :]]) for n in range(3)),
+        _list(rows, hint="Esc clxxes"),
+    ]
+    bands = [_between(whole, edit_list(board, other)) for other in others]
+    for above, below in pairwise(bands):
+        assert above.bottom <= below.y
+    assert all(0 < band.y < band.bottom < whole.get_height() for band in bands)
+
+
+def test_a_bar_lies_behind_all_of_the_chosen_row() -> None:
+    board = Board(layout(SIZE, listed=True), Type(), LIGHT)
+    rows = [EditRow("Crank 2", "40 mm", chosen=True), EditRow("Coupler 3", "90 mm")]
+    one = edit_list(board, _list(rows))
+    words = _between(one, edit_list(board, _list([replace(rows[0], value="77 mm"), rows[1]])))
+    bar = np.abs(pixels(one) - LIGHT.chosen).max(axis=-1) < 3
+    lines, columns = np.nonzero(bar)
+    assert lines.min() < words.y
+    assert lines.max() >= words.bottom
+    assert np.ptp(columns) > 0.8 * one.get_width()
+    assert np.ptp(columns) < one.get_width()
+
+
+def test_the_first_words_that_have_room_are_taken() -> None:
+    board = Board(layout(SIZE), Type(), LIGHT)
+    words = ["a long name of a quantity", "a name", "n"]
+    widths = [board.type.width(text, 14) for text in words]
+    assert [board.fitting(words, 14, width) for width in widths] == words
+    assert board.fitting(words, 14, widths[0] - 1) == "a name"
