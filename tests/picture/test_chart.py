@@ -73,7 +73,8 @@ def _changed(one: pygame.Surface, other: pygame.Surface) -> pygame.Rect:
     apart = pygame.surfarray.array3d(one) != pygame.surfarray.array3d(other)
     columns, rows = np.nonzero(apart.any(axis=-1))
     assert rows.size
-    return pygame.Rect(columns.min(), rows.min(), np.ptp(columns) + 1, np.ptp(rows) + 1)
+    (left, right), (top, foot) = ((int(way.min()), int(way.max()) + 1) for way in (columns, rows))
+    return pygame.Rect(left, top, right - left, foot - top)
 
 
 def test_every_point_has_its_label_and_none_lies_on_another() -> None:
