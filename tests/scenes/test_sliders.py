@@ -148,3 +148,11 @@ def test_the_oscillating_cylinders_rod_runs_through_its_trunnion() -> None:
     across = from_trunnion[:, 0] * p[:, 1] - from_trunnion[:, 1] * p[:, 0]
     assert np.max(np.abs(across)) <= 1e-14 * 155**2
     assert np.ptp(motion.angle["rod"]) == pytest.approx(2 * math.asin(60 / 90), rel=1e-6)
+
+
+# What the slot passes through tells the two apart: a pin that it is driven by, or one that it is held by.
+@pytest.mark.parametrize(
+    ("name", "words"), [("inverted-slider-crank", "slotted bar"), ("oscillating-cylinder", "cylinder")]
+)
+def test_an_inverted_slider_crank_is_named_by_what_swings(name: str, words: str) -> None:
+    assert load(name).info.class_name == f"inverted slider-crank, swinging {words}"

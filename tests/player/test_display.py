@@ -1,0 +1,60 @@
+"""What a window asks of its system: how large it is, what SDL is told, before any screen is there."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import pygame
+import pytest
+
+from linkanim.player import display
+
+
+# screens, and the window that suits the first of them: its shape kept, some room left
+@pytest.mark.parametrize(
+    ("screens", "size"),
+    [
+        ([(1920, 1080)], (1280, 720)),
+        ([(3840, 2160)], (1280, 720)),
+        ([(1366, 768)], (1229, 691)),
+        ([(800, 600)], (720, 405)),
+        ([(1024, 768), (3840, 2160)], (922, 518)),
+    ],
+)
+def test_a_window_is_as_large_as_suits_the_smallest_screen(
+    screens: list[tuple[int, int]], size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: screens)
+    assert display._suiting() == size
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="what SDL is told on Linux")
+def test_sdl_is_told_what_is_quick_and_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
+    wanted = {
+        "SDL_AUDIODRIVER": "dummy",
+        "SDL_NO_SIGNAL_HANDLERS": "1",
+        "SDL_VIDEO_X11_WMCLASS": "linkanim",
+        "SDL_FRAMEBUFFER_ACCELERATION": "0",
+        "SDL_VIDEODRIVER": "x11,kmsdrm",
+    }
+    for name in (*wanted, "XDG_RUNTIME_DIR"):
+        monkeypatch.setenv(name, "")
+        monkeypatch.delenv(name)
+    display._prepare()
+    assert {name: os.environ.get(name) for name in wanted} == wanted
+
+
+def test_what_is_set_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SDL_AUDIODRIVER", "alsa")
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    display._prepare()
+    assert (os.environ["SDL_AUDIODRIVER"], os.environ["SDL_VIDEODRIVER"]) == ("alsa", "dummy")
+
+
+def test_an_opened_window_has_been_prepared(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.delenv("SDL_NO_SIGNAL_HANDLERS", raising=False)
+    with display.opened((64, 64)):
+        assert os.environ["SDL_NO_SIGNAL_HANDLERS"] == "1"
+        assert display.surface().get_size() == (64, 64)
