@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pygame
@@ -18,7 +17,9 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 
-PEN = Pen(Type(), LIGHT, 12, 16, 1.8)
+
+def _pen(line: float = 1.8) -> Pen:
+    return Pen(Type(), LIGHT, 12, 16, line)
 
 
 def test_a_curve_is_broken_where_its_value_is_not_bounded() -> None:
@@ -37,13 +38,13 @@ def test_what_lies_beyond_the_axis_stays_at_its_edge() -> None:
 
 def test_every_tick_has_its_line_and_its_label() -> None:
     plot = Plot(Rect(40, 20, 200, 100), linear(0, 10), linear(-1, 1))
-    grid, *labels = axes(plot, PEN)
+    grid, *labels = axes(plot, _pen())
     ticks = (*plot.x.ticks, *plot.y.ticks)
     assert isinstance(grid, Layer)
     assert len(grid.loops) == len(ticks)
     assert [item.text for item in labels if isinstance(item, Caption)] == [label for _, label in ticks]
     assert not any(item.strong for item in labels if isinstance(item, Caption))
-    marks, *values = right_axis(plot, PEN)
+    marks, *values = right_axis(plot, _pen())
     assert isinstance(marks, Layer)
     assert len(marks.loops) == len(values) == len(plot.y.ticks)
 
@@ -51,7 +52,7 @@ def test_every_tick_has_its_line_and_its_label() -> None:
 @pytest.mark.parametrize("line", [0.6, 1.8, 5.4])
 def test_a_dot_fills_most_of_its_ring(line: float) -> None:
     plot = Plot(Rect(40, 20, 200, 100), linear(0, 10), linear(-1, 1))
-    ring, dot = point_layers(plot, [(5.0, 0.0)], (1, 2, 3), replace(PEN, line=line))
+    ring, dot = point_layers(plot, [(5.0, 0.0)], (1, 2, 3), _pen(line))
     assert 0.7 < np.ptp(dot.loops[0].real) / np.ptp(ring.loops[0].real) < 0.8
 
 

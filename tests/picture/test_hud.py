@@ -20,8 +20,6 @@ from linkanim.scenes import load, names
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 
-TYPE = Type()
-
 
 def test_the_press_tells_angle_speed_spring_and_damper() -> None:
     scene = load("press")
@@ -48,10 +46,11 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
 
 
 def _hud(name: str) -> Hud:
-    found = staged(load(name), None, Staged((640, 360), False, 0, True, False), TYPE).arrangement
+    type_ = Type()
+    found = staged(load(name), None, Staged((640, 360), False, 0, True, False), type_).arrangement
     assert found.layout.hud
     assert found.block
-    return Hud(load(name), found.block, found.layout.hud, TYPE, LIGHT)
+    return Hud(load(name), found.block, found.layout.hud, type_, LIGHT)
 
 
 def test_all_its_words_are_drawn() -> None:
@@ -62,7 +61,7 @@ def test_all_its_words_are_drawn() -> None:
     lines = [*hud.still(), *hud.values(pose)]
     assert len(lines) > 8
     for line in lines:
-        assert inked(surface, place_of(line, TYPE), line.colour), line.text
+        assert inked(surface, place_of(line, hud.type), line.colour), line.text
 
 
 def test_what_is_special_is_said_where_it_is_wanted() -> None:

@@ -35,7 +35,6 @@ def test_sdl_is_told_what_is_quick_and_quiet(monkeypatch: pytest.MonkeyPatch) ->
         "SDL_AUDIODRIVER": "dummy",
         "SDL_NO_SIGNAL_HANDLERS": "1",
         "SDL_VIDEO_X11_WMCLASS": "linkanim",
-        "SDL_FRAMEBUFFER_ACCELERATION": "0",
         "SDL_VIDEODRIVER": "x11,kmsdrm",
     }
     for name in (*wanted, "XDG_RUNTIME_DIR"):
@@ -43,6 +42,16 @@ def test_sdl_is_told_what_is_quick_and_quiet(monkeypatch: pytest.MonkeyPatch) ->
         monkeypatch.delenv(name)
     display._prepare()
     assert {name: os.environ.get(name) for name in wanted} == wanted
+
+
+@pytest.mark.parametrize(("driver", "told"), [("x11", "0"), ("wayland", None)])
+def test_pictures_go_past_opengl_where_they_can(
+    driver: str, told: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SDL_FRAMEBUFFER_ACCELERATION", "")
+    monkeypatch.delenv("SDL_FRAMEBUFFER_ACCELERATION")
+    display._hasten(driver)
+    assert os.environ.get("SDL_FRAMEBUFFER_ACCELERATION") == told
 
 
 def test_what_is_set_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
