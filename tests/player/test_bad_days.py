@@ -84,20 +84,28 @@ def test_whatever_ends_a_window_its_recording_is_kept(
     assert started[0][-2].endswith({"g": ".gif", "m": ".mp4"}[key])
 
 
-def resized(count: int, largest: tuple[int, int]) -> None:
-    """Give a window so many sizes, one after the other, each painted; it must be as it was in the end."""
-    chance = random.Random(7)
+def paused(size: tuple[int, int]) -> tuple[Player, bytes]:
+    """Return a window that was opened so large and paused in its first frames, and its picture."""
+    pygame.display.set_mode(size, pygame.RESIZABLE)
     player = Player(begin(load("crank-rocker")))
     player.press(pygame.K_SPACE)
-    before = player.settle()
+    return player, player.settle()
+
+
+def resized(count: int, largest: tuple[int, int]) -> None:
+    """Give a window so many sizes, one after the other, each painted; its picture must be of the last one."""
+    chance = random.Random(7)
+    other, small = paused((240, 200))
+    other.window.close()
+    player, before = paused(SIZE)
     for _ in range(count):
         size = chance.randint(1, largest[0]), chance.randint(1, largest[1])
         pygame.display.set_mode(size, pygame.RESIZABLE)
         assert player.tick()
         assert display.surface().get_size() == size
-    pygame.display.set_mode(SIZE, pygame.RESIZABLE)
-    player.tick()
-    assert player.pixels == before
+    for last, picture in (((240, 200), small), (SIZE, before)):
+        pygame.display.set_mode(last, pygame.RESIZABLE)
+        assert player.settle() == picture
     player.window.close()
 
 
