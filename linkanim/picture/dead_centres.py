@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -30,6 +30,8 @@ _NEAR = 0.3
 _FEW = 1e-6
 _LETTER = 0.56
 """About how wide a letter is, in heights of its text."""
+_SHARES: Mapping[Anchor, float] = {"left": 0.0, "centre": 0.5, "right": 1.0}
+"""How much of a line stands left of its place."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,10 @@ class DeadCentres:
 
     @cached_property
     def captions(self) -> list[Caption]:
-        """The input's angle at each dead centre, and between them the stroke and the time ratio."""
+        """The input's angle at each dead centre, and between them the stroke and the time ratio.
+
+        What would stand on the words about the scene is left out.
+        """
         if self._ends is None:
             return []
         info, (along, out), size = self.figure.scene.info, self._frame, self.layout.small_size
@@ -62,13 +67,13 @@ class DeadCentres:
             words = f"stroke {short(info.stroke)} {self.figure.scene.length_unit}, time ratio "
             middle = sum(self._ends) / 2 + out * (self._reach + 1.3 * size * abs(out.imag))
             found.append(self._caption(typeset(words + short(info.time_ratio)), middle, out))
-        return found
+        return [line for line in found if not any(_taken(line).meets(rect) for rect in self.layout.words)]
 
     def rects(self, type_: Type) -> Iterator[Rect]:
         """Yield where the words stand."""
         for line in self.captions:
             wide = type_.width(line.text, line.size, strong=True)
-            left = line.at[0] - {"left": 0.0, "centre": 0.5, "right": 1.0}[line.anchor] * wide
+            left = line.at[0] - _SHARES[line.anchor] * wide
             yield Rect(left, line.at[1], wide, line.size)
 
     @cached_property
@@ -141,3 +146,9 @@ class DeadCentres:
             middle = feet.mean() + level
             lines += arrows([middle, middle], feet + level - middle, 1.6 * width)
         yield Layer(self.theme.dim, lines)
+
+
+def _taken(line: Caption) -> Rect:
+    """Return about where a line of text stands."""
+    wide = _LETTER * line.size * len(line.text)
+    return Rect(line.at[0] - _SHARES[line.anchor] * wide, line.at[1], wide, line.size)

@@ -94,3 +94,15 @@ def test_the_words_stand_on_the_stage(name: str, size: tuple[int, int]) -> None:
     for rect in found.rects(Type()):
         assert rect.x >= 0
         assert rect.right <= size[0]
+
+
+@pytest.mark.parametrize("name", ["press", "slider-crank", "knuckle-press"])
+def test_no_words_stand_on_those_about_the_scene(name: str) -> None:
+    """Where the stroke's words would, they are left out; there is little room beside a chart."""
+    size, look = (640, 360), Look(names=2, chart="A.velocity", vectors=frozenset("va"))
+    staging = staged(load(name), None, wanted_of(size, look, listed=False), Type())
+    drawn = Drawing(staging.scenery(staging.subject.figure, LIGHT, look))
+    assert drawn.dead_centres
+    rects = list(drawn.dead_centres.rects(Type()))
+    assert len(rects) >= 2
+    assert not any(rect.meets(word) for rect in rects for word in drawn.scenery.layout.words)
