@@ -24,7 +24,7 @@ from linkanim.player import tape_file
 from linkanim.player.action import Action
 from linkanim.player.state import begin
 from linkanim.player.tape import Tape
-from linkanim.recorder import gallery
+from linkanim.recorder import gallery, scene_frames
 from linkanim.recorder.gallery import make_gallery, reduced
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.scene_frames import SceneFrames, record
@@ -72,7 +72,7 @@ def test_a_recording_warns_of_no_limit_unless_it_is_asked_to() -> None:
     assert plain != noted
     surface = offscreen(size)
     Painter(scene, size, Look()).paint(surface, scene.pose(plan.phase(0), speed=plan.speed), Overlay())
-    assert plain == pixel_bytes(surface)
+    assert plain == pixel_bytes(surface) == SceneFrames(scene, plan, size, Look()).draw(0)
 
 
 def test_two_periods_show_one_twice(tmp_path: Path) -> None:
@@ -134,6 +134,14 @@ def test_what_cannot_be_recorded_is_refused_and_nothing_is_written(
     with pytest.raises(BadInput):
         record(load("crank-rocker"), tmp_path / "out.gif", **asked)  # type: ignore[arg-type]
     assert not any(tmp_path.iterdir())
+
+
+def test_a_size_is_refused_before_anything_is_made_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(scene_frames, "SceneFrames", lambda *_, **__: pytest.fail("it is drawn"))
+    with pytest.raises(BadInput, match="100000x100000"):
+        record(load("crank-rocker"), tmp_path / "out.gif", size=(100_000, 100_000))
 
 
 def tape(*actions: tuple[int, Action], frames: int = 60, name: str = "crank-rocker") -> Tape:
@@ -217,6 +225,7 @@ def test_the_gallery_is_small_whole_and_the_same_every_time(
     assert set(files) == {"kite.gif", "press.gif", gallery.SHEET}
     assert files == {path.name: path.read_bytes() for path in (tmp_path / "two").iterdir()}
     assert [made.path.name for made in one.recordings] == ["kite.gif", "press.gif"]
+    assert {made.size for made in one.recordings} == {(192, 108)}
     assert two.sheet == tmp_path / "two" / gallery.SHEET
     with Image.open(one.sheet) as sheet:
         assert sheet.size == (4 * 198 + 6, 114 + 6)
@@ -254,6 +263,9 @@ def test_a_gallery_recording_that_is_too_large_at_any_rate_is_smaller(
     assert smaller.frames == large.frames
     with Image.open(smaller.path) as image:
         assert image.size == (128, 72)
+    monkeypatch.setattr(gallery, "MOST", 0)
+    (smallest,) = make_gallery(tmp_path, ["kite"]).recordings
+    assert smallest.size == (96, 54)
 
 
 def test_the_gallery_shows_no_wheel_turning_backwards() -> None:
