@@ -20,6 +20,8 @@ from linkanim.picture.gears import turning_apart, wheel_parts
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
+from linkanim.picture.parts import Part, placed
+from linkanim.picture.raster import Layer
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
@@ -70,25 +72,41 @@ def test_wheels_are_turned_as_their_drawing_is(name: str) -> None:
         assert np.abs(pixels(surface) - pixels(drawn)).max() <= 2
 
 
-@pytest.mark.parametrize("speeds", [(2.0, 4.0, 2.0), (2.0, -2.0)])
-def test_what_was_painted_over_another_chart_is_forgotten(speeds: tuple[float, ...]) -> None:
-    scene, surface = load("press"), offscreen(SIZE)
-    painter = Painter(scene, SIZE, LOOK)
-    for speed in speeds:
-        painter.paint(surface, scene.pose(0.1, speed=speed))
-        fresh = offscreen(SIZE)
-        Painter(scene, SIZE, LOOK).paint(fresh, scene.pose(0.1, speed=speed))
+def _wheel() -> tuple[Part, ...]:
+    """Return a wheel of twelve teeth about O, which turns with A."""
+    tooth = 9 * directions(2 * math.pi / 12 * np.array([0.0, 0.5]))
+    rim = np.ravel([(tooth * [1.0, 0.6]) * way for way in directions(2 * math.pi / 12 * np.arange(12))])
+    return (Part("O", "O", "A", (Layer((200, 30, 60), [rim]),), fold=12),)
+
+
+def _turned_by(angle: float) -> dict[str, complex]:
+    return {"O": 16 + 16j, "A": 16 + 16j + 5 * complex(directions(angle))}
+
+
+def test_what_was_painted_over_another_ground_is_forgotten(patched: list[int]) -> None:
+    wheel = turned.Turned(_wheel(), (32, 32))
+    dark, light = offscreen((32, 32)), offscreen((32, 32))
+    light.fill((255, 255, 255))
+    for still in (dark, light, light):
+        surface, fresh = still.copy(), still.copy()
+        wheel.paint(surface, still, _turned_by(0.2))
+        turned.Turned(_wheel(), (32, 32)).paint(fresh, still, _turned_by(0.2))
         assert _bytes(surface) == _bytes(fresh)
+    # twice by the wheel that is tried, and three times by fresh ones
+    assert len(patched) == 2 + 3
 
 
 def test_no_more_is_kept_than_there_is_room_for(monkeypatch: pytest.MonkeyPatch, patched: list[int]) -> None:
-    monkeypatch.setattr(turned, "_MOST_PICTURES", 1e-6)
-    scene, surface = load("press"), offscreen(SIZE)
-    painter = Painter(scene, SIZE, LOOK)
-    for phase in (0.1, 0.2, 0.1):
-        painter.paint(surface, scene.pose(phase))
-    assert patched == [4, 2] * 3
-    assert _bytes(surface) == _bytes(painted(scene, 0.1, LOOK, SIZE))
+    still, wheel = offscreen((32, 32)), turned.Turned(_wheel(), (32, 32))
+    sizes = []
+    for angle in (0.1, 0.2):
+        made = raster.patch(still.copy(), placed(_wheel(), _turned_by(angle)), ends=(32, 32))
+        sizes.append(made.place.nbytes + made.words.nbytes)
+    monkeypatch.setattr(turned, "_MOST_PICTURES", 2.5 * max(sizes) / still.get_buffer().length)
+    # two are kept; the third throws them away
+    for angle, painted_so_far in ((0.1, 1), (0.2, 2), (0.1, 2), (0.3, 3), (0.3, 3), (0.1, 4)):
+        wheel.paint(still.copy(), still, _turned_by(angle))
+        assert len(patched) == painted_so_far
 
 
 def _twice_about_one_pivot() -> Scene:
