@@ -151,3 +151,13 @@ def test_a_word_chooses_scenes(word: str, name: str, capsys: pytest.CaptureFixtu
 def test_a_word_that_no_scene_has_is_answered_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["scenes", "slidrs"]) == 2
     assert 'did you mean "sliders"?' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "words"), [("crank-rocker", "one drive period, 3 s"), ("kite", "2 drive periods, 3 s")]
+)
+def test_the_true_period_is_told_in_drive_periods(
+    name: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["info", name]) == 0
+    assert words in capsys.readouterr().out

@@ -127,3 +127,27 @@ def test_the_first_free_crank_is_driven_wherever_the_geared_one_stands() -> None
     scene = read(PINS + geared + JOINTS["A"])
     assert scene.linkage.drive.joint == "A"
     assert [joint.name for joint in scene.linkage.joints] == ["O2", "O4", "A", "D"]
+
+
+# a dyad may name the fixed pin first: its side then turns over, its class does not
+@pytest.mark.parametrize(
+    ("ends", "lengths", "side", "called"),
+    [
+        (["A", "O4"], [4, 2], "left", "parallelogram"),
+        (["O4", "A"], [2, 4], "right", "parallelogram"),
+        (["A", "O4"], [4, 2], "right", "antiparallelogram"),
+        (["O4", "A"], [2, 4], "left", "antiparallelogram"),
+    ],
+)
+def test_a_class_does_not_hang_on_which_end_is_named_first(
+    ends: list[str], lengths: list[float], side: str, called: str
+) -> None:
+    document = {
+        "drive": {"start": "30 deg"},
+        "ground": {"O2": [0, 0], "O4": [4, 0]},
+        "joints": {
+            "A": {"crank": "O2", "length": 2},
+            "B": {"from": ends, "length": lengths, "side": side},
+        },
+    }
+    assert scene_from(document, name="my", where="my").info.class_name == called
