@@ -88,3 +88,8 @@ def test_a_power_of_ten(power: int, words: str) -> None:
 
 def test_a_set_text_has_true_minus_signs() -> None:
     assert typeset("-15 rpm … -3e-05") == "−15 rpm … −3e−05"
+
+
+def test_a_number_too_large_or_small_for_decimals_has_three_digits() -> None:
+    assert stepped(1234567.0, 1.0) == "1.23e+06"
+    assert stepped(-1.2345e-5, 1e-6) == "−1.23e−05"

@@ -10,10 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from linkanim.errors import AssemblyError, SceneError
 from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
 from linkanim.mechanics.linkage import Body, Damper, Drive, Spring
 from linkanim.scenes import load
+from linkanim.scenes.closure import closure_name
 from linkanim.scenes.edit import dimensions, with_dimensions
+from linkanim.scenes.handles import handles, span
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -151,3 +154,49 @@ def test_a_class_does_not_hang_on_which_end_is_named_first(
         },
     }
     assert scene_from(document, name="my", where="my").info.class_name == called
+
+
+def _slider(**more: object) -> Scene:
+    document = {
+        "ground": {"O": [0, 0]},
+        "joints": {
+            "A": {"crank": "O", "length": 2},
+            "B": {"from": "A", "length": 6, "line": {"through": "O"}, **more},
+        },
+    }
+    return scene_from(document, name="my", where="my")
+
+
+def test_a_slider_has_no_other_keys_than_its_own() -> None:
+    with pytest.raises(SceneError, match="unknown key"):
+        _slider(size="backward")
+
+
+def test_a_closure_that_is_not_named_is_the_first_of_the_two() -> None:
+    assert closure_name(_slider()) == "forward"
+    assert closure_name(_slider(side="backward")) == "backward"
+
+
+def test_bars_that_cannot_meet_on_one_body_are_told_what_would_do() -> None:
+    document = {
+        "ground": {"O2": [0, 0], "O4": [100, 0]},
+        "joints": {
+            "A": {"crank": "O2", "length": 30},
+            "C": {"from": ["O2", "O4"], "length": [20, 50]},
+        },
+    }
+    with pytest.raises(AssemblyError, match="100 apart on one rigid body, and 30 to 70 would do"):
+        scene_from(document, name="my", where="my")
+
+
+def test_a_ground_angle_follows_its_pin_as_an_angle() -> None:
+    links = {"ground": 100, "crank": 30, "coupler": 90, "rocker": 80, "ground_angle": "10 deg"}
+    scene = scene_from({"four-bar": links}, name="my", where="my")
+    found = {handle.key: handle for handle in handles(scene, "O4")}
+    assert found["four-bar", "ground_angle"].angle
+    assert not found["four-bar", "ground"].angle
+
+
+@pytest.mark.parametrize(("n", "ends"), [(1, ("O2", "A")), (2, ("A", "B")), (3, ("O4", "B"))])
+def test_a_six_bar_s_length_measures_its_bar(n: int, ends: tuple[str, str]) -> None:
+    assert span(load("six-bar"), ("six-bar", "lengths", n)) == ends
