@@ -7,7 +7,7 @@ import pygame
 from linkanim.picture.parts import Part, Places, placed
 from linkanim.picture.raster import Patch, patch
 
-_MOST_PICTURES = 3.0
+_MOST_PICTURES = 4.0
 """No more is kept than so many pictures take; where nothing comes again, that is thrown away in time."""
 
 

@@ -109,6 +109,15 @@ def test_no_more_is_kept_than_there_is_room_for(monkeypatch: pytest.MonkeyPatch,
         assert len(patched) == painted_so_far
 
 
+def test_a_period_of_the_press_finds_all_that_comes_again(patched: list[int]) -> None:
+    scene, surface = load("press"), offscreen((640, 360))
+    painter = Painter(scene, (640, 360), Look())
+    for frame in range(75):
+        painter.paint(surface, scene.pose(scene.period * frame / 75))
+    # twelve teeth come again after 25 frames, five holes after 15
+    assert (patched.count(4), patched.count(2)) == (25, 15)
+
+
 def _twice_about_one_pivot() -> Scene:
     joints = (
         Pin("O", (0.0, 0.0)),
