@@ -65,7 +65,8 @@ def asked(chance: random.Random) -> Action:
 
 
 def finite(state: State) -> None:
-    """Hold a state to having a place on the screen for every joint."""
+    """Hold a state to no fault that asks for a report, and to a place on the screen for every joint."""
+    assert not [effect.value for effect in state.effects if effect.name == "report"]
     assert math.isfinite(state.phase)
     pose = state.shown.pose(state.phase, 0)
     assert all(math.isfinite(x) and math.isfinite(y) for x, y in pose.position.values())
