@@ -15,8 +15,6 @@ from linkanim.player.state import State
 from linkanim.scenes.handles import handles
 from linkanim.scenes.scene import Scene
 
-_SMALLEST = 32
-
 
 class Easel:
     """Paints states into the window; a picture that is there already is not painted again.
@@ -37,8 +35,6 @@ class Easel:
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
         surface = display.surface()
-        if min(surface.get_size()) < _SMALLEST:
-            return
         self._state = state
         self._name(state.scene.title)
         canvas, veiled = self._shown_on(state, surface.get_size()), self._fade.strength(state, surface)
