@@ -16,6 +16,7 @@ from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look
 from linkanim.picture.raster import Layer
+from linkanim.picture.text import Anchor, typesetting
 from linkanim.scenes import load
 
 SQUARE = np.array([10, 30, 30 + 20j, 10 + 20j], complex)
@@ -31,6 +32,7 @@ def content(document: bytes) -> str:
 def test_a_page_is_as_large_as_the_picture_at_96_dots_an_inch() -> None:
     document = pdf((400, 200), (255, 255, 255), [], title="empty")
     assert document.startswith(b"%PDF-")
+    assert re.search(rb"/Title \(empty\)", document)
     assert re.search(rb"/MediaBox \[0 0 300(\.00)? 150(\.00)?\]", document)
 
 
@@ -46,6 +48,42 @@ def test_words_keep_their_subscripts_and_what_the_face_has_not_is_spelt_or_left_
     line = Caption("v_{BA} = 3 中", (50, 50), 20, (0, 0, 0), "centre", True, Halo((255, 255, 255), 2.0))
     document = pdf((400, 200), None, [line], title="words")
     assert len(re.findall(r"\bTj\b|\bTJ\b", content(document))) == 6
+
+
+def test_the_background_covers_the_page_in_its_colour_or_is_left_open() -> None:
+    square = Layer((255, 0, 0), [SQUARE])
+    drawn = content(pdf((400, 200), (255, 0, 51), [square], title="ground"))
+    assert re.search(r"\b1 0 0\.2 rg\n0\.00 150\.00 300\.00 -150\.00 re f\b", drawn)
+    assert " re f" not in content(pdf((400, 200), None, [square], title="open"))
+
+
+def test_words_are_as_large_as_on_the_screen_and_stand_there_in_a_halo_as_wide() -> None:
+    line = Caption("v_{BA}", (50, 50), 20, (0, 0, 255), "left", True, Halo((255, 255, 0), 2.0))
+    drawn, how = content(pdf((400, 200), None, [line], title="words")), typesetting(20)
+    small, large = round(0.75 * how.small, 2), round(0.75 * how.em, 2)
+    faces = re.findall(r"/F(\d) ([\d.]+) Tf", drawn)
+    assert faces == [("2", f"{em:.2f}") for em in (large, large, small, small)]
+    letters, lowered = (150 - 0.75 * (50 + how.baseline + lower) for lower in (0, how.lower))
+    places = [(float(x), float(y)) for x, y in re.findall(r"BT ([\d.]+) ([\d.]+) Td", drawn)]
+    assert [y for _, y in places] == [letters] * 2 + [lowered] * 2
+    assert places[0][0] == 37.5 < places[2][0]
+    # twice the halo's width, which reaches so far on either side; over it the word in its own colour
+    assert re.findall(r"\n3\.00 w\n1 1 0 RG\n", drawn) == ["\n3.00 w\n1 1 0 RG\n"] * 2
+    assert len(re.findall(r"q 0 0 1 rg BT [\d.]+ [\d.]+ Td \(", drawn)) == 2
+
+
+def test_words_are_held_at_their_anchor() -> None:
+    anchors: tuple[Anchor, ...] = ("left", "centre", "right")
+    lines = [Caption("crank", (200, 50), 20, (0, 0, 0), anchor) for anchor in anchors]
+    drawn = content(pdf((400, 200), None, lines, title="words"))
+    left, centre, right = (float(x) for x in re.findall(r"BT ([\d.]+) ", drawn))
+    assert left == 150 > centre + 10
+    assert right == pytest.approx(2 * centre - left, abs=0.02)
+
+
+def test_what_is_half_seen_through_is_so_in_print() -> None:
+    document = pdf((400, 200), None, [Layer((255, 0, 0), [SQUARE], 0.25)], title="veil")
+    assert re.search(rb"/ca 0?\.25\b", document)
 
 
 def test_the_same_figure_has_the_same_bytes() -> None:
