@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pygame
@@ -81,6 +82,24 @@ def test_a_font_of_the_system_draws_what_the_bundled_one_lacks() -> None:
     assert box.height > 0.5 * plain.get_height()
     assert 0 <= box.top < box.bottom <= plain.get_height()
     assert _bytes(type_, "曲") != _bytes(type_, "柄")
+
+
+def test_what_the_bundled_face_lacks_stands_on_its_line_in_a_font_of_the_system(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A font that pygame brings stands for the system's; it has a long s, which would be spelt s."""
+    path = Path(pygame.__file__).with_name(pygame.font.get_default_font())
+    monkeypatch.setattr(pygame.font, "get_fonts", lambda: ["notosans"])
+    monkeypatch.setattr(pygame.font, "match_font", lambda name: str(path))
+    type_, size = Type(), 48
+    ours = pygame.image.tobytes(type_.glyph("\u017f", size, INK), "RGBA")
+    drawn, letter = type_.glyph("\u017f", size, INK), type_.glyph("l", size, INK)
+    assert ours != pygame.image.tobytes(type_.glyph("s", size, INK), "RGBA")
+    assert drawn.get_height() == letter.get_height()
+    assert type_.width("\u017f", size) == pytest.approx(drawn.get_width(), abs=2)
+    boxes = drawn.get_bounding_rect(), letter.get_bounding_rect()
+    assert abs(boxes[0].bottom - boxes[1].bottom) <= 1
+    assert boxes[0].height == pytest.approx(boxes[1].height, rel=0.2)
 
 
 def test_a_system_that_cannot_list_its_fonts_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
