@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import accumulate, pairwise
+from itertools import pairwise
 from math import ceil, floor, pi
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.picture.directions import lengths
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import distinct, offsets, stroke
+from linkanim.picture.shapes import offsets, stroke
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
@@ -24,6 +27,8 @@ _SWELL = 1.7
 """How much wider than the whole curve the recent part ends."""
 _FAINT = 0.5
 """How much of the background is in the whole curve's colour."""
+_NEAR, _LONGEST_RUN = 0.01, 16
+"""How far off a straight piece may points lie that it passes over, in pixels, and so many in all."""
 
 
 @dataclass(frozen=True)
@@ -52,27 +57,37 @@ class Trace:
         here = phase / self.period * count
         tail = max(round(_RECENT / self.period * count), _SHADES)
         # run backwards, the curve is passed through from its end
-        last = floor(here) if forward else -ceil(here) - 1
+        last, share = (floor(here), here % 1) if forward else (-ceil(here) - 1, -here % 1)
         first = (last - tail) % count
-        path = np.empty(tail + 2, np.complex128)
-        path[:-1] = self._twice[not forward][first : first + tail + 1]
-        path[-1] = place
-        path = distinct(path)
-        if len(path) < 2:
-            return []
-        side = offsets(path) * _swelling(len(path), self.width)
-        corners, ends = _cuts(len(path))
-        edges = np.concatenate((path - side, path + side)).take(corners)
-        return [
-            Layer(colour, [edges[begin:end]])
-            for colour, (begin, end) in zip(self.shades, pairwise(ends), strict=True)
-        ]
+        course, (cuts, needed) = self._courses[not forward], _cuts(tail + 2)
+        taken = np.flatnonzero(course.corner[first : first + tail + 2] | needed)
+        path, side = course.path.take(first + taken), course.side.take(first + taken)
+        path[-1], side[-1] = place, (1 - share) * side[-2] + share * side[-1]
+        side *= _swelling(tail + 2, self.width).take(taken)
+        ends = np.searchsorted(taken, cuts).tolist()
+        return list(self._shaded(path - side, path + side, ends))
+
+    def _shaded(self, right: Loop, left: Loop, ends: list[int]) -> Iterator[Layer]:
+        """Yield what lies between two edges in the shades, each running on a little below the next."""
+        for colour, (begin, end) in zip(self.shades, pairwise(ends), strict=True):
+            part = slice(begin, end + 2)
+            yield Layer(colour, [np.concatenate((right[part], left[part][::-1]))])
 
     @cached_property
-    def _twice(self) -> tuple[Loop, Loop]:
+    def _courses(self) -> tuple[_Course, _Course]:
         """Two rounds of the path, and two the other way."""
-        twice = np.concatenate((self.path, self.path))
-        return twice, twice[::-1]
+        side = _sides(self.path)
+        corner = _corners(np.stack([self.path + way * side for way in (self.width, -self.width)]))
+        there = _Course(np.tile(self.path, 2), np.tile(side, 2), np.tile(corner, 2))
+        return there, _Course(there.path[::-1], -there.side[::-1], there.corner[::-1])
+
+
+class _Course(NamedTuple):
+    """A curve's points, the way from each to the left edge of a line 2 wide, and which ones are corners."""
+
+    path: Loop
+    side: Loop
+    corner: NDArray[np.bool_]
 
 
 @lru_cache(maxsize=16)
@@ -82,16 +97,43 @@ def _swelling(count: int, width: float) -> NDArray[np.float64]:
 
 
 @lru_cache(maxsize=16)
-def _cuts(count: int) -> tuple[NDArray[np.int64], tuple[int, ...]]:
-    """Return how a part of so many points is cut into shades, each running on a little below the next.
+def _cuts(count: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Return where a part of so many points is cut into shades, and its end; and which points that needs.
 
-    That is which corners follow each other, of all on its right and then all on its left, and where each
-    shade begins among them, and the end.
+    Those are the points at the cuts and the ones after, which two shades share, and the last two.
     """
-    cuts = [round(count * shade / _SHADES) for shade in range(_SHADES + 1)]
-    sides = [np.arange(begin, min(end + 2, count)) for begin, end in pairwise(cuts)]
-    pieces = [np.concatenate((side, count + side[::-1])) for side in sides]
-    return np.concatenate(pieces), (0, *accumulate(map(len, pieces)))
+    cuts = np.array([round(count * shade / _SHADES) for shade in range(_SHADES + 1)])
+    needed = np.zeros(count, np.bool_)
+    needed[np.minimum((cuts, cuts + 1), count - 1)] = True
+    needed[-2:] = True
+    return cuts, needed
+
+
+def _sides(path: Loop) -> Loop:
+    """Return at each point of a closed path the way to the left edge of a line 2 wide; 0 where none moves."""
+    moved = path != np.roll(path, 1)
+    points = path[moved]
+    if not points.size:
+        return np.zeros_like(path)
+    sides = offsets(np.concatenate((points[-1:], points, points[:1])))[1:-1]
+    found: Loop = sides[np.cumsum(moved) - 1]
+    return found
+
+
+def _corners(edges: Loop) -> NDArray[np.bool_]:
+    """Return which points of closed lines (n, points) are needed for straight pieces to be as good.
+
+    Runs of 2, 4, 8 and 16 points are left out where all lie near the places that they have on a piece.
+    """
+    corner, step = np.ones(edges.shape[1], np.bool_), 2
+    while step <= _LONGEST_RUN and not len(corner) % step:
+        begin = edges[:, ::step, None]
+        share = np.arange(1, step) / step
+        there = begin + share * (np.roll(begin, -1, axis=1) - begin)
+        off = lengths(edges.reshape(len(edges), -1, step)[:, :, 1:] - there)
+        corner.reshape(-1, step)[(off <= _NEAR).all(axis=(0, 2)), 1:] = False
+        step *= 2
+    return corner
 
 
 def traces(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Trace, ...]:

@@ -22,7 +22,7 @@ from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.struts import Coil, Cushion, coils, cushions
 from linkanim.picture.sweep import sweep_of
 from linkanim.picture.theme import DARK, LIGHT, Theme
-from linkanim.picture.trace import traces
+from linkanim.picture.trace import Trace, traces
 from linkanim.picture.vectors import LONGEST, arrow_layers, arrows_of
 from linkanim.picture.view import View
 from linkanim.scenes import load
@@ -231,6 +231,61 @@ def test_the_recent_part_brightens_towards_the_joint() -> None:
     away = [np.abs(np.subtract(layer.colour, trace.back)).sum() for layer in layers]
     assert away == sorted(away)
     assert len(set(away)) == len(away)
+
+
+def _recent(name: str, phase: float, *, forward: bool = True) -> tuple[Trace, list[Layer]]:
+    """Return the first trace of a scene in pixels, and its recent part."""
+    scene = load(name)
+    shown = figure(scene)
+    view = View(100 / (shown.box.right - shown.box.left), 0.0, 0.0)
+    trace = traces(shown, view, GAUGE, LIGHT)[0]
+    place = view.place(scene.pose(phase).position[trace.joint])
+    return trace, trace.recent(phase, place, forward=forward)
+
+
+def _off(points: Loop, loop: Loop) -> float:
+    """Return how far the farthest of the points lies from a loop's edges."""
+    begin, along = loop, np.roll(loop, -1) - loop
+    ways = points[:, None] - begin
+    share = np.clip((ways * along.conj()).real / np.maximum(np.abs(along) ** 2, 1e-12), 0, 1)
+    return float(np.abs(ways - share * along).min(axis=1).max())
+
+
+# a curve that bends all the way, one whose joint turns round at both ends, one on a cusp
+@pytest.mark.parametrize("name", ["crank-rocker", "wiper", "epicyclic-hypocycloid"])
+@pytest.mark.parametrize("forward", [True, False])
+def test_the_recent_part_has_corners_where_the_curve_needs_them_and_no_others(
+    name: str, forward: bool
+) -> None:
+    for phase in (0.3, 2.0, 4.4):
+        trace, layers = _recent(name, phase, forward=forward)
+        lines = [layer.loops[0][: len(layer.loops[0]) // 2] for layer in layers]
+        there = [layer.loops[0][len(layer.loops[0]) // 2 :][::-1] for layer in layers]
+        middle = np.concatenate([(one + other) / 2 for one, other in zip(lines, there, strict=True)])
+        count, here = len(trace.path), phase / trace.period * len(trace.path)
+        past = np.arange(216) + (math.floor(here) - 215 if forward else math.ceil(here))
+        assert _off(trace.path[past % count], middle) < 0.05
+        assert len(middle) < 0.75 * len(past)
+
+
+@pytest.mark.parametrize("forward", [True, False])
+@pytest.mark.parametrize("moment", [100, 431, 719])
+def test_the_recent_part_s_end_does_not_jump_where_a_point_of_the_curve_is_passed(
+    moment: int, forward: bool
+) -> None:
+    ends = [
+        _recent("crank-rocker", (moment + off) / 720 * math.tau, forward=forward)[1][-1].loops[0]
+        for off in (-1e-9, 0.0, 1e-9)
+    ]
+    # the corners at the joint: the last on the right, the first on the left
+    tips = np.array([end[len(end) // 2 - 1 : len(end) // 2 + 1] for end in ends])
+    assert np.abs(tips - tips[1]).max() < 1e-5
+
+
+def test_a_traced_joint_at_rest_has_no_recent_part_to_be_seen() -> None:
+    path = np.full(720, 10 + 10j)
+    layers = Trace("P", path, math.tau, (255, 0, 0), (99, 0, 0), 3.0).recent(1.0, 10 + 10j, forward=True)
+    assert {complex(point) for layer in layers for point in layer.loops[0]} == {10 + 10j}
 
 
 @pytest.mark.parametrize("kind", ["v", "a"])
