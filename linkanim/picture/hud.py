@@ -11,7 +11,7 @@ import pygame
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.items import Caption, draw
 from linkanim.picture.raster import Layer, paint
-from linkanim.picture.readings import note, rows
+from linkanim.picture.readings import Row, note, ranked, rows_of
 from linkanim.picture.shapes import box
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
@@ -50,18 +50,21 @@ class Hud:
         for line in self.block.lines:
             at, ink = (self.place.x, self.place.y + line.y), self.theme.ink if line.strong else self.theme.dim
             yield Caption(line.text, at, line.size, ink, strong=line.strong)
-        labels = [row.label for row in rows(self.scene, self.scene.pose(0.0)) if row.label in self.block.rows]
-        for n, label in enumerate(labels):
-            yield Caption(label, (self.place.x, self._top(n)), self.block.size, self.theme.dim)
+        for n, (_, row) in enumerate(ranked(self._rows, self.scene.pose(0.0))):
+            yield Caption(row.label, (self.place.x, self._top(n)), self.block.size, self.theme.dim)
 
     def values(self, pose: Pose) -> list[Caption]:
         """Return the numbers of a pose beside them."""
         size, right = self.block.size, self.place.x + self.block.column
-        shown = [row for row in rows(self.scene, pose) if row.label in self.block.rows]
         return [
             Caption(row.value, (right, self._top(n)), size, self.theme.ink, "right", strong=True)
-            for n, row in enumerate(shown)
+            for n, (_, row) in enumerate(ranked(self._rows, pose))
         ]
+
+    @cached_property
+    def _rows(self) -> tuple[Row, ...]:
+        """The rows that are shown."""
+        return tuple(row for row in rows_of(self.scene) if row.label in self.block.rows)
 
     @cached_property
     def backing(self) -> pygame.Surface:

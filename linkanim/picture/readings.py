@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import degrees, dist, floor, inf, log10, pi, tau
 from typing import NamedTuple
 
@@ -28,75 +28,103 @@ class Reading(NamedTuple):
     value: str
 
 
+class Row(NamedTuple):
+    """A name and what tells its value at a pose, None where it is not known there.
+
+    Rows of the highest ranks are the first to go where there is no room.
+    """
+
+    rank: int
+    label: str
+    value: Callable[[Pose], str | None]
+
+
 def rows(scene: Scene, pose: Pose) -> tuple[Reading, ...]:
-    """Return the numbers of a pose: the same names in the same order at every pose of a scene.
+    """Return the numbers of a pose: the same names in the same order at every pose of a scene."""
+    return tuple(row for _, row in ranked(rows_of(scene), pose))
+
+
+def ranked(known: Iterable[Row], pose: Pose) -> Iterator[tuple[int, Reading]]:
+    """Yield what rows tell of a pose, each with its rank."""
+    for rank, label, value in known:
+        words = value(pose)
+        if words is not None:
+            yield rank, Reading(label, words)
+
+
+def rows_of(scene: Scene) -> tuple[Row, ...]:
+    """Return the rows of a scene; what of them is the same at every pose is put into words here, once.
 
     The input's speed is the pose's: of an input that swings, how often it does and its angular velocity
     at this instant. Speeds are in the unit that the scene states its own in; forces appear where they are
     known; a damper without a coefficient is a cylinder, told by its length; lengths are in the scene's
     unit, forces in newtons, tension positive.
     """
-    return tuple(row for _, row in ranked(scene, pose))
+    return *_input_rows(scene), *_strut_rows(scene), *_effort_row(scene)
 
 
-def ranked(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
-    """Yield the rows, each with its rank: those of the highest are the first to go where there is no room."""
-    yield from _input_rows(scene, pose)
-    yield from _strut_rows(scene, pose)
-    yield from _effort_row(scene, pose)
-
-
-def _input_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
+def _input_rows(scene: Scene) -> Iterator[Row]:
     info, slides = scene.info, scene.linkage.slides
     name = f"{driven_name(scene)} {'travel' if slides else 'angle'}"
     if info.full_turn:
-        yield 0, Reading(name, _turned(pose.crank_angle))
-        yield 1, Reading("input speed", speed_words(scene, pose.input_speed))
+        yield Row(0, name, lambda pose: _turned(pose.crank_angle))
+        yield Row(1, "input speed", lambda pose: speed_words(scene, pose.input_speed))
     else:
-        low, high = info.input_range
-        yield 0, Reading(name, driven_words(scene, pose.crank_angle))
-        yield 5, Reading("input range", f"{driven_words(scene, low)}…{driven_words(scene, high)}")
-        yield 1, Reading("input rate", speed_words(scene, pose.input_speed))
-        yield 3, Reading(f"{'slider' if slides else 'angular'} velocity", _live(scene, pose))
+        across = "…".join(driven_words(scene, end) for end in info.input_range)
+        yield Row(0, name, lambda pose: driven_words(scene, pose.crank_angle))
+        yield Row(5, "input range", lambda _: across)
+        yield Row(1, "input rate", lambda pose: speed_words(scene, pose.input_speed))
+        yield Row(3, f"{'slider' if slides else 'angular'} velocity", _live(scene))
     if info.true_period != 1:
-        yield 6, Reading("true period", f"{info.true_period} turns")
+        turns = f"{info.true_period} turns"
+        yield Row(6, "true period", lambda _: turns)
 
 
-def _live(scene: Scene, pose: Pose) -> str:
-    """Return the driven bar's angular velocity in words, or the slider's, always with as many decimals."""
+def _live(scene: Scene) -> Callable[[Pose], str]:
+    """Return what tells the driven bar's angular velocity, or the slider's, always with as many decimals."""
     if scene.linkage.slides:
-        return f"{stepped(pose.crank_rate, 0.1)} {scene.length_unit}/s"
+        return lambda pose: f"{stepped(pose.crank_rate, 0.1)} {scene.length_unit}/s"
     unit = speed_unit(scene)
     largest = abs(speed_in(unit, scene.linkage.drive.speed))
     step = 10.0 ** (floor(log10(largest)) - 2)
-    return f"{stepped(speed_in(unit, pose.crank_rate), step)} {sign_of(unit)}"
+    return lambda pose: f"{stepped(speed_in(unit, pose.crank_rate), step)} {sign_of(unit)}"
 
 
-def _strut_rows(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
-    unit = scene.length_unit
-    for name, spring in pose.spring.items():
-        yield 4, Reading(f"spring {name}", f"{stepped(spring.length, 0.1)} {unit}")
-        if spring.force is not None:
-            yield 2, Reading("spring force", f"{stepped(spring.force, 0.1)} N")
-    for item in scene.linkage.dampers:
-        damper, word = pose.damper[item.name], scene.linkage.strut_word(item)
-        moves = f"{stepped(damper.rate or 0.0, 0.1)} {unit}/s"
-        kept = f"{stepped(damper.length, 0.1)} {unit}"
-        yield 4, Reading(f"{word} {item.name}", moves if word == "damper" else kept)
-        if damper.force is not None:
-            yield 2, Reading("damper force", f"{stepped(damper.force, 0.1)} N")
-    if driving := scene.linkage.drive.cylinder:
-        length = dist(*(pose.position[name] for name in driving.between))
-        yield 2, Reading("driving cylinder", f"{stepped(length, 0.1)} {unit}")
+def _strut_rows(scene: Scene) -> Iterator[Row]:
+    linkage, unit = scene.linkage, scene.length_unit
+    for item in linkage.springs + linkage.dampers:
+        word = linkage.strut_word(item)
+        kind = "spring" if word == "spring" else "damper"
+        part, of = ("rate", f"{unit}/s") if word == "damper" else ("length", unit)
+        yield Row(4, f"{word} {item.name}", _strut(kind, item.name, part, of))
+        if item.forceful:
+            yield Row(2, f"{kind} force", _strut(kind, item.name, "force", "N"))
+    if driving := linkage.drive.cylinder:
+        first, last = driving.between
+        yield Row(
+            2,
+            "driving cylinder",
+            lambda pose: f"{stepped(dist(pose.position[first], pose.position[last]), 0.1)} {unit}",
+        )
 
 
-def _effort_row(scene: Scene, pose: Pose) -> Iterator[tuple[int, Reading]]:
+def _strut(kind: str, name: str, part: str, unit: str) -> Callable[[Pose], str | None]:
+    """Return what tells a spring's or damper's length, rate or force, to a tenth."""
+
+    def value(pose: Pose) -> str | None:
+        found = getattr(getattr(pose, kind)[name], part)
+        return None if found is None else f"{stepped(found, 0.1)} {unit}"
+
+    return value
+
+
+def _effort_row(scene: Scene) -> Iterator[Row]:
     """Yield what the input has to deliver, to three digits of what is usual, where anything has force."""
     usual = scene.info.usual_effort
     if usual is not None:
         name, unit = scene.info.effort
         step = 10.0 ** (floor(log10(usual)) - 2) if usual > 0 else 0.1
-        yield 2, Reading(f"input {name}", f"{stepped(float(input_effort(pose)), step)} {unit}")
+        yield Row(2, f"input {name}", lambda pose: f"{stepped(float(input_effort(pose)), step)} {unit}")
 
 
 class Note(NamedTuple):

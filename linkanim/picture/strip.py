@@ -168,8 +168,9 @@ class Strip:
     def readings(self, pose: Pose) -> Iterator[Item]:
         """Yield the pose's values at the right above the plot, of several curves each with its colour."""
         pen, words = self.pen, self.reading(self.values_at(pose))
-        y, x = self.plot.area.y - _TITLE * pen.text, self.plot.area.right - sum(self._widths(words))
-        for n, (text, width) in enumerate(zip(words, self._widths(words), strict=True)):
+        widths = self._widths(words)
+        y, x = self.plot.area.y - _TITLE * pen.text, self.plot.area.right - sum(widths)
+        for n, (text, width) in enumerate(zip(words, widths, strict=True)):
             left = x + width - pen.type.width(text, pen.text)
             yield Caption(text, (left, y), pen.text, pen.theme.ink)
             if len(words) > 1:

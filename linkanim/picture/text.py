@@ -7,7 +7,7 @@ braces (`I_{13}`, `v_{BA}`); either is typeset smaller and lower. `subscripted` 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, Literal, NamedTuple
 from unicodedata import normalize
 
@@ -82,6 +82,14 @@ class _Place(NamedTuple):
     y: int
 
 
+class Inked(NamedTuple):
+    """Letters on nothing, cut to their ink, so many pixels right and down of where they are set."""
+
+    sprite: pygame.Surface
+    right: int
+    down: int
+
+
 class Type:
     """The face's sizes and the glyphs that one painter has used; bounded by the face's alphabet."""
 
@@ -90,7 +98,8 @@ class Type:
         self._glyphs: dict[tuple[str, int, Colour, str, int], pygame.Surface] = {}
         self._steps: dict[tuple[str, str, int, str], int] = {}
         self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
-        self._inked: dict[tuple[str, int, str, Colour], list[tuple[pygame.Surface, int, int]]] = {}
+        self._inked: dict[tuple[str, int, str, Colour], tuple[int, list[Inked]]] = {}
+        self._inks: dict[tuple[str, int, Colour, bool, int], Inked] = {}
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
         """Return how wide a line is in pixels; `strong` is the semibold weight."""
@@ -124,24 +133,33 @@ class Type:
         at a whole pixel, for text that glides reads worse than text that steps; its glyphs stand
         to a quarter of one, which spaces small text evenly.
         """
-        width = self.width(text, size, strong=strong)
+        width, inked = self._inked_of(text, size, colour, strong=strong)
         x, y = _left(at[0], width, anchor), round(at[1]) + round(_BASE * size)
-        glyphs = self._glyphs_of(text, size, colour, strong=strong)
-        surface.fblits([(glyph, (x + right, y + down)) for glyph, right, down in glyphs])
+        surface.fblits([(sprite, (x + right, y + down)) for sprite, right, down in inked])
         return width
 
-    def _glyphs_of(
-        self, text: str, size: int, colour: Colour, *, strong: bool
-    ) -> list[tuple[pygame.Surface, int, int]]:
-        """Return the glyphs of a line, each so many pixels right of its baseline's left end and below it."""
+    def _inked_of(self, text: str, size: int, colour: Colour, *, strong: bool) -> tuple[int, list[Inked]]:
+        """Return a line's width and its letters, as many on one surface as do not touch: so it blits fast."""
         key = (text, size, _face(strong), colour)
         if key not in self._inked:
             _make_room(self._inked)
-            self._inked[key] = [
-                (self.glyph(char, small, colour, strong=strong, part=x % _FINE), x // _FINE, y)
-                for char, small, x, y in self._set(text, size, _face(strong))[:-1]
-            ]
+            *places, end = self._set(text, size, _face(strong))
+            inks = (
+                (self._ink(char, small, colour, strong=strong, part=x % _FINE), x // _FINE, y)
+                for char, small, x, y in places
+            )
+            glyphs = (Inked(ink, x + right, y + down) for (ink, right, down), x, y in inks if ink.get_width())
+            self._inked[key] = -(-end.x // _FINE), [_joined(run) for run in _apart(glyphs)]
         return self._inked[key]
+
+    def _ink(self, char: str, size: int, colour: Colour, *, strong: bool, part: int) -> Inked:
+        """Return a character without what is empty around it, so far right and below its own corner."""
+        key = (char, size, colour, strong, part)
+        if key not in self._inks:
+            glyph = self.glyph(char, size, colour, strong=strong, part=part)
+            ink = glyph.get_bounding_rect()
+            self._inks[key] = Inked(glyph.subsurface(ink), ink.x, ink.y)
+        return self._inks[key]
 
     def _set(self, text: str, size: int, face: str) -> tuple[_Place, ...]:
         """Return where the glyphs of a line stand and its end; the last lines are kept, being drawn again."""
@@ -246,6 +264,34 @@ def _averaged(drawn: pygame.Surface, part: int, ascent: int, colour: Colour) -> 
     large.fill((*colour, 0))
     large.blit(drawn, (part, down))
     return pygame.transform.smoothscale(large, (room[0] // _FINE, room[1] // _FINE))
+
+
+def _apart(glyphs: Iterable[Inked]) -> Iterator[list[Inked]]:
+    """Yield a line's glyphs in runs within which each begins right of the last; where two touch is a break.
+
+    What lies over one another is blended with what is below it one by one, as rounding asks.
+    """
+    run: list[Inked] = []
+    end = 0
+    for glyph in glyphs:
+        if run and glyph.right < end:
+            yield run
+            run = []
+        run.append(glyph)
+        end = glyph.right + glyph.sprite.get_width()
+    if run:
+        yield run
+
+
+def _joined(run: list[Inked]) -> Inked:
+    """Return glyphs that do not touch on one surface."""
+    if len(run) == 1:
+        return run[0]
+    left, top = run[0].right, min(glyph.down for glyph in run)
+    right, low = run[-1].right + run[-1].sprite.get_width(), max(g.down + g.sprite.get_height() for g in run)
+    sheet = pygame.Surface((right - left, low - top), pygame.SRCALPHA, 32)
+    sheet.fblits([(glyph.sprite, (glyph.right - left, glyph.down - top)) for glyph in run])
+    return Inked(sheet, left, top)
 
 
 def _left(x: float, width: int, anchor: Anchor) -> int:

@@ -10,7 +10,7 @@ from itertools import groupby, zip_longest
 from typing import NamedTuple
 
 from linkanim.picture.layout import Layout
-from linkanim.picture.readings import Reading, notes, ranked
+from linkanim.picture.readings import Reading, notes, ranked, rows_of
 from linkanim.picture.text import Type
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
@@ -110,9 +110,9 @@ def said_of(scenes: Sequence[Scene], type_: Type) -> tuple[Said, ...]:
 
 def _ever_said(scene: Scene) -> Iterator[Said]:
     """Yield the rows over a cycle, at the fastest speed."""
-    speed = _FASTEST * scene.linkage.drive.speed
+    known, speed = rows_of(scene), _FASTEST * scene.linkage.drive.speed
     for step in range(_TRIED):
-        for rank, row in ranked(scene, scene.pose(scene.period * step / _TRIED, speed=speed)):
+        for rank, row in ranked(known, scene.pose(scene.period * step / _TRIED, speed=speed)):
             yield Said(rank, row)
 
 

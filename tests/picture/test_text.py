@@ -191,3 +191,21 @@ def test_a_title_that_no_font_has_gives_way_to_the_scene_s_name(alone: Type) -> 
     block = staged(scene, None, Staged((640, 360), False, 0, True, False), alone).arrangement.block
     assert block is not None
     assert block.lines[0].text == "mine"
+
+
+# Letters that stand clear of each other, that touch, with a subscript, with nothing to be seen among them.
+@pytest.mark.parametrize("text", ["202.9 mm", "gwkxryVVKAjj", "v_{BA} of O₂", "a\u200b b"])
+@pytest.mark.parametrize("size", [9, 16, 37])
+def test_a_line_has_the_pixels_of_its_glyphs_put_down_one_by_one(text: str, size: int) -> None:
+    type_, whole = Type(), pygame.Surface((600, 80), 0, 32)
+    whole.fill((250, 240, 220))
+    single = whole.copy()
+    base = 10 + round(0.78 * size)
+    for char, small, x, y in type_._set(text, size, fonts.SEMIBOLD)[:-1]:
+        glyph = type_.glyph(char, small, INK, strong=True, part=x % 4)
+        single.blit(glyph, (10 + x // 4, base + y))
+    assert (pixels(single) != pixels(whole)).any()
+    for _ in range(2):
+        drawn = whole.copy()
+        type_.draw(drawn, text, (10, 10), size=size, colour=INK, strong=True)
+        assert (pixels(drawn) == pixels(single)).all()
