@@ -1,0 +1,119 @@
+"""The open list of quantities: what is written where, and what gives way where room is short."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import pygame
+import pytest
+
+from linkanim.picture.board import STEP, Board
+from linkanim.picture.layout import layout
+from linkanim.picture.overlay import Quantities
+from linkanim.picture.quantity_list import quantity_list
+from linkanim.picture.raster import Colour
+from linkanim.picture.text import Type
+from linkanim.picture.theme import LIGHT
+
+ROWS = tuple((f"Link {n}: angle", f"θ{n} (°)") for n in range(60))
+HINT = "Enter charts   Esc closes"
+
+
+class Line(NamedTuple):
+    at: tuple[float, float]
+    colour: Colour | None
+    anchor: str
+
+
+@dataclass(frozen=True)
+class Noted(Board):
+    """A board that keeps what is written on it."""
+
+    lines: dict[str, Line] = field(default_factory=dict)
+    bars: list[float] = field(default_factory=list)
+
+    def write(self, sheet: pygame.Surface, text: str, at: tuple[float, float], **how: Any) -> None:
+        self.lines[text] = Line(at, how.get("colour"), how.get("anchor", "left"))
+        super().write(sheet, text, at, **how)
+
+    def bar(self, sheet: pygame.Surface, y: float, size: int, colour: Colour, *, lines: float = 1.0) -> None:
+        self.bars.append(y)
+        super().bar(sheet, y, size, colour, lines=lines)
+
+
+@pytest.fixture
+def board() -> Noted:
+    return Noted(layout((640, 360), chart=False, beside=False, listed=True), Type(), LIGHT)
+
+
+def test_rows_stand_line_by_line_below_the_title_and_the_hint_below_them(board: Noted) -> None:
+    sheet = quantity_list(board, Quantities(ROWS, 25, "", HINT))
+    size, lines = board.layout.small_size, board.lines
+    shown = [words for words, _ in ROWS if words in lines]
+    assert len(shown) >= 4
+    assert ROWS[25][0] in shown[1:-1]
+    tops = [
+        lines["Quantities"].at[1],
+        *(lines[words].at[1] for words in shown),
+        lines[HINT].at[1],
+    ]
+    gaps = [after - before for before, after in pairwise(tops)]
+    assert gaps[1:-1] == pytest.approx([STEP * size] * (len(shown) - 1))
+    assert all(STEP * size * 0.99 <= gap < 1.5 * STEP * size for gap in gaps)
+    assert board.bars == [lines[ROWS[25][0]].at[1]]
+    assert lines["26 of 60"].anchor == "right"
+    for words, symbol in ROWS[20:30]:
+        assert (words in lines) == (symbol in lines)
+        if words in lines:
+            assert lines[symbol] == (
+                (sheet.get_width() - lines[words].at[0], lines[words].at[1]),
+                LIGHT.dim,
+                "right",
+            )
+    assert board.layout.lists.height - 1.5 * STEP * size < sheet.get_height() <= board.layout.lists.height
+    assert sheet.get_width() == round(board.layout.lists.width)
+
+
+def test_what_has_been_typed_stands_for_the_title_and_none_found_is_said(board: Noted) -> None:
+    sheet = quantity_list(board, Quantities((), 0, "rock", HINT))
+    size, lines = board.layout.small_size, board.lines
+    assert (lines["rock_"].colour, "Quantities" in lines, lines["0"].anchor) == (
+        LIGHT.velocity,
+        False,
+        "right",
+    )
+    none = lines["none has that in its name"]
+    assert none.colour == LIGHT.warning
+    tops = lines["rock_"].at[1], none.at[1], lines[HINT].at[1], sheet.get_height() - size
+    assert all(after - before >= 0.99 * STEP * size for before, after in pairwise(tops[:3]))
+    assert tops[2] < tops[3]
+    assert board.bars == []
+
+
+def test_words_too_long_lose_their_symbol_and_then_their_middle(board: Noted) -> None:
+    size, long = board.layout.small_size, "m"
+    room = board.layout.lists.width - 2.4 * size
+    while board.type.width(long + "m", size) <= room:
+        long += "m"
+    quantity_list(board, Quantities(((long, "θ"), (long * 2, "ω"), ("short", "α")), 0))
+    assert {"θ", "ω", "α"} & set(board.lines) == {"α"}
+    assert "short" in board.lines
+    written = [text for text in board.lines if "mm" in text]
+    assert written[0] == long
+    assert "…" in written[1]
+    assert all(board.type.width(text, size) <= room for text in written)
+
+
+def test_where_fewer_than_four_rows_would_be_left_the_hint_gives_way() -> None:
+    told = set()
+    for high in range(120, 360, 8):
+        low = Noted(layout((640, high), chart=False, beside=False, listed=True), Type(), LIGHT)
+        sheet = quantity_list(low, Quantities(ROWS, 3, "", "Enter"))
+        rows = sum(words in low.lines for words, _ in ROWS)
+        assert rows >= 4 if "Enter" in low.lines else rows <= 4
+        last = max(line.at[1] for line in low.lines.values())
+        assert sheet.get_height() - last < 3 * low.layout.small_size
+        told.add("Enter" in low.lines)
+    assert told == {True, False}
