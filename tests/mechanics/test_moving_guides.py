@@ -59,3 +59,20 @@ def test_a_planet_of_ratio_minus_one_draws_a_line_or_an_ellipse(length: float) -
         assert y == pytest.approx(0.0, abs=1e-13 * 60)
     else:
         assert (x / 75) ** 2 + (y / 15) ** 2 == pytest.approx(1.0, abs=1e-14 * 60)
+
+
+@pytest.mark.parametrize("through", ["A", "B"])
+def test_a_guide_that_the_coupler_carries_is_kept_to_and_its_rates_are_its_places(through: str) -> None:
+    linkage = four_bar((100, 30, 90, 80))
+    joint = RRP("J", "O4", 300.0, Line(through, 0.3, 7.0, ("A", "B")))
+    solved = mechanism(with_joints(linkage, joint))
+    near = np.linspace(0.1, 6.0, 20)[:, None] + np.array([-1e-4, 0.0, 1e-4])
+    motion = solved.solve(phase=near, speed=1.0)
+    a, b, o4, base, j = (motion.position[name] @ (1, 1j) for name in ("A", "B", "O4", through, "J"))
+    seen = (j - base) * np.conj((b - a) / abs(b - a) * np.exp(0.3j))
+    assert seen.imag == pytest.approx(7.0, abs=1e-10)
+    assert abs(j - o4) == pytest.approx(300.0, rel=1e-13)
+    for rate, value in (("velocity", "position"), ("acceleration", "velocity")):
+        values = getattr(motion, value)["J"]
+        slope = (values[:, 2] - values[:, 0]) / 2e-4
+        assert getattr(motion, rate)["J"][:, 1] == pytest.approx(slope, abs=1e-4)
