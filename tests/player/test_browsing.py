@@ -202,10 +202,12 @@ def test_the_shelf_opens_at_once_and_reads_a_mechanism_a_frame(
 
 
 @pytest.mark.parametrize(
-    ("on", "key", "then"), [("press", "1", "six-bar"), ("hart", "3", "pantograph"), ("hart", "9", "hart")]
+    ("on", "key", "then"),
+    [("press", "1", "six-bar"), ("hart", "3", "pantograph"), ("hart", "4", "hart"), ("hart", "9", "hart")],
 )
 def test_a_digit_chooses_within_the_chapter(on: str, key: str, then: str) -> None:
-    assert after(begin(load(on)), Action("select", int(key) - 1)).scene.name == then
+    state = after(begin(load(on)), Action("select", int(key) - 1))
+    assert (state.scene.name, state.toast, state.effects) == (then, None, ())
 
 
 def test_a_quantity_is_charted_from_the_list(player: Player) -> None:
