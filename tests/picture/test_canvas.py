@@ -82,3 +82,18 @@ def test_a_scene_on_the_way_is_as_large_as_the_one_it_becomes_and_in_its_place(c
     wide = ours.scale * (shown.box.right - shown.box.left) / (whole.box.right - whole.box.left)
     high = ours.scale * (shown.box.high - shown.box.low) / (whole.box.high - whole.box.low)
     assert max(wide, high) == pytest.approx(theirs.scale)
+
+
+# Instant centres lie where they lie; the centrodes, and a scene zoomed or panned, run under the words.
+@pytest.mark.parametrize(
+    ("look", "overrun"),
+    [
+        (Look(), False),
+        (Look(centres=1), False),
+        (Look(centres=2), True),
+        (Look(zoom=0.5), True),
+        (Look(pan=(0.0, -0.1)), True),
+    ],
+)
+def test_words_need_a_backing_where_something_may_lie_under_them(look: Look, overrun: bool) -> None:
+    assert look.overrun == overrun
