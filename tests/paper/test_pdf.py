@@ -62,7 +62,8 @@ def test_words_are_as_large_as_on_the_screen_and_stand_there_in_a_halo_as_wide()
     drawn, how = content(pdf((400, 200), None, [line], title="words")), typesetting(20)
     small, large = round(0.75 * how.small, 2), round(0.75 * how.em, 2)
     faces = re.findall(r"/F(\d) ([\d.]+) Tf", drawn)
-    assert faces == [("2", f"{em:.2f}") for em in (large, large, small, small)]
+    # Once for each piece or, by fpdf2 2.8.1, where it changes.
+    assert list(dict.fromkeys(faces)) == [("2", f"{em:.2f}") for em in (large, small)]
     letters, lowered = (150 - 0.75 * (50 + how.baseline + lower) for lower in (0, how.lower))
     places = [(float(x), float(y)) for x, y in re.findall(r"BT ([\d.]+) ([\d.]+) Td", drawn)]
     assert [y for _, y in places] == [letters] * 2 + [lowered] * 2
