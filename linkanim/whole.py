@@ -94,7 +94,7 @@ def _taken(part: Path, target: Path) -> bool:
         target.hardlink_to(part)
     except FileExistsError:
         return False
-    except (OSError, NotImplementedError):  # a file system that knows no links
+    except OSError:  # a file system that knows no links
         return _moved(part, target)
     return True
 
