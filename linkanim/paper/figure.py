@@ -83,7 +83,7 @@ class Figured:
         yield from drawing.wheels(places)
         for n, faint in enumerate(self._faint(), start=1):
             yield Group(f"pose-{n}", drawing.faint(faint))
-        yield from drawing.standing()
+        yield from drawing.standing
         yield from drawing.moving(pose)
         if self.names:
             yield Group("names", (), self.names.captions(pose, places))

@@ -169,12 +169,9 @@ class Drawing:
         layers = (layer for group in self._pinned(self.places(pose)) for layer in group.layers)
         return [Layer(mixed(layer.colour, back, _FAINT), layer.loops, layer.alpha) for layer in layers]
 
-    def standing(self) -> tuple[Group, ...]:
-        """Return what else stands still: the ground, its line and the whole curves."""
-        return self._standing
-
     @cached_property
-    def _standing(self) -> tuple[Group, ...]:
+    def standing(self) -> tuple[Group, ...]:
+        """What else stands still: the ground, its line and the whole curves."""
         return tuple(self._ground())
 
     def _ground(self) -> Iterator[Group]:

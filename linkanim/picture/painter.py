@@ -117,7 +117,7 @@ class Painter:
         """Paint what moves behind what stands still, and that; a stencil pays from the second pose on."""
         places, faint = self.drawing.places(pose), self.drawing.faint(ghost) if ghost else ()
         if self._brief:
-            behind = *flat(self.drawing.wheels(places)), *faint, *flat(self.drawing.standing())
+            behind = *flat(self.drawing.wheels(places)), *faint, *flat(self.drawing.standing)
             paint(canvas, behind, ends=self._ends)
             return
         for turned in self._turned:
@@ -175,7 +175,7 @@ class Painter:
         flags = 0 if self.look.background else pygame.SRCALPHA
         still = pygame.Surface(self.size, flags, 32)
         still.fill((*self._theme.background, 255 if self.look.background else 0))
-        standing = () if self.drawing.moves_behind else self.drawing.standing()
+        standing = () if self.drawing.moves_behind else self.drawing.standing
         paint(still, flat((self.drawing.discs(), *standing)), ends=self._ends)
         if self._legend:
             self._legend.draw(still)
@@ -223,4 +223,4 @@ class Painter:
     @cached_property
     def _stencil(self) -> Mix:
         """What stands still with something moving behind it."""
-        return stencil(flat(self.drawing.standing()), self._still, ends=self._ends)
+        return stencil(flat(self.drawing.standing), self._still, ends=self._ends)

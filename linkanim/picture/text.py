@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import Any, Literal, NamedTuple
+from math import prod
+from typing import Literal, NamedTuple
 from unicodedata import normalize
 
 import pygame
@@ -37,6 +38,8 @@ _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 
 _KEPT = 2048
 """How many lines are remembered, set: as many as a turn of a scene with a dozen values has."""
+_INKED_BYTES = 16_000_000
+"""How much memory lines as they are drawn may take: a turn's at 1280 × 720 twice over."""
 
 
 class Run(NamedTuple):
@@ -99,6 +102,7 @@ class Type:
         self._steps: dict[tuple[str, str, int, str], int] = {}
         self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
         self._inked: dict[tuple[str, int, str, Colour], tuple[int, list[Inked]]] = {}
+        self._inked_bytes = 0
         self._inks: dict[tuple[str, int, Colour, bool, int], Inked] = {}
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
@@ -142,15 +146,23 @@ class Type:
         """Return a line's width and its letters, as many on one surface as do not touch: so it blits fast."""
         key = (text, size, _face(strong), colour)
         if key not in self._inked:
-            _make_room(self._inked)
             *places, end = self._set(text, size, _face(strong))
             inks = (
                 (self._ink(char, small, colour, strong=strong, part=x % _FINE), x // _FINE, y)
                 for char, small, x, y in places
             )
             glyphs = (Inked(ink, x + right, y + down) for (ink, right, down), x, y in inks if ink.get_width())
-            self._inked[key] = -(-end.x // _FINE), [_joined(run) for run in _apart(glyphs)]
+            inked = [_joined(run) for run in _apart(glyphs)]
+            self._make_room(sum(4 * prod(letters.sprite.get_size()) for letters in inked))
+            self._inked[key] = -(-end.x // _FINE), inked
         return self._inked[key]
+
+    def _make_room(self, further: int) -> None:
+        """Forget the lines that were drawn where so many bytes more are too many."""
+        self._inked_bytes += further
+        if self._inked_bytes > _INKED_BYTES or len(self._inked) >= _KEPT:
+            self._inked.clear()
+            self._inked_bytes = further
 
     def _ink(self, char: str, size: int, colour: Colour, *, strong: bool, part: int) -> Inked:
         """Return a character without what is empty around it, so far right and below its own corner."""
@@ -165,7 +177,8 @@ class Type:
         """Return where the glyphs of a line stand and its end; the last lines are kept, being drawn again."""
         key = (text, size, face)
         if key not in self._lines:
-            _make_room(self._lines)
+            if len(self._lines) >= _KEPT:
+                self._lines.clear()
             self._lines[key] = tuple(self._setting(text, size, face))
         return self._lines[key]
 
@@ -224,12 +237,6 @@ class Type:
                 pieces.append("")
             pieces[-1] += char
         return pieces
-
-
-def _make_room(lines: dict[Any, Any]) -> None:
-    """Forget the lines that are kept where they are many."""
-    if len(lines) >= _KEPT:
-        lines.clear()
 
 
 def _runs(text: str) -> Iterator[Run]:
