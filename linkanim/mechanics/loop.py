@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from linkanim.errors import AssemblyError
 
-from .circular import Half, half_angle, sharp_half_angle
+from .circular import Half, half_angle, sharp_half_angle, signed_half_angle
 from .exact import HALF_TURN, Sum, exact_angle, gap, unit
 from .expression import Value
 from .input_state import InputState
@@ -80,10 +80,11 @@ class Loop:
 
     @property
     def form(self) -> Callable[[Value, Value], Half]:
-        """How ψ/2 is worked out: with as many digits of its cosine as the root needs, squares times 2r."""
+        """How ψ/2 is worked out: with the sign and the digits that the root needs, squares times 2r."""
         if self.root.u.kind is Kind.PLAIN and not self.root.wide:
             return sharp_half_angle
-        return partial(half_angle, size=2.0 * self.crank.length)
+        plain = self.root.u.kind is self.root.w.kind is Kind.PLAIN
+        return partial(half_angle if plain else signed_half_angle, size=2.0 * self.crank.length)
 
 
 def own_loop(crank: str, loops: Mapping[str, Loop]) -> Loop | None:

@@ -19,6 +19,7 @@ from linkanim.mechanics.circular import (
     half_angle,
     reduced,
     sharp_half_angle,
+    signed_half_angle,
     sine_within,
     tangent,
 )
@@ -80,15 +81,15 @@ def test_what_is_left_of_an_angle_has_all_its_digits(turns: float) -> None:
 FORMS: Mapping[str, Callable[[float, float], Half]] = {
     "half": half_angle,
     "grown": partial(half_angle, size=0.3),
+    "signed": signed_half_angle,
+    "grown signed": partial(signed_half_angle, size=0.3),
     "sharp": sharp_half_angle,
 }
-RATIONAL = {"sine": 2, "cosine": 2.5, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2}
-BOUNDS = {
-    "half": RATIONAL,
-    "grown": RATIONAL,
-    "sharp": {"sine": 1.2, "cosine": 1.2, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2},
-}
-SIZES = {"half": 1.0, "grown": 0.3, "sharp": 1.0}
+UNSIGNED = {"sine": 2, "cosine": 2.5, "square": 1.6, "cosine_square": 1.4, "product": 1.6, "difference": 2.3}
+SIGNED = {"sine": 2, "cosine": 2.5, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2}
+SHARP = {"sine": 1.2, "cosine": 1.2, "square": 2, "cosine_square": 2, "product": 1.2, "difference": 2}
+BOUNDS = {"half": UNSIGNED, "grown": UNSIGNED, "signed": SIGNED, "grown signed": SIGNED, "sharp": SHARP}
+SIZES = {"half": 1.0, "grown": 0.3, "signed": 1.0, "grown signed": 0.3, "sharp": 1.0}
 """What the squares are asked times."""
 
 
@@ -126,7 +127,11 @@ def test_half_an_angle_is_good_to_a_few_last_digits_of_one(form: str) -> None:
 
 @pytest.mark.parametrize(
     ("form", "names"),
-    [("half", ["sine", "square"]), ("sharp", ["sine", "cosine", "square", "cosine_square", "product"])],
+    [
+        ("half", ["square"]),
+        ("signed", ["sine", "square"]),
+        ("sharp", ["sine", "cosine", "square", "cosine_square", "product"]),
+    ],
 )
 def test_next_to_a_zero_there_are_still_all_digits(form: str, names: list[str]) -> None:
     for angle in NEAR_ZEROS:
