@@ -21,7 +21,7 @@ _LONGEST = 40
 class Listing:
     """The open list of quantities: the row that is chosen, and the letters that sift it."""
 
-    chosen: int = 0
+    chosen: int
     sieve: str = ""
 
 

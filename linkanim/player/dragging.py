@@ -31,7 +31,7 @@ def values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key,
     for handle in handles(held.scene, held.joint):
         step = step_of(units[handle.key]) * Decimal(repr(share))
         value = step * round(Decimal(repr(dragged(handle, places, point))) / step)
-        found[handle.key] = f"{value.normalize() + 0:f}"
+        found[handle.key] = f"{value.normalize():f}"
     return found
 
 

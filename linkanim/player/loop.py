@@ -45,7 +45,7 @@ def run(
         try:
             for count in frames(time.monotonic, time.sleep):
                 if not window.tick(count):
-                    return 0
+                    break
                 connection.check()
         finally:
             window.close()

@@ -68,6 +68,15 @@ def test_the_lists_ends_are_ends(press: State) -> None:
     bottom = after(top, Action("move", 10_000))
     assert bottom.listing is not None
     assert bottom.listing.chosen == len(quantities(press.scene)) - 1
+    only = after(press, "list", Action("sift", "cushion.f"), Action("move", 1))
+    assert only.listing is not None
+    assert only.listing.chosen == 0
+
+
+def test_backspace_takes_one_letter_off_the_sieve(press: State) -> None:
+    state = after(press, "list", Action("sift", "ve"), "unsift")
+    assert state.listing is not None
+    assert state.listing.sieve == "v"
 
 
 def test_sifting_starts_from_the_top(press: State) -> None:

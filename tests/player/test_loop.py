@@ -23,7 +23,8 @@ from linkanim.player.state import begin
 from linkanim.player.tape import Tape, starting
 from linkanim.player.tape_file import write
 from linkanim.player.window import Window
-from linkanim.scenes import load
+from linkanim.scenes import Scene, load
+from linkanim.scenes.write import save
 
 
 class Time:
@@ -79,6 +80,8 @@ def test_what_a_clock_leaps_by_is_left_out(time: Time, leap: float) -> None:
     before = time.now
     assert list(islice(ticks, 60)) == [1] * 60
     assert time.now - before == pytest.approx(1.0, abs=2 / 60 + 1e-6)
+    time.now += 0.1
+    assert next(ticks) >= 5
 
 
 def test_a_clock_that_leaps_while_it_is_waited_for_stops_nothing(time: Time) -> None:
@@ -198,3 +201,22 @@ def test_a_tape_is_played_from_its_file(tape: Tape, here: Path, monkeypatch: pyt
     monkeypatch.setattr(Window, "tick", tick)
     assert run("mine.tape.json") == 0
     assert seen == [tape.start]
+
+
+def test_a_scene_file_is_loaded_again_in_the_window_it_was_opened_in(
+    here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save(load("kite"), here).rename(here / "my.toml")
+    before, real = load("my.toml"), Window.tick
+    shown: list[Scene] = []
+
+    def tick(window: Window, count: int) -> bool:
+        (here / "my.toml").write_text((here / "my.toml").read_text().replace("crank = ", "crank = 1"))
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_F5, mod=0, unicode=""))
+        real(window, count)
+        shown.append(window.state.scene)
+        return False
+
+    monkeypatch.setattr(Window, "tick", tick)
+    assert run("my.toml", size=(320, 180)) == 0
+    assert shown == [load("my.toml")] != [before]

@@ -413,6 +413,8 @@ def test_a_recording_is_taped_and_rendered_beside(
     player.tick(15)
     assert player.state.toast is not None
     assert "crank-rocker-1.gif is written" in player.state.toast.text
+    player.tick(TOAST_FRAMES)
+    assert player.state.toast is None
 
 
 def test_closing_the_window_finishes_a_recording(
