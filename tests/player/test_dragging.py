@@ -130,7 +130,8 @@ def test_the_end_of_full_turns_is_refused() -> None:
 
 
 def test_a_value_refused_before_a_drag_is_warned_of_after_it_too() -> None:
-    state = after(opened("crank-rocker", 1.0), Action("choose", 1), Action("type", "70"), Action("pass_on", 1))
+    crank = after(opened("crank-rocker", 1.0), Action("choose", 1))
+    state = after(crank, Action("type", "70"), Action("pass_on", 1))
     moved = after(drag(state, "P", (3.0, 0.0)), "drop", "take")
     assert values(moved)["Crank 2"] == 50.0
     assert str(moved.editing.refusal).endswith("(Enter takes it all the same)")

@@ -190,6 +190,7 @@ def test_a_draft_is_mended_where_it_stands(crank: State) -> None:
     )
     again = after(state, "erase", Action("type", "8"), "take")
     assert value(again, "Crank 2") == 48.0
+    assert not after(state, "erase", "erase").editing.begun
 
 
 def test_a_new_value_takes_the_place_of_a_draft(crank: State) -> None:
@@ -282,6 +283,14 @@ def test_a_length_is_followed_smoothly(crank: State) -> None:
     assert lengths == sorted(lengths, reverse=True)
     assert max(a - b for a, b in pairwise(lengths)) < 2.0
     assert state.shown is state.scene
+
+
+def test_an_angle_in_another_unit_comes_at_once() -> None:
+    line = after(begin(load("engine")), "edit", Action("choose", 2))
+    assert value(line, "Direction of the line") == 90.0
+    assert typed(line, "80").glide is not None
+    state = typed(line, "1.5 rad")
+    assert (value(state, "Direction of the line"), state.glide) == (1.5, None)
 
 
 def test_a_change_begins_and_ends_gently(crank: State) -> None:

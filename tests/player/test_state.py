@@ -59,6 +59,8 @@ CHANGES: dict[str, tuple[Action, Callable[[State], object], object]] = {
     "theme": (Action("theme"), lambda s: s.look.theme, "dark"),
     "help": (Action("help"), lambda s: s.help, True),
     "zoom": (Action("zoom", (1.0, 0.0, 0.0)), lambda s: s.look.zoom, 1.25),
+    "zoom ends, near": (Action("zoom", (99.0, 0.0, 0.0)), lambda s: s.look.zoom, 1.25**16),
+    "zoom ends, far": (Action("zoom", (-99.0, 0.0, 0.0)), lambda s: s.look.zoom, 1.25**-8),
     "pan": (Action("pan", (0.25, -0.5)), lambda s: s.look.pan, (0.25, -0.5)),
     "record": (Action("record", "mp4"), lambda s: s.effects, (Action("record", "mp4"),)),
     "screenshot": (Action("screenshot"), lambda s: s.effects, (Action("screenshot"),)),
