@@ -201,6 +201,18 @@ def test_a_joint_is_dragged_with_the_mouse(player: Player) -> None:
     assert (player.state.held, player.state.editing.past) == (None, (before.scene,))
 
 
+@pytest.mark.parametrize(("shift", "whole"), [(0, True), (pygame.KMOD_LSHIFT, False)], ids=["whole", "tenths"])
+def test_shift_makes_the_mouse_go_in_tenths(
+    player: Player, monkeypatch: pytest.MonkeyPatch, shift: int, whole: bool
+) -> None:
+    player.type("e")
+    x, y = place(player.state, "B")
+    monkeypatch.setattr(pygame.key, "get_mods", lambda: shift)
+    player.drag(player.window.easel.pixel(x, y), player.window.easel.pixel(x + 10.0, y + 7.0))
+    rocker = values(player.state)["Rocker 4"]
+    assert (round(rocker, 1), rocker == round(rocker)) == (rocker, whole)
+
+
 def test_moves_of_one_frame_are_taken_as_one(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
     player.type("e")
     start = player.window.easel.pixel(*place(player.state, "B"))

@@ -8,6 +8,7 @@ import pytest
 
 from linkanim.player.scrub import phase_towards
 from linkanim.scenes import load, names
+from linkanim.scenes.edit import with_dimensions
 
 
 @pytest.mark.parametrize("name", names())
@@ -19,6 +20,18 @@ def test_the_crank_goes_where_it_is_dragged(name: str, phase: float) -> None:
     found = scene.mechanism.assembly.path.phase_of(pose.crank_angle, near=near)
     assert found == pytest.approx(phase, abs=1e-6)
     assert phase_towards(scene, near, pin) == pytest.approx(phase, abs=1e-6)
+
+
+@pytest.mark.parametrize("phase", [0.3, 2.0])
+def test_a_slider_on_any_guide_goes_as_near_as_it_can(phase: float) -> None:
+    scene = with_dimensions(
+        with_dimensions(load("driven-piston"), {("joints", "C", "line", "angle"): "30 deg"}),
+        {("ground", "O", 0): 70.0, ("ground", "O", 1): -20.0},
+    )
+    x, y = scene.pose(phase, 0).position["C"]
+    across = 12.0 * math.sin(math.radians(30.0)), -12.0 * math.cos(math.radians(30.0))
+    assert phase_towards(scene, phase + 0.2, (x, y)) == pytest.approx(phase, abs=1e-6)
+    assert phase_towards(scene, phase + 0.2, (x + across[0], y + across[1])) == pytest.approx(phase, abs=1e-6)
 
 
 def test_a_crank_that_turns_is_followed_over_whole_turns() -> None:

@@ -392,6 +392,8 @@ def test_the_charts_cursor_is_dragged(player: Player) -> None:
     place = next(
         (x, y) for y in range(179, 0, -5) for x in (160,) if player.window.easel.charted(x, y) is not None
     )
+    player.mouse(pygame.MOUSEBUTTONDOWN, place, button=1)
+    assert player.state.phase == player.window.easel.charted(*place)
     player.drag(place, (place[0] + 40, place[1]))
     assert player.state.phase == player.window.easel.charted(place[0] + 40, place[1])
 
