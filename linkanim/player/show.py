@@ -96,7 +96,7 @@ def _measured(state: State, items: tuple[Dimension, ...]) -> tuple[str, str, str
         return None
     item = items[state.editing.chosen % len(items)]
     ends = span(state.scene, item.key)
-    return ends and (*ends, typeset(f"{significant(item.value, 10)} {item.unit}"))
+    return ends and (*ends, _valued(item))
 
 
 def _recording(state: State) -> str | None:
@@ -123,8 +123,11 @@ def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
 
 def _row(item: Dimension, draft: str | None, *, chosen: bool) -> EditRow:
     label = _NAME.sub(lambda name: subscripted(name[0]), item.label)
-    value = typeset(f"{significant(item.value, 10)} {item.unit}".strip())
-    return EditRow(label, draft or value, chosen=chosen, draft=draft is not None)
+    return EditRow(label, draft or _valued(item), chosen=chosen, draft=draft is not None)
+
+
+def _valued(item: Dimension) -> str:
+    return typeset(f"{significant(item.value, 10)} {item.unit}".strip())
 
 
 def _flash(state: State) -> float:

@@ -138,9 +138,16 @@ def test_nothing_that_comes_and_goes_is_on_a_screenshot(rocker: State) -> None:
 
 def test_a_screenshots_shutter_flashes_and_goes(rocker: State) -> None:
     state = after(rocker, "screenshot")
-    assert overlay(state).shutter == 8
-    assert overlay(run(state, SHUTTER_FRAMES)).shutter == 0
+    seen = [overlay(run(state, frame)).shutter for frame in range(SHUTTER_FRAMES + 1)]
+    assert (seen[0], seen[-1]) == (8, 0)
+    assert seen == sorted(seen, reverse=True)
     assert run(state, SHUTTER_FRAMES).shot is None
+
+
+def test_a_recording_tells_its_seconds(rocker: State) -> None:
+    state = run(after(run(rocker, 90), Action("record", "gif")), 120)
+    assert overlay(state).recording == "REC GIF 0:02"
+    assert overlay(replace(state, frame=state.frame + 60 * 60)).recording == "REC GIF 1:02"
 
 
 def test_another_mechanism_fades_over(player: Player) -> None:

@@ -253,6 +253,13 @@ def test_a_list_shows_what_is_typed_and_what_waits(crank: State) -> None:
     assert [row.chosen for row in shown.rows[:3]] == [False, False, True]
 
 
+def test_a_list_shows_ten_digits() -> None:
+    gears = typed(after(begin(load("epicyclic-hypocycloid")), "edit", Action("choose", 2)), "-1/3")
+    shown = overlay(gears).panel
+    assert shown is not None
+    assert shown.rows[2].value == "−0.3333333333"
+
+
 def test_escape_closes_what_lies_on_top_first(crank: State) -> None:
     state = after(crank, Action("type", "7"), "help", "back")
     assert (state.help, state.editing.typed) == (False, "7")
