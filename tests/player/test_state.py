@@ -10,12 +10,8 @@ import pytest
 
 from linkanim.picture.look import Look
 from linkanim.player.action import Action
-from linkanim.player.advance import ATTRACT_AFTER, ATTRACT_EACH, advance
-from linkanim.player.state import (
-    TOAST_FRAMES,
-    State,
-    begin,
-)
+from linkanim.player.advance import ATTRACT_AFTER, advance
+from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 
 
@@ -181,8 +177,8 @@ def test_a_recording_is_stopped_by_either_key(rocker: State) -> None:
 
 def test_a_toast_is_gone_after_three_seconds(rocker: State) -> None:
     told = after(rocker, Action("note", "written"))
-    assert run(told, TOAST_FRAMES - 1).toast is not None
-    assert run(told, TOAST_FRAMES).toast is None
+    assert run(told, 3 * 60 - 1).toast is not None
+    assert run(told, 3 * 60).toast is None
 
 
 def test_a_steady_state_does_not_grow(rocker: State) -> None:
@@ -191,9 +187,9 @@ def test_a_steady_state_does_not_grow(rocker: State) -> None:
 
 
 def test_left_alone_it_walks_through_the_catalogue() -> None:
-    state = run(begin(load("crank-rocker"), attract=True), ATTRACT_AFTER - 1)
+    state = run(begin(load("crank-rocker"), attract=True), 60 * 60 - 1)
     assert state.scene.name == names()[0]
-    seen = [run(state, 1 + k * ATTRACT_EACH).scene.name for k in range(3)]
+    seen = [run(state, 1 + k * 15 * 60).scene.name for k in range(3)]
     assert seen == [*names()[1:4]]
 
 
