@@ -14,7 +14,7 @@ from linkanim.errors import AssemblyError
 
 from .chain import Closing
 from .circular import Half
-from .expression import Value, sqrt
+from .expression import sqrt
 from .frames import holding, share_of
 from .input_state import InputState
 from .joint import Point
@@ -51,11 +51,6 @@ class Kinematics:
     travels: Mapping[str, Moving]
     closings: Mapping[str, Closing]
     """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
-
-    @property
-    def margins(self) -> Mapping[str, Value]:
-        """For each dyad closed from moving points: U·W, negative where it cannot be assembled."""
-        return {name: closing.u * closing.w for name, closing in self.closings.items()}
 
 
 @dataclass

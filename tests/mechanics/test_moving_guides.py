@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from build import four_bar, with_joints
 
-from linkanim.mechanics.kinds import RPR, RRP, Crank, Gear, Line, Pin
+from linkanim.mechanics.kinds import RPR, RRP, Crank, Gear, Line, Pin, Rigid
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import mechanism
 
@@ -26,6 +26,18 @@ def test_a_guide_that_stands_still_is_the_same_carried_by_the_ground() -> None:
     )
     for kind in ("position", "velocity", "acceleration"):
         assert getattr(one, kind)["J"] == pytest.approx(getattr(other, kind)["J"], abs=1e-11)
+
+
+def test_a_point_is_where_it_is_from_whichever_joints_of_its_body() -> None:
+    bar = four_bar((100, 30, 90, 80), coupler_point=(50.0, 20.0))
+    linkage = with_joints(bar, Rigid("Q", ("A", "P"), (10.0, 5.0)), Rigid("R", ("P", "Q"), (-8.0, 12.0)))
+    motion = mechanism(linkage).solve(phase=np.linspace(0, 6, 20), speed=1.0)
+    places = {name: place @ np.array([1.0, 1j]) for name, place in motion.position.items()}
+    along = places["B"] - places["A"]
+    q = (50.0 + 20.0j) / abs(50.0 + 20.0j) * (10.0 + 5.0j)
+    r = (q - (50.0 + 20.0j)) / abs(q - (50.0 + 20.0j)) * (-8.0 + 12.0j) + (50.0 + 20.0j)
+    assert places["Q"] == pytest.approx(places["A"] + along / 90 * q, abs=1e-12)
+    assert places["R"] == pytest.approx(places["A"] + along / 90 * r, abs=1e-12)
 
 
 def test_a_rod_through_a_swivel_limits_nothing_and_points_at_it() -> None:

@@ -67,7 +67,7 @@ def test_an_operation_is_noted_once_however_often_it_is_written() -> None:
 def test_constants_signs_and_uniform_factors_are_drawn_together() -> None:
     graph = Graph()
     x, w = graph.input("x"), graph.input("w", uniform=True)
-    assert x * 0.0 == 0.0
+    assert x * 0.0 == 0.0 / x == 0.0
     assert x * 1.0 is x
     assert x + 0.0 is x
     negative = -x

@@ -231,6 +231,7 @@ def test_a_changed_file_comes_on_in_place_of_another_mechanism(opened: Player, h
     opened.press(pygame.K_F5)
     assert opened.state.scene == load(here / "my.toml")
     assert [entry for entry in opened.state.shelf if not isinstance(entry, str)] == [opened.state.scene]
+    assert (opened.state.place, opened.state.editing.changed) == (0, False)
 
 
 @fault

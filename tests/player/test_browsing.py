@@ -62,8 +62,11 @@ def test_the_list_shows_words_symbol_and_unit(press: State) -> None:
 
 
 def test_the_lists_ends_are_ends(press: State) -> None:
-    top = after(press, "list", Action("move", -1))
+    begun = after(press, "list")
+    top = after(begun, Action("move", -1))
+    assert begun.listing is not None
     assert top.listing is not None
+    assert begun.listing.chosen == 0
     assert top.listing.chosen == 0
     bottom = after(top, Action("move", 10_000))
     assert bottom.listing is not None
@@ -135,6 +138,19 @@ def test_a_list_of_another_mechanism_is_closed(press: State) -> None:
 def test_an_unknown_quantity_is_not_charted(press: State) -> None:
     state = after(press, Action("plot", "nothing.at_all"))
     assert (state.look.chart, state.toast is not None) == (None, True)
+
+
+def test_a_chart_stays_on_a_mechanism_that_has_its_quantity(press: State) -> None:
+    assert after(press, Action("plot", "cushion.force"), Action("mechanism", 1)).look.chart is None
+    angle = after(press, Action("plot", "transmission_angle"), Action("mechanism", 1))
+    assert angle.look.chart == "transmission_angle"
+
+
+def test_the_shelfs_first_mechanism_is_chosen_and_put_on(press: State) -> None:
+    state = after(press, "shelf", Action("point", 0))
+    assert state.browsing is not None
+    assert state.browsing.chosen == 0
+    assert after(state, Action("put", 0)).scene.name == names()[0]
 
 
 def test_the_shelf_opens_at_the_mechanism_that_is_on_and_goes_round(press: State) -> None:

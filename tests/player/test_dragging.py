@@ -170,6 +170,8 @@ def test_what_cannot_be_dragged_is_not_held(name: str, joint: str, is_open: bool
 def test_a_closed_list_lets_go() -> None:
     state = after(begin(load("crank-rocker")), "edit", Action("grab", "B"), "edit")
     assert (state.held, state.clock.paused) == (None, False)
+    further = after(state, Action("carry", (1.0, 1.0, 1.0)))
+    assert (further.scene, further.toast, further.effects) == (state.scene, None, ())
 
 
 def test_a_tape_keeps_a_drag() -> None:
@@ -201,7 +203,9 @@ def test_a_joint_is_dragged_with_the_mouse(player: Player) -> None:
     assert (player.state.held, player.state.editing.past) == (None, (before.scene,))
 
 
-@pytest.mark.parametrize(("shift", "whole"), [(0, True), (pygame.KMOD_LSHIFT, False)], ids=["whole", "tenths"])
+@pytest.mark.parametrize(
+    ("shift", "whole"), [(0, True), (pygame.KMOD_LSHIFT, False)], ids=["whole", "tenths"]
+)
 def test_shift_makes_the_mouse_go_in_tenths(
     player: Player, monkeypatch: pytest.MonkeyPatch, shift: int, whole: bool
 ) -> None:

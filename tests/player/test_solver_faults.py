@@ -105,6 +105,12 @@ def test_a_scene_that_fails_is_not_put_on(
     assert advance(state).effects == ()
 
 
+def test_a_scene_that_has_no_pose_is_not_put_on(crank: State, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Scene, "pose", raising(HOLES[0]))
+    state = advance(crank, [Action("closure")])
+    assert (state.scene, [effect.name for effect in state.effects]) == (crank.scene, ["report"])
+
+
 def test_a_way_that_fails_is_left_out(crank: State, monkeypatch: pytest.MonkeyPatch) -> None:
     state = advance(crank, [Action("nudge", 1)])
     monkeypatch.setattr("linkanim.player.glide.passing", raising(HOLES[0]))

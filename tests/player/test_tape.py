@@ -87,6 +87,7 @@ def test_what_is_begun_and_named_reads_back(live: State, tmp_path: Path) -> None
     write(tape, tmp_path / "mine.tape.json")
     again = read(tmp_path / "mine.tape.json").start
     assert (again.editing, again.look) == (live.editing, live.look)
+    assert again.phase == pytest.approx(live.phase)
     assert (again.look.names, again.editing.typed, len(again.editing.drafts)) == (1, "8", 1)
 
 
