@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import ceil, floor, log10
 from typing import Any
 
@@ -29,9 +30,13 @@ class Axis:
 
     def share(self, values: ArrayLike) -> NDArray[np.float64]:
         """Return where values lie, 0 at the low end and 1 at the high one; NaN where a log has none."""
-        low, high, at = self._scaled(self.low), self._scaled(self.high), self._scaled(values)
-        share: NDArray[np.float64] = (at - low) / (high - low)
+        low, high = self._ends
+        share: NDArray[np.float64] = (self._scaled(values) - low) / (high - low)
         return share
+
+    @cached_property
+    def _ends(self) -> tuple[float, float]:
+        return float(self._scaled(self.low)), float(self._scaled(self.high))
 
     def _scaled(self, values: ArrayLike) -> Any:
         array = np.asarray(values, float)

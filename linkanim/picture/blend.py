@@ -41,6 +41,13 @@ class Mix(NamedTuple):
         bytes_ = slice(4 * begin, 4 * end)
         return Mix(self.place[begin:end], self.keep[bytes_], self.add[bytes_])
 
+    def within(self, area: pygame.Rect, width: int) -> Mix:
+        """Return the pixels that lie in an area of a surface so many pixels wide."""
+        y, x = np.divmod(self.place, width)
+        inside = (area.left <= x) & (x < area.right) & (area.top <= y) & (y < area.bottom)
+        keep, add = (part.reshape(-1, 4)[inside].ravel() for part in (self.keep, self.add))
+        return Mix(self.place[inside], keep, add)
+
 
 def shares(cover: Counts | Floats) -> Shares:
     """Return coverage as it is mixed by."""

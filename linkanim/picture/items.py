@@ -73,10 +73,12 @@ class Scribe:
             if isinstance(item, Layer):
                 shapes.append(item)
                 continue
-            paint(surface, shapes)
-            shapes.clear()
+            if shapes:
+                paint(surface, shapes)
+                shapes.clear()
             self._write(surface, item)
-        paint(surface, shapes)
+        if shapes:
+            paint(surface, shapes)
 
     def _write(self, surface: pygame.Surface, line: Caption) -> None:
         """Draw a line of text; one in a halo to a part of a pixel, as labels on a drawing are."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from linkanim.mechanics.motion import Pose
+from linkanim.picture.backdrop import Backdrop, is_clear, wipe
 from linkanim.picture.blend import Mix, mix
 from linkanim.picture.chart import pen_for
 from linkanim.picture.drawing import Drawing
@@ -75,7 +76,7 @@ class Painter:
         self.names: Names | None = self.drawing.names(self._type, *last)
         self._legend = legend_for(self.drawing.cast.arrows, self._layout, self._type, self._theme)
         self._still = self._drawn_once()
-        self._paced: tuple[float, pygame.Surface] | None = None
+        self._paced: tuple[float, Backdrop] | None = None
         self._polygons = self.drawing.polygons(self._type)
         self._scribe: Scribe = before._scribe if before and before._type is self._type else Scribe(self._type)
 
@@ -93,9 +94,7 @@ class Painter:
         large as the painter's size is painted from its top left corner.
         """
         canvas = self._canvas(surface)
-        self._wipe(canvas, self._still_at(pose.input_speed))
-        if self.drawing.moves_behind:
-            self._paint_behind(canvas, pose, ghost if self.look.ghost else None)
+        self._lay_backdrop(canvas, pose, ghost if self.look.ghost else None)
         moving = list(self.drawing.moving(pose))
         beside = [polygon.group(pose) for polygon in self._polygons]
         on_chart = self._on_chart(pose, grasped=overlay.grip)
@@ -113,18 +112,26 @@ class Painter:
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 
-    def _paint_behind(self, canvas: pygame.Surface, pose: Pose, ghost: Pose | None) -> None:
-        """Paint what moves behind what stands still, and that; a stencil pays from the second pose on."""
-        places, faint = self.drawing.places(pose), self.drawing.faint(ghost) if ghost else ()
+    def _lay_backdrop(self, canvas: pygame.Surface, pose: Pose, ghost: Pose | None) -> None:
+        """Bring the canvas to what stands still, with what moves behind it."""
+        backdrop, places = self._backdrop_at(pose.input_speed), self.drawing.places(pose)
+        faint = self.drawing.faint(ghost) if ghost else ()
+        wipe(canvas, backdrop.whole)
         if self._brief:
-            behind = *flat(self.drawing.wheels(places)), *faint, *flat(self.drawing.standing)
-            paint(canvas, behind, ends=self._ends)
+            standing = self.drawing.standing if self.drawing.moves_behind else ()
+            paint(canvas, (*flat(self.drawing.wheels(places)), *faint, *flat(standing)), ends=self._ends)
             return
-        for turned in self._turned:
-            turned.paint(canvas, self._still_at(pose.input_speed), places)
-        wheels = () if self._turned else flat(self.drawing.wheels(places))
-        paint(canvas, (*wheels, *faint), ends=self._ends)
-        mix(pixels_of(canvas), self._stencil, clear=bool(canvas.get_flags() & pygame.SRCALPHA))
+        for patch in [turned.patch(canvas, backdrop, places) for turned in self._turned]:
+            patch.lay(canvas)
+        if self._layered:
+            wheels = () if self._turned else flat(self.drawing.wheels(places))
+            paint(canvas, (*wheels, *faint), ends=self._ends)
+            mix(pixels_of(canvas), self._stencil, clear=is_clear(canvas))
+
+    @cached_property
+    def _layered(self) -> bool:
+        """Whether what moves behind the lines that stand still is painted anew at every frame."""
+        return self.drawing.moves_behind and (self.look.ghost or not self._turned)
 
     def _handled(self, canvas: pygame.Surface, pose: Pose, overlay: Overlay) -> None:
         """Draw what is there for the hand: the chosen bar, and the joint to be dragged."""
@@ -181,19 +188,26 @@ class Painter:
             self._legend.draw(still)
         return still
 
-    def _still_at(self, speed: float) -> pygame.Surface:
-        """Return the layer that stands still, with what goes by the speed: chart and key's values."""
-        if not (self._strip or self._legend):
-            return self._still
-        if self._paced is None or self._paced[0] != speed:
-            still = self._still.copy()
-            if self._strip:
-                self._strip = self._strip.at(speed)
-                self._strip.draw(still)
-            if self._legend:
-                self._legend.draw_values(still, speed)
-            self._paced = speed, still
+    def _backdrop_at(self, speed: float) -> Backdrop:
+        """Return what stands still, with what of it goes by the speed: chart and key's values."""
+        if self._paced is None or (self._paced[0] != speed and (self._strip or self._legend)):
+            self._paced = speed, self._backdrop_for(speed)
         return self._paced[1]
+
+    def _backdrop_for(self, speed: float) -> Backdrop:
+        behind = self._still
+        if self._strip or self._legend:
+            behind = behind.copy()
+        if self._strip:
+            self._strip = self._strip.at(speed)
+            self._strip.draw(behind)
+        if self._legend:
+            self._legend.draw_values(behind, speed)
+        if self._brief or self._layered or not self.drawing.moves_behind:
+            return Backdrop(behind, None, behind)
+        whole = behind.copy()
+        mix(pixels_of(whole), self._stencil, clear=is_clear(whole))
+        return Backdrop(behind, self._stencil, whole)
 
     def _canvas(self, surface: pygame.Surface) -> pygame.Surface:
         """Return the surface itself where it can be written to directly, else one like the static layer."""
@@ -210,15 +224,10 @@ class Painter:
         """The column and the row that keep the scene off the chart."""
         return int(self._layout.reach.right), int(self._layout.reach.bottom)
 
-    def _wipe(self, canvas: pygame.Surface, still: pygame.Surface) -> None:
-        if canvas.get_flags() & pygame.SRCALPHA:
-            canvas.fill((0, 0, 0, 0))
-        canvas.blit(still, (0, 0))
-
     @cached_property
     def _turned(self) -> tuple[Turned, ...]:
         """What turns behind it about fixed joints, each that may be painted alone."""
-        return tuple(Turned(parts, self._ends) for parts in self.drawing.turning_apart)
+        return tuple(Turned(parts, self._ends) for parts in self.drawing.turning_apart if parts)
 
     @cached_property
     def _stencil(self) -> Mix:

@@ -102,17 +102,6 @@ class _Pixels(NamedTuple):
     bounds: Ints
 
 
-class Patch(NamedTuple):
-    """Pixels of a surface, and what was painted there."""
-
-    place: Ints
-    words: Words
-
-    def lay(self, surface: pygame.Surface) -> None:
-        """Paint the same again, on a surface that is as the first one was."""
-        pixels_of(surface)[self.place] = self.words
-
-
 def paint(
     surface: pygame.Surface,
     layers: Iterable[Layer],
@@ -128,12 +117,11 @@ def paint(
     _put(surface, _covered(surface, layers, ends or surface.get_size(), over))
 
 
-def patch(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int]) -> Patch:
-    """Fill layers as `paint` does, and return what they made of the surface."""
+def paint_noting(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int]) -> Ints:
+    """Fill layers as `paint` does, and return the pixels that are painted on."""
     found = _covered(surface, layers, ends, ())
     _put(surface, found)
-    place = np.concatenate([np.zeros(0, np.int64), *(part.place for part in found)])
-    return Patch(place, pixels_of(surface).take(place))
+    return np.concatenate([np.zeros(0, np.int64), *(part.place for part in found)])
 
 
 def stencil(layers: Iterable[Layer], like: pygame.Surface, *, ends: tuple[int, int] | None = None) -> Mix:
@@ -232,8 +220,9 @@ def _levels(boxes: _Boxes) -> Ints:
     meet = (left < boxes.right) & (right > boxes.left) & (top < boxes.end) & (end > boxes.top)
     taken: list[int] = []
     levels = []
-    for n, row in enumerate(np.packbits(meet, axis=1, bitorder="little")):
-        touched = int.from_bytes(row.tobytes(), "little")
+    bits, wide = np.packbits(meet, axis=1, bitorder="little").tobytes(), -(-len(meet) // 8)
+    for n in range(len(meet)):
+        touched = int.from_bytes(bits[n * wide : (n + 1) * wide], "little")
         level = len(taken)
         while level and not taken[level - 1] & touched:
             level -= 1

@@ -68,7 +68,7 @@ def strokes(path: ArrayLike, widths: Iterable[float], *, closed: bool = False) -
         yield from ([path - sides * (width / 2), (path + sides * (width / 2))[::-1]] for width in widths)
     else:
         sides = offsets(path)
-        yield from ([_ribbon(path, sides * (width / 2), _cap(width / 2))] for width in widths)
+        yield from ([ribbon(path, sides, width)] for width in widths)
 
 
 def distinct(path: Loop) -> Loop:
@@ -77,10 +77,17 @@ def distinct(path: Loop) -> Loop:
     return path if moves.all() else np.concatenate((path[:1], path[1:][moves]))
 
 
-def _ribbon(path: Loop, sides: Loop, cap: Loop) -> Loop:
-    """Return the outline of an open line whose left edge lies `sides` from its middle."""
+def ribbon(path: Loop, sides: Loop, width: float) -> Loop:
+    """Return the outline of a line along an open path whose `offsets` are known, its ends round."""
     start, end = unit(path[1] - path[0]), unit(path[-1] - path[-2])
-    return np.concatenate((path - sides, path[-1] + end * cap, (path + sides)[::-1], path[0] - start * cap))
+    cap, edge = _cap(width / 2), sides * (width / 2)
+    return np.concatenate((path - edge, path[-1] + end * cap, (path + edge)[::-1], path[0] - start * cap))
+
+
+def cut_ribbon(path: Loop, sides: Loop, width: float) -> Loop:
+    """Return the same with its ends cut off: for a line whose ends something else hides."""
+    edge = sides * (width / 2)
+    return np.concatenate((path - edge, (path + edge)[::-1]))
 
 
 def rod(begin: float, end: float, radius: float) -> Loop:
@@ -174,9 +181,13 @@ def _arc(begin: float, sweep: float, radius: float) -> Loop:
 
 
 def offsets(path: Loop) -> Loop:
-    """Return at each point the way to the left edge of a line 2 wide, mitred up to twice its width."""
-    along = path[1:] - path[:-1]
+    """Return at each point of paths (..., points) the way to the left edge of a line 2 wide.
+
+    It is mitred up to twice its width.
+    """
+    along = path[..., 1:] - path[..., :-1]
     normal = 1j * along / lengths(along)
-    joined = np.concatenate((normal[:1], (normal[:-1] + normal[1:]) / 2, normal[-1:]))
+    between = (normal[..., :-1] + normal[..., 1:]) / 2
+    joined = np.concatenate((normal[..., :1], between, normal[..., -1:]), axis=-1)
     sides: Loop = joined / np.maximum(joined.real**2 + joined.imag**2, 0.25)
     return sides

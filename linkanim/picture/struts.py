@@ -15,7 +15,7 @@ from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Places
 from linkanim.picture.raster import Colour, Layer, Loop, Outlines, outlines_of
-from linkanim.picture.shapes import box, rod, stroke, strokes, unit
+from linkanim.picture.shapes import box, cut_ribbon, offsets, ribbon, rod, stroke, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
@@ -62,9 +62,11 @@ class Coil:
         pitch = (span - 2 * lead) / self.coils
         feet = np.asarray(start + turn * (lead + pitch * np.arange(self.coils)), np.complex128)
         wire = 1.5 * self.gauge.line
-        far, near = (turn * (pitch * along + round_) for along, round_ in self._halves)
-        (back,) = stroke(far, wire)
-        (edge,), (core,) = strokes(near, (2.6 * wire, 1.5 * wire))
+        along, round_ = self._halves
+        halves = turn * (pitch * along + round_)
+        far, near = zip(halves, offsets(halves), strict=True)
+        # the near halves' outlines and the leads hide where the far ones end
+        back, edge, core = cut_ribbon(*far, wire), ribbon(*near, 2.6 * wire), ribbon(*near, 1.5 * wire)
         one, other = _leads(lead, self.radius, wire)
         leads = Outlines(np.concatenate((start + turn * one, end + turn * other)), (len(one), len(other)))
         return [
@@ -79,14 +81,12 @@ class Coil:
         return mixed(self.theme.outline, self.theme.metal, 0.35)
 
     @cached_property
-    def _halves(self) -> tuple[tuple[Loop, Loop], ...]:
-        """The far half of a coil and its near one, the spring along the real axis: along it, and about it."""
-        found = []
-        for begin in (0.5, 0.0):
-            along = (begin + np.linspace(0, 0.5, 13)).astype(np.complex128)
-            way = directions(2 * pi * along.real - pi / 2)
-            found.append((along, self.radius * (_TILT * way.real + 1j * way.imag).astype(np.complex128)))
-        return tuple(found)
+    def _halves(self) -> tuple[Loop, Loop]:
+        """A coil's far half and its near one, the spring along the real axis: along it, and about it."""
+        along = np.add.outer([0.5, 0.0], np.linspace(0, 0.5, 13))
+        way = directions(2 * pi * along - pi / 2)
+        about = self.radius * (_TILT * way.real + 1j * way.imag)
+        return along.astype(np.complex128), about.astype(np.complex128)
 
 
 @lru_cache(maxsize=16)

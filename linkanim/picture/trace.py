@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import pairwise
 from math import ceil, floor, pi
 from typing import NamedTuple
 
@@ -23,6 +22,8 @@ from linkanim.picture.view import View
 _RECENT = 0.3 * 2 * pi
 """How much phase the recent part covers."""
 _SHADES = 10
+_ORDER = (0, *(shade + step for shade in range(1, _SHADES - 1, 2) for step in (1, 0)), _SHADES - 1)
+"""In which shades are painted: the odd ones after both neighbours, else from the oldest on."""
 _SWELL = 1.7
 """How much wider than the whole curve the recent part ends."""
 _FAINT = 0.5
@@ -68,10 +69,14 @@ class Trace:
         return list(self._shaded(path - side, path + side, ends))
 
     def _shaded(self, right: Loop, left: Loop, ends: list[int]) -> Iterator[Layer]:
-        """Yield what lies between two edges in the shades, each running on a little below the next."""
-        for colour, (begin, end) in zip(self.shades, pairwise(ends), strict=True):
-            part = slice(begin, end + 2)
-            yield Layer(colour, [np.concatenate((right[part], left[part][::-1]))])
+        """Yield what lies between two edges in the shades: every other one runs on below its neighbours.
+
+        So few lie over each other. Where the curve crosses itself, the younger part is still on top.
+        """
+        for shade in _ORDER:
+            under = 1 - shade % 2
+            part = slice(max(ends[shade] - under, 0), ends[shade + 1] + 1 + under)
+            yield Layer(self.shades[shade], [np.concatenate((right[part], left[part][::-1]))])
 
     @cached_property
     def _courses(self) -> tuple[_Course, _Course]:
@@ -100,11 +105,11 @@ def _swelling(count: int, width: float) -> NDArray[np.float64]:
 def _cuts(count: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """Return where a part of so many points is cut into shades, and its end; and which points that needs.
 
-    Those are the points at the cuts and the ones after, which two shades share, and the last two.
+    Those are the points at the cuts, the ones before and after, which two shades share, and the last two.
     """
     cuts = np.array([round(count * shade / _SHADES) for shade in range(_SHADES + 1)])
     needed = np.zeros(count, np.bool_)
-    needed[np.minimum((cuts, cuts + 1), count - 1)] = True
+    needed[np.clip((cuts - 1, cuts, cuts + 1), 0, count - 1)] = True
     needed[-2:] = True
     return cuts, needed
 

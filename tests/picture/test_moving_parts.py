@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -224,13 +225,32 @@ def test_the_recent_part_ends_at_the_joint_and_lies_on_the_curve(phase: float, f
     assert nearest.max() < 1.5 * trace.width
 
 
+def _ages(trace: Trace, layers: list[Layer], phase: float) -> list[float]:
+    """Return how long ago the joint was in the middle of each layer, in points of the path."""
+    here = phase / trace.period * len(trace.path)
+    path = np.roll(trace.path, -math.floor(here) - 1)[::-1]
+    middles = [layer.loops[0].mean() for layer in layers]
+    return [float(np.argmin(np.abs(path - middle))) for middle in middles]
+
+
 def test_the_recent_part_brightens_towards_the_joint() -> None:
-    scene = load("crank-rocker")
-    trace = traces(figure(scene), VIEW, GAUGE, LIGHT)[0]
-    layers = trace.recent(1.0, VIEW.place(scene.pose(1.0).position["P"]), forward=True)
-    away = [np.abs(np.subtract(layer.colour, trace.back)).sum() for layer in layers]
-    assert away == sorted(away)
-    assert len(set(away)) == len(away)
+    trace, layers = _recent("crank-rocker", 1.0)
+    away = [float(np.abs(np.subtract(layer.colour, trace.back)).sum()) for layer in layers]
+    youngest_last = sorted(zip(_ages(trace, layers, 1.0), away, strict=True), reverse=True)
+    assert [brightness for _, brightness in youngest_last] == sorted(set(away))
+    assert len(set(away)) == len(layers)
+
+
+def test_of_two_parts_of_the_recent_part_the_younger_lies_on_top_but_next_to_each_other_every_other_one() -> (
+    None
+):
+    trace, layers = _recent("crank-rocker", 1.0)
+    ages = _ages(trace, layers, 1.0)
+    youth = [sorted(ages, reverse=True).index(age) for age in ages]
+    for below, above in combinations(youth, 2):
+        assert above > below or (below - above == 1 and above % 2)
+    for above in range(1, len(youth), 2):
+        assert youth.index(above) > max(youth.index(near) for near in (above - 1, above + 1) if near in youth)
 
 
 def _recent(name: str, phase: float, *, forward: bool = True) -> tuple[Trace, list[Layer]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -14,6 +15,7 @@ from test_moving_parts import GAUGE, VIEW, geared, planetary
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture import raster, turned
+from linkanim.picture.backdrop import Backdrop
 from linkanim.picture.directions import directions, folded
 from linkanim.picture.figure import figure
 from linkanim.picture.gears import turning_apart, wheel_parts
@@ -24,6 +26,7 @@ from linkanim.picture.parts import Part, placed
 from linkanim.picture.raster import Layer
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load
+from linkanim.scenes.closure import ghost_of
 from linkanim.scenes.scene import Scene
 
 SIZE = (320, 180)
@@ -40,35 +43,51 @@ def _bytes(surface: pygame.Surface) -> bytes:
 def patched(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Return a list that grows by how many layers a patch has, as often as one is painted."""
     counts: list[int] = []
-    patch = raster.patch
+    noting = raster.paint_noting
 
     def counted(*args: object, **options: object) -> object:
         counts.append(len(args[1]))  # type: ignore[arg-type]
-        return patch(*args, **options)  # type: ignore[arg-type]
+        return noting(*args, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(turned, "patch", counted)
+    monkeypatch.setattr(turned, "paint_noting", counted)
     return counts
 
 
+@pytest.mark.parametrize(
+    "look",
+    [
+        LOOK,
+        replace(LOOK, background=False),
+        # faint bars lie between the wheels and the lines that stand still
+        replace(LOOK, ghost=True),
+        replace(LOOK, ghost=True, background=False),
+        replace(LOOK, zoom=6.0, pan=(0.4, 0.2)),
+    ],
+)
 def test_teeth_are_painted_once_for_a_pitch_and_the_picture_is_the_one_they_would_be(
-    patched: list[int],
+    patched: list[int], look: Look
 ) -> None:
-    scene, surface = load("press"), offscreen(SIZE)
-    painter = Painter(scene, SIZE, LOOK)
+    scene, surface = load("press"), offscreen(SIZE, alpha=not look.background)
+    painter, other = Painter(scene, SIZE, look), ghost_of(scene)
+    assert other
     for phase in (0.1, 0.2, 0.1 + PITCH, 0.2 + 5 * PITCH, 0.1 - 24 * PITCH):
-        painter.paint(surface, scene.pose(phase))
-        assert _bytes(surface) == _bytes(painted(scene, phase, LOOK, SIZE))
+        faint = other.pose(phase)
+        painter.paint(surface, scene.pose(phase), ghost=faint)
+        assert _bytes(surface) == _bytes(painted(scene, phase, look, SIZE, ghost=faint))
     # two pictures of rims, and four of holes, which only whole turns bring back; and those of the fresh ones
     assert (patched.count(4), patched.count(2)) == (2 + 5, 4 + 5)
 
 
+@pytest.mark.parametrize("ghost", [False, True])
 @pytest.mark.parametrize("name", ["press", "geared-five-bar-2-1", "geared-five-bar-3-2"])
-def test_wheels_are_turned_as_their_drawing_is(name: str) -> None:
+def test_wheels_are_turned_as_their_drawing_is(name: str, ghost: bool) -> None:
     scene, surface, drawn = load(name), offscreen(SIZE), offscreen(SIZE)
-    painter, brief = Painter(scene, SIZE, BARE), Painter(scene, SIZE, BARE, brief=True)
+    look, other = replace(BARE, ghost=ghost), ghost_of(scene)
+    painter, brief = Painter(scene, SIZE, look), Painter(scene, SIZE, look, brief=True)
     for phase in (0.3, 1.9, 5.0):
-        painter.paint(surface, scene.pose(phase))
-        brief.paint(drawn, scene.pose(phase))
+        faint = other.pose(phase) if other else None
+        painter.paint(surface, scene.pose(phase), ghost=faint)
+        brief.paint(drawn, scene.pose(phase), ghost=faint)
         assert np.abs(pixels(surface) - pixels(drawn)).max() <= 2
 
 
@@ -83,14 +102,19 @@ def _turned_by(angle: float) -> dict[str, complex]:
     return {"O": 16 + 16j, "A": 16 + 16j + 5 * complex(directions(angle))}
 
 
-def test_what_was_painted_over_another_ground_is_forgotten(patched: list[int]) -> None:
+def _alone(still: pygame.Surface) -> Backdrop:
+    return Backdrop(still, None, still)
+
+
+def test_what_was_painted_over_another_backdrop_is_forgotten(patched: list[int]) -> None:
     wheel = turned.Turned(_wheel(), (32, 32))
     dark, light = offscreen((32, 32)), offscreen((32, 32))
     light.fill((255, 255, 255))
-    for still in (dark, light, light):
-        surface, fresh = still.copy(), still.copy()
-        wheel.paint(surface, still, _turned_by(0.2))
-        turned.Turned(_wheel(), (32, 32)).paint(fresh, still, _turned_by(0.2))
+    backdrops = _alone(dark), _alone(light)
+    for backdrop in (backdrops[0], backdrops[1], backdrops[1]):
+        surface, fresh = backdrop.whole.copy(), backdrop.whole.copy()
+        wheel.patch(surface, backdrop, _turned_by(0.2)).lay(surface)
+        turned.Turned(_wheel(), (32, 32)).patch(fresh, backdrop, _turned_by(0.2)).lay(fresh)
         assert _bytes(surface) == _bytes(fresh)
     # twice by the wheel that is tried, and three times by fresh ones
     assert len(patched) == 2 + 3
@@ -98,15 +122,29 @@ def test_what_was_painted_over_another_ground_is_forgotten(patched: list[int]) -
 
 def test_no_more_is_kept_than_there_is_room_for(monkeypatch: pytest.MonkeyPatch, patched: list[int]) -> None:
     still, wheel = offscreen((32, 32)), turned.Turned(_wheel(), (32, 32))
-    sizes = []
+    backdrop, sizes = _alone(still), []
     for angle in (0.1, 0.2):
-        made = raster.patch(still.copy(), placed(_wheel(), _turned_by(angle)), ends=(32, 32))
+        made = turned.Turned(_wheel(), (32, 32)).patch(still.copy(), backdrop, _turned_by(angle))
         sizes.append(made.place.nbytes + made.words.nbytes)
+    patched.clear()
     monkeypatch.setattr(turned, "_MOST_PICTURES", 2.5 * max(sizes) / still.get_buffer().length)
     # two are kept; the third throws them away
     for angle, painted_so_far in ((0.1, 1), (0.2, 2), (0.1, 2), (0.3, 3), (0.3, 3), (0.1, 4)):
-        wheel.paint(still.copy(), still, _turned_by(angle))
+        wheel.patch(still.copy(), backdrop, _turned_by(angle))
         assert len(patched) == painted_so_far
+
+
+@pytest.mark.parametrize("alpha", [False, True])
+def test_a_line_that_stands_in_front_of_a_wheel_is_there_in_its_patch(alpha: bool) -> None:
+    behind, line = offscreen((32, 32), alpha=alpha), Layer((20, 90, 240), [np.array([2, 30j, 28 + 29j])], 0.5)
+    front, whole = raster.stencil([line], behind), behind.copy()
+    raster.paint(whole, [line])
+    canvas, drawn = whole.copy(), behind.copy()
+    patch = turned.Turned(_wheel(), (32, 32)).patch(canvas, Backdrop(behind, front, whole), _turned_by(0.2))
+    assert _bytes(canvas) == _bytes(whole)
+    patch.lay(canvas)
+    raster.paint(drawn, [*placed(_wheel(), _turned_by(0.2)), line])
+    assert np.abs(pixels(canvas) - pixels(drawn)).max() <= 2
 
 
 def test_a_period_of_the_press_finds_all_that_comes_again(patched: list[int]) -> None:
