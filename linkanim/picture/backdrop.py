@@ -17,11 +17,11 @@ class Backdrop(NamedTuple):
     whole: pygame.Surface
 
 
-def wipe(surface: pygame.Surface, still: pygame.Surface, area: pygame.Rect | None = None) -> None:
-    """Bring a surface, or an area of it, to what stands still there."""
+def wipe(surface: pygame.Surface, still: pygame.Surface) -> None:
+    """Bring a surface to what stands still."""
     if is_clear(surface):
-        surface.fill((0, 0, 0, 0), area)
-    surface.blit(still, area or (0, 0), area)
+        surface.fill((0, 0, 0, 0))
+    surface.blit(still, (0, 0))
 
 
 def is_clear(surface: pygame.Surface) -> bool:

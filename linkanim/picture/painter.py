@@ -121,8 +121,8 @@ class Painter:
             standing = self.drawing.standing if self.drawing.moves_behind else ()
             paint(canvas, (*flat(self.drawing.wheels(places)), *faint, *flat(standing)), ends=self._ends)
             return
-        for patch in [turned.patch(canvas, backdrop, places) for turned in self._turned]:
-            patch.lay(canvas)
+        if self._turned:
+            self._turned.paint(canvas, backdrop, places)
         if self._layered:
             wheels = () if self._turned else flat(self.drawing.wheels(places))
             paint(canvas, (*wheels, *faint), ends=self._ends)
@@ -210,10 +210,9 @@ class Painter:
         return Backdrop(behind, self._stencil, whole)
 
     def _canvas(self, surface: pygame.Surface) -> pygame.Surface:
-        """Return the surface itself where it can be written to directly, else one like the static layer."""
-        if surface.get_size() == self.size and paints(surface):
-            return surface
-        return self._spare
+        """Return the surface itself where it is like the static layer, else one that is."""
+        alike = surface.get_size() == self.size and surface.get_masks() == self._still.get_masks()
+        return surface if alike and paints(surface) else self._spare
 
     @cached_property
     def _spare(self) -> pygame.Surface:
@@ -225,9 +224,10 @@ class Painter:
         return int(self._layout.reach.right), int(self._layout.reach.bottom)
 
     @cached_property
-    def _turned(self) -> tuple[Turned, ...]:
-        """What turns behind it about fixed joints, each that may be painted alone."""
-        return tuple(Turned(parts, self._ends) for parts in self.drawing.turning_apart if parts)
+    def _turned(self) -> Turned | None:
+        """What turns behind it about fixed joints; None where not all of it may be painted in sets."""
+        sets = self.drawing.turning_apart
+        return Turned(sets, self._ends) if any(sets) else None
 
     @cached_property
     def _stencil(self) -> Mix:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import ceil, floor
 from typing import NamedTuple
 
 import pygame
 
-from linkanim.picture.backdrop import Backdrop, is_clear, wipe
-from linkanim.picture.blend import Words, mix
+from linkanim.picture.backdrop import Backdrop, is_clear
+from linkanim.picture.blend import Mix, Words, mix
 from linkanim.picture.cells import Ints
 from linkanim.picture.parts import Part, Places, placed
-from linkanim.picture.raster import paint_noting, pixels_of
+from linkanim.picture.raster import Layer, paint_noting, pixels_of
 
 _MOST_PICTURES = 4.0
 """No more is kept than so many pictures take; where nothing comes again, that is thrown away in time."""
@@ -29,43 +30,53 @@ class Patch(NamedTuple):
 
 
 class Turned:
-    """Parts that turn about fixed joints behind what stands still, before the column and row `ends`."""
+    """Parts that turn about fixed joints behind what stands still, before the column and row `ends`.
 
-    def __init__(self, parts: tuple[Part, ...], ends: tuple[int, int]) -> None:
-        self._parts, self._ends = parts, ends
-        self._kept: dict[object, Patch] = {}
+    They stand in sets that never lie over each other, each of which is painted and kept by itself.
+    """
+
+    def __init__(self, sets: tuple[tuple[Part, ...], ...], ends: tuple[int, int]) -> None:
+        self._sets, self._ends = sets, ends
+        self._kept: list[dict[object, Patch]] = []
         self._backdrop: Backdrop | None = None
+        self._front: Mix | None = None
 
-    def patch(self, canvas: pygame.Surface, backdrop: Backdrop, places: Places) -> Patch:
-        """Return how the parts look now, to be laid on a canvas that is as the whole backdrop.
-
-        What is not known yet is painted on the canvas, which is left as it was.
-        """
+    def paint(self, canvas: pygame.Surface, backdrop: Backdrop, places: Places) -> None:
+        """Paint the parts on a canvas that is like the whole backdrop, and of the same kind."""
         if backdrop is not self._backdrop:
-            self._kept, self._backdrop = {}, backdrop
-        alike = (canvas.get_shifts(), *(part.turn(places) for part in self._parts))
-        if alike not in self._kept:
-            made = self._made(canvas, backdrop, places)
-            room = _MOST_PICTURES * backdrop.whole.get_buffer().length
-            if (len(self._kept) + 1) * (made.place.nbytes + made.words.nbytes) > room:
-                self._kept.clear()
-            self._kept[alike] = made
-        return self._kept[alike]
+            self._stand_before(backdrop, places)
+        turns = [tuple(part.turn(places) for part in parts) for parts in self._sets]
+        known = [kept.get(turn) for kept, turn in zip(self._kept, turns, strict=True)]
+        new = [n for n, patch in enumerate(known) if patch is None]
+        if new:
+            made = self._made(canvas, backdrop, [placed(self._sets[n], places) for n in new])
+            for n, patch in zip(new, made, strict=True):
+                self._keep(n, turns[n], patch, backdrop)
+        for patch in filter(None, known):
+            patch.lay(canvas)
 
-    def _made(self, canvas: pygame.Surface, backdrop: Backdrop, places: Places) -> Patch:
-        area = self.area(places).clip(canvas.get_rect())
-        wipe(canvas, backdrop.behind, area)
-        place = paint_noting(canvas, placed(self._parts, places), ends=self._ends)
-        if backdrop.front:
-            mix(pixels_of(canvas), backdrop.front.within(area, canvas.get_width()), clear=is_clear(canvas))
-        made = Patch(place, pixels_of(canvas).take(place))
-        wipe(canvas, backdrop.whole, area)
-        return made
+    def _stand_before(self, backdrop: Backdrop, places: Places) -> None:
+        """Forget what was painted before another backdrop; take what of this one lies over the parts."""
+        first, *others = (_square(places[part.at], part.reach) for parts in self._sets for part in parts)
+        self._kept, self._backdrop = [{} for _ in self._sets], backdrop
+        area, width = first.unionall(others), backdrop.whole.get_width()
+        self._front = backdrop.front and backdrop.front.within(area, width)
 
-    def area(self, places: Places) -> pygame.Rect:
-        """Return the rectangle that the parts keep to, however they turn."""
-        first, *others = (_square(places[part.at], part.reach) for part in self._parts)
-        return first.unionall(others)
+    def _made(self, canvas: pygame.Surface, backdrop: Backdrop, sets: list[list[Layer]]) -> Iterator[Patch]:
+        """Paint sets of layers on the canvas, under what lies over them, and yield what that gives."""
+        pixels, front = pixels_of(canvas), self._front
+        if front:
+            pixels[front.place] = pixels_of(backdrop.behind)[front.place]
+        painted = [paint_noting(canvas, layers, ends=self._ends) for layers in sets]
+        if front:
+            mix(pixels, front, clear=is_clear(canvas))
+        return (Patch(place, pixels.take(place)) for place in painted)
+
+    def _keep(self, n: int, turn: object, patch: Patch, backdrop: Backdrop) -> None:
+        room, kept = _MOST_PICTURES * backdrop.whole.get_buffer().length, self._kept[n]
+        if (len(kept) + 1) * (patch.place.nbytes + patch.words.nbytes) > room:
+            kept.clear()
+        kept[turn] = patch
 
 
 def _square(middle: complex, reach: float) -> pygame.Rect:

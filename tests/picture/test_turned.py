@@ -12,10 +12,12 @@ import pytest
 from pictures import BARE, painted, pixels
 from test_moving_parts import GAUGE, VIEW, geared, planetary
 
+from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture import raster, turned
 from linkanim.picture.backdrop import Backdrop
+from linkanim.picture.blend import mix
 from linkanim.picture.directions import directions, folded
 from linkanim.picture.figure import figure
 from linkanim.picture.gears import turning_apart, wheel_parts
@@ -107,44 +109,57 @@ def _alone(still: pygame.Surface) -> Backdrop:
 
 
 def test_what_was_painted_over_another_backdrop_is_forgotten(patched: list[int]) -> None:
-    wheel = turned.Turned(_wheel(), (32, 32))
+    wheel = turned.Turned((_wheel(),), (32, 32))
     dark, light = offscreen((32, 32)), offscreen((32, 32))
     light.fill((255, 255, 255))
     backdrops = _alone(dark), _alone(light)
     for backdrop in (backdrops[0], backdrops[1], backdrops[1]):
         surface, fresh = backdrop.whole.copy(), backdrop.whole.copy()
-        wheel.patch(surface, backdrop, _turned_by(0.2)).lay(surface)
-        turned.Turned(_wheel(), (32, 32)).patch(fresh, backdrop, _turned_by(0.2)).lay(fresh)
+        wheel.paint(surface, backdrop, _turned_by(0.2))
+        turned.Turned((_wheel(),), (32, 32)).paint(fresh, backdrop, _turned_by(0.2))
         assert _bytes(surface) == _bytes(fresh)
     # twice by the wheel that is tried, and three times by fresh ones
     assert len(patched) == 2 + 3
 
 
 def test_no_more_is_kept_than_there_is_room_for(monkeypatch: pytest.MonkeyPatch, patched: list[int]) -> None:
-    still, wheel = offscreen((32, 32)), turned.Turned(_wheel(), (32, 32))
+    still, wheel = offscreen((32, 32)), turned.Turned((_wheel(),), (32, 32))
     backdrop, sizes = _alone(still), []
     for angle in (0.1, 0.2):
-        made = turned.Turned(_wheel(), (32, 32)).patch(still.copy(), backdrop, _turned_by(angle))
-        sizes.append(made.place.nbytes + made.words.nbytes)
-    patched.clear()
+        place = raster.paint_noting(still.copy(), placed(_wheel(), _turned_by(angle)), ends=(32, 32))
+        sizes.append(place.nbytes + 4 * place.size)
     monkeypatch.setattr(turned, "_MOST_PICTURES", 2.5 * max(sizes) / still.get_buffer().length)
     # two are kept; the third throws them away
     for angle, painted_so_far in ((0.1, 1), (0.2, 2), (0.1, 2), (0.3, 3), (0.3, 3), (0.1, 4)):
-        wheel.patch(still.copy(), backdrop, _turned_by(angle))
+        wheel.paint(still.copy(), backdrop, _turned_by(angle))
         assert len(patched) == painted_so_far
 
 
+def _on_white(surface: pygame.Surface) -> Pixels:
+    below = offscreen(surface.get_size())
+    below.fill((255, 255, 255))
+    below.blit(surface, (0, 0))
+    return pixels(below)
+
+
 @pytest.mark.parametrize("alpha", [False, True])
-def test_a_line_that_stands_in_front_of_a_wheel_is_there_in_its_patch(alpha: bool) -> None:
-    behind, line = offscreen((32, 32), alpha=alpha), Layer((20, 90, 240), [np.array([2, 30j, 28 + 29j])], 0.5)
+def test_a_line_that_stands_in_front_of_wheels_is_seen_before_them_whichever_are_painted_anew(
+    alpha: bool,
+) -> None:
+    behind, line = offscreen((64, 32), alpha=alpha), Layer((20, 90, 240), [np.array([2, 30j, 60 + 29j])], 0.5)
     front, whole = raster.stencil([line], behind), behind.copy()
-    raster.paint(whole, [line])
-    canvas, drawn = whole.copy(), behind.copy()
-    patch = turned.Turned(_wheel(), (32, 32)).patch(canvas, Backdrop(behind, front, whole), _turned_by(0.2))
-    assert _bytes(canvas) == _bytes(whole)
-    patch.lay(canvas)
-    raster.paint(drawn, [*placed(_wheel(), _turned_by(0.2)), line])
-    assert np.abs(pixels(canvas) - pixels(drawn)).max() <= 2
+    mix(raster.pixels_of(whole), front, clear=alpha)
+    backdrop = Backdrop(behind, front, whole)
+    beside = (replace(_wheel()[0], at="P", tail="P", head="B"),)
+    both = turned.Turned((_wheel(), beside), (64, 32))
+    for one, other in ((0.1, 0.1), (0.1, 0.2), (0.2, 0.2), (0.3, 0.1), (0.3, 0.1)):
+        places = _turned_by(one) | {"P": 44 + 16j, "B": 44 + 16j + _turned_by(other)["A"] - 16 - 16j}
+        canvas, fresh, drawn = whole.copy(), whole.copy(), behind.copy()
+        both.paint(canvas, backdrop, places)
+        turned.Turned((_wheel(), beside), (64, 32)).paint(fresh, backdrop, places)
+        assert _bytes(canvas) == _bytes(fresh)
+        raster.paint(drawn, [*placed((*_wheel(), *beside), places), line])
+        assert np.abs(_on_white(canvas) - _on_white(drawn)).max() <= 2
 
 
 def test_a_period_of_the_press_finds_all_that_comes_again(patched: list[int]) -> None:
