@@ -64,6 +64,12 @@ def test_values_are_those_of_the_motion() -> None:
     assert series(scene, "2.coefficient", 5).values == pytest.approx(np.ones((5, 1)))
 
 
+def test_what_is_nothing_but_rounding_errors_is_zero() -> None:
+    scene = load("parallelogram")
+    assert np.any(scene.cycle(24).angular_velocity["coupler"])
+    assert not np.any(series(scene, "coupler.angular_velocity", 24).values)
+
+
 def test_fixed_pins_and_unknown_forces_are_left_out() -> None:
     assert not any(name.startswith("O2.") for name in quantities(load("press")))
 

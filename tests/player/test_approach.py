@@ -19,6 +19,12 @@ def _pin(player: Player) -> complex:
     return complex(*player.window.easel.pixel(100.0, 0.0))
 
 
+def _settled(player: Player) -> complex:
+    """Return the same once the view has come to rest."""
+    player.tick(APPROACH_FRAMES + 1)
+    return _pin(player)
+
+
 @pytest.mark.parametrize("key", [pygame.K_e, pygame.K_k, pygame.K_c])
 def test_the_view_glides_to_where_a_list_or_a_chart_leaves_room(player: Player, key: int) -> None:
     before, way = player.settle(), [_pin(player)]
@@ -51,6 +57,24 @@ def test_zoom_and_mouse_act_at_once(player: Player) -> None:
     once = _pin(player)
     player.tick(3)
     assert before != once == _pin(player)
+
+
+@pytest.mark.parametrize("key", [pygame.K_PLUS, pygame.K_TAB], ids=["zoom", "another mechanism"])
+def test_what_changes_the_view_on_the_way_is_there_at_once(player: Player, key: int) -> None:
+    player.press(pygame.K_c, text="c")
+    player.tick(3)
+    player.press(key, text="+" if key == pygame.K_PLUS else "")
+    once = _pin(player)
+    player.tick(APPROACH_FRAMES)
+    assert _pin(player) == once
+
+
+def test_what_changes_nothing_of_the_view_lets_it_go_on_its_way(player: Player) -> None:
+    player.press(pygame.K_c, text="c")
+    player.tick(3)
+    there = _pin(player)
+    player.press(pygame.K_v, text="v")
+    assert 0 < abs(_pin(player) - there) < 0.2 * abs(_settled(player) - there)
 
 
 def test_every_point_moves_straight_and_arrives() -> None:

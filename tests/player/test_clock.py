@@ -62,13 +62,14 @@ ALONG = {
     "forward": (Clock(RATE), 1),
     "clockwise scene": (Clock(-RATE), -1),
     "turned": (Clock(RATE).turn(0), -1),
+    "slow": (Clock(RATE).faster(0, -20), 1),
     "clockwise scene, turned": (Clock(-RATE).turn(0), 1),
 }
 
 
 @pytest.mark.parametrize(("clock", "sign"), ALONG.values(), ids=ALONG)
 def test_a_step_is_a_degree_along_the_motion(clock: Clock, sign: int) -> None:
-    assert clock.step(0, 1).at(0) == sign * STEP
+    assert clock.step(0, 1).at(0) == sign * math.radians(1.0)
 
 
 def test_a_step_pauses() -> None:

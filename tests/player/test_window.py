@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
@@ -284,6 +285,16 @@ def test_shift_s_writes_the_svg_of_what_is_shown(player: Player, here: Path) -> 
     groups = {group.get("id") for group in ElementTree.parse(written).iter("{http://www.w3.org/2000/svg}g")}
     assert {"velocity", "acceleration", "names", "chart", "words"} <= groups
     assert {"velocity-polygon", "acceleration-polygon", "body-crank", "joint-A"} <= groups
+
+
+def test_the_svg_has_joints_where_the_window_has_them(player: Player, here: Path) -> None:
+    player.press(pygame.K_s, pygame.KMOD_LSHIFT, "S")
+    drawn = ElementTree.parse(here / "recordings" / "crank-rocker-1.svg").find(".//*[@id='joint-B']/*")
+    assert drawn is not None
+    numbers = [float(number) for number in re.findall(r"[\d.]+", drawn.attrib["d"])]
+    middle = [(max(way) + min(way)) / 2 for way in (numbers[::2], numbers[1::2])]
+    place = player.state.scene.pose(player.state.phase, 0).position["B"]
+    assert player.window.easel.pixel(*place) == pytest.approx(middle, abs=0.02)
 
 
 def test_a_toast_is_gone_after_three_seconds(player: Player) -> None:
