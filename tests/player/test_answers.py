@@ -14,6 +14,7 @@ from linkanim.picture.overlay import Overlay
 from linkanim.player import display
 from linkanim.player.action import Action
 from linkanim.player.advance import advance
+from linkanim.player.fade import Fade
 from linkanim.player.show import kept, overlay
 from linkanim.player.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
 from linkanim.player.window import Window
@@ -162,6 +163,12 @@ def test_another_mechanism_fades_over(player: Player) -> None:
     assert near < far
     assert player.state.faded is None
     assert settled not in {crank, first}
+
+
+def test_a_fade_is_of_a_picture_as_large_as_the_window(rocker: State) -> None:
+    fade, state = Fade(), after(rocker, "theme")
+    assert fade.strength(state, pygame.Surface(SIZE)) > 0
+    assert fade.strength(run(state, 1), pygame.Surface((400, 300))) == 0
 
 
 def test_a_fade_ends_where_the_window_changes_its_size(player: Player) -> None:
