@@ -97,17 +97,14 @@ def _stopped(document: Mapping[str, Any], where: str) -> _Stop | None:
 
 def _mend(document: dict[str, Any], stop: _Stop, where: str) -> bool:
     """Put something in the place where the reader stopped with which it goes on; return whether it does."""
-    for keys in (stop.keys, stop.keys[:2], stop.keys[:1]):
+    for keys in dict.fromkeys((stop.keys, stop.keys[:2], stop.keys[:1])):
         holder, key = _holder(document, keys)
         if holder is None:
             continue
-        present = key in holder if isinstance(holder, dict) else True
-        before = holder[key] if present else None
         for value in _candidates(document, keys, whole=keys != stop.keys):
             _put(holder, key, value)
             if _goes_on(_stopped(document, where), stop, keys):
                 return True
-        _put(holder, key, before if present else _GONE)
     return False
 
 

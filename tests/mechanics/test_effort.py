@@ -124,6 +124,14 @@ def test_masses_and_gravity_give_back_over_a_period_what_they_took(name: str) ->
     assert abs(lifted[0]) <= 1e-12 * peak
 
 
+def test_a_spring_whose_ends_both_move_takes_its_force_times_its_rate() -> None:
+    scene = load("six-bar")
+    scene = replace(scene, linkage=sprung(scene, (Spring("s", ("A", "D"), 300.0, 20.0),)))
+    motion = scene.solve(phase=PHASES, speed=4.0)
+    power = motion.spring["s"].force * motion.spring["s"].rate * 1e-3
+    assert effort(scene, speed=4.0) * 4.0 == pytest.approx(power, rel=1e-12)
+
+
 SPRING = Spring("s", ("O4", "P"), 300.0, 20.0)
 DAMPER = Damper("d", ("O4", "P"), 40.0)
 

@@ -61,6 +61,12 @@ def test_each_curve_is_the_motion_over_what_was_asked(
         assert apart == pytest.approx(np.zeros(23), abs=1e-9 * found.high)
 
 
+def test_a_swing_s_limits_are_marked_on_a_curve_over_time_and_on_no_two_that_differ() -> None:
+    one = _curves("double-rocker", "rocker.angle", over="time")
+    assert len(one.marks) > 0
+    assert _curves("double-rocker", "rocker.angle", paces=(FIVE, TEN), over="time").marks == ()
+
+
 def test_a_curve_is_named_by_what_sets_it_off() -> None:
     one = _curves("press", "3.angular_velocity")
     assert [one.words(curve) for curve in one.curves] == ["Link 3: angular velocity ω₃"]

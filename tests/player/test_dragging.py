@@ -141,6 +141,8 @@ def test_the_picture_stands_still_while_a_joint_is_held_and_runs_on_after() -> N
     running = after(begin(load("crank-rocker")), "edit")
     held = after(running, Action("grab", "B"))
     assert held.clock.paused
+    x, y = place(held, "B")
+    assert after(held, Action("carry", (x + 3.0, y, 1.0))).clock.paused
     assert not after(held, "drop").clock.paused
     paused = after(running, "pause", Action("grab", "B"), "drop")
     assert paused.clock.paused

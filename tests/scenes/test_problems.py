@@ -110,6 +110,29 @@ def test_a_broken_joint_is_not_held_against_what_hangs_on_it() -> None:
     ]
 
 
+# The excavator's arm with faults in it, and where they are told: each, and nothing that only follows from one.
+SPOILT: dict[str, tuple[dict[str, Any], list[str]]] = {
+    "a joint that others stand on": ({"joints.K.at": 3.5}, ["joints.K.at"]),
+    "a table that must go whole": (
+        {"source": 3, "drive.cylinder.joint": "Z"},
+        ["source", "drive.joint"],
+    ),
+}
+
+
+@pytest.mark.parametrize(("faults", "places"), SPOILT.values(), ids=SPOILT)
+def test_what_only_follows_from_a_problem_is_not_told(faults: dict[str, Any], places: list[str]) -> None:
+    document = tomllib.loads(tomli_w.dumps(dict(load("excavator").document)))
+    for path, value in faults.items():
+        *tables, key = path.split(".")
+        table = document
+        for name in tables:
+            table = table[name]
+        table[key] = value
+    found = problems(tomli_w.dumps(document), name="my", where="my.toml")
+    assert [problem.message.split(": ")[1].split(" ")[0] for problem in found] == places
+
+
 def test_what_is_not_toml_is_told_with_its_line() -> None:
     (found,) = problems(FOUR_BAR + "crank 30\n", name="my", where="my.toml")
     assert found.line == 6

@@ -41,13 +41,14 @@ def grab(state: State, joint: str) -> State:
 
 def carry(state: State, to: tuple[float, float, float]) -> State:
     """Drag the held joint to a point (scene's unit), in whole units times the third number."""
-    if state.held is None or not to[2] > 0.0:
+    held = state.held
+    if held is None or not to[2] > 0.0:
         return state
-    editing, scene = carried_to(state.editing, state.scene, state.held, to[:2], to[2])
+    editing, scene = carried_to(state.editing, state.scene, held, to[:2], to[2])
     if scene is state.scene:
         return replace(state, editing=editing)
     state = replace(exchanged(state, scene), editing=editing)
-    angle = state.held.scene.pose(state.held.phase, 0).crank_angle if state.held else 0.0
+    angle = held.scene.pose(held.phase, 0).crank_angle
     phase = scene.mechanism.assembly.path.phase_of(angle, state.phase)
     return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
 
