@@ -89,6 +89,13 @@ def test_extremes_are_where_the_motion_has_them() -> None:
     assert high.value - low.value == pytest.approx(found.scene.info.stroke, rel=1e-9)
 
 
+def test_an_extreme_of_a_crank_that_runs_back_stands_at_its_time() -> None:
+    found = _curves("press", "5.travel", paces=(TEN,), over="time")
+    drawn = found.curves[0]
+    for peak in extremes(found.scene, drawn):
+        assert np.interp(peak.x, drawn.x, drawn.values) == pytest.approx(peak.value, abs=1e-2)
+
+
 @pytest.mark.parametrize(
     ("name", "token"), [("crank-rocker", "crank.angular_velocity"), ("crank-rocker", "mechanical_advantage")]
 )
@@ -100,8 +107,9 @@ def test_what_is_level_or_unbounded_has_no_extremes(name: str, token: str) -> No
     assert extremes(found.scene, curve) == ()
 
 
-def test_an_angle_s_extremes_stay_in_the_turn_of_the_curve_and_at_its_ends() -> None:
-    found = _curves("drag-link", "rocker.angle", paces=(TEN,))
+@pytest.mark.parametrize("pace", [FIVE, TEN])
+def test_an_angle_s_extremes_stay_in_the_turn_of_the_curve_and_at_its_ends(pace: Pace) -> None:
+    found = _curves("drag-link", "rocker.angle", paces=(pace,))
     high, low = extremes(found.scene, found.curves[0])
     assert high.x == pytest.approx(360.0)
     assert low.x == pytest.approx(0.0)
