@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from dataclasses import replace
 from xml.etree import ElementTree
 
@@ -68,6 +69,22 @@ def test_chart_words_and_key_stand_as_in_the_window(look: Look) -> None:
     figured = Figured(scene, size, look, phase=1.0, speed=4.0, both=True)
     assert psnr(_levels(figured.surface()), _levels(surface)) > (30 if look.framed else 45)
     assert {"chart", "words", "key"} <= _groups(figured).keys()
+    assert ("margins" in _groups(figured)) == look.framed
+
+
+@pytest.mark.parametrize("size", [SIZE, (450, 800)])
+def test_what_stands_beside_a_zoomed_scene_is_kept_clear_of_it(size: tuple[int, int]) -> None:
+    figured = Figured(load("crank-rocker"), size, Look(zoom=2.0, chart="rocker.angle"), phase=1.0)
+    reach, (width, height) = figured.drawing.scenery.layout.reach, size
+    outline = _groups(figured)["margins"][0].attrib["d"]
+    covered = []
+    for loop in outline.strip("MZ").split("ZM"):
+        x, y = np.array(re.findall(r"-?[\d.]+", loop), float).reshape(-1, 2).T
+        covered.append(abs(x @ np.roll(y, 1) - y @ np.roll(x, 1)) / 2)
+    assert covered == pytest.approx(
+        [(width - reach.right) * height, width * (height - reach.bottom)], rel=1e-3
+    )
+    assert max(covered) > 0
 
 
 def test_every_body_and_joint_has_a_group_of_its_name() -> None:

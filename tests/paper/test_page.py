@@ -51,6 +51,7 @@ def test_extremes_are_told_with_value_and_angle() -> None:
     said = _said(_page("press", "5.travel_velocity", speeds=(10.0,)))
     assert "659 at 34.8°" in said
     assert "−255 at 164.9°" in said
+    assert "3.17 at 115.3°" in _said(_page("crank-rocker", "rocker.angular_velocity"))
 
 
 # tokens, the plots' vertical titles: one unit shares an axis, two have one each, more a strip each
@@ -81,6 +82,7 @@ def test_units_have_axes_of_their_own(tokens: tuple[str, ...], titles: list[str]
     heights = {round(y) for _, y in titled.values()}
     assert len(heights) == (1 if len(titles) <= 2 else len(titles))
     assert _said(page).count("crank angle θ₂ (°)") == 1
+    assert all(item.at[1] + item.size <= SIZE[1] for item in page.items() if isinstance(item, Caption))
 
 
 # One line of zero crosses the plot: a curve that crosses it is zero there, whichever axis it is read on.

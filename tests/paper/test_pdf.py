@@ -57,6 +57,12 @@ def test_the_background_covers_the_page_in_its_colour_or_is_left_open() -> None:
     assert " re f" not in content(pdf((400, 200), None, [square], title="open"))
 
 
+@pytest.mark.parametrize("background", [True, False])
+def test_a_figure_has_the_background_that_is_asked_for(background: bool) -> None:
+    drawn = content(Figured(load("kite"), (400, 200), Look(background=background)).printed())
+    assert (" re f" in drawn) == background
+
+
 def test_words_are_as_large_as_on_the_screen_and_stand_there_in_a_halo_as_wide() -> None:
     line = Caption("v_{BA}", (50, 50), 20, (0, 0, 255), "left", True, Halo((255, 255, 0), 2.0))
     drawn, how = content(pdf((400, 200), None, [line], title="words")), typesetting(20)

@@ -110,7 +110,7 @@ def test_a_broken_joint_is_not_held_against_what_hangs_on_it() -> None:
     ]
 
 
-# The excavator's arm with faults in it, and where they are told: each, and nothing that only follows from one.
+# The excavator's arm with faults in it, and where they are told: each, and nothing that only follows.
 SPOILT: dict[str, tuple[dict[str, Any], list[str]]] = {
     "a joint that others stand on": ({"joints.K.at": 3.5}, ["joints.K.at"]),
     "a table that must go whole": (
