@@ -109,9 +109,9 @@ def _write(page: FPDF, line: Caption) -> None:
         page.set_font(_FACE, style, em * _POINTS)
         place = x, line.at[1] + how.baseline + lower
         if line.halo:
-            with page.local_context(
-                text_mode="STROKE", line_width=2 * line.halo.width, draw_color=line.halo.colour
-            ):
+            # what fpdf2 writes of a text's outline are points, whatever the page's unit
+            wide = 2 * line.halo.width * _POINTS
+            with page.local_context(text_mode="STROKE", line_width=wide, draw_color=line.halo.colour):
                 page.text(*place, text)
         page.text(*place, text)
         x += width
