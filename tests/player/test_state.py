@@ -158,6 +158,14 @@ def test_the_other_closure_keeps_the_phase(rocker: State) -> None:
     assert crossed.phase == run(rocker, 1).phase
 
 
+def test_a_ghost_of_a_closure_that_is_not_there_is_refused() -> None:
+    state = after(begin(load("inverted-slider-crank")), "ghost")
+    assert not state.look.ghost
+    assert state.toast is not None
+    assert "no second closure" in state.toast.text
+    assert not after(replace(state, look=Look(ghost=True)), "ghost").look.ghost
+
+
 def test_escape_closes_help_before_it_quits(rocker: State) -> None:
     assert after(rocker, "help", "back").effects == ()
     assert after(rocker, "help", "back", "back").effects == (Action("quit"),)

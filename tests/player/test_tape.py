@@ -80,7 +80,14 @@ def test_a_file_reads_back(tape: Tape, tmp_path: Path) -> None:
 
 
 def test_what_is_begun_and_named_reads_back(live: State, tmp_path: Path) -> None:
-    asked = (Action("names"), Action("edit"), Action("type", "7"), Action("pass_on", 1), Action("type", "8"))
+    asked = (
+        Action("direction"),
+        Action("names"),
+        Action("edit"),
+        Action("type", "7"),
+        Action("pass_on", 1),
+        Action("type", "8"),
+    )
     for action in asked:
         live = advance(live, [action])
     tape = Tape(starting(live), 5)
@@ -88,7 +95,16 @@ def test_what_is_begun_and_named_reads_back(live: State, tmp_path: Path) -> None
     again = read(tmp_path / "mine.tape.json").start
     assert (again.editing, again.look) == (live.editing, live.look)
     assert again.phase == pytest.approx(live.phase)
+    assert again.clock.speed == live.clock.speed
     assert (again.look.names, again.editing.typed, len(again.editing.drafts)) == (1, "8", 1)
+
+
+def test_a_tape_from_before_names_and_polygons_shows_none(tape: Tape) -> None:
+    document = json.loads(json.dumps(to_document(tape)))
+    for key in ("names", "polygons", "centres"):
+        del document["start"]["look"][key]
+    look = from_document(document, "mine.tape.json").start.look
+    assert (look.names, look.polygons, look.centres) == (0, False, 0)
 
 
 def test_a_file_is_never_written_over(tape: Tape, tmp_path: Path) -> None:
@@ -168,7 +184,7 @@ SPOILT: dict[str, tuple[Spoil, str]] = {
         lambda d: d["start"]["look"].update(centres=3),
         "start.look.centres = 3",
     ),
-    "a place off the shelf": (lambda d: d["start"].update(place=99), "start.place = 99"),
+    "a place off the shelf": (lambda d: d["start"].update(place=len(d["shelf"])), "start.place = "),
     "an unknown scene on the shelf": (lambda d: d["shelf"].append("nothing"), r"shelf\[\d+\] = \"nothing\""),
     "a broken scene": (lambda d: d["scene"]["document"].update(speed=1), "speed"),
     "a name that leads elsewhere": (lambda d: d["scene"].update(name="../../mine"), r"scene.name = "),
