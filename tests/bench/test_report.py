@@ -10,7 +10,11 @@ import pytest
 from made_result import LOST, result, row
 
 from linkanim.bench import drawing, report
-from linkanim.bench.result import targets
+from linkanim.bench.accuracy import Score
+from linkanim.bench.cases import EASY, HARD
+from linkanim.bench.entries import Entry, Timed
+from linkanim.bench.question import Points, Question
+from linkanim.bench.result import run, targets
 
 
 def test_the_table_has_a_line_for_each_method_and_target() -> None:
@@ -73,6 +77,34 @@ def test_targets_compare_with_pylinkage_in_the_same_run() -> None:
     assert not found["positions, 1,000,000 to 10,000 at once"].met
     assert not found["with derivatives, one pose a call"].met
     assert found["press with derivatives, one pose a call"].measured == 20.0
+
+
+def test_each_row_has_its_own_times(monkeypatch: pytest.MonkeyPatch) -> None:
+    keys = ("batch", "batch, many", "single", "pylinkage", "pylinkage, many", "pylinkage step")
+    nothing = Timed(lambda: None, 1)
+
+    def unasked(question: Question) -> Points:
+        raise AssertionError(question)
+
+    rows = tuple(Entry(key, key, "here", unasked, nothing, nothing) for key in keys)
+    scored = {unasked: dict.fromkeys((case.name for case in (EASY, *HARD)), Score(1, 0.0, 0, 0))}
+    monkeypatch.setattr("linkanim.bench.result.entries", lambda: rows)
+    monkeypatch.setattr("linkanim.bench.result._scores", lambda methods: scored)
+    monkeypatch.setattr("linkanim.bench.result.press", lambda: nothing)
+    timed: dict[tuple[str, int], float] = {
+        (key, n): 10.0 * at + n + 1 for at, key in enumerate(keys) for n in (0, 2)
+    }
+
+    def nanoseconds(work: dict[tuple[str, int], Timed], **_: object) -> dict[tuple[str, int], float]:
+        assert work.keys() == {*timed, ("press", 2)}
+        return {**timed, ("press", 2): 39_000.0}
+
+    monkeypatch.setattr("linkanim.bench.result.nanoseconds", nanoseconds)
+    found = run()
+    assert {(row.key, 0): row.position_ns for row in found.rows} | {
+        (row.key, 2): row.derivatives_ns for row in found.rows
+    } == timed
+    assert [target.measured for target in found.targets if "press" in target.what] == [39.0]
 
 
 def test_the_picture_is_written_whole(tmp_path: Path) -> None:

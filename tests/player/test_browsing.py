@@ -239,9 +239,10 @@ def test_a_quantity_is_charted_from_the_list(player: Player) -> None:
     paused = player.pixels
     player.type("k")
     assert player.pixels != paused
-    player.type("rocker acc")
+    player.type("rocker a")
+    player.press(pygame.K_DOWN)
     player.press(pygame.K_RETURN)
-    assert player.state.look.chart == listed(player.state.scene, "rocker acc")[0]
+    assert player.state.look.chart == listed(player.state.scene, "rocker a")[1]
     assert player.state.listing is None
 
 
