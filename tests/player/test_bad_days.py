@@ -253,6 +253,20 @@ def test_a_changed_file_with_a_fault_in_it_is_refused_and_the_linkage_runs_on(
     assert opened.state.scene is good
 
 
+def test_a_changed_file_at_which_the_solver_fails_is_refused_with_a_report(
+    opened: Player, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def failing(*_: object) -> object:
+        raise ZeroDivisionError("float division")
+
+    good = opened.state.scene
+    written(here, "crank = 50", "crank = 45")
+    monkeypatch.setattr("linkanim.player.window.renewed", failing)
+    opened.press(pygame.K_F5)
+    assert said(opened).startswith("recordings/my-fault-1.json holds what a report".replace("/", os.sep))
+    assert opened.state.scene is good
+
+
 @fault
 def test_a_scene_file_that_is_gone_is_told_and_may_come_back(opened: Player, here: Path) -> None:
     good = opened.state.scene
