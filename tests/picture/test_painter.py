@@ -184,12 +184,16 @@ def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
     assert pixels(clear)[inside] == pytest.approx(pixels(solid)[inside], abs=2)
 
 
-def test_a_surface_of_another_kind_or_size_gets_the_same_picture() -> None:
-    scene = load("crank-rocker")
-    painter, pose = Painter(scene, SMALL, BARE), scene.pose(1.0)
-    wanted = pixels(painted(scene, 1.0))
-    surface = pygame.Surface((400, 200), 0, 24)
-    painter.paint(surface, pose)
+@pytest.mark.parametrize(
+    "surface",
+    [pygame.Surface((400, 200), 0, 24), pygame.Surface(SMALL, 0, 32, (0xFF, 0xFF00, 0xFF0000, 0))],
+    ids=["larger, three bytes to a pixel", "red first"],
+)
+def test_a_surface_of_another_kind_or_size_gets_the_same_picture(surface: pygame.Surface) -> None:
+    scene = load("press")
+    painter, wanted = Painter(scene, SMALL, BARE), pixels(painted(scene, 1.0))
+    for phase in (0.5, 1.0):
+        painter.paint(surface, scene.pose(phase))
     assert np.array_equal(pixels(surface)[: SMALL[1], : SMALL[0]], wanted)
 
 
