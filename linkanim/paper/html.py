@@ -20,7 +20,6 @@ th, td { padding: .12rem .9rem .12rem 0; text-align: left; vertical-align: top; 
 thead th { border-bottom: 1px solid #8c959f; font-weight: 600; } td.n, th.n { text-align: right; }
 sub { font-size: .75em; line-height: 0; }
 figure { margin: .6rem 0 1.2rem; break-inside: avoid; } figure svg { width: 100%; height: auto; }
-figcaption { color: #57606a; font-size: .9rem; }
 section { break-inside: auto; } tr { break-inside: avoid; } h2, h3 { break-after: avoid; }
 .two { columns: 2; column-gap: 2rem; }
 @page { size: A4; margin: 16mm 14mm; }
@@ -52,10 +51,9 @@ def facts(lines: Sequence[tuple[str, str]]) -> str:
     return f"<table>{rows}</table>"
 
 
-def figure(picture: str, caption: str = "") -> str:
-    """Return an SVG in the page, and what it shows."""
-    below = f"<figcaption>{symbol(caption)}</figcaption>" if caption else ""
-    return f"<figure>{picture}{below}</figure>"
+def figure(picture: str) -> str:
+    """Return an SVG in the page."""
+    return f"<figure>{picture}</figure>"
 
 
 def sheet_tables(sheet: Sheet, speeds: Sequence[str]) -> Iterator[str]:

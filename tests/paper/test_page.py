@@ -205,6 +205,8 @@ def test_a_line_goes_on_at_its_height_after_a_subscript() -> None:
     shifts = [float(span.get("dy", "0")) for span in text.iter(f"{SVG}tspan")]
     assert len(shifts) == 4
     assert sum(shifts) == 0
+    smaller = [span.text for span in text.iter(f"{SVG}tspan") if float(span.get("font-size", "20")) < 20]
+    assert smaller == [span.text for span in text.iter(f"{SVG}tspan") if float(span.get("dy", "0")) > 0]
 
 
 def test_a_table_is_laid_over_the_curve_and_its_largest_difference_found() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import math
 import re
 from html.parser import HTMLParser
@@ -58,6 +59,23 @@ def test_the_page_holds_everything_and_loads_nothing(press: Path) -> None:
     assert "@page" in text
     assert "size: A4" in text
     assert not re.search(r"url\(|@import|https?://(?!www\.w3\.org)", text)
+
+
+def test_the_page_s_headings_outline_it(press: Path) -> None:
+    text, scene = (press / "report.html").read_text(encoding="utf-8"), load("press")
+    headings = re.findall(r"<h(\d)>(.*?)</h", text)
+    outline = [words for level, words in headings if level == "2"]
+    assert headings[0] == ("1", html.escape(scene.title))
+    assert {level for level, _ in headings} == {"1", "2", "3"}
+    assert outline[:2] == ["What it is", "Dimensions"]
+    assert [words.partition(" =")[0] for words in outline[2:]] == [
+        *["At θ₂"] * (len(outline) - 3),
+        "Over one period, at 5 rad/s, 10 rad/s, 20 rad/s",
+    ]
+    parts = [words for level, words in headings if level == "3"]
+    assert {"Link 3", "Slider 5", "C", "Link 3, centre of mass", "Damper cushion", "The whole"} <= set(parts)
+    assert html.escape(scene.look_at) in text
+    assert min(path.name.split("-")[1] for path in press.glob("chart-*.svg")).lstrip("0") == "1"
 
 
 def test_its_pictures_are_well_formed(press: Path) -> None:
