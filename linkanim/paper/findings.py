@@ -136,12 +136,13 @@ def paces_of(scene: Scene, token: str, paces: tuple[Pace, ...]) -> tuple[Pace, .
     return paces if register(scene.linkage)[token].order else paces[:1]
 
 
-def table(scene: Scene, pace: Pace, step_deg: float = 1.0) -> tuple[list[str], np.ndarray]:
+def table(scene: Scene, pace: Pace) -> tuple[list[str], np.ndarray]:
     """Return the names and columns of every quantity over one true period: phase, angle, time, then all.
 
-    Angles in radians, lengths in the scene's unit, time in seconds from the start of the drive.
+    A row for each degree of phase. Angles in radians, lengths in the scene's unit, time in seconds from the
+    start of the drive.
     """
-    count = round(degrees(scene.period) / step_deg)
+    count = round(degrees(scene.period))
     motion = scene.solve(phase=np.arange(count + 1) * (scene.period / count), speed=pace.speed)
     names, columns = (
         ["phase", "travel" if scene.linkage.slides else "angle", "time"],

@@ -109,3 +109,19 @@ def test_without_the_extra_the_way_out_is_told() -> None:
     with pytest.raises(BadInput, match=r'pip install "linkanim\[pdf\]"'):
         require_pdf(lambda name: None)
     require_pdf()
+
+
+@pytest.mark.parametrize(
+    "words", [["draw", "kite"], ["chart", "kite", "--quantity", "rocker.angle"]], ids=str
+)
+def test_only_a_pdf_asks_for_the_extra(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def missing() -> None:
+        raise BadInput("no extra")
+
+    for module in ("figure", "write"):
+        monkeypatch.setattr(f"linkanim.paper.{module}.require_pdf", missing)
+    ends = [main([*words, "-o", str(tmp_path / name)]) for name in ("x.svg", "x.pdf")]
+    assert ends == [0, 2]
+    assert [path.name for path in tmp_path.iterdir()] == ["x.svg"]
