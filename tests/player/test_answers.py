@@ -165,6 +165,15 @@ def test_another_mechanism_fades_over(player: Player) -> None:
     assert settled not in {crank, first}
 
 
+@pytest.mark.parametrize(("shutter", "share"), [(8, 0.7), (4, 0.175), (0, 0.0)])
+def test_a_flash_lets_the_picture_be_seen(shutter: int, share: float) -> None:
+    surface = pygame.Surface((4, 4))
+    surface.fill((100, 100, 100))
+    Fade().draw(surface, 0, shutter)
+    for corner in ((0, 0), (3, 3)):
+        assert surface.get_at(corner)[0] == pytest.approx(100 + share * 155, abs=2)
+
+
 def test_a_fade_is_of_a_picture_as_large_as_the_window(rocker: State) -> None:
     fade, state = Fade(), after(rocker, "theme")
     assert fade.strength(state, pygame.Surface(SIZE)) > 0
