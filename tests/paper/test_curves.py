@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -105,6 +106,16 @@ def test_what_is_level_or_unbounded_has_no_extremes(name: str, token: str) -> No
     if token == "mechanical_advantage":
         curve.values[3] = math.inf
     assert extremes(found.scene, curve) == ()
+
+
+@pytest.mark.parametrize("size", [1e-150, 1e-12, 1e12])
+def test_small_and_large_values_have_extremes_as_others_do(size: float) -> None:
+    found = _curves("press", "5.travel")
+    curve = found.curves[0]
+    peaks = extremes(found.scene, curve)
+    assert extremes(found.scene, replace(curve, values=curve.values * size)) == peaks
+    level = size * (1 + 1e-10 * np.sign(curve.values - curve.values.mean()))
+    assert extremes(found.scene, replace(curve, values=level)) == ()
 
 
 @pytest.mark.parametrize("pace", [FIVE, TEN])

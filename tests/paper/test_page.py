@@ -222,6 +222,12 @@ def test_a_table_is_laid_over_the_curve_and_its_largest_difference_found() -> No
     assert [x for x, _ in found.points] == pytest.approx(angles)
     shown = Page(page.curves, SIZE, measured=found)
     assert "measured" in _said(shown)
+    dot, words = next(pair for pair in pairwise(shown.items()) if getattr(pair[1], "text", "") == "measured")
+    assert isinstance(dot, Layer)
+    assert isinstance(words, Caption)
+    assert _extent(dot).width == _extent(dot).height < 0.7 * words.size
+    assert words.at[0] - 3 * words.size < _extent(dot).centerx < words.at[0] - 0.5 * words.size
+    assert words.at[1] < _extent(dot).centery < words.at[1] + words.size
 
 
 def test_a_table_of_rates_is_compared_at_the_charts_speed_also_of_a_swing() -> None:
