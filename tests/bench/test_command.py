@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from made_result import result
 from PIL import Image, ImageSequence
 
-from linkanim.bench import again, command, drawing, extra, recording, window
+from linkanim.bench import again, command, drawing, extra, recording, scaling, window
 from linkanim.bench import result as results
 from linkanim.bench.cost import Cost, Memory, Work
 from linkanim.bench.machine import this_machine
@@ -67,9 +69,12 @@ def test_a_wrong_folder_is_refused(measured: None, tmp_path: Path, into: str, sa
         command.run(options("--into", str(tmp_path / into)))
 
 
-def test_markdown_is_for_the_table_only() -> None:
+@pytest.mark.parametrize("other", ["--draw", "--record", "--scaling"])
+def test_markdown_is_for_the_table_only(other: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    for module in (window, recording, scaling):
+        monkeypatch.setattr(module, "run", pytest.fail)
     with pytest.raises(BadInput, match="--markdown"):
-        command.run(options("--markdown", "--draw"))
+        command.run(options("--markdown", other))
 
 
 def test_it_prints_the_table_and_writes_the_chart(
@@ -156,9 +161,13 @@ def test_the_first_frame_comes_from_the_command_itself() -> None:
     assert window.first_frame(starts=1) > 0
 
 
-def test_the_figures_of_drawing_stand_beside_their_bounds() -> None:
+def drawn() -> window.WindowRun:
     frames = tuple(window.FrameTimes(size, 5.25, 7.0, 5.0) for size in window.SIZES)
-    found = window.WindowRun(this_machine(), frames, 0.25, 51.3, 0.002)
+    return window.WindowRun(this_machine(), frames, 0.25, 51.3, 0.002)
+
+
+def test_the_figures_of_drawing_stand_beside_their_bounds() -> None:
+    found = drawn()
     lines = {line.split()[0]: line.split() for line in window.as_text(found).splitlines() if line}
     assert lines["1280x720"][1:5] == ["5.2", "ms", "≤", "6"]
     assert lines["1920x1080"][1:5] == ["5.2", "ms", "≤", "10"]
@@ -167,8 +176,41 @@ def test_the_figures_of_drawing_stand_beside_their_bounds() -> None:
     assert lines["worst"][-5:] == ["51.3", "dB", "≥", "44", "dB"]
     assert lines["a"][-5:] == ["0.0020", "px", "≤", "0.1", "px"]
     told = json.loads(json.dumps(window.as_object(found)))
-    assert told["frames"][0]["most_ms"] == 6.0
-    assert (told["dB_against_64_samples"], told["slow_bar_px_rms"]) == (51.3, 0.002)
+    assert [frames["most_ms"] for frames in told["frames"]] == [6.0, 10.0]
+    assert (told["first_frame_s"], told["most_first_frame_s"]) == (0.25, 0.4)
+    assert (told["dB_against_64_samples"], told["least_dB"]) == (51.3, 44.0)
+    assert (told["slow_bar_px_rms"], told["most_px_rms"]) == (0.002, 0.1)
+
+
+def recorded() -> recording.Recordings:
+    cost = Cost("gif", 300, 3.0, 1.5, 2.14, 60.9, Memory(104.0, math.inf), Work(2.5, 1.25))
+    return recording.Recordings(this_machine(), (cost,), 27.0)
+
+
+# Each of the other ways to ask: what stands in its text, and what its object holds.
+@pytest.mark.parametrize(
+    ("word", "module", "made", "title", "holds"),
+    [
+        pytest.param("--draw", window, drawn, window.TITLES[0], "first_frame_s", id="draw"),
+        pytest.param("--record", recording, recorded, recording.TITLES[0], "recordings", id="record"),
+    ],
+)
+def test_each_way_to_ask_prints_its_table_or_its_object(
+    word: str,
+    module: ModuleType,
+    made: Callable[[], object],
+    title: str,
+    holds: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(module, "run", made)
+    assert main(["bench", word]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith(this_machine().line)
+    assert f"\n{title}  " in text
+    assert main(["bench", word, "--json"]) == 0
+    assert holds in json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
 
 
 def test_the_figures_of_recordings_are_the_recorders() -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+from dataclasses import replace
 from pathlib import Path
 
 import pygame
@@ -14,7 +16,7 @@ from linkanim.bench.accuracy import Score
 from linkanim.bench.cases import EASY, HARD
 from linkanim.bench.entries import Entry, Timed
 from linkanim.bench.question import Points, Question
-from linkanim.bench.result import run, targets
+from linkanim.bench.result import Target, run, targets
 
 
 def test_the_table_has_a_line_for_each_method_and_target() -> None:
@@ -24,8 +26,17 @@ def test_the_table_has_a_line_for_each_method_and_target() -> None:
     lines = {line.split("  ")[0]: line.split() for line in text.splitlines()}
     assert lines["batch by name"][3:] == ["9.3", "22.5", "3.0e-16", "8.5e-16", "0", "0"]
     assert lines["newton 1 by name"][4:] == ["1,600", "3.0e-16", "none", "right", "5,000", "198"]
-    assert lines["positions"][-1] == "met"
-    assert lines["times faster"][-1] == "missed"
+    assert lines["positions"][1:] == ["9.31", "ns", "≤", "15", "ns", "met"]
+    assert lines["times faster"][2:] == ["9", "×", "≥", "10", "×", "missed"]
+
+
+# A tenth of a nanosecond below a hundred, three digits from there on.
+@pytest.mark.parametrize(
+    ("nanos", "told"), [(99.94, "99.9"), (100.0, "100"), (150.4, "150"), (1234.0, "1,230")]
+)
+def test_times_have_three_digits(nanos: float, told: str) -> None:
+    made = replace(result(), rows=(row("batch", nanos),))
+    assert report.lines(made)[1][1] == told
 
 
 def test_columns_are_aligned() -> None:
@@ -38,6 +49,7 @@ def test_the_readmes_table_is_markdown_with_its_machine() -> None:
     assert rule.count("---:") == len(report.TITLES) - 1
     assert body[0] == "| batch by name | 9.3 | 22.5 | 3.0e-16 | 8.5e-16 | 0 | 0 |"
     assert body[-1].endswith("numpy 2.4.6 with X86_V3, one thread.")
+    assert "of 5,198 hard poses" in body[-1]
 
 
 def test_the_readme_shows_such_a_table() -> None:
@@ -57,26 +69,59 @@ def test_the_json_is_strict_and_whole() -> None:
     assert newton["ns_derivatives"] is None
     assert newton["cases"]["a hard case"] == {"poses": 5198, "error": None, "wrong": 5000, "nan": 198}
     assert [target["met"] for target in found["targets"]] == [True, False]
-    assert ("most" in found["targets"][0], "least" in found["targets"][1]) == (True, True)
+    assert (found["targets"][0]["most"], found["targets"][1]["least"]) == (15.0, 10.0)
+    assert '"unit": "×"' in report.as_json(result())
 
 
-def test_targets_compare_with_pylinkage_in_the_same_run() -> None:
+# On the bound a target is met, past it missed, and without a figure missed, too.
+@pytest.mark.parametrize(
+    ("measured", "least", "met"),
+    [
+        (15.0, False, True),
+        (15.1, False, False),
+        (15.0, True, True),
+        (14.9, True, False),
+        (math.nan, False, False),
+        (math.nan, True, False),
+    ],
+)
+def test_a_target_is_met_up_to_its_bound(measured: float, least: bool, met: bool) -> None:
+    assert Target("a figure", measured, 15.0, "ns", least=least).met == met
+
+
+# What each target tells of the rows below, and its bound.
+TARGETS = {
+    "positions, 10,000 at once": (10.0, "≤", 15.0, "ns"),
+    "with derivatives, 10,000 at once": (32.0, "≤", 35.0, "ns"),
+    "positions, 1,000,000 to 10,000 at once": (2.0, "≤", 1.6, "×"),
+    "with derivatives, 1,000,000 to 10,000 at once": (1.25, "≤", 1.6, "×"),
+    "positions, one pose a call": (2.0, "≤", 2.5, "µs"),
+    "with derivatives, one pose a call": (8.0, "≤", 6.0, "µs"),
+    "press with derivatives, one pose a call": (20.0, "≤", 40.0, "µs"),
+    "pylinkage's time to ours: positions, 10,000 at once": (15.0, "≥", 10.0, "×"),
+    "pylinkage's time to ours: with derivatives, 10,000 at once": (21.5, "≥", 20.0, "×"),
+    "pylinkage's time to ours: positions, 1,000,000 at once": (8.0, "≥", 10.0, "×"),
+    "pylinkage's time to ours: with derivatives, 1,000,000 at once": (18.0, "≥", 12.0, "×"),
+    "pylinkage's time to ours: positions, one pose a call": (2.5, "≥", 2.0, "×"),
+    "pylinkage's time to ours: with derivatives, one pose a call": (1.75, "≥", 2.0, "×"),
+}
+
+
+def test_each_target_has_its_figure_and_its_bound() -> None:
     rows = {
-        "batch": row("batch", 10.0, 30.0),
+        "batch": row("batch", 10.0, 32.0),
         "batch, many": row("batch, many", 20.0, 40.0),
-        "single": row("single", 2000.0, 7000.0),
-        "pylinkage": row("pylinkage", 150.0, 690.0),
+        "single": row("single", 2000.0, 8000.0),
+        "pylinkage": row("pylinkage", 150.0, 688.0),
         "pylinkage, many": row("pylinkage, many", 160.0, 720.0),
         "pylinkage step": row("pylinkage step", 5000.0, 14000.0),
     }
-    found = {target.what: target for target in targets(rows, 20_000.0)}
-    ratio = found["pylinkage's time to ours: positions, 10,000 at once"]
-    assert (ratio.measured, ratio.met) == (15.0, True)
-    assert found["pylinkage's time to ours: with derivatives, 1,000,000 at once"].measured == 18.0
-    assert found["positions, 1,000,000 to 10,000 at once"].measured == 2.0
-    assert not found["positions, 1,000,000 to 10,000 at once"].met
-    assert not found["with derivatives, one pose a call"].met
-    assert found["press with derivatives, one pose a call"].measured == 20.0
+    found = targets(rows, 20_000.0)
+    told = {
+        target.what: (target.measured, "≥" if target.least else "≤", target.bound, target.unit)
+        for target in found
+    }
+    assert told == TARGETS
 
 
 def test_each_row_has_its_own_times(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -119,3 +164,24 @@ def test_what_has_no_right_pose_is_not_among_the_hard_cases() -> None:
     assert [point.label for point in hard.points] == ["batch by name"]
     assert easy.points[0].ours
     assert LOST.poses == 5198
+
+
+def test_the_share_of_lost_poses_stands_beside_the_name() -> None:
+    some = Score(5000, 1e-9, 1000, 250)
+    _, hard = drawing.panels(replace(result(), rows=(row("circles", 20.0, hard=some), row("batch", 10.0))))
+    assert [point.label for point in hard.points] == ["circles by name (25 %)", "batch by name"]
+
+
+def test_no_error_at_all_has_a_place_on_the_scale() -> None:
+    exact = replace(row("batch", 10.0), easy=Score(360, 0.0, 0, 0))
+    easy, _ = drawing.panels(replace(result(), rows=(exact,)))
+    assert easy.points[0].y == 1e-17
+
+
+def test_the_pictures_lie_one_below_the_other(tmp_path: Path) -> None:
+    pictures = list(drawing.panels(result()))
+    both = pygame.image.load(drawing.draw_pictures(pictures, tmp_path / "both.png"))
+    for number, picture in enumerate(pictures):
+        alone = pygame.image.load(drawing.draw_pictures([picture], tmp_path / f"{number}.png"))
+        part = both.subsurface((0, 640 * number, 1280, 640))
+        assert pygame.image.tobytes(part, "RGB") == pygame.image.tobytes(alone, "RGB")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from linkanim.bench.entries import Timed
-from linkanim.bench.timing import FEWEST, LEAST_SECONDS, nanoseconds
+from linkanim.bench.timing import LEAST_SECONDS, nanoseconds
 
 
 class Bench:
@@ -60,4 +60,27 @@ def test_a_slow_machine_gets_fewer_rounds_but_three() -> None:
         wall=lambda: bench.now,
         progress=lambda done, total: told.append((done, total)),
     )
-    assert told == [(done, 9) for done in range(1, FEWEST + 1)]
+    assert told == [(1, 9), (2, 9), (3, 9)]
+
+
+def test_the_budget_counts_from_the_first_round() -> None:
+    bench, told = Bench(), []
+    bench.now = 1000.0
+    slow = bench.work("slow", [1.0], 1)
+    nanoseconds(
+        {"slow": slow},
+        rounds=6,
+        budget=9.5,
+        clock=lambda: bench.now,
+        wall=lambda: bench.now,
+        progress=lambda done, total: told.append(done),
+    )
+    # Two seconds a round, the untimed run among them: the fifth still begins within the budget.
+    assert told == [1, 2, 3, 4, 5]
+
+
+def test_work_too_short_for_the_clock_is_timed_all_the_same() -> None:
+    bench = Bench()
+    nothing = bench.work("nothing", [0.0], 1)
+    assert nanoseconds({"nothing": nothing}, rounds=3, clock=lambda: bench.now) == {"nothing": 0.0}
+    assert len(bench.done) == 2 * (1 + 3)
