@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -239,6 +239,16 @@ def test_the_recent_part_brightens_towards_the_joint() -> None:
     youngest_last = sorted(zip(_ages(trace, layers, 1.0), away, strict=True), reverse=True)
     assert [brightness for _, brightness in youngest_last] == sorted(set(away))
     assert len(set(away)) == len(layers)
+
+
+@pytest.mark.parametrize("forward", [True, False])
+def test_the_recent_part_has_no_gaps(forward: bool) -> None:
+    trace, layers = _recent("crank-rocker", 1.0, forward=forward)
+    by_shade = [next(layer for layer in layers if layer.colour == shade) for shade in trace.shades]
+    for n, (older, younger) in enumerate(pairwise(by_shade)):
+        # both edges run on below the one on top, from where that ends
+        shared = np.isin(older.loops[0], younger.loops[0])
+        assert shared.sum() >= 4, n
 
 
 def test_of_two_parts_of_the_recent_part_the_younger_lies_on_top_but_next_to_each_other_every_other_one() -> (
