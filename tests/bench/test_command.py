@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import subprocess
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import pytest
 from made_result import result
@@ -39,8 +40,13 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("missing", ["mpmath", "pylinkage", "numba", "scipy"])
 def test_what_is_missing_is_named_with_the_way_to_get_it(missing: str) -> None:
-    with pytest.raises(BadInput, match=rf'{missing}, .*pip install "linkanim\[bench\]"'):
+    with pytest.raises(BadInput, match=rf'{missing}, which is not .*pip install "linkanim\[bench\]"'):
         extra.require_extra(lambda name: None if name == missing else object())
+
+
+def test_all_that_is_missing_is_named_at_once() -> None:
+    with pytest.raises(BadInput, match="numba, scipy, which are not installed"):
+        extra.require_extra(lambda name: None if name in ("numba", "scipy") else object())
 
 
 def test_without_the_extra_bench_ends_in_one_line(
@@ -135,19 +141,36 @@ def test_a_process_of_its_own_leaves_the_features_alone() -> None:
     assert not set(asked) & set(left.split())
 
 
-def test_a_run_without_it_that_fails_is_told_in_its_own_words(monkeypatch: pytest.MonkeyPatch) -> None:
-    failed = subprocess.CompletedProcess([], 2, "", "some\nlinkanim: no such thing\n")
-    monkeypatch.setattr(subprocess, "run", lambda *_, **__: failed)
-    with pytest.raises(WorkFailed, match="no such thing"):
-        again.printed(("X86_V4",), ())
+def test_a_run_without_it_that_fails_is_told_in_its_own_words() -> None:
+    with pytest.raises(WorkFailed, match=r"^the benchmark without X86_V4: linkanim.*--no-such-form"):
+        again.printed(("X86_V4",), ["--no-such-form"])
 
 
 def test_the_machine_is_told() -> None:
     machine = this_machine()
     assert all(feature in machine.line for feature in machine.features)
     assert machine.cpu
-    assert machine.cores >= 1
-    assert machine.line.startswith(machine.cpu)
+    assert machine.cores == os.cpu_count()
+    assert machine.line.startswith(f"{machine.cpu}, {machine.cores} cores, Python 3.")
+
+
+# The system's own word for the processor, and what is left where it has none.
+@pytest.mark.parametrize(
+    ("written", "name"),
+    [
+        pytest.param("vendor_id\t: one\nmodel name\t: A processor\n", "A processor", id="as Linux tells it"),
+        pytest.param(None, "a machine", id="no such file"),
+    ],
+)
+def test_the_processor_has_its_name(
+    written: str | None, name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    if written is not None:
+        (tmp_path / "cpuinfo").write_text(written, encoding="utf-8")
+    monkeypatch.setattr("linkanim.bench.machine.Path", lambda _: tmp_path / "cpuinfo")
+    monkeypatch.setattr("platform.processor", lambda: "")
+    monkeypatch.setattr("platform.machine", lambda: "a machine")
+    assert this_machine().cpu == name
 
 
 def test_a_frame_is_drawn_and_timed() -> None:
@@ -155,6 +178,33 @@ def test_a_frame_is_drawn_and_timed() -> None:
     assert found.size == (320, 180)
     assert 0 < found.milliseconds <= found.slowest + 1e-9
     assert found.core > 0
+
+
+def test_a_frame_s_figures_are_what_the_clocks_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    walls = iter([100.0, 100.009, 200.0, 200.001, 300.0, 300.003, 400.0, 400.002, 500.0, 500.004])
+    used = iter([7.0, 7.001, 8.0, 8.002, 9.0, 9.002, 10.0, 10.002, 11.0, 11.005])
+    clocks = SimpleNamespace(perf_counter=lambda: next(walls), process_time=lambda: next(used))
+    monkeypatch.setattr(window, "time", clocks)
+    found = window.measured((320, 180), frames=5)
+    assert (found.milliseconds, found.slowest, found.processor) == pytest.approx((3.0, 4.0, 2.0))
+    assert found.core == pytest.approx(0.12)
+
+
+def test_the_start_that_compiles_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    starts = iter([9.0, 1.0, 2.0, 1.0])
+    monkeypatch.setattr(window, "_started", lambda compiled: next(starts))
+    assert window.first_frame(starts=3) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("program", "said"), [("raise SystemExit('no screen')", "no screen"), ("pass", "it drew nothing")]
+)
+def test_a_window_that_does_not_start_says_why(
+    program: str, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(window, "TELL_FIRST", program)
+    with pytest.raises(WorkFailed, match=f"the window did not start: {said}"):
+        window.first_frame(starts=1)
 
 
 def test_the_first_frame_comes_from_the_command_itself() -> None:

@@ -119,7 +119,8 @@ def test_nothing_grows_with_the_number_of_frames() -> None:
 
 @pytest.mark.parametrize("name", ["press", "crank-rocker", "slider-crank"])
 def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str) -> None:
-    assert frame_decibels(load(name), (1.0,)) >= 44
+    # Below what two equal pictures have: something is drawn.
+    assert 44 <= frame_decibels(load(name), (1.0,)) < 80
 
 
 @pytest.mark.parametrize("look", [FULL, replace(FULL, theme="dark"), replace(FULL, chart=None)])

@@ -1,0 +1,39 @@
+"""How true a picture is: the measures themselves, on pictures of which the answer is known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from linkanim.bench import fidelity
+from linkanim.bench.cost import _decibels
+
+
+# Every level off by so much: 20 log10(255 / off).
+@pytest.mark.parametrize(("off", "decibels"), [(0, math.inf), (1, 48.1308), (255, 0.0), (51, 13.9794)])
+def test_decibels_are_those_of_the_mean_squared_error(off: int, decibels: float) -> None:
+    black = np.zeros((2, 3, 3))
+    assert fidelity.psnr(black, black + off) == pytest.approx(decibels, abs=1e-4)
+    shown = np.full((2, 3, 3), off, np.uint8)
+    assert _decibels(iter([shown]), np.zeros((1, 24), np.uint8)) == pytest.approx(decibels, abs=1e-4)
+
+
+def test_the_mean_is_that_of_each_square() -> None:
+    picture = np.arange(16.0).reshape(4, 4, 1)
+    assert fidelity.averaged(picture, 2)[..., 0].tolist() == [[2.5, 4.5], [10.5, 12.5]]
+
+
+def test_the_centre_of_a_pixel_is_half_a_pixel_in() -> None:
+    cover = np.zeros((4, 8))
+    cover[1, 5] = 0.5
+    assert fidelity.centre(cover) == 5.5 + 1.5j
+    cover[1, 6] = 1.5
+    assert fidelity.centre(cover) == 6.25 + 1.5j
+
+
+def test_a_bar_that_is_drawn_beside_its_place_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = fidelity._white
+    monkeypatch.setattr(fidelity, "_white", lambda bar: drawn(bar + 0.3 + 0.4j))
+    assert fidelity.jitter(steps=4) == pytest.approx(0.5, abs=0.01)
