@@ -45,6 +45,14 @@ def test_a_method_is_right_on_the_easy_cycle(solve: Solve, least: float, most: f
     assert least <= found.error <= most
 
 
+def test_a_phase_lies_in_the_interval_of_the_table_around_it() -> None:
+    entries = np.zeros(5, complex)
+    table = methods.Samples(0.5, 1.0, 4.0, Points(entries, entries), Points(entries, entries))
+    interval, share = table.place(np.array([0.5, 1.75, 4.25, 4.5, 0.25]))
+    assert interval.tolist() == [0, 1, 3, 0, 3]
+    assert share.tolist() == [0.0, 0.25, 0.75, 0.0, 0.75]
+
+
 def test_pylinkage_is_right_on_the_easy_cycle() -> None:
     pytest.importorskip("pylinkage")
     asked = answer(replace(EASY, inputs=degrees(0, 30)))

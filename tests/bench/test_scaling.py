@@ -14,7 +14,7 @@ from linkanim.bench import command, scaling
 from linkanim.bench.machine import this_machine
 from linkanim.errors import BadInput
 from linkanim.mechanics.linkage import Linkage
-from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.program import BLOCK
 
 MADE = scaling.Growth(
@@ -56,6 +56,39 @@ def test_the_command_prints_and_draws_it(
     assert (tmp_path / command.GROWTH).stat().st_size > 5_000
     command.run(options("--scaling", "--json", "--into", str(tmp_path)))
     assert json.loads(capsys.readouterr().out)["dyads"][0]["dyads"] == 1
+
+
+def test_the_readme_s_tables_have_its_sizes() -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    for title, sizes in (("poses at once", scaling.COUNTS), ("dyads in a chain", scaling.DYADS)):
+        lines = readme.partition(f"| {title}")[2].partition("\n\n")[0].splitlines()[2:]
+        assert [line.split()[1] for line in lines] == [f"{size:,}" for size in sizes]
+
+
+def test_the_last_point_of_each_course_has_its_name() -> None:
+    longest = scaling.Chained(100, 800.0, 4_000.0)
+    poses, dyads = scaling.pictures(MADE._replace(dyads=(*MADE.dyads, longest)))
+    assert poses.points == [
+        ("", 100, 300.0, True),
+        ("positions", 10_000, 14.2, True),
+        ("", 100, 500.0, False),
+        ("with derivatives", 10_000, 27.1, False),
+    ]
+    assert [point.label for point in dyads.points] == ["", "", "positions", "", "", "with derivatives"]
+
+
+# Worked out when first read: without the reading there would be nothing to time.
+@pytest.mark.parametrize(("derivatives", "read"), [(0, "position"), (2, "acceleration")])
+def test_what_is_timed_is_worked_out(derivatives: int, read: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[str] = []
+
+    class Told:
+        def __getattr__(self, name: str) -> None:
+            seen.append(name)
+
+    monkeypatch.setattr(Mechanism, "solve", lambda self, **asked: Told())
+    scaling._at_once(mechanism(scaling.yoke()), np.zeros(3), derivatives).work()
+    assert seen == [read]
 
 
 def test_markdown_is_not_for_it() -> None:
