@@ -81,7 +81,7 @@ class Screen:
 
     def still(self) -> Image.Image:
         """Return the picture once it has stood still for a while."""
-        pictures = [self.picture()]
+        pictures: list[Image.Image] = []
 
         def stands() -> bool:
             pictures.append(self.picture())
