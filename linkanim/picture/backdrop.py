@@ -7,6 +7,7 @@ from typing import NamedTuple
 import pygame
 
 from linkanim.picture.blend import Mix
+from linkanim.picture.raster import is_clear
 
 
 class Backdrop(NamedTuple):
@@ -22,8 +23,3 @@ def wipe(surface: pygame.Surface, still: pygame.Surface) -> None:
     if is_clear(surface):
         surface.fill((0, 0, 0, 0))
     surface.blit(still, (0, 0))
-
-
-def is_clear(surface: pygame.Surface) -> bool:
-    """Return whether a surface lets light through."""
-    return bool(surface.get_flags() & pygame.SRCALPHA)

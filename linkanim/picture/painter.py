@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from linkanim.mechanics.motion import Pose
-from linkanim.picture.backdrop import Backdrop, is_clear, wipe
+from linkanim.picture.backdrop import Backdrop, wipe
 from linkanim.picture.blend import Mix, mix
 from linkanim.picture.chart import pen_for
 from linkanim.picture.drawing import Drawing
@@ -22,7 +22,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.marks import draw_measure, glow, grip
 from linkanim.picture.overlay import DimensionLine, Overlay
 from linkanim.picture.panels import Panels
-from linkanim.picture.raster import Layer, keep_memory, paint, paints, pixels_of, stencil
+from linkanim.picture.raster import Layer, is_clear, keep_memory, paint, paints, pixels_of, stencil
 from linkanim.picture.staging import Staging, staged, wanted_of
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type

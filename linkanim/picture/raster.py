@@ -157,6 +157,11 @@ def pixels_of(surface: pygame.Surface) -> Words:
     return pixels
 
 
+def is_clear(surface: pygame.Surface) -> bool:
+    """Return whether a surface lets light through."""
+    return bool(surface.get_flags() & pygame.SRCALPHA)
+
+
 def paints(surface: pygame.Surface) -> bool:
     """Return whether `paint` can write to this surface."""
     return surface.get_bytesize() == 4 and surface.get_pitch() == 4 * surface.get_width()
@@ -272,7 +277,7 @@ def _put(surface: pygame.Surface, found: Sequence[_Pixels]) -> None:
     if not found:
         return
     full, *partly = found
-    pixels, clear = pixels_of(surface), bool(surface.get_flags() & pygame.SRCALPHA)
+    pixels, clear = pixels_of(surface), is_clear(surface)
     mixes = [(mixed_in(part.place, part.share, part.ink), part.bounds.tolist()) for part in partly]
     bounds = full.bounds.tolist()
     for level in range(len(bounds) - 1):
