@@ -120,7 +120,7 @@ COMMANDS = {
         ),
     ),
     "chart": Command(
-        "draw quantities over one true period as PNG or SVG, or write them as CSV",
+        "draw quantities over one true period as PNG, SVG or PDF, or write them as CSV",
         options.chart,
         (
             "linkanim chart press --quantity 5.travel_velocity -o ram.svg",
@@ -152,7 +152,7 @@ COMMANDS = {
         ("linkanim scenes", "linkanim scenes slider", 'linkanim scenes "six-bars and more"'),
     ),
     "draw": Command(
-        "draw one pose as a figure, SVG or PNG",
+        "draw one pose as a figure, SVG, PNG or PDF",
         options.draw,
         (
             "linkanim draw crank-rocker --names --names",

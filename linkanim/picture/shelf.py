@@ -27,6 +27,8 @@ _SHAPE = 1.6
 """How much wider than high a picture is."""
 _NAMED = 74
 """The least width of a place that has a title below its picture, in pixels."""
+_LEAST = 10
+"""The least size of a title in pixels, below which it is cut rather than set smaller."""
 _HEADING = 1.2
 """The size of a heading, in that of a title."""
 _CHOSEN_TURNS = 2
@@ -229,14 +231,26 @@ def _joined(sheet: _Sheet, shelf: Shelf) -> None:
 
 def _title(sheet: _Sheet, scene: Scene, cell: Rect) -> None:
     """Write a scene's title in two lines below its picture, or its name, or as much of that as has room."""
-    board, text, room = sheet.board, sheet.grid.text, cell.width - 0.5 * sheet.grid.text
-    lines = board.type.wrapped(scene.title, text, room)
-    if len(lines) > 2 or any(board.type.width(word, text) > room for word in scene.title.split()):
-        lines = [board.fitting((scene.title, scene.name), text, room)]
+    board, text = sheet.board, sheet.grid.text
+    lines, size = titled(board, (scene.title, scene.name), text, cell.width - 0.5 * text)
     top = cell.bottom - sheet.grid.line + (0.1 + 0.6 * (2 - len(lines))) * text
     for n, line in enumerate(lines):
-        at = (cell.x + cell.width / 2, top + 1.15 * text * n)
-        board.write(sheet.still, line, at, size=text, anchor="centre")
+        at = (cell.x + cell.width / 2, top + 1.15 * text * n + (text - size) / 2)
+        board.write(sheet.still, line, at, size=size, anchor="centre")
+
+
+def titled(board: Board, names: Sequence[str], text: int, room: float) -> tuple[list[str], int]:
+    """Return the first of some names that has room in two lines, and the size at which it has.
+
+    A line ends at a space or a hyphen. A name that would have to be broken inside is set smaller, and where
+    that does not help either, as much of the last one's two ends as has room.
+    """
+    for size in range(text, _LEAST - 1, -1):
+        for name in names:
+            lines = board.type.wrapped(name, size, room)
+            if len(lines) <= 2 and board.widest(name.replace("-", "- ").split(), size) <= room:
+                return lines, size
+    return [board.fitting(names, text, room)], text
 
 
 def _marked(surface: pygame.Surface, sheet: _Sheet, chosen: int) -> None:

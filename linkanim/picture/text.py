@@ -32,6 +32,8 @@ _SUB, _LOWER, _LEAST = 0.72, 0.2, 8
 _LOOSE = 7
 """Where an x is no higher than this, in pixels, neighbours stand a part of a pixel further apart."""
 _SUBSCRIPT = re.compile(r"_\{([^{}]*)\}|([\u2080-\u209c\u1d62-\u1d6a\u2c7c]+)")
+_HYPHENED = re.compile(r"[^-]*-|[^-]+")
+"""The parts of a word, each with the hyphen at its end."""
 _LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
 _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 
@@ -218,7 +220,7 @@ class Type:
     ) -> list[str]:
         """Return the text in lines no wider than `width`, broken between its words, parted by `gap`.
 
-        A word that is wider is broken inside, as are scripts without spaces.
+        A word that is wider is broken after a hyphen, else anywhere inside, as are scripts without spaces.
         """
         lines: list[str] = []
         for word in filter(str.strip, text.split(gap)):
@@ -232,10 +234,12 @@ class Type:
     def _broken(self, word: str, size: int, width: float, *, strong: bool) -> list[str]:
         """Return a word in pieces no wider than `width`, but of at least one character each."""
         pieces = [""]
-        for char in word:
-            if pieces[-1] and self.width(pieces[-1] + char, size, strong=strong) > width:
-                pieces.append("")
-            pieces[-1] += char
+        for part in _HYPHENED.findall(word):
+            wide = self.width(part, size, strong=strong) > width
+            for more in part if wide else (part,):
+                if pieces[-1] and self.width(pieces[-1] + more, size, strong=strong) > width:
+                    pieces.append("")
+                pieces[-1] += more
         return pieces
 
 
