@@ -20,7 +20,7 @@ _FLASH = 0.45
 
 
 @dataclass(frozen=True)
-class _Plan:
+class _Division:
     """How the list is divided: its text's size and width, the lines above and below the rows, the rows."""
 
     size: int
@@ -37,33 +37,33 @@ class _Plan:
 
 def edit_list(board: Board, panel: Panel) -> pygame.Surface:
     """Return the list; where it would not fit at a size that reads, the rows around the chosen one."""
-    plan = _planned(board, panel)
-    size = plan.size
-    sheet = board.sheet(plan.wide, STEP * size * plan.lines)
-    _head(board, sheet, panel, plan)
-    top = 0.9 + STEP * (1 + len(plan.facts)) + (0.25 if plan.facts else 0.0)
-    for n, row in enumerate(panel.rows[plan.rows.start : plan.rows.stop]):
+    parts = _fitting(board, panel)
+    size = parts.size
+    sheet = board.sheet(parts.wide, STEP * size * parts.lines)
+    _head(board, sheet, panel, parts)
+    top = 0.9 + STEP * (1 + len(parts.facts)) + (0.25 if parts.facts else 0.0)
+    for n, row in enumerate(panel.rows[parts.rows.start : parts.rows.stop]):
         _row(board, sheet, row, (top + STEP * n) * size, size)
-    for n, (line, colour) in enumerate(plan.foot, start=len(plan.rows)):
+    for n, (line, colour) in enumerate(parts.foot, start=len(parts.rows)):
         board.write(sheet, line, (1.2 * size, (top + 0.3 + STEP * n) * size), size=size, colour=colour)
     return sheet
 
 
-def _planned(board: Board, panel: Panel) -> _Plan:
+def _fitting(board: Board, panel: Panel) -> _Division:
     """Return the largest text at which all fits; else the smallest, without the hint, then the facts."""
     sizes = range(board.layout.text_size, board.layout.small_size - 1, -1)
     for size in (size for size in sizes if len(panel.rows) <= _room(board, size)):
-        plan = _divided(board, panel, size, (panel.facts, panel.hint))
-        if len(plan.rows) == len(panel.rows) and _needed(board, panel, size) <= plan.wide:
-            return plan
+        parts = _divided(board, panel, size, (panel.facts, panel.hint))
+        if len(parts.rows) == len(panel.rows) and _needed(board, panel, size) <= parts.wide:
+            return parts
     for more in ((panel.facts, panel.hint), (panel.facts, ""), ((), "")):
-        plan = _divided(board, panel, sizes[-1], more)
-        if len(plan.rows) >= min(_FEWEST, len(panel.rows)):
+        parts = _divided(board, panel, sizes[-1], more)
+        if len(parts.rows) >= min(_FEWEST, len(panel.rows)):
             break
-    return plan
+    return parts
 
 
-def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...], str]) -> _Plan:
+def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...], str]) -> _Division:
     facts, hint = more
     wide = board.layout.lists.width
     room = wide - 2.4 * size
@@ -72,7 +72,7 @@ def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...],
     foot += [(line, board.theme.dim) for line in board.type.wrapped(hint, size, room, gap="   ")]
     chosen = next((n for n, row in enumerate(panel.rows) if row.chosen), 0)
     left = int(_room(board, size) - len(foot) - len(said))
-    return _Plan(size, wide, said, foot, around(len(panel.rows), chosen, left))
+    return _Division(size, wide, said, foot, around(len(panel.rows), chosen, left))
 
 
 def _needed(board: Board, panel: Panel, size: int) -> float:
@@ -86,17 +86,17 @@ def _room(board: Board, size: int) -> float:
     return board.layout.lists.height / STEP / size - _FRAME
 
 
-def _head(board: Board, sheet: pygame.Surface, panel: Panel, plan: _Plan) -> None:
+def _head(board: Board, sheet: pygame.Surface, panel: Panel, parts: _Division) -> None:
     """Draw the title, which of the rows is the chosen one, and the facts, lit up while they flash."""
-    size, left, right = plan.size, 1.2 * plan.size, sheet.get_width() - 1.2 * plan.size
+    size, left, right = parts.size, 1.2 * parts.size, sheet.get_width() - 1.2 * parts.size
     board.write(sheet, panel.title, (left, 0.7 * size), size=size, strong=True)
     chosen = [f"{n} of {len(panel.rows)}" for n, row in enumerate(panel.rows, start=1) if row.chosen]
     at = (right, 0.7 * size)
     board.write(sheet, "".join(chosen), at, size=size, colour=board.theme.dim, anchor="right")
-    if panel.flash > 0.0 and plan.facts:
+    if panel.flash > 0.0 and parts.facts:
         lit = mixed(board.theme.panel, ORANGE, _FLASH * panel.flash)
-        board.bar(sheet, (0.8 + STEP) * size, size, lit, lines=len(plan.facts))
-    for n, line in enumerate(plan.facts, start=1):
+        board.bar(sheet, (0.8 + STEP) * size, size, lit, lines=len(parts.facts))
+    for n, line in enumerate(parts.facts, start=1):
         board.write(sheet, line, (left, (0.8 + STEP * n) * size), size=size)
 
 

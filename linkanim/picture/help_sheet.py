@@ -35,7 +35,7 @@ class _Column(NamedTuple):
     does: float
 
 
-class _Plan(NamedTuple):
+class _Laid(NamedTuple):
     """The columns at one text size, and how large a sheet they need."""
 
     size: int
@@ -50,9 +50,9 @@ def help_sheet(board: Board, told: tuple[Help, int]) -> pygame.Surface:
     Where not all of it can be read there, the last subjects are left out.
     """
     groups, room = told
-    plans = _plans(board, groups, _WIDEST * room)
-    plan = next(filter(partial(_fits, (room, board.layout.size[1])), plans), None)
-    size, columns, wide, high = plan or _planned(board, groups[:1], _LEAST, _WIDEST * room)
+    ways = _ways(board, groups, _WIDEST * room)
+    fitting = next(filter(partial(_fits, (room, board.layout.size[1])), ways), None)
+    size, columns, wide, high = fitting or _laid(board, groups[:1], _LEAST, _WIDEST * room)
     sheet = board.sheet(wide, high)
     x = 1.4 * size
     for column in columns:
@@ -61,19 +61,19 @@ def help_sheet(board: Board, told: tuple[Help, int]) -> pygame.Surface:
     return sheet
 
 
-def _plans(board: Board, groups: Help, room: float) -> Iterator[_Plan]:
+def _ways(board: Board, groups: Help, room: float) -> Iterator[_Laid]:
     """Yield all subjects at every size, smaller ones broken into lines, then fewer and fewer at the least."""
     largest, small = board.layout.text_size, board.layout.small_size
     for size in range(largest, small - 1, -1):
-        yield _planned(board, groups, size)
+        yield _laid(board, groups, size)
     for size in range(small, _LEAST - 1, -1):
-        yield _planned(board, groups, size)
-        yield _planned(board, groups, size, room)
+        yield _laid(board, groups, size)
+        yield _laid(board, groups, size, room)
     for count in range(len(groups) - 1, 0, -1):
-        yield _planned(board, groups[:count], _LEAST, room)
+        yield _laid(board, groups[:count], _LEAST, room)
 
 
-def _planned(board: Board, groups: Help, size: int, room: float | None = None) -> _Plan:
+def _laid(board: Board, groups: Help, size: int, room: float | None = None) -> _Laid:
     """Return the columns at a size, no wider than a room together where one is given."""
     parts = _divided(groups)
     gaps = (_GAP * (3 * len(parts) - 2) + 2.8) * size
@@ -81,12 +81,12 @@ def _planned(board: Board, groups: Help, size: int, room: float | None = None) -
     columns = [_measured(board, lines, size, each) for lines in parts]
     wide = sum(column.keys + column.does for column in columns) + gaps
     high = (_STEP * max(len(column.lines) for column in columns) + 1.6) * size
-    return _Plan(size, columns, wide, high)
+    return _Laid(size, columns, wide, high)
 
 
-def _fits(room: tuple[int, int], plan: _Plan) -> bool:
+def _fits(room: tuple[int, int], laid: _Laid) -> bool:
     width, height = room
-    return plan.wide <= _WIDEST * width + 1 and plan.high <= _WIDEST * height
+    return laid.wide <= _WIDEST * width + 1 and laid.high <= _WIDEST * height
 
 
 def _divided(groups: Help) -> list[tuple[_Line, ...]]:

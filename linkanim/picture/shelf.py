@@ -66,14 +66,14 @@ def grid(size: tuple[int, int], counts: Sequence[int]) -> Grid:
     parts = layout(size)
     text = max(round(12.5 * parts.unit), 11)
     heading = 1.4 * _HEADING * text if len(counts) > 1 else 0.0
-    named = _Rows(Rect(0, 0, *size).inset(8 * parts.unit), tuple(counts), 2.45 * text, heading)
+    named = _Shelves(Rect(0, 0, *size).inset(8 * parts.unit), tuple(counts), 2.45 * text, heading)
     if named.width(named.columns) >= _NAMED:
         return named.grid(text)
     foot = Rect(0, 0, size[0], size[1] - 1.6 * text)
-    return _Rows(foot.inset(6 * parts.unit), (sum(counts),), 0.0, 0.0).grid(text)
+    return _Shelves(foot.inset(6 * parts.unit), (sum(counts),), 0.0, 0.0).grid(text)
 
 
-class _Rows(NamedTuple):
+class _Shelves(NamedTuple):
     """Rows of places in a room; those of a chapter begin below its heading."""
 
     room: Rect

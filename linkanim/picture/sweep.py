@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import outlines
-from linkanim.picture.gears import wheels
 from linkanim.picture.view import Box, joined
+from linkanim.picture.wheels import wheels
 
 _MOMENTS = 120
 _ALONG = np.linspace(0.0, 1.0, 13)

@@ -11,8 +11,8 @@ import imageio.v3 as iio
 import numpy as np
 
 from linkanim.picture.figure import figure
-from linkanim.picture.gears import teeth_a_second
 from linkanim.picture.look import Look
+from linkanim.picture.wheels import teeth_a_second
 from linkanim.recorder.palette import Bytes, make_palette
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.recording import Progress, Recording

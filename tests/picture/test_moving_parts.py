@@ -14,7 +14,7 @@ from pictures import contrast, pixels
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Damper, Drive, Linkage
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.gears import WheelPair, pairs, wheel_layers, wheel_parts, wheels
+from linkanim.picture.gears import wheel_layers, wheel_parts
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen
@@ -26,6 +26,7 @@ from linkanim.picture.theme import DARK, LIGHT, Theme
 from linkanim.picture.trace import Trace, traces
 from linkanim.picture.vectors import LONGEST, arrow_layers, arrows_of
 from linkanim.picture.view import View
+from linkanim.picture.wheels import WheelPair, pairs, wheels
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 

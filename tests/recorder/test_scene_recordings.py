@@ -14,12 +14,12 @@ from reading import durations, frames_of, loops_for_ever
 
 from linkanim.errors import BadInput
 from linkanim.picture.figure import figure
-from linkanim.picture.gears import teeth_a_second
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen, pixel_bytes
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
 from linkanim.picture.theme import theme_of
+from linkanim.picture.wheels import teeth_a_second
 from linkanim.player import tape_file
 from linkanim.player.action import Action
 from linkanim.player.state import begin
