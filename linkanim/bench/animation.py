@@ -37,11 +37,9 @@ def animation_seconds(name: str, *, size: tuple[int, int], frames: int, fps: flo
 def animate(scene: Scene, target: Path, *, size: tuple[int, int], frames: int, fps: float) -> None:
     """Record one true period of a scene in so many frames by matplotlib."""
     from matplotlib.animation import FuncAnimation, PillowWriter
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     sheet = Figure(figsize=(size[0] / _DOTS, size[1] / _DOTS), dpi=_DOTS)
-    FigureCanvasAgg(sheet)
     axes = sheet.add_axes((0.0, 0.0, 1.0, 0.94), aspect="equal", frameon=False, xticks=(), yticks=())
     sheet.suptitle(scene.title)
     updates = list(_drawn(axes, scene, scene.cycle(frames)))
