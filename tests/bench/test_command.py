@@ -22,6 +22,9 @@ from linkanim.bench.cost import Cost, Memory, Work
 from linkanim.bench.machine import this_machine
 from linkanim.cli import main
 from linkanim.errors import BadInput, WorkFailed
+from linkanim.picture.overlay import Overlay
+from linkanim.player.show import overlay
+from linkanim.player.state import State
 from linkanim.scenes import load
 
 
@@ -173,11 +176,25 @@ def test_the_processor_has_its_name(
     assert this_machine().cpu == name
 
 
-def test_a_frame_is_drawn_and_timed() -> None:
+def test_frames_of_the_press_with_all_that_is_said_are_drawn_and_timed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    seen: list[State] = []
+
+    def watched(state: State) -> Overlay:
+        seen.append(state)
+        return overlay(state)
+
+    monkeypatch.setattr(window, "overlay", watched)
     found = window.measured((320, 180), frames=3)
     assert found.size == (320, 180)
     assert 0 < found.milliseconds <= found.slowest + 1e-9
     assert found.core > 0
+    assert [state.frame for state in seen] == [0, 1, 2, 3]
+    ((scene, look),) = {(state.scene.name, state.look) for state in seen}
+    assert (scene, look.trace, look.hud) == ("press", True, True)
+    # With their dimensions, with velocities and accelerations.
+    assert (look.names, look.vectors, look.chart) == (2, frozenset("va"), "C.acceleration")
 
 
 def test_a_frame_s_figures_are_what_the_clocks_tell(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -46,6 +46,7 @@ def test_what_is_timed_is_the_easy_cycle() -> None:
     assert asked.phases[:3] == pytest.approx(exact.phases)
     assert asked.start == pytest.approx(exact.start)
     assert set(asked.sides) == {1.0}
+    assert (asked.periods, asked.by_angle) == (exact.periods, exact.by_angle)
 
 
 def test_a_batch_is_timed_for_its_positions_and_for_its_accelerations() -> None:

@@ -20,6 +20,13 @@ def test_decibels_are_those_of_the_mean_squared_error(off: int, decibels: float)
     assert _decibels(iter([shown]), np.zeros((1, 24), np.uint8)) == pytest.approx(decibels, abs=1e-4)
 
 
+@pytest.mark.parametrize("shown", [0, 1, 3])
+def test_a_file_that_shows_fewer_or_more_frames_has_no_decibels(shown: int) -> None:
+    pictures = [np.zeros((2, 3, 3), np.uint8)] * shown
+    with pytest.raises(ValueError, match="argument"):
+        _decibels(iter(pictures), np.zeros((2, 24), np.uint8))
+
+
 def test_the_mean_is_that_of_each_square() -> None:
     picture = np.arange(16.0).reshape(4, 4, 1)
     assert fidelity.averaged(picture, 2)[..., 0].tolist() == [[2.5, 4.5], [10.5, 12.5]]
