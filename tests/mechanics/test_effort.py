@@ -187,6 +187,39 @@ def test_at_a_limit_the_torque_is_unbounded_and_said_to_be() -> None:
     assert (lines["work per period"], lines["peak torque"]) == ("0 J", "unbounded")
 
 
+STRETCHED = """
+length_unit = "mm"
+{gravity}
+[drive]
+speed = "20 rpm"
+slider = {{ joint = "C", from = 110, to = 230 }}
+[ground]
+O = [0, 0]
+[joints.C]
+line = {{ through = "O", angle = "0 deg" }}
+[joints.K]
+from = ["C", "O"]
+length = [110, 120]
+side = "left"
+[bodies.upper]
+joints = ["O", "K"]
+com = [60, 0]
+mass = "{mass} kg"
+"""
+
+
+# A slider pushes two bars straight: at the end of its way only, the far one falls while the slider rests.
+@pytest.mark.parametrize("mass", [1e-12, 1.0, 1e12])
+def test_what_is_unbounded_at_one_limit_is_told_however_light_or_heavy(mass: float) -> None:
+    told = scene_of(STRETCHED.format(gravity='gravity = "9.81 m/s^2"', mass=mass)).info.demand
+    assert told is not None
+    assert (told.peak, told.mean) == (None, None)
+    # Without gravity it comes through as fast as it goes, and takes no power there.
+    free = scene_of(STRETCHED.format(gravity="", mass=mass)).info.demand
+    assert free is not None
+    assert free.peak == pytest.approx(0.0172281 * mass, rel=1e-5)
+
+
 def test_the_peak_is_the_greatest_torque_and_the_mean_makes_the_work() -> None:
     scene = load("press")
     told = scene.info.demand
