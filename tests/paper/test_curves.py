@@ -126,6 +126,10 @@ def test_an_angle_s_extremes_stay_in_the_turn_of_the_curve_and_at_its_ends(pace:
     assert low.x == pytest.approx(0.0)
     assert high.value - low.value == pytest.approx(360.0)
     assert high.value == pytest.approx(found.curves[0].values.max())
+    rocking = _curves("crank-rocker", "rocker.angle", paces=(pace,))
+    high, low = extremes(rocking.scene, rocking.curves[0])
+    assert high.value == pytest.approx(rocking.curves[0].values.max(), abs=0.01)
+    assert low.value == pytest.approx(rocking.curves[0].values.min(), abs=0.01)
     swinging = _curves("double-rocker", "P.position", over="angle")
     for curve in swinging.curves:
         high, low = extremes(swinging.scene, curve)

@@ -143,6 +143,16 @@ def test_faint_poses_stay_behind_and_faint() -> None:
     assert np.abs(many - plain)[changed].mean() < 60
 
 
+def test_a_figure_of_which_nothing_is_asked_is_of_one_pose_and_one_closure() -> None:
+    scene = load("crank-rocker")
+    bare, ghost = Figured(scene, SIZE, FULL), Figured(scene, SIZE, replace(FULL, ghost=True))
+    assert "pose-1" not in _groups(bare)
+    assert "pose-1" in _groups(ghost)
+    assert "pose-2" not in _groups(ghost)
+    one, both = (figured.drawing.scenery.view for figured in (bare, replace(bare, both=True)))
+    assert one != both
+
+
 def test_instant_centres_are_where_the_quantity_says_and_pins_are_not_marked() -> None:
     scene = load("press")
     figured = Figured(scene, (1280, 720), Look(hud=False, centres=1), phase=1.0)

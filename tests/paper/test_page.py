@@ -15,10 +15,11 @@ from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Pace, curves_of
 from linkanim.paper.measured import beside
 from linkanim.paper.svg import svg
-from linkanim.picture.items import Caption, draw
+from linkanim.picture.items import Caption, Group, Halo, draw
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.quantities import telling
 from linkanim.picture.raster import Layer
+from linkanim.picture.text import typesetting
 from linkanim.scenes import load, names
 
 SIZE = (800, 450)
@@ -156,15 +157,57 @@ def test_a_legend_s_words_stand_beside_their_line() -> None:
             assert item.at[1] <= line.centery <= item.at[1] + item.size
 
 
+def test_a_legend_s_entries_stand_a_letter_s_height_and_more_apart() -> None:
+    page = _page("press", "5.travel_velocity", speeds=(5.0, 10.0, 20.0))
+    items = list(page.items())
+    places = {item.text: n for n, item in enumerate(items) if isinstance(item, Caption)}
+    for before, after in pairwise(("5 rad/s", "10 rad/s", "20 rad/s")):
+        words, line = items[places[before]], items[places[after] - 1]
+        assert isinstance(words, Caption)
+        assert isinstance(line, Layer)
+        gap = _extent(line).x - words.at[0] - page.pen.type.width(words.text, words.size)
+        assert gap == pytest.approx(1.6 * words.size, abs=1.5)
+
+
+# a page's edge is that of the window, and as wide on all four sides as its words go
+@pytest.mark.parametrize("tokens", [("5.travel_velocity",), ("5.travel_velocity", "3.angular_velocity")])
+def test_a_chart_fills_its_page_up_to_an_edge(tokens: tuple[str, ...]) -> None:
+    page = _page("press", *tokens, size=(1280, 720))
+    title = next(iter(page.items()))
+    assert isinstance(title, Caption)
+    assert title.at == pytest.approx((20, 20), abs=0.1)
+    boxes, small = _boxes(page), page.pen.small
+    assert min(box.left for box in boxes) == pytest.approx(20, abs=1)
+    assert min(box.left for box in boxes[1:]) == pytest.approx(20, abs=0.2 * small)
+    assert 1260 - 1.5 * small <= max(box.right for box in boxes) <= 1260
+    assert 700 - 0.5 * small <= max(box.bottom for box in boxes) <= 700
+
+
 def test_the_greatest_value_is_told_above_its_dot_and_the_least_below() -> None:
     items = list(_page("press", "5.travel_velocity", speeds=(10.0,)).items())
     places = {}
     for n, item in enumerate(items):
         if isinstance(item, Caption) and " at " in item.text:
             dot = items[n - 2]
+            back = items[n - 1]
             assert isinstance(dot, Layer)
+            assert isinstance(back, Layer)
+            assert item.size <= _extent(back).height <= 1.3 * item.size
             places[item.text] = item.at[1] + item.size / 2 - _extent(dot).centery
     assert places["659 at 34.8°"] < 0 < places["−255 at 164.9°"]
+
+
+def test_an_extreme_at_the_end_of_a_curve_is_told_beside_its_dot() -> None:
+    page = _page("drag-link", "rocker.angle")
+    items = list(page.items())
+    told = [n for n, item in enumerate(items) if isinstance(item, Caption) and " at " in item.text]
+    assert len(told) == 2
+    for n in told:
+        words, dot = items[n], items[n - 2]
+        assert isinstance(words, Caption)
+        assert isinstance(dot, Layer)
+        right = words.at[0] + page.pen.type.width(words.text, words.size)
+        assert right < _extent(dot).left or words.at[0] > _extent(dot).right
 
 
 @pytest.mark.parametrize("name", names())
@@ -207,6 +250,43 @@ def test_a_line_goes_on_at_its_height_after_a_subscript() -> None:
     assert sum(shifts) == 0
     smaller = [span.text for span in text.iter(f"{SVG}tspan") if float(span.get("font-size", "20")) < 20]
     assert smaller == [span.text for span in text.iter(f"{SVG}tspan") if float(span.get("dy", "0")) > 0]
+
+
+def test_words_in_an_svg_stand_where_they_are_set_in_their_size_and_weight() -> None:
+    lines = [
+        Caption(words, (30.0, 10.0), 20, (0, 0, 255), strong=words == "strong")
+        for words in ("strong", "plain")
+    ]
+    strong, plain = ElementTree.fromstring(svg((100, 40), None, lines, title="t")).iter(f"{SVG}text")
+    how = typesetting(20)
+    wanted = {"x": "30.00", "y": f"{10 + how.baseline:.2f}", "font-size": f"{how.em:.2f}", "fill": "#0000ff"}
+    assert how.baseline > 0
+    assert plain.attrib == {**wanted, "text-anchor": "start"}
+    assert strong.attrib == {**plain.attrib, "font-weight": "600"}
+    rimmed = lines[1]._replace(halo=Halo((255, 255, 0), 1.5))
+    (text,) = ElementTree.fromstring(svg((100, 40), None, [rimmed], title="t")).iter(f"{SVG}text")
+    rim = {"stroke": "#ffff00", "stroke-width": "3.00", "stroke-linejoin": "round", "paint-order": "stroke"}
+    assert text.attrib == {**plain.attrib, **rim}
+
+
+def test_a_path_in_an_svg_is_its_loop_to_hundredths_of_a_pixel() -> None:
+    loop = np.array([1.2345, 1.2349, 8 + 2.5j, 4 + 6.2j])
+    document = ElementTree.fromstring(
+        svg((10, 10), None, [Layer((255, 0, 0), [loop, loop + 1], 0.5)], title="t")
+    )
+    (path,) = document.iter(f"{SVG}path")
+    assert path.attrib == {
+        "fill": "#ff0000",
+        "fill-opacity": "0.5",
+        "d": "M1.23 0L8 2.5L4 6.2ZM2.23 0L9 2.5L5 6.2Z",
+    }
+
+
+def test_groups_of_one_name_have_ids_of_their_own() -> None:
+    square = Layer((0, 0, 0), [np.array([0, 1, 1 + 1j])])
+    groups = [Group(name, [square]) for name in ("a b", "a b", "c", "a b")]
+    document = ElementTree.fromstring(svg((10, 10), None, groups, title="t"))
+    assert [group.get("id") for group in document.iter(f"{SVG}g")] == ["a_b", "a_b-2", "c", "a_b-3"]
 
 
 def test_a_table_is_laid_over_the_curve_and_its_largest_difference_found() -> None:

@@ -16,7 +16,7 @@ from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look
 from linkanim.picture.raster import Layer
-from linkanim.picture.text import Anchor, typesetting
+from linkanim.picture.text import Anchor, Type, typesetting
 from linkanim.scenes import load
 
 SQUARE = np.array([10, 30, 30 + 20j, 10 + 20j], complex)
@@ -42,6 +42,8 @@ def test_a_path_stands_where_it_is_and_has_its_colour() -> None:
     assert re.search(r"\b10 0 m\b|\b7\.5 150 m\b", drawn)
     assert re.search(r"\b1 0 0 rg\b", drawn)
     assert " f" in drawn
+    corners = [(float(x), float(y)) for x, y in re.findall(r"([\d.]+) ([\d.]+) [ml]\b", drawn)]
+    assert len(set(corners)) == len(SQUARE)
 
 
 def test_words_keep_their_subscripts_and_what_the_face_has_not_is_spelt_or_left_out() -> None:
@@ -73,7 +75,8 @@ def test_words_are_as_large_as_on_the_screen_and_stand_there_in_a_halo_as_wide()
     letters, lowered = (150 - 0.75 * (50 + how.baseline + lower) for lower in (0, how.lower))
     places = [(float(x), float(y)) for x, y in re.findall(r"BT ([\d.]+) ([\d.]+) Td", drawn)]
     assert [y for _, y in places] == [letters] * 2 + [lowered] * 2
-    assert places[0][0] == 37.5 < places[2][0]
+    assert places[0][0] == 37.5
+    assert places[2][0] - 37.5 == pytest.approx(0.75 * Type().width("v", 20, strong=True), abs=0.75)
     # twice the halo's width, which reaches so far on either side; over it the word in its own colour
     assert re.findall(r"1 1 0 RG\b|\b1 Tr \S+ w", drawn) == ["1 1 0 RG", "1 Tr 3.00 w"] * 2
     assert len(re.findall(r"q 0 0 1 rg BT [\d.]+ [\d.]+ Td \(", drawn)) == 2

@@ -155,6 +155,11 @@ def test_a_slider_s_extremes_are_told_by_themselves() -> None:
         "θ₂ = 0.00° (start)",
         "θ₂ = 85.94°",
     ]
+    second_turn = Instant(math.radians(447), "")
+    assert sheet(load("kite"), second_turn, PACES).title == "θ₂ = 147.00°"
+    piston = load("driven-piston")
+    travel = float(piston.solve(phase=1.0).crank_angle)
+    assert sheet(piston, Instant(1.0, "then"), PACES).title == f"s = {travel:.2f} mm (then)"
     for instant, degrees in ((high, 71.0), (low, 316.5)):
         assert math.degrees(instant.phase) == pytest.approx(degrees, abs=1.0)
         assert scene.pose(instant.phase).travel_velocity["5"] == pytest.approx(0.0, abs=1e-4)
@@ -172,6 +177,14 @@ def test_what_stands_still_has_no_chart() -> None:
     tokens = [token for _, token in charted(load("parallelogram"))]
     assert "coupler.angular_velocity" not in tokens
     assert "crank.angle" in tokens
+
+
+def test_of_joints_that_are_not_traced_and_of_poles_the_tables_tell() -> None:
+    press = load("press")
+    told = {token.partition(".")[0]: heading for heading, token in charted(press)}
+    joints = {joint.name for joint in press.linkage.joints} - {body.name for body in press.linkage.bodies}
+    assert joints & told.keys() == set(press.trace)
+    assert not any(".pole" in token for _, token in charted(press))
 
 
 def test_angles_choose_the_phase_also_of_a_swing() -> None:
