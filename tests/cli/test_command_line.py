@@ -1,0 +1,51 @@
+"""What a command line is read as: the command, and what holds where nothing is said."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import linkanim
+from linkanim.cli import main
+from linkanim.cli.commands import parse
+
+# What is on, or has a value, in a command line that says only what it must.
+UNSAID: list[tuple[list[str], dict[str, Any]]] = [
+    ([], {"command": "play", "theme": "light"}),
+    (["record", "press"], {"trace": True, "hud": True, "theme": "light"}),
+    (["draw", "press"], {"trace": True, "theme": "light"}),
+    (["solve", "press"], {}),
+    (["info", "press"], {}),
+    (["scenes"], {}),
+    (["check"], {}),
+    (["gallery"], {"into": Path("recordings")}),
+    (["bench"], {"into": Path("recordings")}),
+]
+
+
+@pytest.mark.parametrize(("words", "on"), UNSAID, ids=[" ".join(words) for words, _ in UNSAID])
+def test_what_is_not_said_is_plain(words: list[str], on: dict[str, Any]) -> None:
+    said = {"command": words[0]} if words else {}
+    said |= {"scene": words[1]} if words[1:] else {}
+    found = {name: value for name, value in vars(parse(words)).items() if value}
+    assert found == {**said, **on}
+
+
+# a scene, a path of any sort, an option of the window's
+@pytest.mark.parametrize("word", ["press", "mine.toml", "a/b", "a\\b"])
+def test_a_first_word_that_is_a_scene_or_a_path_opens_the_window(word: str) -> None:
+    chosen = parse([word, "--theme", "dark"])
+    assert (chosen.command, chosen.scene, chosen.theme) == ("play", word, "dark")
+
+
+def test_the_process_s_own_words_are_read_where_none_are_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", ["linkanim", "info", "press"])
+    assert (parse().command, parse().scene) == ("info", "press")
+
+
+def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"linkanim {linkanim.__version__}\n"
