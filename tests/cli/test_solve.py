@@ -330,6 +330,13 @@ def test_each_column_of_the_words_holds_what_its_title_says(solve: Solve, solved
     assert {place: words[place[0]][place[1]] for place in meant} == pytest.approx(meant, rel=1e-6)
 
 
+def test_a_force_that_the_scene_does_not_give_is_said_to_be_so(solve: Solve) -> None:
+    *_, title, stick, bucket = solve("excavator", "--phase", "1 rad").splitlines()
+    assert title.split("  ")[-1].strip() == "force N"
+    for line, length in ((stick, "235"), (bucket, "205")):
+        assert re.split(r"\s{2,}", line)[1::2] == [length, "not given"]
+
+
 def test_the_words_of_a_limit_say_unbounded(solve: Solve) -> None:
     assert "unbounded" in solve("double-rocker", "--phase", "0 deg")
 

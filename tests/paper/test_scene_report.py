@@ -74,7 +74,8 @@ def test_the_page_s_headings_outline_it(press: Path) -> None:
     ]
     parts = [words for level, words in headings if level == "3"]
     assert {"Link 3", "Slider 5", "C", "Link 3, centre of mass", "Damper cushion", "The whole"} <= set(parts)
-    assert html.escape(scene.look_at) in text
+    assert f"<p class='source'>{html.escape(scene.source)}</p>" in text
+    assert f"<p>{html.escape(scene.look_at)}</p>" in text
     assert min(path.name.split("-")[1] for path in press.glob("chart-*.svg")).lstrip("0") == "1"
 
 
