@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import pygame
 import pytest
+from pictures import pixels
 
 from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
-from linkanim.picture.shelf import titled
+from linkanim.picture.overlay import Shelf
+from linkanim.picture.shelf import ShelfPainter, grid, titled
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
+from linkanim.picture.view import Rect
 
 TEXT = 12
 BOARD = Board(layout((1280, 720)), Type(), theme_of("light"))
@@ -45,3 +49,34 @@ def test_a_word_that_has_no_room_is_set_smaller_then_cut() -> None:
     assert "…" in line
     assert size == TEXT
     assert BOARD.type.width(line, size) <= 0.6 * room
+
+
+def _shown(size: tuple[int, int], chosen: int) -> pygame.Surface:
+    """The shelf of three mechanisms, all of them there, still."""
+    surface, painter = pygame.Surface(size, 0, 32), ShelfPainter()
+    for frame in range(4):
+        painter.draw(surface, Shelf(("kite", "hart", "wiper"), chosen, frame, "light", still=True))
+    return surface
+
+
+@pytest.mark.parametrize("chosen", [0, 2])
+def test_the_chosen_mechanism_has_a_frame_of_its_own(chosen: int) -> None:
+    size, colour = (640, 480), theme_of("light").velocity
+    surface = _shown(size, chosen)
+    for n, cell in enumerate(grid(size, (1, 1, 1)).cells):
+        beside = [tuple(surface.get_at((round(cell.x) - 1, y)))[:3] for y in _middle(cell)]
+        assert all((pixel == colour) == (n == chosen) for pixel in beside), n
+
+
+def _middle(cell: Rect) -> range:
+    return range(round(cell.y + cell.height / 3), round(cell.bottom - cell.height / 3))
+
+
+def test_where_there_are_no_titles_the_chosen_one_s_stands_at_the_foot() -> None:
+    size = (160, 120)
+    assert not grid(size, (1, 1, 1)).line
+    pictures = [pixels(_shown(size, chosen)) for chosen in (0, 2)]
+    low = max(round(cell.bottom) for cell in grid(size, (1, 1, 1)).cells) + 3
+    feet = [picture[low:] for picture in pictures]
+    assert all((foot != foot[-1, 0]).any() for foot in feet)
+    assert (feet[0] != feet[1]).any()
