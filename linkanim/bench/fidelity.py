@@ -54,7 +54,7 @@ def psnr(one: Pixels, other: Pixels) -> float:
 
 
 def centre(cover: Pixels) -> complex:
-    """Return the centre of gravity of a (height, width) coverage, pixel (0, 0) reaching from 0 to 1."""
+    """Return the centre of gravity of a (height, width) coverage in any unit, pixel (0, 0) from 0 to 1."""
     rows, columns = np.indices(cover.shape) + 0.5
     return complex((columns * cover).sum(), (rows * cover).sum()) / float(cover.sum())
 
@@ -69,7 +69,7 @@ def _white(bar: NDArray[np.complex128]) -> Pixels:
     size = (340, 120)
     surface = offscreen(size)
     paint(surface, [Layer((255, 255, 255), [bar])])
-    return _levels(pixel_bytes(surface), size)[..., 0] / 255
+    return _levels(pixel_bytes(surface), size)[..., 0]
 
 
 def _levels(data: bytes, size: tuple[int, int]) -> Pixels:

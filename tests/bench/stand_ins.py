@@ -176,7 +176,9 @@ class Axes:
         self.lines.append(Line(x, y))
         return self.lines[-1:]
 
-    def quiver(self, x: float, y: float, u: float, v: float, *, scale: float, **_: object) -> Arrow:
+    def quiver(self, *from_and_by: float, scale: float, width: float, **_: object) -> Arrow:
+        x, y, u, v = from_and_by
+        assert width < 0.01, "in widths of the picture"
         self.arrows.append(Arrow((x, y), (u, v), scale))
         return self.arrows[-1]
 
@@ -201,8 +203,11 @@ def matplotlib(saved: list[Saved]) -> Iterator[ModuleType]:
             self.titles: list[str] = []
             self.axes = Axes()
 
-        def add_axes(self, rectangle: tuple[float, float, float, float], **_: object) -> Axes:
-            assert all(0 <= share <= 1 for share in rectangle)
+        def add_axes(self, rectangle: tuple[float, float, float, float], **looks: object) -> Axes:
+            left, bottom, width, height = rectangle
+            assert 0 <= left < left + width <= 1
+            assert 0 <= bottom < bottom + height < 1, "a title needs room"
+            assert looks == {"aspect": "equal", "frameon": False, "xticks": (), "yticks": ()}
             return self.axes
 
         def suptitle(self, title: str) -> None:

@@ -9,6 +9,11 @@ import pytest
 
 from linkanim.bench import fidelity
 from linkanim.bench.cost import _decibels
+from linkanim.bench.fidelity import Pixels
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.look import Look
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
 
 
 # Every level off by so much: 20 log10(255 / off).
@@ -18,6 +23,36 @@ def test_decibels_are_those_of_the_mean_squared_error(off: int, decibels: float)
     assert fidelity.psnr(black, black + off) == pytest.approx(decibels, abs=1e-4)
     shown = np.full((2, 3, 3), off, np.uint8)
     assert _decibels(iter([shown]), np.zeros((1, 24), np.uint8)) == pytest.approx(decibels, abs=1e-4)
+
+
+def test_the_worst_frame_counts_without_words_and_against_64_samples_a_pixel(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made: list[tuple[int, int]] = []
+
+    def painter(scene: Scene, size: tuple[int, int], look: Look) -> tuple[int, int]:
+        assert (scene.name, look.hud, look.vectors) == ("press", False, frozenset("va"))
+        made.append(size)
+        return size
+
+    def painted(size: tuple[int, int], pose: Pose) -> Pixels:
+        width, height = size
+        off = {0.0: 1.0, 1.0: 51.0, 2.5: 2.0}[pose.phase] if size == made[1] else 0.0
+        return np.full((height, width, 3), off)
+
+    monkeypatch.setattr(fidelity, "SIZE", (32, 18))
+    monkeypatch.setattr(fidelity, "Painter", painter)
+    monkeypatch.setattr(fidelity, "_painted", painted)
+    found = fidelity.frame_decibels(load("press"), (0.0, 1.0, 2.5))
+    assert found == pytest.approx(13.9794, abs=1e-4)
+    (width, height), (wider, higher) = made
+    assert (width, height, wider * higher / (width * height)) == (32, 18, 64)
+
+
+def test_a_pixel_has_three_levels_and_a_byte_that_does_not_count() -> None:
+    levels = fidelity._levels(bytes(range(24)), (3, 2))
+    assert levels.shape == (2, 3, 3)
+    assert levels[1].tolist() == [[12, 13, 14], [16, 17, 18], [20, 21, 22]]
 
 
 @pytest.mark.parametrize("shown", [0, 1, 3])
