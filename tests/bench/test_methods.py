@@ -53,6 +53,15 @@ def test_a_phase_lies_in_the_interval_of_the_table_around_it() -> None:
     assert share.tolist() == [0.0, 0.25, 0.75, 0.0, 0.75]
 
 
+def test_a_table_has_an_entry_at_every_degree_and_half_a_degree_off_those_that_are_asked() -> None:
+    for case, count in ((EASY, 361), (HARD[2], 721)):
+        asked = answer(replace(case, inputs=degrees(0, 3))).question
+        table = methods.table_of(asked)
+        assert np.degrees([table.first, table.step]) == pytest.approx([-0.5, 1.0])
+        assert len(table.values.b) == len(table.slopes.p) == count
+        assert np.degrees(table.period) == pytest.approx(360 * case.periods)
+
+
 def test_pylinkage_is_right_on_the_easy_cycle() -> None:
     pytest.importorskip("pylinkage")
     asked = answer(replace(EASY, inputs=degrees(0, 30)))

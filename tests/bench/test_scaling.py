@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from made_result import result
+from numpy.typing import NDArray
 from test_command import options
 
 from linkanim.bench import command, scaling
+from linkanim.bench.entries import Timed
 from linkanim.bench.machine import this_machine
 from linkanim.errors import BadInput
 from linkanim.mechanics.linkage import Linkage
@@ -60,7 +63,8 @@ def test_the_command_prints_and_draws_it(
 
 def test_the_readme_s_tables_have_its_sizes() -> None:
     readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
-    for title, sizes in (("poses at once", scaling.COUNTS), ("dyads in a chain", scaling.DYADS)):
+    chained = f"dyads in a chain, {scaling.AT_ONCE:,} poses at once"
+    for title, sizes in (("poses at once", scaling.COUNTS), (chained, scaling.DYADS)):
         lines = readme.partition(f"| {title}")[2].partition("\n\n")[0].splitlines()[2:]
         assert [line.split()[1] for line in lines] == [f"{size:,}" for size in sizes]
 
@@ -91,6 +95,25 @@ def test_what_is_timed_is_worked_out(derivatives: int, read: str, monkeypatch: p
     assert seen == [read]
 
 
+def test_the_first_run_of_a_size_is_timed_once_all_else_is_ready(monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[tuple[int, int]] = []
+    clock = iter([1.0, 1.000_01, 2.0, 2.000_02])
+
+    def at_once(_: Mechanism, angles: NDArray[np.float64], derivatives: int) -> Timed:
+        return Timed(lambda: done.append((angles.size, derivatives)), angles.size)
+
+    monkeypatch.setattr(scaling, "_at_once", at_once)
+    monkeypatch.setattr(scaling, "time", SimpleNamespace(perf_counter=lambda: next(clock)))
+    monkeypatch.setattr(scaling, "nanoseconds", lambda work, **_: {key: sum(key) for key in work})
+    found = [row[:4] for row in scaling.sizes((50, 500))]
+    assert done[:4] == [(1, 0), (1, 2), (50, 2), (500, 2)]
+    assert found == [pytest.approx((50, 50, 52, 200.0)), pytest.approx((500, 500, 502, 40.0))]
+
+
+def test_what_is_asked_at_once_is_one_turn() -> None:
+    assert scaling._turn(4) == pytest.approx([0.0, np.pi / 2, np.pi, 3 * np.pi / 2])
+
+
 def test_markdown_is_not_for_it() -> None:
     with pytest.raises(BadInput, match="--scaling"):
         command.run(options("--scaling", "--markdown"))
@@ -111,7 +134,10 @@ def test_everything_is_measured() -> None:
 
 @pytest.mark.parametrize("dyads", [1, 3, 50])
 def test_a_chain_turns_fully_and_its_rockers_swing_alike(dyads: int) -> None:
-    made = mechanism(scaling.chain(dyads))
+    linkage = scaling.chain(dyads)
+    made = mechanism(linkage)
+    # Besides each dyad's pin and its joint: the crank's pin and the crank.
+    assert len(linkage.joints) == 2 * dyads + 2
     assert made.assembly.path.full_turn
     position = made.solve(angle=np.linspace(0.0, 6.0, 7), speed=1.0).position
     apart = position[f"B{dyads}"] - position["B1"]
