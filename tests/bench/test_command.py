@@ -277,7 +277,9 @@ def test_each_way_to_ask_prints_its_table_or_its_object(
     assert text.startswith(this_machine().line)
     assert f"\n{title}  " in text
     assert main(["bench", word, "--json"]) == 0
-    assert holds in json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    text = capsys.readouterr().out
+    assert text.startswith('{\n  "')
+    assert holds in json.loads(text, parse_constant=pytest.fail)
 
 
 def test_the_figures_of_recordings_are_the_recorders() -> None:

@@ -17,6 +17,7 @@ from linkanim.bench.cases import EASY, HARD
 from linkanim.bench.entries import Entry, Timed
 from linkanim.bench.question import Points, Question
 from linkanim.bench.result import Target, run, targets
+from linkanim.picture.scatter import ScatterTitles, scatter
 
 
 def test_the_table_has_a_line_for_each_method_and_target() -> None:
@@ -71,6 +72,7 @@ def test_the_json_is_strict_and_whole() -> None:
     assert [target["met"] for target in found["targets"]] == [True, False]
     assert (found["targets"][0]["most"], found["targets"][1]["least"]) == (15.0, 10.0)
     assert '"unit": "×"' in report.as_json(result())
+    assert report.as_json(result()).startswith('{\n  "machine": {\n    "cpu"')
 
 
 # On the bound a target is met, past it missed, and without a figure missed, too.
@@ -182,6 +184,7 @@ def test_the_pictures_lie_one_below_the_other(tmp_path: Path) -> None:
     pictures = list(drawing.panels(result()))
     both = pygame.image.load(drawing.draw_pictures(pictures, tmp_path / "both.png"))
     for number, picture in enumerate(pictures):
-        alone = pygame.image.load(drawing.draw_pictures([picture], tmp_path / f"{number}.png"))
+        titles = ScatterTitles(picture.title, picture.across, picture.up)
+        alone = scatter(picture.points, titles, size=(1280, 640))
         part = both.subsurface((0, 640 * number, 1280, 640))
         assert pygame.image.tobytes(part, "RGB") == pygame.image.tobytes(alone, "RGB")
