@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import groupby
 
 from linkanim.cells import csv_head, csv_rows
 from linkanim.digits import rpm, typeset
@@ -67,9 +66,9 @@ class Report:
             yield html.paragraph(note)
         yield from self._tables()
         yield html.heading(2, f"Over one period, at {', '.join(map(_speed, self.paces))}")
-        for title, group in groupby(charts, key=lambda chart: chart[0]):
+        for title in dict.fromkeys(title for title, _, _ in charts):
             yield html.heading(3, title)
-            yield from (html.figure(text) for _, _, text in group)
+            yield from (html.figure(text) for heading, _, text in charts if heading == title)
 
     def _tables(self) -> Iterator[str]:
         for instant in self.instants:

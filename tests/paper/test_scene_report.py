@@ -72,6 +72,9 @@ def test_the_page_s_headings_outline_it(press: Path) -> None:
         *["At θ₂"] * (len(outline) - 3),
         "Over one period, at 5 rad/s, 10 rad/s, 20 rad/s",
     ]
+    last = max(n for n, (level, _) in enumerate(headings) if level == "2")
+    over = dict.fromkeys(html.escape(heading) for heading, _ in charted(scene))
+    assert list(over) == [words for _, words in headings[last + 1 :]]
     parts = [words for level, words in headings if level == "3"]
     assert {"Link 3", "Slider 5", "C", "Link 3, centre of mass", "Damper cushion", "The whole"} <= set(parts)
     assert f"<p class='source'>{html.escape(scene.source)}</p>" in text
@@ -79,9 +82,25 @@ def test_the_page_s_headings_outline_it(press: Path) -> None:
     assert min(path.name.split("-")[1] for path in press.glob("chart-*.svg")).lstrip("0") == "1"
 
 
-def test_its_pictures_are_well_formed(press: Path) -> None:
+def test_rows_are_named_without_what_their_heading_says(press: Path) -> None:
+    text = (press / "report.html").read_text(encoding="utf-8")
+    named = re.findall(r"<tr><th>([^<]*)</th><td>ω₃</td>|<th>([^<]*)</th><td>μ</td>", text)
+    assert set(named) == {("angular velocity", ""), ("", "Transmission angle")}
+
+
+def test_its_pictures_are_well_formed_and_as_large_as_each_other(press: Path) -> None:
+    sizes = {}
     for path in press.glob("*.svg"):
-        assert ElementTree.parse(path).getroot().tag == "{http://www.w3.org/2000/svg}svg"
+        root = ElementTree.parse(path).getroot()
+        assert root.tag == "{http://www.w3.org/2000/svg}svg"
+        sizes.setdefault(path.stem.partition("-")[0], set()).add((root.get("width"), root.get("height")))
+    assert sizes == {"figure": {("900", "560")}, "chart": {("900", "360")}}
+
+
+def test_its_figure_names_the_dimensions_and_has_no_other_words(press: Path) -> None:
+    root = ElementTree.parse(press / "figure.svg").getroot()
+    assert "r3 = 283 mm" in {"".join(text.itertext()) for text in root.iter() if text.tag.endswith("text")}
+    assert {"words", "key"}.isdisjoint(group.get("id") for group in root.iter())
 
 
 # What the printed report on the press prints or plots.
