@@ -157,6 +157,11 @@ def test_the_machine_is_told() -> None:
     assert machine.line.startswith(f"{machine.cpu}, {machine.cores} cores, Python 3.")
 
 
+def test_a_machine_has_a_core_where_the_system_does_not_count_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.cpu_count", lambda: None)
+    assert this_machine().cores == 1
+
+
 # The system's own word for the processor, and what is left where it has none.
 @pytest.mark.parametrize(
     ("written", "name"),
