@@ -212,6 +212,30 @@ def test_a_frame_s_figures_are_what_the_clocks_tell(monkeypatch: pytest.MonkeyPa
     assert found.core == pytest.approx(0.12)
 
 
+@pytest.mark.parametrize("driver", [None, "x11"])
+def test_drawing_is_measured_without_a_window_and_the_driver_is_put_back(
+    driver: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drivers: list[str | None] = []
+
+    def measured(size: tuple[int, int]) -> window.FrameTimes:
+        drivers.append(os.environ.get("SDL_VIDEODRIVER"))
+        return window.FrameTimes(size, 5.0, 7.0, 5.0)
+
+    monkeypatch.setattr(window, "measured", measured)
+    monkeypatch.setattr(window, "frame_decibels", lambda scene: 51.0 if scene.name == "press" else 0.0)
+    monkeypatch.setattr(window, "jitter", lambda: 0.002)
+    monkeypatch.setattr(window, "first_frame", lambda: 0.25)
+    monkeypatch.delenv("SDL_VIDEODRIVER", raising=False)
+    if driver is not None:
+        monkeypatch.setenv("SDL_VIDEODRIVER", driver)
+    found = window.run()
+    assert drivers == ["dummy", "dummy"]
+    assert os.environ.get("SDL_VIDEODRIVER") == driver
+    assert [frames.size for frames in found.frames] == [(1280, 720), (1920, 1080)]
+    assert (found.first, found.decibels, found.jitter) == (0.25, 51.0, 0.002)
+
+
 def test_the_start_that_compiles_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
     starts = iter([9.0, 1.0, 2.0, 1.0])
     monkeypatch.setattr(window, "_started", lambda compiled: next(starts))

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from linkanim.bench.cost import cost
+from linkanim.bench import cost as costs
+from linkanim.bench.cost import FRAMES, SIZE, Work, cost
+from linkanim.recorder.encode import Stream
 from linkanim.recorder.plan import Format
+from linkanim.scenes import load
 
 
 @pytest.mark.parametrize(("form", "least"), [("gif", 50.0), ("mp4", 35.0)])
@@ -20,3 +28,42 @@ def test_the_cost_of_a_recording_is_measured(form: Format, least: float) -> None
     assert found.encode_seconds > 0
     assert all(0.01 < spent < 100 for spent in found.work if not math.isnan(spent))
     assert all(20 < megabytes < 1000 for megabytes in found.memory if not math.isnan(megabytes))
+
+
+def test_the_readme_tells_of_so_many_frames_of_such_a_size() -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    width, height = SIZE
+    assert f"of the press, {FRAMES} frames at {width}×{height}" in " ".join(readme.split())
+
+
+@pytest.mark.parametrize("form", ["gif", "mp4"])
+def test_all_frames_are_encoded_in_their_format(form: Format, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[tuple[Stream, Format, Path]] = []
+    sent: list[bytes] = []
+
+    @contextmanager
+    def encoding(stream: Stream, form: Format, target: Path, _: object) -> Iterator[Callable[..., None]]:
+        asked.append((stream, form, target))
+        yield lambda frame: sent.append(bytes(frame))
+
+    monkeypatch.setattr(costs, "encoding", encoding)
+    scene, target = load("slider-crank"), Path(f"out.{form}")
+    plan = costs._plan(scene, form, 3)
+    costs._encode(np.arange(6, dtype=np.uint8).reshape(3, 2), scene, plan, target)
+    assert asked == [(Stream(SIZE, plan.rate), form, target)]
+    assert sent == [b"\x00\x01", b"\x02\x03", b"\x04\x05"]
+
+
+# Of this process and of those it started, each by itself and by the system for it; none told is not known.
+@pytest.mark.parametrize(("started", "told"), [((0.5, 0.75), 1.25), ((0.0, 0.0), None)])
+def test_processor_time_is_what_was_added(
+    started: tuple[float, float], told: float | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    spent = iter([(10.0, 20.0, 30.0, 40.0, 50.0), (11.0, 22.0, 30.0 + started[0], 40.0 + started[1], 90.0)])
+    clock = iter([100.0, 104.0])
+    monkeypatch.setattr(costs, "os", SimpleNamespace(times=lambda: next(spent)))
+    monkeypatch.setattr(costs, "time", SimpleNamespace(perf_counter=lambda: next(clock)))
+    done: list[str] = []
+    seconds, work = costs._timed(lambda: done.append("once"))
+    assert (seconds, done) == (4.0, ["once"])
+    assert work == (Work(3.0, told) if told else (3.0, pytest.approx(math.nan, nan_ok=True)))
