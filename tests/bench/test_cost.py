@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from linkanim.bench import cost as costs
-from linkanim.bench.cost import FRAMES, SIZE, Work, cost
+from linkanim.bench.cost import FRAMES, SIZE, Cost, Memory, Work, cost
 from linkanim.recorder.encode import Stream
-from linkanim.recorder.plan import Format
+from linkanim.recorder.plan import Format, Plan
 from linkanim.scenes import load
 
 
@@ -28,6 +28,30 @@ def test_the_cost_of_a_recording_is_measured(form: Format, least: float) -> None
     assert found.encode_seconds > 0
     assert all(0.01 < spent < 100 for spent in found.work if not math.isnan(spent))
     assert all(20 < megabytes < 1000 for megabytes in found.memory if not math.isnan(megabytes))
+
+
+def test_a_cost_has_the_figures_of_its_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+    times = iter([(2.0, Work(1.0, 0.5)), (3.0, Work(2.5, 1.25))])
+
+    def timed(work: Callable[[], object]) -> tuple[float, Work]:
+        work()
+        return next(times)
+
+    def write(_: object, plan: Plan, target: Path) -> None:
+        done.append(f"{plan.frames} frames written")
+        target.write_bytes(bytes(2_500_000))
+
+    monkeypatch.setattr(costs, "peak_memory", lambda *asked, frames: Memory(104.0, float(frames)))
+    monkeypatch.setattr(costs, "_stored", lambda *_: np.zeros((8, 4), np.uint8))
+    monkeypatch.setattr(costs, "_encode", lambda *_: done.append("encoded"))
+    monkeypatch.setattr(costs, "_timed", timed)
+    monkeypatch.setattr(costs, "write", write)
+    monkeypatch.setattr(costs, "_decibels", lambda shown, stored: 60.0 + len(stored))
+    found = cost("slider-crank", "gif", frames=8)
+    assert found == Cost("gif", 8, 3.0, 2.0, 2.5, 68.0, Memory(104.0, 8.0), Work(2.5, 1.25))
+    assert found.ratio == 1.5
+    assert done == ["encoded", "8 frames written"]
 
 
 def test_the_readme_tells_of_so_many_frames_of_such_a_size() -> None:
