@@ -91,3 +91,22 @@ def test_processor_time_is_what_was_added(
     seconds, work = costs._timed(lambda: done.append("once"))
     assert (seconds, done) == (4.0, ["once"])
     assert work == (Work(3.0, told) if told else (3.0, pytest.approx(math.nan, nan_ok=True)))
+
+
+# Linux's word for the largest memory so far, and what is known where it has none.
+@pytest.mark.parametrize(
+    ("status", "megabytes"),
+    [
+        pytest.param("VmPeak:\t  300000 kB\nVmHWM:\t  104500 kB\n", 104.5, id="as Linux tells it"),
+        pytest.param("Name:\tlinkanim\n", None, id="nothing of it"),
+        pytest.param(None, None, id="no such file"),
+    ],
+)
+def test_a_process_has_its_largest_memory(
+    status: str | None, megabytes: float | None, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    if status is not None:
+        (tmp_path / "proc-self-status").write_text(status, encoding="utf-8")
+    monkeypatch.setattr(costs, "Path", lambda path: tmp_path / path.strip("/").replace("/", "-"))
+    found = costs._peak("self")
+    assert math.isnan(found) if megabytes is None else found == megabytes
