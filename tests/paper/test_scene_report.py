@@ -89,7 +89,7 @@ def test_rows_are_named_without_what_their_heading_says(press: Path) -> None:
 
 
 def test_its_pictures_are_well_formed_and_as_large_as_each_other(press: Path) -> None:
-    sizes = {}
+    sizes: dict[str, set[tuple[str | None, str | None]]] = {}
     for path in press.glob("*.svg"):
         root = ElementTree.parse(path).getroot()
         assert root.tag == "{http://www.w3.org/2000/svg}svg"
