@@ -9,6 +9,7 @@ import pytest
 
 from linkanim.player.action import Action
 from linkanim.player.advance import advance
+from linkanim.player.editing import chosen
 from linkanim.player.glide import EVERY, FRAMES, closes
 from linkanim.player.show import overlay
 from linkanim.player.state import FLASH_FRAMES, State, begin
@@ -121,6 +122,17 @@ def test_as_many_nudges_back_end_on_the_same_value(crank: State) -> None:
     there = after(crank, *[Action("nudge", 1)] * 3, Action("nudge", -10))
     assert value(there, "Crank 2") == 43.0
     assert after(there, Action("nudge", 10), *[Action("nudge", -1)] * 3).scene == crank.scene
+
+
+def test_a_nudge_is_so_many_steps_of_its_unit() -> None:
+    state = after(begin(load("jansen")), "edit", Action("choose", 1))
+    before = chosen(state.editing, state.scene)
+    assert before
+    assert before.unit == "cm"
+    nudged = after(state, Action("nudge", 3))
+    item = chosen(nudged.editing, nudged.scene)
+    assert item
+    assert item.value == pytest.approx(before.value + 0.3, rel=1e-12)
 
 
 def test_undo_and_redo_walk_the_changes(crank: State) -> None:

@@ -187,6 +187,13 @@ def test_keys_that_hold_are_those_that_move() -> None:
     }
 
 
+@pytest.mark.parametrize("mode", ["edit", "list"])
+def test_a_letter_that_is_typed_repeats_while_it_is_held(mode: Mode) -> None:
+    bind = bind_of(Press("7", "7"), mode, typing=True)
+    assert bind
+    assert bind.repeats
+
+
 @pytest.mark.parametrize("bind", BINDS, ids=lambda bind: bind.key)
 def test_every_key_asks_for_a_known_action(bind: Bind) -> None:
     assert is_known(bind.action) or bind.action.name in RESOLVED

@@ -166,6 +166,7 @@ SPOILT: dict[str, tuple[Spoil, str]] = {
     "a bool for a number": (lambda d: d["actions"].append([90, "step", True]), "is not an action"),
     "a name that is no text": (lambda d: d["actions"].append([90, ["speed"]]), r"\[frame, name\]"),
     "what is done outside": (lambda d: d["actions"].append([90, "quit"]), "is not an action"),
+    "an action with two values": (lambda d: d["actions"].append([90, "step", 1, 2]), r"\[frame, name\]"),
     "an entry of another form": (lambda d: d["actions"].append("speed"), r"\[frame, name\]"),
     "frames out of order": (lambda d: d["actions"].append([3, "trace"]), "order of frames"),
     "a frame past the end": (lambda d: d["actions"].append([91, "trace"]), "up to 90"),

@@ -274,6 +274,16 @@ def test_a_screenshot_is_the_picture_and_tells_its_name(player: Player, here: Pa
     ]
 
 
+def test_what_answers_a_key_is_on_no_screenshot(player: Player, here: Path) -> None:
+    pixels = player.settle()
+    player.type("tt")
+    answered = player.pixels
+    player.press(*plain("s"))
+    player.tick()
+    written = pygame.image.load(here / "recordings" / "crank-rocker-1.png")
+    assert pygame.image.tobytes(written, "RGB") == pixels != answered
+
+
 def test_shift_s_writes_the_svg_of_what_is_shown(player: Player, here: Path) -> None:
     player.type("vanpi")
     player.window.state = carried(player.state, Action("plot", "rocker.angular_velocity"))
