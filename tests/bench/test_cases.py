@@ -65,6 +65,12 @@ def test_a_change_point_is_where_the_name_says(name: str, at_0: bool, at_180: bo
     assert (first * second == 0, outer == 0) == (at_0, at_180)
 
 
+def test_lengths_that_are_decimals_up_to_their_rounding_are_at_the_change_point() -> None:
+    with workdps(DIGITS):
+        assert ExactFourBar((1.2, 0.3, 0.7, 0.8)).gaps[0] == 0
+        assert ExactFourBar((1.2, 0.3, 0.7, 0.8 + 1e-15)).gaps[0] > 0
+
+
 def test_lengths_are_what_the_names_say() -> None:
     for name, side in (("parallelogram", 1), ("antiparallelogram", -1)):
         ground, crank, coupler, rocker = NAMED[name].lengths

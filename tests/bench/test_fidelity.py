@@ -19,8 +19,8 @@ from linkanim.scenes.scene import Scene
 # Every level off by so much: 20 log10(255 / off).
 @pytest.mark.parametrize(("off", "decibels"), [(0, math.inf), (1, 48.1308), (255, 0.0), (51, 13.9794)])
 def test_decibels_are_those_of_the_mean_squared_error(off: int, decibels: float) -> None:
-    black = np.zeros((2, 3, 3))
-    assert fidelity.psnr(black, black + off) == pytest.approx(decibels, abs=1e-4)
+    grey = np.full((2, 3, 3), 100.0)
+    assert fidelity.psnr(grey, grey + off) == pytest.approx(decibels, abs=1e-4)
     shown = np.full((2, 3, 3), off, np.uint8)
     assert _decibels(iter([shown]), np.zeros((1, 24), np.uint8)) == pytest.approx(decibels, abs=1e-4)
 

@@ -114,6 +114,18 @@ def test_what_is_asked_at_once_is_one_turn() -> None:
     assert scaling._turn(4) == pytest.approx([0.0, np.pi / 2, np.pi, 3 * np.pi / 2])
 
 
+@pytest.mark.parametrize("derivatives", [0, 2])
+def test_one_pose_a_call_is_timed_at_a_steady_speed(
+    derivatives: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[tuple[float, ...]] = []
+    monkeypatch.setattr(Mechanism, "pose", lambda self, *given: asked.append(given))
+    timed = scaling._one_by_one(mechanism(scaling.yoke()), derivatives)
+    timed.work()
+    assert len(asked) == timed.poses == 720
+    assert asked == [(phase, 1.0, 0.0, derivatives) for phase in scaling._turn(720)]
+
+
 def test_markdown_is_not_for_it() -> None:
     with pytest.raises(BadInput, match="--scaling"):
         command.run(options("--scaling", "--markdown"))
