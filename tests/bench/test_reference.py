@@ -88,6 +88,30 @@ def test_the_limits_are_where_the_bars_are_in_line() -> None:
     assert float(high) == pytest.approx(TOGGLE, abs=1e-15)
 
 
+# The way between them lies about the ground line, about its far side, or above or below it.
+@pytest.mark.parametrize(
+    ("lengths", "start", "least", "most"),
+    [
+        pytest.param((5, 4, 3, "3.5"), 0, -np.pi, np.pi, id="stretched at both"),
+        pytest.param((4, 3, 6, 2), 0, 0, 2 * np.pi, id="folded at both"),
+        pytest.param((5, "3.5", 2, 4), 1, 0, np.pi, id="one of each, above"),
+        pytest.param((5, "3.5", 2, 4), -1, -np.pi, 0, id="one of each, below"),
+    ],
+)
+def test_between_the_limits_the_bars_reach(lengths: Any, start: int, least: float, most: float) -> None:
+    bars = ExactFourBar(lengths, start=start)
+    ground, crank, coupler, rocker = map(float, lengths)
+    assert bars.limits is not None
+    low, high = map(float, bars.limits)
+    assert least < low < high < most
+    within = np.abs(ground - crank * np.exp(1j * np.linspace(low + 1e-6, high - 1e-6, 9)))
+    assert (np.abs(coupler - rocker) < within).all()
+    assert (within < coupler + rocker).all()
+    for limit in (low, high):
+        apart = abs(ground - crank * np.exp(1j * limit))
+        assert min(abs(apart - coupler - rocker), abs(apart - abs(coupler - rocker))) < 1e-14 * ground
+
+
 def test_the_low_part_holds_what_rounding_left() -> None:
     found = answer(replace(EASY, inputs=np.array([1.0])))
     with workdps(DIGITS):
