@@ -53,6 +53,24 @@ def test_what_a_rendering_says_is_told_and_nothing_of_it_is_left(
     assert list((here / "tmp").iterdir()) == []
 
 
+def test_a_rendering_that_runs_says_how_far_it_is(
+    tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def still_running(command: list[str], said: int) -> subprocess.Popen[bytes]:
+        """Start what waits to be told to end; it has said how far it is twice."""
+        os.write(said, b"1/75\r12/75\r")
+        return subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
+
+    monkeypatch.setattr(rendering, "_start", still_running)
+    one = rendering.render(tape, "gif")
+    process = one._process
+    try:
+        assert one.words().endswith("kite-1.gif: 16 %")
+    finally:
+        process.communicate(b"\n")
+        one.close()
+
+
 def test_a_process_that_cannot_be_started_leaves_nothing_open(
     tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -12,6 +12,7 @@ import pygame
 import pytest
 from playing import Player
 
+from linkanim.mechanics.program import Batch
 from linkanim.picture.painter import Painter
 from linkanim.player.action import Action
 from linkanim.player.actions import ACTIONS
@@ -105,8 +106,11 @@ def test_a_scene_that_fails_is_not_put_on(
     assert advance(state).effects == ()
 
 
-def test_a_scene_that_has_no_pose_is_not_put_on(crank: State, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Scene, "pose", raising(HOLES[0]))
+@pytest.mark.parametrize("what", [(Scene, "pose"), (Batch, "__call__")], ids=["pose", "cycle"])
+def test_a_scene_that_cannot_be_solved_is_not_put_on(
+    crank: State, what: tuple[type, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(*what, raising(HOLES[0]))
     state = advance(crank, [Action("closure")])
     assert (state.scene, [effect.name for effect in state.effects]) == (crank.scene, ["report"])
 
