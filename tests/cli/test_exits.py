@@ -68,13 +68,20 @@ def test_no_order_to_the_terminal_is_repeated(capsys: pytest.CaptureFixture[str]
     assert printed.rstrip("\n").isprintable()
 
 
+@pytest.mark.parametrize(("left", "code"), [(None, 0), (0, 0), (3, 3), ("words", 0)])
+def test_work_that_leaves_by_itself_ends_with_its_number(left: object, code: int) -> None:
+    assert guarded(raising(SystemExit(left))) == code
+
+
 def test_work_that_ends_well_is_silent(capsys: pytest.CaptureFixture[str]) -> None:
     assert guarded(lambda: None) == 0
     assert capsys.readouterr() == ("", "")
 
 
 def test_sigterm_unwinds_the_work_and_the_handler_is_put_back(capsys: pytest.CaptureFixture[str]) -> None:
-    before = signal.getsignal(signal.SIGTERM)
+    def mine(number: int, frame: object) -> None: ...
+
+    before = signal.signal(signal.SIGTERM, mine)
     cleaned: list[str] = []
 
     def work() -> None:
@@ -85,7 +92,7 @@ def test_sigterm_unwinds_the_work_and_the_handler_is_put_back(capsys: pytest.Cap
 
     assert guarded(work) == 143
     assert cleaned == ["cleaned"]
-    assert signal.getsignal(signal.SIGTERM) is before
+    assert signal.signal(signal.SIGTERM, before) is mine
 
 
 USAGE = [
@@ -157,14 +164,20 @@ def test_bad_usage_is_one_line_that_names_the_word(
 
 
 LINKANIM = [sys.executable, "-m", "linkanim"]
+SWEEP = ["solve", "crank-rocker", "--sweep", "0:3600:1", "--csv", "-"]
+# What is printed is kept back until there is more of it, as on most machines.
+BUFFERED = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
 
 
-def test_a_reader_that_leaves_early_is_not_a_failure() -> None:
-    sweep = [*LINKANIM, "solve", "crank-rocker", "--sweep", "0:3600:1", "--csv", "-"]
-    with subprocess.Popen(sweep, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+# in the middle of a long table, or before anything is there
+@pytest.mark.parametrize(("words", "lines"), [(SWEEP, 1), (["scenes"], 0)], ids=["table", "list"])
+def test_a_reader_that_leaves_early_is_not_a_failure(words: list[str], lines: int) -> None:
+    pipe = subprocess.PIPE
+    with subprocess.Popen([*LINKANIM, *words], stdout=pipe, stderr=pipe, text=True, env=BUFFERED) as process:
         assert process.stdout is not None
         assert process.stderr is not None
-        process.stdout.readline()
+        for _ in range(lines):
+            process.stdout.readline()
         process.stdout.close()
         assert process.stderr.read() == ""
     assert process.returncode == 0
@@ -175,7 +188,7 @@ def test_a_reader_that_leaves_early_is_not_a_failure() -> None:
 def test_a_full_disk_behind_stdout_is_one_line(words: list[str]) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [*LINKANIM, *words], check=False, stdout=full, stderr=subprocess.PIPE, text=True
+            [*LINKANIM, *words], check=False, stdout=full, stderr=subprocess.PIPE, text=True, env=BUFFERED
         )
     assert done.returncode == 1
     assert done.stderr == "linkanim: No space left on device\n"

@@ -16,7 +16,7 @@ from tqdm import tqdm
 import linkanim
 from linkanim.cli import main
 from linkanim.cli.commands import parse
-from linkanim.cli.record import advance, look_of
+from linkanim.cli.record import advance, bar, look_of
 from linkanim.errors import BadInput
 from linkanim.player import tape_file
 from linkanim.player.action import Action
@@ -169,6 +169,23 @@ def test_progress_is_told_where_it_is_asked_for(
     said = capsys.readouterr().err
     assert ("frames [" in said) is seen
     assert said.count("\n") == 1  # its line is used again
+
+
+@pytest.mark.parametrize("shown", [True, False])
+def test_a_bar_is_drawn_where_it_is_to_be_and_leaves_nothing_behind(
+    shown: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with bar(shown=shown, unit=" rows") as told:
+        told(2, 4)
+    drawn = capsys.readouterr().err
+    assert ("rows" in drawn) is shown
+    assert drawn.split("\r")[-1] == ""
+    assert "\n" not in drawn
+
+
+def test_less_than_a_second_or_a_frame_a_second_can_be_recorded() -> None:
+    chosen = parse(["record", "press", "--fps", "0.5", "--seconds", "0.25"])
+    assert (chosen.fps, chosen.seconds) == (0.5, 0.25)
 
 
 def test_the_largest_side_is_taken() -> None:

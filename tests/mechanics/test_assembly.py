@@ -241,6 +241,22 @@ def test_two_loops_that_close_in_one_place_only_are_refused(ground_angle: float)
         mechanism(with_joints(bar, RRR("D", ("A", "O4"), (5.0, 9.0))))
 
 
+@pytest.mark.parametrize("first", [1, -1])
+def test_ranges_of_two_loops_are_common_across_the_half_turn(first: int) -> None:
+    # Each loop leaves 108.2 degrees open about its own ground line, at 150 and at -150 degrees.
+    angles = [first * math.radians(150), -first * math.radians(150)]
+    pins = [
+        Pin(name, (4 * math.cos(angle), 4 * math.sin(angle)), Polar(4.0, angle, "O2"))
+        for name, angle in zip(("O4", "O6"), angles, strict=True)
+    ]
+    loops = [RRR(name, ("A", pin.name), (2.0, 3.0)) for name, pin in zip("BD", pins, strict=True)]
+    joints = (Pin("O2", (0.0, 0.0)), *pins, Crank("A", "O2", 2.0), *loops)
+    low, high = mechanism(Linkage(joints, Drive("A", 1.0))).assembly.path.input_range
+    reach = math.acos(-5 / 16)
+    assert math.cos((low + high) / 2) == pytest.approx(-1.0)
+    assert high - low == pytest.approx(2 * (reach - math.radians(30)))
+
+
 @pytest.mark.parametrize(("name", "linkage"), REFUSED, ids=[row[0] for row in REFUSED])
 def test_bars_that_never_meet_are_still_refused(name: str, linkage: Linkage) -> None:
     with pytest.raises(AssemblyError, match="cannot meet at any angle"):

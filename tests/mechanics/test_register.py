@@ -132,3 +132,17 @@ def test_a_number_is_given_once() -> None:
 def test_a_crank_turns_with_the_input_at_a_limit_too() -> None:
     assert load("double-rocker").pose(0.0).coefficient["crank"] == (1.0, 0.0)
     assert np.all(load("double-rocker").solve(phase=[0.0, 1.0]).coefficient["crank"][0] == 1.0)
+
+
+# What counts as level at one speed does so at any: rates' rounding errors grow as they do.
+@pytest.mark.parametrize(
+    ("token", "order", "unit"),
+    [("B.position.x", 0, True), ("B.velocity", 1, True), ("3.angular_acceleration", 2, False)],
+)
+def test_rounding_grows_with_size_and_speed_as_the_quantity_does(token: str, order: int, unit: bool) -> None:
+    scene = load("press")
+    known, cycle = register(scene.linkage)[token], scene.cycle(12)
+    slow, fast = (known.rounding(cycle.paced(speed / scene.linkage.drive.speed)) for speed in (1.0, 300.0))
+    extent = max(np.abs(places).max() for places in cycle.position.values())
+    assert slow == pytest.approx(1e-13 * (extent if unit else 1.0))
+    assert fast == pytest.approx(300.0**order * slow)
