@@ -179,6 +179,17 @@ def _wish(places: list[complex], price: list[float]) -> Wish:
     return Wish((20.0, 10.0), np.tile(np.array(places), (COUNT, 1)), np.array(price), FRAME)
 
 
+# Labels are 20 x 10 and planned 0.8 larger on each side; the room ends at 0 and 400.
+@pytest.mark.parametrize(
+    ("edge", "out"), [(10.8 + 90j, -1), (389.2 + 90j, 1), (90 + 5.8j, -1j), (90 + 394.2j, 1j)]
+)
+def test_a_label_stands_at_an_edge_but_not_over_it(edge: complex, out: complex) -> None:
+    middle, near, over = 200 + 200j, edge - 0.1 * out, edge + 0.1 * out
+    for wanted, taken in ((near, near), (over, middle)):
+        (path,) = place([_wish([wanted, middle], [0.0, 0.5])], _clutter(()))
+        assert path.offset == pytest.approx(np.full(COUNT, taken))
+
+
 @pytest.mark.parametrize(
     ("corners", "taken"),
     [
