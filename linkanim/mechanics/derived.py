@@ -141,7 +141,7 @@ def output_body(linkage: Linkage) -> Body | None:
 def coupler_body(linkage: Linkage) -> Body | None:
     """Return the body that turns about nothing fixed: the first one without a fixed pin, None without one."""
     fixed = {pin.name for pin in linkage.pins}
-    turning = (body for body in linkage.bodies if body.slider is None and len(body.joints) > 1)
+    turning = (body for body in linkage.bodies if body.slider is None)
     return next((body for body in turning if not fixed & set(body.joints)), None)
 
 

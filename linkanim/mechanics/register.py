@@ -115,7 +115,7 @@ def _quantities(linkage: Linkage) -> Iterator[Quantity]:
     for damper in linkage.dampers:
         yield from _of_strut(damper, linkage.strut_word(damper), shared=damper.name in labels)
     for body in linkage.bodies:
-        if body.slider is None and len(body.joints) > 1:
+        if body.slider is None:
             yield from _of_pole(body, labels[body.name])
     yield from _of_whole(linkage)
 

@@ -14,7 +14,7 @@ from linkanim.bench.fidelity import Pixels
 from linkanim.picture import fonts
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.staging import Staged, staged
-from linkanim.picture.text import Type, runs, subscripted
+from linkanim.picture.text import Type, runs, subscripted, typesetting
 from linkanim.scenes import load
 
 SIZE = 21
@@ -141,6 +141,15 @@ def _line(text: str, size: int, *, strong: bool = False) -> Pixels:
     surface.fill((255, 255, 255))
     Type().draw(surface, text, (4, 20), size=size, colour=(0, 0, 0), strong=strong)
     return 255 - pixels(surface)[..., 0].T
+
+
+# a line's height, and that of text as large as its subscripts: 0.72 of it, but 8 pixels where it is larger
+@pytest.mark.parametrize(("size", "lowered"), [(7, 7), (8, 8), (11, 8), (13, 9), (17, 12), (24, 17)])
+def test_a_subscript_is_as_large_as_can_be_read(size: int, lowered: int) -> None:
+    assert typesetting(size).small == typesetting(lowered).em
+    type_ = Type()
+    beside = type_.width("M_{222222}", size) - type_.width("M", size)
+    assert beside == pytest.approx(type_.width("222222", lowered), abs=2)
 
 
 @pytest.mark.parametrize("text", ["O₂", "O_{2}"])
