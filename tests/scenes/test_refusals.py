@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import contextlib
 import datetime
+import re
 import tomllib
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import linkanim.scenes
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.scenes import load
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.toml import parse
 
 FOUR_BAR = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
+CATALOGUE = Path(linkanim.scenes.__file__).with_name("catalogue")
 LONG = """
 [ground]
 O2 = [0, 0]
@@ -306,6 +310,30 @@ def test_a_bad_scene_is_refused_in_one_line(text: str, where: str, reason: str) 
     assert where in said
     assert reason in said
     assert "\n" not in said
+
+
+def _tables(values: dict[str, Any], path: tuple[str, ...] = ()) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield the tables of a document, each with its key."""
+    yield ".".join(path), values
+    for key, value in values.items():
+        if isinstance(value, dict):
+            yield from _tables(value, (*path, key))
+
+
+def test_a_stray_key_is_refused_in_every_table_of_every_kind() -> None:
+    kinds = set()
+    for file in sorted(CATALOGUE.rglob("*.toml")):
+        document = tomllib.loads(file.read_text(encoding="utf-8"))
+        for key, table in list(_tables(document)):
+            kind = (key.partition(".")[0], key.count("."), *sorted(table))
+            if kind in kinds:
+                continue
+            kinds.add(kind)
+            table["stray"] = 1
+            with pytest.raises(SceneError, match=re.escape(f"{key}.stray".lstrip("."))):
+                scene_from(document, name="my", where="my.toml")
+            del table["stray"]
+    assert len(kinds) > 60
 
 
 @pytest.mark.parametrize("text", [FOUR_BAR, LONG, LONG + GEARED % -1])
