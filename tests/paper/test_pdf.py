@@ -94,6 +94,8 @@ def test_words_are_held_at_their_anchor() -> None:
 def test_what_is_half_seen_through_is_so_in_print() -> None:
     document = pdf((400, 200), None, [Layer((255, 0, 0), [SQUARE], 0.25)], title="veil")
     assert re.search(rb"/ca 0?\.25\b", document)
+    opaque = pdf((400, 200), None, [Layer((255, 0, 0), [SQUARE])], title="wall")
+    assert set(re.findall(rb"/ca (\S+)", opaque)) <= {b"1"}
 
 
 def test_the_same_figure_has_the_same_bytes() -> None:

@@ -64,6 +64,12 @@ def test_all_its_words_are_drawn() -> None:
         assert inked(surface, place_of(line, hud.type), line.colour), line.text
 
 
+def test_the_class_stands_right_below_the_title() -> None:
+    title, said, *_ = _hud("press").still()
+    assert (title.strong, said.strong) == (True, False)
+    assert 0 <= said.at[1] - title.at[1] - title.size < 0.5 * said.size
+
+
 def test_what_is_special_is_said_where_it_is_wanted() -> None:
     hud = _hud("double-rocker")
     pose = hud.scene.pose(0.0)

@@ -432,6 +432,15 @@ def test_a_planet_that_keeps_its_arm_s_turning_has_no_wheels_and_a_slower_one_a_
     pair = pairs(figure(planetary(Fraction(1, 2))))[0]
     assert (pair.driver.teeth, pair.driven.teeth) == (0, 0)
     assert pair.driver.radius / pair.driven.radius == pytest.approx(0.5)
+    # The belt's two runs touch both pulleys.
+    shown, view = figure(planetary(Fraction(1, 2))), View(5.0, 0.0, 0.0)
+    *_, belt = wheel_parts(shown, view, GAUGE, LIGHT)
+    far = 5 * abs(shown.start(pair.driven.centre) - shown.start(pair.driver.centre))
+    assert len(belt.layers[0].loops) == 2
+    for run in belt.layers[0].loops:
+        away = [np.abs(run - centre).min() for centre in (0.0, far)]
+        radii = [5 * wheel.radius for wheel in (pair.driver, pair.driven)]
+        assert away == pytest.approx(radii, abs=GAUGE.line)
 
 
 def test_a_ring_is_part_of_what_must_be_seen() -> None:

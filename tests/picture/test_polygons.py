@@ -48,6 +48,19 @@ def test_all_of_it_stays_in_its_place_whichever_way_it_runs(name: str, size: tup
                 assert panel.rect.y <= points.imag.min() <= points.imag.max() <= panel.rect.bottom + 8
 
 
+# what goes along a slot is told from what turns about a pin
+@pytest.mark.parametrize(("name", "guided"), [("inverted-slider-crank", True), ("crank-rocker", False)])
+def test_velocities_and_accelerations_have_the_colours_of_those_in_the_picture(
+    name: str, guided: bool
+) -> None:
+    absolute = (LIGHT.velocity, LIGHT.acceleration)
+    for panel, own in zip(panels(name), absolute, strict=True):
+        colours = {layer.colour for layer in drawn(panel, 1.0).layers}
+        assert colours & {*absolute} == {own}
+        assert LIGHT.dim in colours
+        assert (LIGHT.traces[0] in colours) is guided
+
+
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("speed", [2.0, -5.0])
 def test_it_is_to_the_scale_that_is_written_beside_it(order: Order, speed: float) -> None:

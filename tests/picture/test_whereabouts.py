@@ -167,7 +167,19 @@ def test_labels_keep_off_pins_and_blocks_and_three_joints_in_line_are_a_bar() ->
     assert radii == pytest.approx(wanted)
     rod = next(body for body in ground.figure.bodies if body.name == "rod")
     assert len(rod.joints) > 2
-    assert len(ground.on(rod, (30.0, 12.0)).price) == 5 * 7
+    wish = ground.on(rod, (30.0, 12.0))
+    assert len(wish.price) == 5 * 7
+    origin, direction = wish.frame
+    aside = ((wish.places - origin[:, None]) / direction[:, None]).imag[0]
+    assert np.sort(aside) == pytest.approx(-np.sort(aside)[::-1])
+
+
+def test_names_stay_off_all_sides_of_plates_and_more_so_of_bars() -> None:
+    ground = _whereabouts("press")
+    sides = [len(body.joints) for body in ground.figure.bodies]
+    assert set(sides) == {2, 3}
+    weights = [weight for count in sides for weight in ([1.0] if count == 2 else [0.4] * count)]
+    assert ground.clutter().bars.weight[: len(weights)].tolist() == weights
 
 
 def _clutter(solids: tuple[Solid, ...], discs: np.ndarray = NONE) -> Clutter:
