@@ -11,7 +11,7 @@ import pygame
 import pytest
 from made_result import LOST, result, row
 
-from linkanim.bench import drawing, report
+from linkanim.bench import command, drawing, report
 from linkanim.bench.accuracy import Score
 from linkanim.bench.cases import EASY, HARD
 from linkanim.bench.entries import Entry, Timed
@@ -73,6 +73,14 @@ def test_the_json_is_strict_and_whole() -> None:
     assert (found["targets"][0]["most"], found["targets"][1]["least"]) == (15.0, 10.0)
     assert '"unit": "×"' in report.as_json(result())
     assert report.as_json(result()).startswith('{\n  "machine": {\n    "cpu"')
+
+
+def test_a_figure_that_is_none_is_refused_rather_than_written_as_no_json() -> None:
+    made = replace(result(), rows=(row("batch", math.nan),))
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        report.as_json(made)
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        command._json({"ns": math.nan})
 
 
 # On the bound a target is met, past it missed, and without a figure missed, too.
