@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from tempfile import TemporaryDirectory
 
-from linkanim.errors import WorkFailed
+from linkanim.bench.process import printed_by
 
 DISABLE = "NPY_DISABLE_CPU_FEATURES"
 
@@ -27,9 +26,5 @@ def printed(features: Sequence[str], form: Sequence[str]) -> str:
     """Return what `linkanim bench` prints without these features; WorkFailed where it fails."""
     with TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "linkanim", "bench", *form, "--into", folder]
-        done = subprocess.run(command, check=False, env=environment(features), capture_output=True, text=True)
-    if done.returncode:
-        raise WorkFailed(
-            f"the benchmark without {' '.join(features)}: {done.stderr.strip().splitlines()[-1]}"
-        )
-    return done.stdout.rstrip("\n")
+        what = f"the benchmark without {' '.join(features)}"
+        return printed_by(command, what, env=environment(features)).rstrip("\n")

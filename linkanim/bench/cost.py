@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.bench.process import printed_by
 from linkanim.picture.look import Look
 from linkanim.recorder.encode import Stream, encoding, ffmpeg
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan
@@ -87,10 +88,13 @@ def cost(name: str, form: Format, *, frames: int = FRAMES) -> Cost:
 
 
 def peak_memory(name: str, form: Format, *, frames: int = FRAMES) -> Memory:
-    """Record a scene in a process of its own; return the largest memory, as Linux tells it."""
+    """Record a scene in a process of its own; return the largest memory, as Linux tells it.
+
+    WorkFailed, with the process's last words, where it fails.
+    """
     order = f"from {__name__} import tell_memory; tell_memory({name!r}, {form!r}, {frames!r})"
-    told = subprocess.run([sys.executable, "-c", order], capture_output=True, check=True, text=True)
-    return Memory(*json.loads(told.stdout.splitlines()[-1]))
+    told = printed_by([sys.executable, "-c", order], f"the {form.upper()} whose memory is measured")
+    return Memory(*json.loads(told.splitlines()[-1]))
 
 
 def tell_memory(name: str, form: Format, frames: int) -> None:

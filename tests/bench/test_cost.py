@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,6 +14,8 @@ import pytest
 
 from linkanim.bench import cost as costs
 from linkanim.bench.cost import FRAMES, SIZE, Cost, Memory, Work, cost
+from linkanim.bench.process import printed_by
+from linkanim.errors import WorkFailed
 from linkanim.recorder.encode import Stream
 from linkanim.recorder.plan import Format, Plan
 from linkanim.scenes import load
@@ -52,6 +55,24 @@ def test_a_cost_has_the_figures_of_its_parts(monkeypatch: pytest.MonkeyPatch) ->
     assert found == Cost("gif", 8, 3.0, 2.0, 2.5, 68.0, Memory(104.0, 8.0), Work(2.5, 1.25))
     assert found.ratio == 1.5
     assert done == ["encoded", "8 frames written"]
+
+
+def test_a_recording_that_fails_in_a_process_of_its_own_says_why() -> None:
+    with pytest.raises(WorkFailed, match=r"^the GIF whose memory is measured: .*no-such-scene"):
+        costs.peak_memory("no-such-scene", "gif", frames=3)
+
+
+# Its last line is the reason; where it says nothing, what is left is how it ended.
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        pytest.param("import sys; print('one', file=sys.stderr); sys.exit('two')", "two", id="in two lines"),
+        pytest.param("raise SystemExit(3)", "it ended with 3", id="in no word"),
+    ],
+)
+def test_a_process_that_fails_is_told_of_in_one_line(program: str, said: str) -> None:
+    with pytest.raises(WorkFailed, match=f"^the work: {said}$"):
+        printed_by([sys.executable, "-c", program], "the work")
 
 
 def test_the_readme_tells_of_so_many_frames_of_such_a_size() -> None:
