@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import tomli_w
 from jsonschema import Draft202012Validator
-from test_refusals import FOUR_BAR, LONG, REFUSED
+from test_refusals import FOUR_BAR, GEARED, LONG, REFUSED
 
 from linkanim.errors import BadInput
 from linkanim.scenes import load, names
@@ -225,6 +225,32 @@ def test_the_schema_refuses_what_is_refused_for_its_form(text: str) -> None:
         scene_from(parse(text, "my.toml"), name="my", where="my.toml")
     with contextlib.suppress(BadInput):
         assert any(words in str(refusal.value) for words in BEYOND) or not fits(parse(text, "my.toml"))
+
+
+# Beside each the reader and the schema agree: what is refused for its form, and what is good.
+FORMS = [
+    (FOUR_BAR.replace("30", "'30'"), True),
+    (FOUR_BAR.replace("30", "0.5"), True),
+    (FOUR_BAR.replace("30", "-30"), False),
+    (FOUR_BAR.replace("30", "0"), False),
+    (FOUR_BAR + "[trace]\njoints = ['A', 'B']\n", True),
+    (FOUR_BAR + "[trace]\njoints = ['A', 'A']\n", False),
+    (FOUR_BAR + "[dampers.d]\nbetween = ['O2', 'B']\ncoefficient = '200 N s/m'\n", True),
+    (FOUR_BAR + "[dampers.d]\nbetween = ['O2', 'B']\ncoefficient = 200\n", False),
+    (FOUR_BAR + "[dampers.d]\nbetween = ['O2', 'B']\ncoefficient = '200'\n", False),
+    (LONG + GEARED % 1, True),
+    (LONG + GEARED % 0, False),
+    (f"[ground]\n{'O' * 32} = [0, 0]\n" + FOUR_BAR, True),
+    (f"[ground]\n{'O' * 33} = [0, 0]\n" + FOUR_BAR, False),
+]
+
+
+@pytest.mark.parametrize(("text", "good"), FORMS)
+def test_the_schema_and_the_reader_agree_on_forms(text: str, good: bool) -> None:
+    document = parse(text, "my.toml")
+    with contextlib.nullcontext() if good else pytest.raises(BadInput):
+        scene_from(document, name="my", where="my.toml")
+    assert fits(document) is good
 
 
 # (what stands before a key that nothing knows; the schema's table that holds it)
