@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from build import six_bar
+from build import four_bar, six_bar
 
 from linkanim.mechanics.chain import Touch
 from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin
@@ -56,6 +56,14 @@ def test_a_limited_chain_runs_smoothly_between_its_ends(
     assert isinstance(path, Swing)
     assert path.ends == ends
     runs_smoothly(solved)
+
+
+def test_a_chain_that_cannot_pass_a_limit_stops_a_sixty_fourth_of_its_way_short() -> None:
+    first, second = (100, 80, 30, 90), (120, 60, 116, 50)
+    path = mechanism(six_bar(first, second, start=1.0)).assembly.path
+    limit = mechanism(four_bar(first, start=1.0)).assembly.path.input_range[0]
+    low, high = path.input_range
+    assert low - limit == pytest.approx((high - limit) / 64)
 
 
 # Changes of the catalogue's scenes that once gave NaN, a jump, or the wrong dyad as the limit.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, pairwise
@@ -14,6 +15,7 @@ from pictures import contrast, pixels
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Damper, Drive, Linkage
 from linkanim.picture.figure import Figure, figure
+from linkanim.picture.fittings import Bench, fittings
 from linkanim.picture.gears import wheel_layers, wheel_parts
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
@@ -28,6 +30,7 @@ from linkanim.picture.vectors import LONGEST, arrow_layers, arrows_of
 from linkanim.picture.view import View
 from linkanim.picture.wheels import WheelPair, pairs, wheels
 from linkanim.scenes import load
+from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 
 VIEW = View(1.0, 0.0, 0.0)
@@ -446,3 +449,33 @@ def test_a_planet_that_keeps_its_arm_s_turning_has_no_wheels_and_a_slower_one_a_
 def test_a_ring_is_part_of_what_must_be_seen() -> None:
     shown = figure(planetary(Fraction(-1)))
     assert sweep_of(shown).box.right > 80.0
+
+
+# The bar that a coupler carries, straight along it or 10 aside: how far the pin goes is how long its slot is.
+@pytest.mark.parametrize("offset", [0, 10])
+def test_a_carried_slot_is_as_long_as_its_pin_goes_and_has_an_arm_where_it_lies_aside(offset: float) -> None:
+    text = f"""
+        title = "t"
+        [four-bar]
+        ground = 100
+        crank = 30
+        coupler = 90
+        rocker = 80
+        [ground]
+        O6 = [60, -40]
+        [joints.C]
+        from = "O6"
+        length = 130
+        line = {{ on = ["A", "B"], through = "A", angle = "0 deg", offset = {offset} }}
+    """
+    shown = figure(scene_from(tomllib.loads(text), name="t", where="t.toml"))
+    bench = Bench(shown, View(2.0, 0.0, 0.0), GAUGE, LIGHT)
+    (fitting,) = (found for found in fittings(bench) if found.before)
+    (bar,), (slot, _) = fitting.behind, fitting.before
+    axis = shown.cycle.position["B"] - shown.cycle.position["A"]
+    away = shown.cycle.position["C"] - shown.cycle.position["A"]
+    along = 2.0 * (away * axis).sum(axis=-1) / np.hypot(*axis.T)
+    wide, edge = 0.5 * GAUGE.bar, np.concatenate(slot.layers[0].loops)
+    assert [edge.real.min(), edge.real.max()] == pytest.approx([along.min() - wide, along.max() + wide])
+    assert [edge.imag.min(), edge.imag.max()] == pytest.approx([-2 * offset - wide, -2 * offset + wide])
+    assert len(bar.layers) == (4 if offset else 2)
