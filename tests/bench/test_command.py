@@ -253,6 +253,12 @@ def test_a_window_that_does_not_start_says_why(
         window.first_frame(starts=1)
 
 
+def test_the_first_frame_s_time_is_that_since_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(window, "TELL_FIRST", "print('a greeting'); print(12.5)")
+    monkeypatch.setattr(window, "time", SimpleNamespace(time=lambda: 10.0))
+    assert window.first_frame(starts=1) == 2.5
+
+
 def test_the_first_frame_comes_from_the_command_itself() -> None:
     assert window.first_frame(starts=1) > 0
 
