@@ -66,6 +66,16 @@ def test_a_chain_that_cannot_pass_a_limit_stops_a_sixty_fourth_of_its_way_short(
     assert low - limit == pytest.approx((high - limit) / 64)
 
 
+@pytest.mark.parametrize("start", [0.0, 1.0, 2.0])
+def test_beyond_change_points_the_range_of_a_chain_lies_within_a_turn_of_the_start(start: float) -> None:
+    # The first loop is a parallelogram: its two change points lie at 0 and at half a turn.
+    low, high = mechanism(
+        six_bar((4.0, 1.0, 4.0, 1.0), (2.92, 3.23, 4.89, 1.26), start=start)
+    ).assembly.path.input_range
+    assert high - low == pytest.approx(3.764712765)
+    assert start - math.tau < low < high < start + math.tau
+
+
 # Changes of the catalogue's scenes that once gave NaN, a jump, or the wrong dyad as the limit.
 CHANGED: list[tuple[str, list[tuple[Key, float]]]] = [
     ("press", [(("joints", "B", "length", 0), 261.11)]),
