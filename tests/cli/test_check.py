@@ -42,6 +42,10 @@ def test_problems_are_printed_a_line_each_as_editors_read_them(
         ["none.toml", "no such file"],
     ]
     assert printed.err == "linkanim: 3 problems in 2 of 3 files\n"
+    assert main(["check", "none.toml"]) == 2
+    assert capsys.readouterr().err == "linkanim: 1 problem in 1 of 1 file\n"
+    assert main(["check", "bad.toml"]) == 2
+    assert capsys.readouterr().err == "linkanim: 2 problems in 1 of 1 file\n"
 
 
 def test_json_tells_the_same(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
