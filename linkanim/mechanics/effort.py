@@ -31,6 +31,8 @@ _ROUNDING = 1e-13
 """A mean below this share of what it is the mean of is rounding."""
 _BOUNDED = 1e-9
 """A limit of the input asks for no more than a bounded torque where power there is below this share."""
+_ASIDE = 1e-4
+"""So far from a limit, in radians of phase, a torque is read that is rounding over 0 at the limit itself."""
 
 
 class _Way(NamedTuple):
@@ -146,11 +148,14 @@ def demand(solved: Callable[[Array], Any], periods: int, *, limited: bool) -> De
     """
     phases = _phases(periods)
     cycle = solved(phases)
-    power, effort = input_power(cycle), np.asarray(input_effort(cycle))
+    power, effort = input_power(cycle), np.array(input_effort(cycle), dtype=np.float64)
     seconds = math.tau * periods / abs(float(cycle.input_speed))
     work = _mean(power) * seconds
-    beyond = limited and np.abs(power[:: _SAMPLES // 2]).max() > _BOUNDED * np.abs(power).max()
-    if beyond or not np.isfinite(effort).all():
+    idle = np.abs(power) <= _BOUNDED * np.abs(power).max()
+    rounded = idle & np.isinf(effort)
+    if rounded.any():
+        effort[rounded] = input_effort(solved(phases[rounded] + _ASIDE))
+    if (limited and not idle[:: _SAMPLES // 2].all()) or not np.isfinite(effort).all():
         return Demand(work, None, None)
     index = int(np.abs(effort).argmax())
     sign = math.copysign(1.0, effort[index])
