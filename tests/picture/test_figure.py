@@ -103,6 +103,8 @@ def test_a_rod_through_a_swivel_has_its_piston_in_a_cylinder_at_every_moment(off
         assert wall.real.min() < piston.real.min() < piston.real.max() < wall.real.max()
         assert wall.imag.min() < piston.imag.min() < piston.imag.max() < wall.imag.max()
         assert np.ptp(piston.imag) > 0.6 * np.ptp(wall.imag)
+        # a little wider than a bar, so that a rod is seen in it
+        assert 2 * GAUGE.bar < np.ptp(wall.imag) < 3 * GAUGE.bar
 
 
 def test_a_rod_that_goes_on_beyond_its_swivel_has_no_cylinder() -> None:

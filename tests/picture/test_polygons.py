@@ -112,6 +112,16 @@ def test_a_symbol_stands_beside_the_vector_that_it_names(name: str, phase: float
                 assert away < 0.5 * wide + caption.size
 
 
+def test_the_pole_is_a_dot() -> None:
+    for panel in panels("crank-rocker"):
+        pole, found = panel.pole(panel.figure.scene.linkage.drive.speed), drawn(panel, 1.0)
+        dots = [
+            loop - pole for layer in found.layers for loop in layer.loops if np.abs(loop - pole).max() < 9
+        ]
+        assert len(dots) == 1
+        assert np.abs(dots[0]) == pytest.approx(1.8 * panel.pen.line)
+
+
 @pytest.mark.parametrize("size", [(1280, 720), (320, 180), (180, 320)])
 def test_titles_have_room(size: tuple[int, int]) -> None:
     for panel in panels("press", layout(size, polygons=True)):

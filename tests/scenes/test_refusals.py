@@ -74,6 +74,12 @@ REFUSED: list[tuple[str, str, str, str]] = [
         "joints",
         "-> ",
     ),
+    (
+        "a circle of many",
+        LONG + "".join(f"[joints.J{n}]\non = ['A', 'J{(n + 1) % 30}']\nat = [1, 1]\n" for n in range(30)),
+        "joints",
+        "J12 -> ...: a joint cannot depend on itself",
+    ),
     ("geared to itself", LONG + (GEARED % 1).replace('"A"', '"D"'), "joints.D.gear.with", "itself"),
     # One shorthand a file, and no second joint of a name.
     (
@@ -159,7 +165,7 @@ REFUSED: list[tuple[str, str, str, str]] = [
         "line that two bodies would have to carry",
         LONG + "[joints.C]\nfrom = 'A'\nlength = 9\nline = { on = ['O4', 'B'], through = 'A' }\n",
         "joints.C",
-        "not on one rigid body",
+        "O4, B and A are not on one rigid body; name joints of one bar",
     ),
     # Points and bodies are rigid.
     ("point on two bars", LONG + "[joints.P]\non = ['O2', 'B']\nat = [1, 2]\n", "joints.P", "rigid"),
