@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from build import four_bar, with_joints
 
+from linkanim.mechanics.derived import transmission_angle
 from linkanim.mechanics.kinds import RPR, RRP, Crank, Gear, Line, Pin, Rigid
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import mechanism
@@ -26,11 +27,13 @@ def test_a_guide_that_stands_still_is_the_same_carried_by_the_ground() -> None:
     )
     for kind in ("position", "velocity", "acceleration"):
         assert getattr(one, kind)["J"] == pytest.approx(getattr(other, kind)["J"], abs=1e-11)
+    assert transmission_angle(one, "J") == pytest.approx(transmission_angle(other, "J"), abs=1e-12)
 
 
 def test_a_point_is_where_it_is_from_whichever_joints_of_its_body() -> None:
     bar = four_bar((100, 30, 90, 80), coupler_point=(50.0, 20.0))
-    linkage = with_joints(bar, Rigid("Q", ("A", "P"), (10.0, 5.0)), Rigid("R", ("P", "Q"), (-8.0, 12.0)))
+    points = Rigid("Q", ("A", "P"), (10.0, 5.0)), Rigid("R", ("P", "Q"), (-8.0, 12.0))
+    linkage = with_joints(bar, *points, Rigid("S", ("R", "A"), (3.0, 4.0)))
     motion = mechanism(linkage).solve(phase=np.linspace(0, 6, 20), speed=1.0)
     places = {name: place @ np.array([1.0, 1j]) for name, place in motion.position.items()}
     along = places["B"] - places["A"]
@@ -38,6 +41,27 @@ def test_a_point_is_where_it_is_from_whichever_joints_of_its_body() -> None:
     r = (q - (50.0 + 20.0j)) / abs(q - (50.0 + 20.0j)) * (-8.0 + 12.0j) + (50.0 + 20.0j)
     assert places["Q"] == pytest.approx(places["A"] + along / 90 * q, abs=1e-12)
     assert places["R"] == pytest.approx(places["A"] + along / 90 * r, abs=1e-12)
+    assert places["S"] == pytest.approx(places["A"] + along / 90 * (r - r / abs(r) * (3.0 + 4.0j)), abs=1e-12)
+
+
+def test_a_coupler_point_has_its_place_at_any_size() -> None:
+    phases = np.linspace(0, 6, 20)
+    usual, tiny = (
+        mechanism(
+            four_bar((100 * size, 30 * size, 90 * size, 80 * size), coupler_point=(50 * size, 20 * size))
+        )
+        for size in (1.0, 2.0**-600)
+    )
+    one, other = (solved.solve(phase=phases, speed=1.0).position["P"] for solved in (usual, tiny))
+    assert other * 2.0**600 == pytest.approx(one, rel=1e-13)
+
+
+def test_the_transmission_angle_of_a_slot_is_that_of_its_offset() -> None:
+    pins = Pin("O2", (0.0, 0.0)), Pin("O4", (100.0, 0.0))
+    linkage = Linkage((*pins, Crank("A", "O2", 30.0), RPR("P", "A", "O4", 140.0, 9.0)), DRIVE)
+    motion = mechanism(linkage).solve(phase=np.linspace(0, 7, 20), speed=1.0)
+    apart = np.hypot(*(motion.position["A"] - np.array([100.0, 0.0])).T)
+    assert transmission_angle(motion, "P") == pytest.approx(np.arccos(9.0 / apart), rel=1e-12)
 
 
 def test_a_rod_through_a_swivel_limits_nothing_and_points_at_it() -> None:
