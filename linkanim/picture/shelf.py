@@ -17,7 +17,7 @@ from linkanim.picture.overlay import Shelf
 from linkanim.picture.painter import Painter
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box
-from linkanim.picture.text import Type
+from linkanim.picture.text import Type, hyphened
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import chapter_of, load
@@ -248,7 +248,8 @@ def titled(board: Board, names: Sequence[str], text: int, room: float) -> tuple[
     for size in range(text, _LEAST - 1, -1):
         for name in names:
             lines = board.type.wrapped(name, size, room)
-            if len(lines) <= 2 and board.widest(name.replace("-", "- ").split(), size) <= room:
+            parts = (part for word in name.split() for part in hyphened(word))
+            if len(lines) <= 2 and board.widest(parts, size) <= room:
                 return lines, size
     return [board.fitting(names, text, room)], text
 

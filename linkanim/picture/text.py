@@ -33,7 +33,6 @@ _LOOSE = 7
 """Where an x is no higher than this, in pixels, neighbours stand a part of a pixel further apart."""
 _SUBSCRIPT = re.compile(r"_\{([^{}]*)\}|([\u2080-\u209c\u1d62-\u1d6a\u2c7c]+)")
 _HYPHENED = re.compile(r"[^-]*-|[^-]+")
-"""The parts of a word, each with the hyphen at its end."""
 _LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
 _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 
@@ -234,13 +233,18 @@ class Type:
     def _broken(self, word: str, size: int, width: float, *, strong: bool) -> list[str]:
         """Return a word in pieces no wider than `width`, but of at least one character each."""
         pieces = [""]
-        for part in _HYPHENED.findall(word):
+        for part in hyphened(word):
             wide = self.width(part, size, strong=strong) > width
             for more in part if wide else (part,):
                 if pieces[-1] and self.width(pieces[-1] + more, size, strong=strong) > width:
                     pieces.append("")
                 pieces[-1] += more
         return pieces
+
+
+def hyphened(word: str) -> list[str]:
+    """Return the parts of a word between which a line may end, each with the hyphen at its end."""
+    return _HYPHENED.findall(word)
 
 
 def _runs(text: str) -> Iterator[Run]:
