@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 # Here, because every import of pygame comes after it: its greeting would stand among a command's output.
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 __all__ = ["LinkanimError", "Look", "Scene", "__version__", "load", "names", "record"]
 
