@@ -116,7 +116,7 @@ class Touch:
         assert state.ends is not None
         if state.phase is not None and self.turns > 1:
             half = sharp_half_angle((state.phase - self.place.high) * (1.0 / self.turns))
-            return _turning(half.sine, half.cosine, state.pace.scaled(0.5 / self.turns))
+            return _turning(half.sine, half.cosine, state.phase_pace.scaled(0.5 / self.turns))
         scale = 1.0 / math.sqrt(amplitude)
         sine, cosine = state.ends.root_v.scaled(scale), state.ends.root_u.scaled(scale)
         for _ in range(self.turns.bit_length() - 1):

@@ -132,7 +132,12 @@ class Info:
         """What a true period at the drive's speed asks of the input; None where nothing has force or mass."""
         if not self.mechanism.linkage.forceful:
             return None
-        return demand(self._driven, self.mechanism.periods, limited=bool(self.toggles))
+        return demand(
+            self._driven,
+            self.mechanism.periods,
+            quickest=self.mechanism.setting.quickest,
+            limited=bool(self.toggles),
+        )
 
     @cached_property
     def usual_effort(self) -> float | None:

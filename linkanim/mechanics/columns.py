@@ -103,6 +103,16 @@ class Scaled(Mapping[str, Array]):
         return len(self._columns)
 
 
+def read_only(found: Any) -> Any:
+    """Return what was found, its arrays such that nobody can change them any more."""
+    if isinstance(found, tuple):
+        for part in found:
+            read_only(part)
+    elif isinstance(found, np.ndarray):
+        found.flags.writeable = False
+    return found
+
+
 def components(vector: Any) -> tuple[Any, Any]:
     """Return x and y of a pair of floats, or of an array (..., 2)."""
     return vector if isinstance(vector, tuple) else (vector[..., 0], vector[..., 1])

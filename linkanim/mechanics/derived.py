@@ -7,11 +7,12 @@ an instant (how a path bends where its point rests) is NaN, what is not bounded 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
+from .columns import components
 from .kinds import Crank
 from .linkage import Body, Linkage
 
@@ -30,6 +31,42 @@ def over(dividend: Any, divisor: Any) -> Any:
         return dividend / divisor
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         return np.true_divide(dividend, divisor)
+
+
+Way = tuple[Any, Any]
+"""The components of a vector from one joint to another, floats or arrays."""
+
+
+def between(vectors: Mapping[str, Any], ends: tuple[str, str]) -> Way:
+    """Return how far one joint's vector is from another's: x and y."""
+    (x0, y0), (x1, y1) = (components(vectors[joint]) for joint in ends)
+    return x1 - x0, y1 - y0
+
+
+def size(way: Way) -> Any:
+    """Return a way's length, by the root that IEEE 754 rounds in one way: the C library has its own hypot."""
+    square = way[0] * way[0] + way[1] * way[1]
+    return math.sqrt(square) if isinstance(square, float) else np.sqrt(square)
+
+
+def cross(way: Way, other: Way) -> Any:
+    """Return the signed area that two ways span."""
+    return way[0] * other[1] - way[1] * other[0]
+
+
+def growth(way: Way, moving: Way) -> Any:
+    """Return how fast the length of a way that moves grows; of one of length 0, how fast it is about to."""
+    length = size(way)
+    rate = over(way[0] * moving[0] + way[1] * moving[1], length)
+    return rate if np.all(length) else np.where(length == 0, size(moving), rate)[()]
+
+
+def direction(way: Way) -> Any:
+    """Return the angle of a way, -π … π; NaN where it has no length."""
+    dx, dy = way
+    if isinstance(dx, float):
+        return math.atan2(dy, dx) if dx or dy else math.nan
+    return np.where((dx == 0) & (dy == 0), np.nan, np.arctan2(dy, dx))[()]
 
 
 def tangential(velocity: Any, acceleration: Any) -> Any:

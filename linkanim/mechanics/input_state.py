@@ -62,6 +62,13 @@ class InputState:
         """Return what is told of the input, with its rates: its angle; of a slider its travel, `unscale`d."""
         return self.angle + float(self.origin), self.rate, self.second
 
+    @property
+    def phase_pace(self) -> Slope:
+        """φ' with its derivative, of a swing."""
+        if self.ends is None or self.ends.by_phase:
+            return self.pace
+        return self.pace / (self.ends.root_u.slope * self.ends.root_v.slope).scaled(2.0)
+
     def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, form: HalfForm = half_angle) -> Half:
         """Return half of ratio × θ - reference, to the last digit at any number of turns."""
         return self.half_shifted(ratio, self.origin * ratio - reference, form)
@@ -125,6 +132,17 @@ def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> 
     return InputState(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase)
 
 
+def swing_per_input(phase: Value, middle: Sum, amplitude: float) -> InputState:
+    """Return the state of a swing at a phase, its rates those by its own angle: infinite at a limit."""
+    half = sharp_half_angle(phase)
+    scale = math.sqrt(amplitude)
+    roots = half.cosine * scale, half.sine * scale
+    root_u, root_v = (_rated(root, sign, Slope(1.0)) for root, sign in zip(roots, (-1.0, 1.0), strict=True))
+    u, v = roots[0] * roots[0], roots[1] * roots[1]
+    ends = Ends(Slope(u, -0.5), Slope(v, 0.5), root_u, root_v, by_phase=False)
+    return InputState(cosine_of(phase) * -amplitude, middle, 1.0, 0.0, Slope(1.0), ends, phase)
+
+
 def swing_by_angle(angle: Value, u: Value, v: Value, pace: Slope, middle: Sum) -> InputState:
     """Return the state of a swing driven by its angle from the middle; u and v are half the ways left."""
     root_u, root_v = (_root_of_way(way, sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
@@ -135,6 +153,10 @@ def swing_by_angle(angle: Value, u: Value, v: Value, pace: Slope, middle: Sum) -
 
 def _root_of_way(way: Value, sign: float, pace: Slope) -> Moving:
     """Return the root of half the way to a limit, which the angle's pace changes with that sign."""
-    root = sqrt(way)
+    return _rated(sqrt(way), sign, pace)
+
+
+def _rated(root: Value, sign: float, pace: Slope) -> Moving:
+    """Return a root of half the way to a limit with its rates."""
     rate = pace.value * (0.25 * sign) / root
     return Moving(root, rate, (pace.rate * (0.25 * sign) - rate * rate) / root)

@@ -45,6 +45,10 @@ class Mechanism:
     assembly: Assembly
     passing: bool = False
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as the linkage, which is made ready anew."""
+        return (passing if self.passing else mechanism), (self.linkage,)
+
     @property
     def periods(self) -> int:
         """The number of drive periods after which every joint is back."""
@@ -58,10 +62,10 @@ class Mechanism:
     @cached_property
     def setting(self) -> Setting:
         """What motions and poses share."""
-        return Setting(self.linkage, self.assembly.gears)
+        return Setting(self.linkage, self.assembly.gears, self)
 
     @cached_property
-    def _poses(self) -> dict[tuple[int, bool], Callable[..., dict[str, Any]]]:
+    def _poses(self) -> dict[tuple[int, bool, bool], Callable[..., dict[str, Any]]]:
         return {}
 
     @cached_property
@@ -74,19 +78,33 @@ class Mechanism:
 
     def pose(self, phase: float, speed: float, acceleration: float, derivatives: int) -> Pose:
         """Return one instant, solved in plain floats."""
-        key = derivatives, acceleration != 0.0
-        program = self._poses.get(key) or self._program_of_poses(*key)
-        try:
-            return Pose(program(phase, speed, acceleration))
-        except (ZeroDivisionError, ValueError):
-            return Pose(self._from_arrays(derivatives, phase, speed, acceleration))
+        return self._posed((derivatives, acceleration != 0.0, False), phase, speed, acceleration)
 
-    def _program_of_poses(self, derivatives: int, accelerates: bool) -> Callable[..., dict[str, Any]]:
+    def pose_per_input(self, phase: float) -> Pose:
+        """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
+        return self._posed((2, False, not self.assembly.path.full_turn), phase, 1.0, 0.0)
+
+    def per_input(self, request: Request) -> Motion:
+        """Return a request's motion, its rates by the input's angle, or travel, instead of those in time."""
+        by_phase = request.programs.variant.by_phase
+        variant = Variant(by_phase, False, per_input=by_phase and not self.assembly.path.full_turn)
+        asked = request._replace(programs=self.programs(variant), rates=(1.0, 0.0))
+        return Motion(self.setting, 1.0, 0.0, asked)
+
+    def _posed(self, key: tuple[int, bool, bool], phase: float, speed: float, second: float) -> Pose:
+        program = self._poses.get(key) or self._program_of_poses(key)
+        try:
+            return Pose(program(phase, speed, second))
+        except (ZeroDivisionError, ValueError):
+            return Pose(self._from_arrays(key, phase, speed, second))
+
+    def _program_of_poses(self, key: tuple[int, bool, bool]) -> Callable[..., dict[str, Any]]:
+        derivatives, accelerates, per_input = key
         if self.passing:
-            found: Callable[..., dict[str, Any]] = partial(self._from_arrays, derivatives)
+            found: Callable[..., dict[str, Any]] = partial(self._from_arrays, key)
         else:
-            found = self._scalar(self._trace(Variant(True, accelerates)), derivatives)
-        self._poses[derivatives, accelerates] = found
+            found = self._scalar(self._trace(Variant(True, accelerates, per_input=per_input)), derivatives)
+        self._poses[key] = found
         return found
 
     def _trace(self, variant: Variant) -> Traced:
@@ -97,16 +115,18 @@ class Mechanism:
             uniform = not variant.varying_rate
             second = graph.input("a", uniform=uniform) if variant.accelerates else 0.0
             pace = Slope(graph.input("w", uniform=uniform), second)
-            names, state = self._state(graph, pace, by_phase=variant.by_phase)
+            names, state = self._state(graph, pace, variant)
             unscale = self.assembly.unscale
             crank = {kind: {"": (value,)} for kind, value in zip(CRANK, state.shown(unscale), strict=True)}
             rows = dict(_quantities(self.assembly.walk(state), unscale))
             found = self._traces[variant] = Traced(names, crank | rows)
         return found
 
-    def _state(self, graph: Graph, pace: Slope, *, by_phase: bool) -> tuple[tuple[str, ...], InputState]:
+    def _state(self, graph: Graph, pace: Slope, variant: Variant) -> tuple[tuple[str, ...], InputState]:
         path = self.assembly.path
-        if by_phase:
+        if variant.per_input:
+            return ("x",), path.state_per_input(graph.input("x"))
+        if variant.by_phase:
             return ("x",), path.state(graph.input("x"), pace)
         return path.state_by_angle(graph, pace)
 
@@ -120,9 +140,13 @@ class Mechanism:
         display = f"{{{{{', '.join(parts)}}}}}"
         return scalar((*trace.names, "w", "a"), outputs, display, {"setting": self.setting})
 
-    def _from_arrays(self, derivatives: int, phase: float, speed: float, second: float) -> dict[str, Any]:
+    def _from_arrays(
+        self, key: tuple[int, bool, bool], phase: float, speed: float, second: float
+    ) -> dict[str, Any]:
         """Return what the scalar program gives, NaN and infinities included, where floats raise."""
+        derivatives, _, per_input = key
         motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
+        motion = motion.per_input if per_input else motion
         found = {kind: _plain(values) for kind, values in motion.every.items()}
         inputs = ("phase", "input_speed", "input_acceleration", *CRANK)
         return found | {name: float(getattr(motion, name)) for name in inputs} | {"setting": self.setting}

@@ -9,15 +9,16 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import FrozenInstanceError, dataclass
+from dataclasses import FrozenInstanceError, dataclass, field
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from .columns import components
+from .columns import read_only
+from .derived import between, cross, direction, growth, over, size
 from .linkage import Body, Damper, Linkage, Spring
 from .loop import Gearing
 from .request import ORDER, Paced, Request
@@ -31,7 +32,8 @@ NOTHING: Mapping[str, Any] = MappingProxyType({})
 class Strut(NamedTuple):
     """Length, its rate, and the force (None where it is not known) of a spring or damper; its direction.
 
-    The direction is that of its first joint to its second, the rate of it in rad/s.
+    The direction is that of its first joint to its second, the rate of it in rad/s; where they meet both are
+    NaN, and the rate of the length is that with which it is about to grow.
     """
 
     length: Any
@@ -41,12 +43,33 @@ class Strut(NamedTuple):
     direction_rate: Any
 
 
+class Solver(Protocol):
+    """What solves the linkage of a motion at other instants and rates."""
+
+    def solve(
+        self, *, phase: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = ..., derivatives: int = ...
+    ) -> Motion:
+        """Return the motion at phases."""
+
+    def per_input(self, request: Request) -> Motion:
+        """Return a request's motion, its rates by the input's angle or travel."""
+
+    def pose_per_input(self, phase: float) -> Pose:
+        """Return one instant, its rates by the input's angle or travel."""
+
+
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What a motion needs of its linkage to tell angles and forces."""
+    """What a motion needs of its linkage to tell angles, coefficients and forces."""
 
     linkage: Linkage
     gears: Mapping[str, Gearing]
+    solver: Solver = field(repr=False, compare=False)
+
+    @property
+    def quickest(self) -> float:
+        """How many times as fast as the input the quickest crank turns, at least once."""
+        return max([1.0, *(abs(float(gearing.ratio)) for gearing in self.gears.values())])
 
     def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
         """Return how a crank's body turns with the input, and whether it is named from its pin."""
@@ -63,14 +86,6 @@ class Setting:
         return next(body for body in self.linkage.bodies if body.name == name)
 
 
-def coefficients(rate: Any, second: Any, input_rate: Any, input_second: Any) -> tuple[Any, Any]:
-    """Return dq/dθ and d²q/dθ² from rates in time of q and of the input θ; infinite where θ rests."""
-    if np.ndim(input_rate) == 0 and input_rate == 0:
-        return np.full(np.shape(rate), math.inf)[()], np.full(np.shape(rate), math.inf)[()]
-    first = rate / input_rate
-    return first, (second - first * input_second) / (input_rate * input_rate)
-
-
 class Lazy(Mapping[str, Any]):
     """A mapping whose values are worked out when they are first asked for."""
 
@@ -82,7 +97,7 @@ class Lazy(Mapping[str, Any]):
         if name not in self._found:
             if name not in self._names:
                 raise KeyError(name)
-            self._found[name] = self._find(name)
+            self._found[name] = read_only(self._find(name))
         return self._found[name]
 
     def __iter__(self) -> Any:
@@ -122,32 +137,34 @@ class Derived(ABC):
         crank = self.setting.crank_of(body)
         if crank is not None:
             return _crank_angle(self.crank_angle, *crank) + 0.0 * self.phase  # where there is no phase, NaN
-        (x0, y0), (x1, y1) = (components(self.position[joint]) for joint in body.joints[:2])
-        return self._continuous(y1 - y0, x1 - x0, self.angular_velocity.get(name))
+        return self._continuous((body.joints[0], body.joints[1]))
 
     @abstractmethod
-    def _continuous(self, dy: Any, dx: Any, rate: Any) -> Any:
-        """Return the angle of a way, which turns at `rate` as far as that is known."""
+    def _continuous(self, ends: tuple[str, str]) -> Any:
+        """Return the angle of the way from one joint to another; NaN where they meet."""
 
     @cached_property
     def coefficient(self) -> Mapping[str, tuple[Any, Any]]:
         """Each body's kinematic coefficients, (dq/dθ, d²q/dθ²) with q its angle or travel.
 
-        Infinite at a limit of the input.
+        They are the rates by the input's angle, or a driving slider's travel: at any speed the same. Infinite
+        where a limit of the input leaves them unbounded.
         """
-        names = (*self.angular_acceleration, *self.travel_acceleration)
-        return Lazy(names, self._coefficient)
+        known = self.per_input
+        return Lazy((*known.angular_acceleration, *known.travel_acceleration), self._coefficient)
 
     def _coefficient(self, name: str) -> tuple[Any, Any]:
-        turns = name in self.angular_velocity
-        crank = self.setting.crank_of(self.setting.body(name))
-        if crank is not None:
-            rest = self.angular_velocity[name] * 0.0
-            return rest + float(crank[0].ratio), rest
-        rate = (self.angular_velocity if turns else self.travel_velocity)[name]
-        second = (self.angular_acceleration if turns else self.travel_acceleration)[name]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return coefficients(rate, second, self.crank_rate, self.crank_second)
+        known = self.per_input
+        if name in known.angular_velocity:
+            rates = known.angular_velocity[name], known.angular_acceleration[name]
+        else:
+            rates = known.travel_velocity[name], known.travel_acceleration[name]
+        return unbounded(rates[0], self.phase), unbounded(rates[1], self.phase)
+
+    @property
+    @abstractmethod
+    def per_input(self) -> Derived:
+        """The same instants, with rates by the input's angle, or travel, instead of those in time."""
 
     @cached_property
     def spring(self) -> Mapping[str, Strut]:
@@ -164,21 +181,13 @@ class Derived(ABC):
         return Lazy(tuple(by_name), lambda name: self._strut(by_name[name]))
 
     def _strut(self, item: Spring | Damper) -> Strut:
-        (x0, y0), (x1, y1) = (components(self.position[joint]) for joint in item.between)
-        dx, dy = x1 - x0, y1 - y0
-        length = _root(dx * dx + dy * dy)
-        rate = turning = None
+        apart = between(self.position, item.between)
+        length, rate, turning = size(apart), None, None
         if self.velocity:
-            (u0, v0), (u1, v1) = (components(self.velocity[joint]) for joint in item.between)
-            du, dv = u1 - u0, v1 - v0
-            rate, turning = (dx * du + dy * dv) / length, (dx * dv - dy * du) / (length * length)
+            moving = between(self.velocity, item.between)
+            rate, turning = growth(apart, moving), over(cross(apart, moving), length * length)
         force = _force(item, self.setting.linkage.metre, length, rate)
-        return Strut(length, rate, force, self._continuous(dy, dx, turning), turning)
-
-
-def _root(square: Any) -> Any:
-    """Return the square root, which IEEE 754 rounds in one way; a power of one half is the C library's."""
-    return math.sqrt(square) if isinstance(square, float) else np.sqrt(square)
+        return Strut(length, rate, force, self._continuous(item.between), turning)
 
 
 def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
@@ -221,6 +230,10 @@ class Motion(Derived):
     travel_velocity: Mapping[str, Array]
     travel_acceleration: Mapping[str, Array]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as what was asked for, which is worked out anew."""
+        return Motion, (self.setting, self.input_speed, self.input_acceleration, self.request)
+
     def __getattr__(self, name: str) -> Any:
         """Work a quantity out, with those that come out of the same pass."""
         if name not in ORDER:
@@ -230,6 +243,13 @@ class Motion(Derived):
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
+
+    @cached_property
+    def per_input(self) -> Motion:
+        """The same instants, with rates by the input's angle, or travel, instead of those in time."""
+        if isinstance(self.request, Paced):
+            return self.request.motion.per_input
+        return self.setting.solver.per_input(self.request)
 
     @property
     def every(self) -> Mapping[str, Mapping[str, Array]]:
@@ -245,28 +265,24 @@ class Motion(Derived):
         speed, acceleration = self.input_speed * factor, self.input_acceleration * factor**2
         return Motion(self.setting, speed, acceleration, Paced(self, factor))
 
-    def _continuous(self, dy: Any, dx: Any, rate: Any) -> Array:
-        principal: Array = np.arctan2(dy, dx)
-        return principal if principal.ndim == 0 else self._unwrapped(principal, rate)
+    def _continuous(self, ends: tuple[str, str]) -> Array:
+        principal: Array = np.asarray(direction(between(self.position, ends)))
+        return principal if principal.ndim == 0 else self._unwrapped(principal, ends)
 
-    def _unwrapped(self, principal: Array, rate: Array | None) -> Array:
-        """Add whole turns so that steps follow the angular velocity between neighbours."""
+    def _unwrapped(self, principal: Array, ends: tuple[str, str]) -> Array:
+        """Add whole turns, as a direction has turned between neighbours."""
         steps = np.diff(principal, axis=0)
-        turns = np.rint((self._steps(rate, steps) - steps) / math.tau)
+        turns = np.rint((self.request.turned(principal, ends, self.setting.quickest) - steps) / math.tau)
         whole = np.zeros_like(principal)
         np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
         return principal + math.tau * (whole - _before_stretch(whole, np.isnan(principal)))
 
-    def _steps(self, rate: Array | None, like: Array) -> Array:
-        """Return about how far what turns at `rate` gets at each step; 0 where that is not known."""
-        # Driven by its angle a swing has no uniform phase, driven by its phase no uniform angle.
-        by_angle = np.ndim(self.crank_rate) == 0
-        course, pace = (self.crank_angle, self.crank_rate) if by_angle else (self.phase, self.input_speed)
-        if rate is None or np.ndim(pace) or not pace:
-            return np.zeros_like(like)
-        rates = np.nan_to_num(rate / pace, posinf=0.0, neginf=0.0)
-        steps: Array = np.nan_to_num(np.diff(course, axis=0)) * (rates[1:] + rates[:-1]) / 2
-        return steps
+
+def unbounded(rate: Any, phase: Any) -> Any:
+    """Return a rate, infinite where it is NaN at a phase that is known: there it is not bounded."""
+    if isinstance(rate, float):
+        return math.inf if math.isnan(rate) and not math.isnan(phase) else rate
+    return np.where(np.isnan(rate) & ~np.isnan(phase), np.inf, rate)[()]
 
 
 def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:
@@ -287,6 +303,11 @@ class Pose(Derived):
     def __init__(self, found: dict[str, Any]) -> None:
         self.__dict__ = found
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as what was solved, without what follows from it."""
+        kinds = (*ORDER, "setting", "input_speed", "input_acceleration")
+        return Pose, ({kind: vars(self)[kind] for kind in kinds if kind in vars(self)},)
+
     position: Mapping[str, Pair] = NOTHING
     velocity: Mapping[str, Pair] = NOTHING
     acceleration: Mapping[str, Pair] = NOTHING
@@ -305,5 +326,11 @@ class Pose(Derived):
     crank_rate: float
     crank_second: float
 
-    def _continuous(self, dy: float, dx: float, rate: float | None) -> float:
-        return math.atan2(dy, dx)
+    @cached_property
+    def per_input(self) -> Pose:
+        """The same instant, with rates by the input's angle, or travel, instead of those in time."""
+        rated = self.angular_acceleration or self.travel_acceleration
+        return self.setting.solver.pose_per_input(self.phase) if rated else self
+
+    def _continuous(self, ends: tuple[str, str]) -> float:
+        return float(direction(between(self.position, ends)))

@@ -19,7 +19,7 @@ from linkanim.errors import AssemblyError
 from .exact import FULL_TURN, HALF_TURN, Sum, exact_angle
 from .expression import Graph, Value
 from .input_path import ThereAndBack, Unlimited, half_squares, nearer_way
-from .input_state import InputState, swing_by_angle, swing_by_phase, turn
+from .input_state import InputState, swing_by_angle, swing_by_phase, swing_per_input, turn
 from .joint import Joint
 from .linkage import Linkage
 from .loop import Loop
@@ -103,6 +103,10 @@ class Turn(Unlimited):
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or noted expressions."""
         return turn(phase, pace, exact_angle(self.start))
+
+    def state_per_input(self, phase: Value) -> InputState:
+        """Return the input's state at a phase, its rates those by its own angle."""
+        return self.state(phase, Slope(1.0))
 
     def reach(self, angle: Array) -> WaysLeft | None:
         """Return None: no angle is out of reach."""
@@ -189,6 +193,10 @@ class Swing(ThereAndBack):
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or noted expressions."""
         return swing_by_phase(phase, pace, self.middle, self.amplitude)
+
+    def state_per_input(self, phase: Value) -> InputState:
+        """Return the input's state at a phase, its rates those by its own angle."""
+        return swing_per_input(phase, self.middle, self.amplitude)
 
     def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state: its angle and half the ways left."""

@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .columns import Columns, Floats, ResultLayout, Scaled
+from .columns import Columns, Floats, ResultLayout, Scaled, read_only
+from .derived import between, direction
 from .measures import DERIVATIVE_OF, FAMILIES
 from .reach import WaysLeft
+from .winding import turned
 
 if TYPE_CHECKING:
     from .motion import Motion
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+POSITION = ("position",)
 CRANK = ("crank_angle", "crank_rate", "crank_second")
 """The crank's angle and its rates, which an input that does not turn fully moves in its own way."""
 LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
@@ -32,11 +35,15 @@ ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(CRANK, range(3), strict=
 
 
 class Variant(NamedTuple):
-    """One way of asking: by phase or by angle, whether the input accelerates, each instant on its own."""
+    """One way of asking: by phase or by angle, whether the input accelerates, each instant on its own.
+
+    `per_input`: at phases, with rates by the input's angle, or travel, instead of those in time.
+    """
 
     by_phase: bool
     accelerates: bool
     varying_rate: bool = False
+    per_input: bool = False
 
 
 @dataclass(frozen=True)
@@ -47,6 +54,10 @@ class Programs:
     variant: Variant
     compiled: Callable[[tuple[str, ...]], tuple[Batch, ResultLayout]]
     found: dict[tuple[str, ...], tuple[Batch, ResultLayout]] = field(default_factory=dict)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle without what is compiled."""
+        return Programs, (self.path, self.variant, self.compiled)
 
     def of(self, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
         """Return the program that works these quantities out, and where its results lie."""
@@ -91,6 +102,20 @@ class Request(NamedTuple):
         results.setflags(write=False)
         return {kind: Columns(names, results, self.shape) for kind, names in places.places.items()}
 
+    def turned(self, angles: Array, ends: tuple[str, str], ratio: float) -> Array:
+        """Return how far the way from one joint to another turns from row to row of its angles."""
+        x = self.x.reshape(self.shape)
+        rows = [(values[:-1].reshape(-1), values[1:].reshape(-1)) for values in (x, angles)]
+        found = turned(rows[0], rows[1], lambda x: self._direction(x, ends), ratio)
+        return found.reshape(angles[1:].shape)
+
+    def _direction(self, x: Array, ends: tuple[str, str]) -> Array:
+        """Return the direction of one joint to another at other instants."""
+        reached = self.reached and self.programs.path.reach(x)
+        rates = tuple(np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.rates)
+        request = self._replace(x=x, reached=reached, rates=rates, shape=x.shape)
+        return np.asarray(direction(between(request.worked_out(POSITION)["position"], ends)))
+
     def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Floats]:
         program, places = self.programs.of(kinds)
         rates = self.rates if self.programs.variant.accelerates else self.rates[:1]
@@ -111,10 +136,11 @@ class Request(NamedTuple):
         rates = [shaped(rate, self.shape) for rate in self.rates]
         if not self.programs.variant.by_phase:
             with np.errstate(all="ignore"):
-                return dict(zip(names, (path.phases(x, self.reached), x, *rates), strict=True))
+                return dict(zip(names, (read_only(path.phases(x, self.reached)), x, *rates), strict=True))
         if path.full_turn:
-            return dict(zip(names, (x, path.angles(x), *rates), strict=True))
+            return dict(zip(names, (x, read_only(path.angles(x)), *rates), strict=True))
         places, results = self._run(CRANK)
+        results.setflags(write=False)
         return {"phase": x} | {
             kind: row.reshape(self.shape) for kind, row in zip(places.kinds, results, strict=True)
         }
@@ -127,12 +153,16 @@ class Paced:
     motion: Motion
     factor: float
 
+    def turned(self, angles: Array, ends: tuple[str, str], ratio: float) -> Array:
+        """Return how far the way from one joint to another turns from row to row of its angles."""
+        return self.motion.request.turned(angles, ends, ratio)
+
     def read(self, name: str, known: Collection[str]) -> dict[str, Any]:
         """Return a quantity."""
         found, power = getattr(self.motion, name), self.factor ** ORDER[name]
         if not ORDER[name]:
             return {name: found}
-        return {name: Scaled(found, power) if name in DERIVATIVE_OF else found * power}
+        return {name: Scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
 
 
 def shaped(rate: Any, shape: tuple[int, ...]) -> Any:

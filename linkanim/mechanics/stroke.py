@@ -168,16 +168,27 @@ class CylinderStroke(Stroke):
         g, r = self.sides
         running = self.running(phase, pace)
         length, rate, second = running.value, running.rate, running.second
-        beyond, short = self._ways(sharp_half_angle(phase))
-        sine, cosine = sqrt(beyond * (length + abs(g - r))), sqrt(short * (g + r + length))
-        scale = 0.5 / math.sqrt(g * r)
-        half = half_of(sine * (scale * self.side), cosine * scale)
+        half = self._half(phase, length)
         squares = half.squares(2 * g * r)
         turning = length * rate / squares.product
         along = (squares.cosine - squares.sine) * 0.5
         bend = (rate * rate + length * second - along * turning * turning) / squares.product
         angle = arctan2(half.sine, half.cosine) * 2.0
         return HalfState(angle, self.base, turning, bend, pace, own=half)
+
+    def state_per_input(self, phase: Value) -> InputState:
+        """Return the input's state at a phase, its rates those by the crank's angle."""
+        half = self._half(phase, self.running(phase, Slope(1.0)).value)
+        angle = arctan2(half.sine, half.cosine) * 2.0
+        return HalfState(angle, self.base, 1.0, 0.0, Slope(1.0), own=half)
+
+    def _half(self, phase: Value, length: Value) -> Half:
+        """Return half of the triangle's angle at the crank's pivot, `side` times."""
+        g, r = self.sides
+        beyond, short = self._ways(sharp_half_angle(phase))
+        sine, cosine = sqrt(beyond * (length + abs(g - r))), sqrt(short * (g + r + length))
+        scale = 0.5 / math.sqrt(g * r)
+        return half_of(sine * (scale * self.side), cosine * scale)
 
     def _ways(self, half: Half) -> tuple[Value, Value]:
         """Return how much longer the cylinder is than it can be short, and how much shorter than long.
@@ -237,6 +248,14 @@ class SliderStroke(Stroke):
         """Return the input's state at a phase, in plain floats or noted expressions."""
         travel = self.running(phase, pace)
         return TravelState(phase, Sum(0.0), pace.value, pace.rate, pace, travel=travel)
+
+    def state_per_input(self, phase: Value) -> InputState:
+        """Return the input's state at a phase, its rates those by the slider's travel."""
+        by_phase = self.running(phase, Slope(1.0))
+        rate = 1.0 / by_phase.rate
+        second = -(by_phase.second * rate * rate * rate)
+        travel = Moving(by_phase.value, 1.0, 0.0)
+        return TravelState(phase, Sum(0.0), rate, second, Slope(rate, second), travel=travel)
 
     def state_by_angle(self, graph: Graph, pace: Slope) -> NoReturn:
         """Refuse to be asked for an angle."""

@@ -241,3 +241,88 @@ def test_what_has_neither_force_nor_mass_asks_for_nothing() -> None:
     scene = load("crank-rocker")
     assert (scene.info.demand, scene.info.usual_effort) == (None, None)
     assert not any(token.startswith("input.t") for token in register(scene.linkage))
+
+
+@pytest.mark.parametrize("way", [(110, 230), (230, 110)], ids=["to the limit", "from the limit"])
+def test_at_a_limit_that_takes_no_power_the_force_is_that_beside_it(way: tuple[int, int]) -> None:
+    scene = scene_of(STRETCHED.format(gravity="", mass=1.0, way=way))
+    phases = np.array([0.0, math.pi, 2 * math.pi])
+    found, beside = (np.asarray(input_effort(scene.solve(phase=phases + off))) for off in (0.0, 1e-4))
+    assert found == pytest.approx(beside, rel=1e-3)
+    assert [input_effort(scene.pose(float(phase))) for phase in phases] == pytest.approx(found.tolist())
+
+
+GEARED = """
+length_unit = "mm"
+[drive]
+joint = "A"
+speed = "20 rpm"
+[ground]
+O = [0, 0]
+Q = [300, 0]
+G = [0, 150]
+[joints.A]
+crank = "O"
+length = 40
+[joints.D]
+crank = "Q"
+length = 17
+gear = {{ with = "A", ratio = "{ratio}", offset = "10 deg" }}
+[springs.coil]
+between = ["A", "G"]
+stiffness = "900 N/m"
+free_length = 60
+[springs.quick]
+between = ["D", "G"]
+stiffness = "70 N/m"
+free_length = 90
+"""
+
+
+@pytest.mark.parametrize("ratio", ["77", "-38.5", "5/2"])
+def test_the_peak_beside_a_quick_gear_is_the_greatest_torque(ratio: str) -> None:
+    scene = scene_of(GEARED.format(ratio=ratio))
+    asked = scene.info.demand
+    assert asked is not None
+    assert asked.peak is not None
+    torque = np.abs(input_effort(scene.cycle(300_000)))
+    assert np.abs(torque).max() <= abs(asked.peak) * (1 + 1e-12)
+    assert abs(asked.peak) == pytest.approx(torque.max(), rel=1e-5)
+
+
+CROSSING = """
+length_unit = "mm"
+[drive]
+joint = "A"
+speed = "20 rpm"
+[ground]
+O = [0, 0]
+[joints.A]
+crank = "O"
+length = 40
+[joints.D]
+crank = "O"
+length = 40
+gear = {{ with = "A", ratio = -1, offset = "{offset}" }}
+[springs.coil]
+between = ["A", "D"]
+stiffness = "500 N/m"
+free_length = 30
+"""
+
+
+@pytest.mark.parametrize("offset", ["0 deg", "0.1 deg", "77.77 deg"])
+def test_a_spring_that_runs_through_no_length_does_no_work(offset: str) -> None:
+    scene = scene_of(CROSSING.format(offset=offset))
+    asked = scene.info.demand
+    assert asked is not None
+    assert (asked.work, asked.mean) == (0.0, 0.0)
+    assert asked.peak is not None
+    assert dict(scene.info.lines)["work per period"] == "0 J"
+    damped = scene_of(
+        CROSSING.format(offset=offset)
+        + '[dampers.cushion]\nbetween = ["A", "D"]\ncoefficient = "20 N s/m"\n'
+    )
+    asked, rate = damped.info.demand, 0.08 * damped.linkage.drive.speed
+    assert asked is not None
+    assert asked.work == pytest.approx(20 * rate**2 / 2 * damped.info.period_seconds, rel=1e-12)
