@@ -112,8 +112,8 @@ class Request(NamedTuple):
     def _direction(self, x: Array, ends: tuple[str, str]) -> Array:
         """Return the direction of one joint to another at other instants."""
         reached = self.reached and self.programs.path.reach(x)
-        rates = tuple(np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.rates)
-        request = self._replace(x=x, reached=reached, rates=rates, shape=x.shape)
+        w, a = (np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.rates)
+        request = self._replace(x=x, reached=reached, rates=(w, a), shape=x.shape)
         return np.asarray(direction(between(request.worked_out(POSITION)["position"], ends)))
 
     def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Floats]:
