@@ -162,7 +162,8 @@ def _rests(motion: Any) -> NDArray[np.bool_]:
 class Demand(NamedTuple):
     """What one true period asks of the input: work (J), and its effort (N m, or N).
 
-    The work is what dampers use up: springs and masses give back what they took. `peak` is the effort of the greatest size, `mean` that over time, both None where it is not bounded.
+    The work is what dampers use up: springs and masses give back what they took.
+    `peak` is the effort of the greatest size, `mean` that over time, both None where it is not bounded.
     """
 
     work: float
@@ -192,7 +193,8 @@ def demand(solved: Callable[[Array], Any], periods: int, *, quickest: float, lim
     phases = _phases(periods * fine) / fine
     cycle = solved(phases)
     power, effort = np.asarray(input_power(cycle)), np.asarray(input_effort(cycle))
-    used = sum((part for part, _ in _strut_power(cycle, _MOVING, cycle.setting.linkage.dampers)), 0.0 * phases)
+    dampers = _strut_power(cycle, _MOVING, cycle.setting.linkage.dampers)
+    used = sum((part for part, _ in dampers), 0.0 * phases)
     work = float(np.mean(used)) * math.tau * periods / abs(float(cycle.input_speed))
     idle = np.abs(power) <= _BOUNDED * np.abs(power).max()
     if (limited and not idle[:: len(idle) // (2 * periods)].all()) or not np.isfinite(effort).all():

@@ -320,8 +320,7 @@ def test_a_spring_that_runs_through_no_length_does_no_work(offset: str) -> None:
     assert asked.peak is not None
     assert dict(scene.info.lines)["work per period"] == "0 J"
     damped = scene_of(
-        CROSSING.format(offset=offset)
-        + '[dampers.cushion]\nbetween = ["A", "D"]\ncoefficient = "20 N s/m"\n'
+        CROSSING.format(offset=offset) + '[dampers.cushion]\nbetween = ["A", "D"]\ncoefficient = "20 N s/m"\n'
     )
     asked, rate = damped.info.demand, 0.08 * damped.linkage.drive.speed
     assert asked is not None

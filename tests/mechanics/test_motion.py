@@ -245,7 +245,8 @@ def test_coefficients_do_not_depend_on_speed(name: str) -> None:
     scene = load(name)
     phases = np.array([0.0, 0.7, math.pi, 5.0])
     usual = scene.solve(phase=phases, speed=1.7)
-    for other in (scene.solve(phase=phases, speed=0.0), scene.solve(phase=phases, speed=-3.0, acceleration=2.0)):
+    still = scene.solve(phase=phases, speed=0.0)
+    for other in (still, scene.solve(phase=phases, speed=-3.0, acceleration=2.0)):
         for body, pair in usual.coefficient.items():
             assert [part.tolist() for part in other.coefficient[body]] == [part.tolist() for part in pair]
 
@@ -302,9 +303,7 @@ between = ["A", "D"]
 @pytest.mark.parametrize("by", ["angle", "phase"])
 def test_a_strut_of_no_length_keeps_its_force_and_has_no_direction(by: str) -> None:
     scene, places = scene_of(CROSSING), [-0.1, 0.0, 0.1]
-    motion = (
-        scene.solve(phase=places, speed=2.0) if by == "phase" else scene.solve(angle=places, speed=2.0)
-    )
+    motion = scene.solve(phase=places, speed=2.0) if by == "phase" else scene.solve(angle=places, speed=2.0)
     for strut in (motion.spring["coil"], motion.damper["cushion"], motion.damper["rod"]):
         assert strut.length == pytest.approx(80 * np.abs(np.sin([0.1, 0.0, 0.1])))
         assert strut.rate == pytest.approx([-160 * math.cos(0.1), 160.0, 160 * math.cos(0.1)])
