@@ -1,15 +1,18 @@
 """Files that appear under their name when they are whole, or not at all.
 
-Work goes to a temporary name beside the target, `.linkanim-PID-TOKEN.part`, and takes the target's
-name at the end, when its bytes are on the disk. What a killed run left behind is cleared by the next
-one in that folder. Everything that is written goes through here: `WorkFailed` where disk or folder refuse.
+Work goes into a scratch folder beside the target, `.linkanim-TOKEN.part`, and takes the target's name at
+the end, when its bytes are on the disk. A lock held on `lock` in it says that its run is alive; what a
+killed run left behind is cleared by the next one in that folder. Everything that is written goes through
+here: `BadInput` for a target that is not ours to replace, `WorkFailed` where disk or folder refuse.
 """
 
 from __future__ import annotations
 
 import os
 import re
-import shutil
+import stat
+import sys
+import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from errno import EEXIST
@@ -18,20 +21,28 @@ from pathlib import Path
 
 from linkanim.errors import BadInput, WorkFailed
 
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+
 _DEVICES = frozenset(
     {"con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(1, 10))}
 )
 """Names that Windows keeps for devices, whatever their ending."""
 _IN_USE = (5, 32)
 """Windows' numbers for a file that may not be touched and for one that is open elsewhere."""
-_PART = re.compile(r"\.linkanim-(\d+)-[0-9a-f]+\.part")
+_PART = re.compile(r"\.linkanim-[0-9a-f]{16}\.part")
+_LOCK = "lock"
+_FORSAKEN = 7 * 24 * 3600
+"""Seconds after which a scratch folder of another machine, whose locks we may not see, is left behind."""
 
 
 def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> Path:
     """Return the path, where a file can be asked for under it.
 
-    `BadInput` where `path` has none of the suffixes, is a folder or a name of Windows' own, or lies in a
-    folder that is not there.
+    `BadInput` where `path` has none of the suffixes, is a folder or a name of Windows' own, lies in a
+    folder that is not there, or is taken as by `refuse_taken`.
     """
     asked = Path(path)
     if asked.is_dir():
@@ -44,19 +55,46 @@ def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> P
         raise BadInput(f"{asked}: Windows keeps {asked.stem} for a device; choose another name")
     if not asked.parent.is_dir():
         raise BadInput(f"{asked}: there is no folder {asked.parent}; make it first, or choose another")
+    refuse_taken(asked)
     return asked
+
+
+def refuse_taken(path: Path) -> None:
+    """Refuse a name under which something is that a file must not replace.
+
+    `BadInput` for a link, wherever it leads, a folder, a pipe, a device, and a file that is read-only, for
+    the superuser, too.
+    """
+    try:
+        mode = path.lstat().st_mode
+    except (OSError, ValueError):
+        return
+    if stat.S_ISLNK(mode):
+        raise BadInput(f"{path} is a link, which is not written over; name the file itself, or another")
+    if not stat.S_ISREG(mode):
+        what = "a folder" if stat.S_ISDIR(mode) else "a pipe, a socket or a device"
+        raise BadInput(f"{path} is {what}, which is not written over; choose another name")
+    if not (mode & stat.S_IWUSR and os.access(path, os.W_OK)):
+        raise BadInput(f"{path} is read-only; make it writable, or choose another name")
+
+
+def checked_folder(path: Path) -> Path:
+    """Return a folder that is there, or of which only itself is missing; `BadInput` for any other."""
+    if path.is_dir():
+        return path
+    if path.is_symlink():
+        raise BadInput(f"{path} is a link that leads to no folder; name a folder")
+    if path.exists():
+        raise BadInput(f"{path} is a file; name a folder")
+    if not path.parent.is_dir():
+        raise BadInput(f"{path}: there is no folder {path.parent}; make it first, or choose another")
+    return path
 
 
 def made_folder(path: Path) -> Path:
     """Return the folder, made where only it is missing; `BadInput` where a file or no parent is there."""
-    if path.exists() and not path.is_dir():
-        raise BadInput(f"{path} is a file; name a folder")
-    if not path.parent.is_dir():
-        raise BadInput(f"{path}: there is no folder {path.parent}; make it first, or choose another")
-    try:
+    with saying_why(checked_folder(path), "made"):
         path.mkdir(exist_ok=True)
-    except OSError as error:
-        raise WorkFailed(f"{path}: cannot be made: {(error.strerror or str(error)).lower()}") from error
     return path
 
 
@@ -64,14 +102,13 @@ def made_folder(path: Path) -> Path:
 def replacing(target: Path) -> Iterator[Path]:
     """Give the path of a new file, which takes the target's name when the block ends well.
 
-    Where the target is a link, what it points to is replaced. Whatever ends the block otherwise,
-    the new file goes and an old one stays as it was.
+    A file that is there keeps its mode. Whatever ends the block otherwise, the new file goes and an old
+    one stays as it was. `BadInput` as `refuse_taken`.
     """
-    whole = target.resolve()
-    with _beginning(whole.parent, target) as part:
+    with _beginning(target) as part:
         yield part
-        _settle(part)
-        part.replace(whole)
+        settle(part)
+        take_place(part, target)
 
 
 def add(content: bytes, target: Path, others: Iterable[Path] = ()) -> Path:
@@ -79,9 +116,10 @@ def add(content: bytes, target: Path, others: Iterable[Path] = ()) -> Path:
 
     Returns the name it took; all lie in one folder. `WorkFailed` where none is free, too.
     """
-    with _beginning(target.parent, target) as part:
+    with scratch(target.parent, target) as folder:
+        part = folder / "new"
         part.write_bytes(content)
-        _settle(part)
+        settle(part)
         for name in chain([target], others):
             if _taken(part, name):
                 return name
@@ -110,86 +148,134 @@ def _moved(part: Path, target: Path) -> bool:
 
 
 @contextmanager
-def _beginning(folder: Path, target: Path) -> Iterator[Path]:
-    """Give an empty file of a temporary name, which is gone at the end unless it took another."""
-    clear_stale(folder)
-    part = _part(folder)
-    try:
-        with _saying_why(target):
-            part.touch(exist_ok=False)
-            yield part
-    finally:
+def _beginning(target: Path) -> Iterator[Path]:
+    """Give an empty file in a scratch folder; `BadInput` where it could not take the target's name."""
+    refuse_taken(target)
+    with scratch(target.parent, target) as folder:
+        part = folder / "new"
+        part.touch()
+        yield part
+
+
+def take_place(part: Path, target: Path) -> None:
+    """Have a file take the name, and the mode and owner of what is there; `BadInput` as `refuse_taken`."""
+    refuse_taken(target)
+    with suppress(FileNotFoundError):
+        _look_like(part, target.stat())
+    part.replace(target)
+
+
+def _look_like(part: Path, old: os.stat_result) -> None:
+    """Give a file another's owner and mode, as far as the system lets us."""
+    if sys.platform != "win32":
         with suppress(OSError):
-            part.unlink(missing_ok=True)
+            os.chown(part, old.st_uid, old.st_gid)
+    with suppress(OSError):
+        part.chmod(stat.S_IMODE(old.st_mode))
+
+
+def settle(path: Path) -> None:
+    """Have the bytes on the disk: a disk that is full may say so only now."""
+    with path.open("rb+") as file:
+        os.fsync(file.fileno())
 
 
 @contextmanager
-def numbering(target: Path) -> Iterator[Path]:
-    """Give a new folder for 0001.png, 0002.png, ...; they become NAME-0001.png, ... of NAME.png together.
-
-    Numbered files of the same name that are there already are replaced, and the higher-numbered
-    ones go; where the block or the replacing fails they are all as they were.
-    """
-    clear_stale(target.parent)
-    part = _part(target.parent)
-    try:
-        with _saying_why(target):
-            part.mkdir()
-            yield part
-            _swap(part, target)
-    finally:
-        shutil.rmtree(part, ignore_errors=True)
+def scratch(folder: Path, target: Path) -> Iterator[Path]:
+    """Give a new folder in `folder` for work on the target; it goes at the end with all that is in it."""
+    clear_stale(folder)
+    part = folder / f".linkanim-{os.urandom(8).hex()}.part"
+    with saying_why(target):
+        try:
+            part.mkdir(mode=0o700)
+            with _alive(part / _LOCK):
+                yield part
+        finally:
+            _remove(part)
 
 
 @contextmanager
-def replacing_folder(target: Path) -> Iterator[Path]:
-    """Give a new folder, which takes the target's name when the block ends well; an old one then goes."""
-    whole = target.resolve()
-    clear_stale(whole.parent)
-    part, aside = _part(whole.parent), _part(whole.parent)
+def _alive(path: Path) -> Iterator[None]:
+    """Hold a new file locked meanwhile, with what tells this machine in it."""
+    lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
     try:
-        with _saying_why(target):
-            part.mkdir()
-            yield part
-            for path in part.iterdir():
-                _settle(path)
-            if whole.exists():
-                whole.rename(aside)
-            try:
-                part.rename(whole)
-            except OSError:
-                if aside.exists():
-                    aside.rename(whole)
-                raise
+        with suppress(OSError):  # a file system that knows no locks
+            hold(lock, wait=True)
+        # only now: nobody takes the lock of a file without it for one whose run is gone
+        os.write(lock, _machine())
+        yield
     finally:
-        for left in (part, aside):
-            shutil.rmtree(left, ignore_errors=True)
+        os.close(lock)
 
 
-def numbered(target: Path) -> list[Path]:
-    """Return the numbered files NAME-0001.png, ... of NAME.png that are there, in order."""
-    name = re.compile(re.escape(target.stem) + r"-(\d{4,})" + re.escape(target.suffix))
-    files = (path for path in target.parent.iterdir() if path.is_file())
-    found = [(match, path) for path in files if (match := name.fullmatch(path.name))]
-    return [path for match, path in sorted(found, key=lambda pair: int(pair[0][1]))]
+def hold(lock: int, *, wait: bool = False) -> None:
+    """Lock an open file until it is closed or we are gone; BlockingIOError where another holds it."""
+    if sys.platform == "win32":
+        try:
+            msvcrt.locking(lock, msvcrt.LK_LOCK if wait else msvcrt.LK_NBLCK, 1)
+        except PermissionError as error:
+            raise BlockingIOError from error
+    else:
+        fcntl.flock(lock, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+
+
+def _machine() -> bytes:
+    """Return what tells this machine, since it was started, from others: containers on it are one."""
+    try:
+        return Path("/proc/sys/kernel/random/boot_id").read_bytes().strip()
+    except OSError:
+        import platform
+
+        return platform.node().encode()
 
 
 def clear_stale(folder: Path) -> None:
     """Remove what runs that are no longer alive left in a folder; what cannot be removed stays."""
     with suppress(OSError):
         for path in list(folder.iterdir()):
-            match = _PART.fullmatch(path.name)
-            if match and not _alive(int(match[1])):
+            if _PART.fullmatch(path.name) and path.is_dir() and not path.is_symlink() and _is_stale(path):
                 _remove(path)
 
 
+def _is_stale(part: Path) -> bool:
+    """Return whether the run whose scratch folder this is has ended.
+
+    The lock tells, of a run on this machine; another's locks may not be seen here, and only its age does.
+    """
+    try:
+        lock = os.open(part / _LOCK, os.O_RDWR)
+    except FileNotFoundError:  # begun just now, or never gone on
+        return time.time() - part.stat().st_mtime > _FORSAKEN
+    try:
+        left_behind = time.time() - os.fstat(lock).st_mtime > _FORSAKEN
+        hold(lock)
+        return left_behind or os.read(lock, 100) == _machine()
+    except BlockingIOError:
+        return False
+    except OSError:  # a file system that knows no locks
+        return left_behind
+    finally:
+        os.close(lock)
+
+
+def _remove(path: Path) -> None:
+    """Remove a file or a folder, the lock in it last: without it nobody could tell whose the rest is."""
+    with suppress(OSError):
+        if path.is_symlink() or not path.is_dir():
+            path.unlink()
+            return
+        for inside in sorted(path.iterdir(), key=lambda inside: inside.name == _LOCK):
+            _remove(inside)
+        path.rmdir()
+
+
 @contextmanager
-def _saying_why(target: Path) -> Iterator[None]:
+def saying_why(target: Path, deed: str = "written") -> Iterator[None]:
     """Have the system's refusals meanwhile be a `WorkFailed` that names the target and the reason."""
     try:
         yield
     except OSError as error:
-        raise WorkFailed(f"{target}: cannot be written: {_reason(error)}") from error
+        raise WorkFailed(f"{target}: cannot be {deed}: {_reason(error)}") from error
 
 
 def _reason(error: OSError) -> str:
@@ -197,52 +283,3 @@ def _reason(error: OSError) -> str:
     if getattr(error, "winerror", None) in _IN_USE:
         return "it is open in another program; close it there, or choose another name"
     return (error.strerror or str(error)).lower()
-
-
-def _part(folder: Path) -> Path:
-    return folder / f".linkanim-{os.getpid()}-{os.urandom(4).hex()}.part"
-
-
-def _alive(pid: int) -> bool:
-    """Return whether a process is there; where it cannot be asked without harm (Windows), yes."""
-    if os.name != "posix":
-        return True
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    except (OSError, OverflowError):
-        return True
-    return True
-
-
-def _remove(path: Path) -> None:
-    if path.is_dir() and not path.is_symlink():
-        shutil.rmtree(path, ignore_errors=True)
-    else:
-        with suppress(OSError):
-            path.unlink()
-
-
-def _settle(path: Path) -> None:
-    """Have the bytes on the disk: a disk that is full may say so only now."""
-    with path.open("rb+") as file:
-        os.fsync(file.fileno())
-
-
-def _swap(part: Path, target: Path) -> None:
-    """Move the old numbered files aside and the new ones in; undo it all where a move fails."""
-    aside = part / "before"
-    new = sorted(part.iterdir(), key=lambda path: int(path.stem))
-    aside.mkdir()
-    moves = [(path, aside / path.name) for path in numbered(target)]
-    moves += [(path, target.with_name(f"{target.stem}-{path.stem}{target.suffix}")) for path in new]
-    done: list[tuple[Path, Path]] = []
-    try:
-        for source, goal in moves:
-            source.rename(goal)
-            done.append((source, goal))
-    except BaseException:
-        for source, goal in reversed(done):
-            goal.rename(source)
-        raise

@@ -24,6 +24,7 @@ RANK = {
         [
             ("errors",),
             ("bounds", "cells", "digits", "document", "intake", "units", "whole"),
+            ("manifest",),
             ("mechanics",),
             ("scenes",),
             ("picture",),
@@ -47,6 +48,7 @@ THIRD_PARTIES = {
     "intake": set(),
     "units": set(),
     "whole": set(),
+    "manifest": set(),
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},
     "picture": {"numpy", "pygame"},

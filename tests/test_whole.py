@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
+import stat
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from linkanim import whole
+from linkanim import manifest, whole
 from linkanim.errors import BadInput, WorkFailed
 
 BEFORE = b"what was there before"
@@ -28,14 +30,9 @@ def replaced(path: Path) -> None:
         part.write_bytes(b"new")
 
 
-def numbers_replaced(path: Path) -> None:
-    with whole.numbering(path.with_suffix(".png")) as part:
-        (part / "0001.png").write_bytes(b"new")
-
-
-def folder_replaced(path: Path) -> None:
-    with whole.replacing_folder(path.with_name("report")) as part:
-        (part / "page.html").write_bytes(b"new")
+def set_replaced(path: Path) -> None:
+    with manifest.replacing(manifest.FileSet(path.parent, "set", r"out-\d\.csv")) as new:
+        (new / "out-1.csv").write_bytes(b"new")
 
 
 def added(path: Path) -> None:
@@ -46,7 +43,7 @@ def test_a_file_is_replaced_when_it_is_whole(target: Path) -> None:
     with whole.replacing(target) as part:
         part.write_bytes(b"new")
         assert target.read_bytes() == BEFORE
-        assert part.parent == target.parent
+        assert part.parent.parent == target.parent
     assert target.read_bytes() == b"new"
     assert list(target.parent.iterdir()) == [target]
 
@@ -87,15 +84,13 @@ def test_a_target_that_is_open_in_another_program_stays_as_it_was(
         vars(error)["winerror"] = number
         raise error
 
-    (target.parent / "out-0001.png").write_bytes(BEFORE)
-    (target.parent / "report").mkdir()
+    set_replaced(target)
+    before = {path.name: path.read_bytes() for path in target.parent.iterdir()}
     monkeypatch.setattr(Path, "replace", refused)
-    monkeypatch.setattr(Path, "rename", refused)
-    for write in (replaced, numbers_replaced, folder_replaced):
+    for write in (replaced, set_replaced):
         with pytest.raises(WorkFailed, match=r"it is open in another program; close it there, or choose"):
             write(target)
-    assert target.read_bytes() == BEFORE == (target.parent / "out-0001.png").read_bytes()
-    assert {path.name for path in target.parent.iterdir()} == {"out.csv", "out-0001.png", "report"}
+    assert {path.name: path.read_bytes() for path in target.parent.iterdir()} == before
 
 
 # A machine that stops just after a file took its name must not leave it empty.
@@ -124,12 +119,76 @@ def test_a_name_that_windows_keeps_for_a_device_is_refused_everywhere(tmp_path: 
         assert whole.checked_target(tmp_path / free, (".gif",)) == tmp_path / free
 
 
-def test_a_link_stays_a_link(target: Path) -> None:
-    link = target.with_name("link.csv")
-    link.symlink_to(target.name)
-    replaced(link)
-    assert link.is_symlink()
-    assert target.read_bytes() == b"new"
+@pytest.fixture(params=["link", "dangling link", "loop of links", "pipe", "folder", "read-only file"])
+def taken(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+    """A name under which something is that no file is written over."""
+    path = tmp_path / "taken.csv"
+    match request.param:
+        case "link":
+            (tmp_path / "other.csv").write_bytes(BEFORE)
+            path.symlink_to("other.csv")
+        case "dangling link":
+            path.symlink_to("absent.csv")
+        case "loop of links":
+            path.symlink_to("loop.csv")
+            (tmp_path / "loop.csv").symlink_to("taken.csv")
+        case "pipe":
+            if not hasattr(os, "mkfifo"):
+                pytest.skip("has no named pipes")
+            os.mkfifo(path)
+        case "folder":
+            path.mkdir()
+        case _:
+            path.write_bytes(BEFORE)
+            path.chmod(0o444)
+    return path
+
+
+def state(folder: Path) -> dict[str, tuple[int, bytes]]:
+    """Return what lies in a folder: mode, and what is in it."""
+    found = {}
+    for path in folder.iterdir():
+        mode = path.lstat().st_mode
+        found[path.name] = mode, path.read_bytes() if stat.S_ISREG(mode) else b""
+    return found
+
+
+def test_what_is_no_plain_writable_file_is_never_written_over(taken: Path) -> None:
+    before = state(taken.parent)
+    with pytest.raises(BadInput, match=r"taken\.csv is .*; (name|choose|make)|taken\.csv is a folder; give"):
+        whole.checked_target(taken, (".csv",))
+    with pytest.raises(BadInput, match=r"taken\.csv is .*; (name|choose|make) "):
+        replaced(taken)
+    assert state(taken.parent) == before
+
+
+def test_what_takes_the_name_meanwhile_is_not_written_over(tmp_path: Path) -> None:
+    path = tmp_path / "out.csv"
+
+    def interfered() -> None:
+        with whole.replacing(path) as part:
+            part.write_bytes(b"new")
+            path.symlink_to("absent.csv")
+
+    with pytest.raises(BadInput, match=r"out\.csv is a link"):
+        interfered()
+    assert path.is_symlink()
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_folder_that_is_a_loop_of_links_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "a").symlink_to("b")
+    (tmp_path / "b").symlink_to("a")
+    with pytest.raises(BadInput, match="a link that leads to no folder"):
+        whole.made_folder(tmp_path / "a")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="has no modes of this kind")
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o755, 0o666])
+def test_a_replaced_file_keeps_its_mode(target: Path, mode: int) -> None:
+    target.chmod(mode)
+    replaced(target)
+    assert stat.S_IMODE(target.stat().st_mode) == mode
 
 
 @pytest.mark.parametrize("links", [True, False], ids=["links", "no links"])
@@ -154,20 +213,62 @@ def test_an_added_file_takes_the_first_free_name(
 def test_a_written_file_is_as_open_to_others_as_any(tmp_path: Path) -> None:
     (tmp_path / "plain").touch()
     replaced(tmp_path / "replaced")
+    set_replaced(tmp_path / "out-1.csv")
     whole.add(b"", tmp_path / "added")
     assert {path.stat().st_mode for path in tmp_path.iterdir()} == {(tmp_path / "plain").stat().st_mode}
 
 
-def test_temporaries_of_living_runs_stay(tmp_path: Path) -> None:
-    living = tmp_path / f".linkanim-{os.getppid()}-0123abcd.part"
-    living.touch()
-    dead = subprocess.Popen([sys.executable, "-c", ""])
-    dead.wait()
-    (tmp_path / f".linkanim-{dead.pid}-0123abcd.part").mkdir()
-    (tmp_path / f".linkanim-{dead.pid}-4567abcd.part").touch()
-    (tmp_path / f".linkanim-{dead.pid}.part.gif").touch()  # not a name of ours
+# A process number tells nothing: that of a run in another container is free, or another's, here.
+HOLDING = """
+import sys
+from pathlib import Path
+from linkanim import whole
+with whole.replacing(Path(sys.argv[1])) as part:
+    print(part.parent, flush=True)
+    sys.stdin.read()
+"""
+
+
+def held(target: Path) -> subprocess.Popen[str]:
+    """Start a run that has begun a file and waits."""
+    pipe = subprocess.PIPE
+    return subprocess.Popen(
+        [sys.executable, "-c", HOLDING, str(target)], stdin=pipe, stdout=pipe, text=True, cwd=target.parent
+    )
+
+
+def test_the_lock_and_no_number_tells_whose_run_is_alive(tmp_path: Path) -> None:
+    with held(tmp_path / "living.csv") as living, held(tmp_path / "dead.csv") as dead:
+        assert living.stdout
+        assert dead.stdout
+        (at_work, left) = (Path(run.stdout.readline().strip()) for run in (living, dead) if run.stdout)
+        dead.kill()
+        dead.wait()
+        foreign = tmp_path / ".linkanim-4567abcd.part"
+        foreign.touch()
+        (left / "deep").mkdir()
+        (left / "deep" / "0001.png").touch()
+        whole.clear_stale(tmp_path)
+        assert set(tmp_path.iterdir()) == {at_work, foreign}
+        living.communicate()
+    assert {path.name for path in tmp_path.iterdir()} == {"living.csv", foreign.name}
+
+
+# Another machine's locks may not be seen here: what it works on is left alone for a week.
+@pytest.mark.parametrize(("days", "stays"), [(0, True), (6, True), (8, False)])
+@pytest.mark.parametrize("written", [b"another machine", b"", None])
+def test_another_machine_s_run_is_told_by_its_age(
+    tmp_path: Path, days: int, stays: bool, written: bytes | None
+) -> None:
+    part = tmp_path / ".linkanim-0123456789abcdef.part"
+    part.mkdir()
+    if written is not None:
+        (part / "lock").write_bytes(written)
+    then = time.time() - days * 24 * 3600
+    for path in (*part.iterdir(), part):
+        os.utime(path, (then, then))
     whole.clear_stale(tmp_path)
-    assert {path.name for path in tmp_path.iterdir()} == {living.name, f".linkanim-{dead.pid}.part.gif"}
+    assert part.exists() == stays
 
 
 def test_a_folder_is_made_where_only_it_is_missing(target: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import os
+import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from typing import Protocol, cast
 
 import numpy as np
 
-from linkanim import whole
+from linkanim import manifest, whole
 from linkanim.errors import BadInput, RecordingFailed, WorkFailed
 from linkanim.recorder.encode import Stream, count_frames, encoding
 from linkanim.recorder.palette import Colour, make_palette
@@ -102,22 +103,42 @@ def write(
 ) -> Recording:
     """Draw and encode `plan.frames` frames into a file whose ending says the format.
 
-    The file appears when it is whole, or not at all; one that was there is replaced then. `progress` is
-    called with (frames done, frames in all). `BadInput` before any work where the path, the size or
-    transparency in MP4 cannot be; `RecordingFailed` where disk or encoder give up.
+    The file appears when it is whole, or not at all; one that was there is replaced then, of numbered
+    frames only those that we wrote. `progress` is called with (frames done, frames in all). `BadInput`
+    before any work where the path, the size or transparency in MP4 cannot be, or a frame's name is taken;
+    `RecordingFailed` where disk or encoder give up.
     """
     target, form = checked_path(path)
     refuse_size(frames.size)
     if frames.alpha and form == "mp4":
         raise BadInput(f"{target.name}: MP4 has no transparency; record a GIF or PNG, or keep the background")
-    finished = whole.numbering if form == "png" else whole.replacing
-    with _saying_why(target), finished(target) as part:
+    made = _frame_files(target, plan.frames) if form == "png" else [target]
+    finished = _numbering(target, made) if form == "png" else whole.replacing(target)
+    with _saying_why(target), finished as part:
         _encode(frames, plan, part, form, progress)
         held = count_frames(part, form)
         if held != plan.frames:
             raise RecordingFailed(f"{held} of {plan.frames} frames came out")
-    made = whole.numbered(target) if form == "png" else [target]
     return Recording(made[0], plan, frames.size, sum(file.stat().st_size for file in made))
+
+
+def _frame_files(target: Path, count: int) -> list[Path]:
+    """Return the names of the frames of NAME.png: NAME-0001.png, NAME-0002.png, ..."""
+    return [target.with_name(f"{target.stem}-{number:04}{target.suffix}") for number in range(1, count + 1)]
+
+
+@contextmanager
+def _numbering(target: Path, made: Sequence[Path]) -> Iterator[Path]:
+    """Give a new folder for 0001.png, 0002.png, ..., which become NAME-0001.png, ... together at the end.
+
+    Those that we wrote before are replaced, and the higher-numbered ones go.
+    """
+    numbered = re.escape(target.stem) + r"-\d{4,}" + re.escape(target.suffix)
+    files = manifest.FileSet(target.parent, target.name, numbered)
+    with manifest.replacing(files, [path.name for path in made]) as new:
+        yield new
+        for path, named in zip(sorted(new.iterdir(), key=lambda path: int(path.stem)), made, strict=True):
+            path.rename(new / named.name)
 
 
 @contextmanager

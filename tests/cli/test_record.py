@@ -63,7 +63,7 @@ def test_the_file_is_named_after_the_scene_where_no_name_is_given(
     words: list[str], made: list[str], tmp_path: Path
 ) -> None:
     assert main(["record", "crank-rocker", *SMALL, *words]) == 0
-    assert files(tmp_path) == made
+    assert [name for name in files(tmp_path) if not name.startswith(".linkanim-")] == made
 
 
 # what each preset stands for: size, and the frames of a fifth of a second

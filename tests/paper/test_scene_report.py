@@ -243,12 +243,34 @@ def test_a_report_takes_the_place_of_an_older_one_and_of_nothing_else(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     target = tmp_path / "out"
-    for _ in range(2):
-        assert main(["report", "scotch-yoke", "-o", str(target)]) == 0
+    for scene in ("kite", "scotch-yoke"):
+        assert main(["report", scene, "-o", str(target)]) == 0
+        (target / "thesis.txt").write_text("keep me")
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
-    other = tmp_path / "mine"
-    other.mkdir()
-    (other / "thesis.txt").write_text("keep me")
-    assert main(["report", "scotch-yoke", "-o", str(other)]) == 2
-    assert "holds something else" in capsys.readouterr().err
-    assert (other / "thesis.txt").read_text() == "keep me"
+    assert (target / "thesis.txt").read_text() == "keep me"
+    assert main(["report", "scotch-yoke", "-o", str(tmp_path / "alone")]) == 0
+    alone = {path.name for path in (tmp_path / "alone").iterdir()}
+    assert {path.name for path in target.iterdir()} == alone | {"thesis.txt"}
+
+
+# A page of that name may be anyone's, and one that was written on is no longer only ours.
+@pytest.mark.parametrize("whose", ["another's", "an older version's", "ours, changed"])
+def test_a_page_that_is_not_ours_alone_is_never_written_over(
+    whose: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    target = tmp_path / "out"
+    if whose == "another's":
+        target.mkdir()
+    else:
+        assert main(["report", "scotch-yoke", "-o", str(target)]) == 0
+    if whose == "an older version's":
+        (target / ".linkanim-report.json").unlink()
+    else:
+        (target / "report.html").write_text("what I noted")
+    (target / "thesis.docx").write_text("keep me")
+    before = {path.name: path.read_bytes() for path in target.iterdir()}
+    assert main(["report", "kite", "-o", str(target)]) == 2
+    err = capsys.readouterr().err
+    assert "report.html" in err
+    assert "move it away, or choose another name" in err
+    assert {path.name: path.read_bytes() for path in target.iterdir()} == before

@@ -37,13 +37,13 @@ def form(request: pytest.FixtureRequest) -> Format:
 @pytest.fixture
 def target(tmp_path: Path, form: Format) -> Path:
     """Return a name in a folder in which earlier recordings of all kinds lie."""
-    for name in ("disc.gif", "disc.mp4", "disc.png", "disc-0001.png", "disc-0099.png", "other-0099.png"):
+    for name in ("disc.gif", "disc.mp4", "disc.png", "disc-20240101.png", "disc-98765.png", "other-0099.png"):
         (tmp_path / name).write_bytes(BEFORE)
     return tmp_path / f"disc.{form}"
 
 
 def untouched(folder: Path) -> bool:
-    names = {"disc.gif", "disc.mp4", "disc.png", "disc-0001.png", "disc-0099.png", "other-0099.png"}
+    names = {"disc.gif", "disc.mp4", "disc.png", "disc-20240101.png", "disc-98765.png", "other-0099.png"}
     found = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     return found == dict.fromkeys(names, BEFORE) and len(list(folder.iterdir())) == len(names)
 
@@ -284,27 +284,49 @@ def test_paths_that_cannot_be_are_refused_before_any_work(tmp_path: Path, asked:
     assert {path.name for path in tmp_path.iterdir()} == {"there.gif", "file.txt"}
 
 
-def test_older_higher_numbered_frames_go_and_others_stay(tmp_path: Path) -> None:
-    kept = ["disc-99.png", "disc-0001.gif", "disc2-0001.png", "adisc-0099.png", "disc.png"]
-    for name in ("disc-0001.png", "disc-0051.png", "disc-12345.png", *kept):
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+
+
+def test_older_higher_numbered_frames_of_ours_go_and_others_stay(tmp_path: Path) -> None:
+    kept = [
+        "disc-99.png",
+        "disc-0001.gif",
+        "disc2-0001.png",
+        "disc-0099.png",
+        "disc-20240101.png",
+        "disc.png",
+    ]
+    for name in kept:
         (tmp_path / name).write_bytes(BEFORE)
-    frames = disc("png")
-    write(frames, frames.plan, tmp_path / "disc.png")
-    made = [f"disc-{k:04d}.png" for k in range(1, 51)]
-    assert {path.name for path in tmp_path.iterdir()} == {*made, *kept}
-    assert (tmp_path / "disc-0001.png").read_bytes() != BEFORE
+    for seconds in (2.0, 0.2):
+        frames = disc("png", TWO_SECONDS._replace(seconds=seconds))
+        write(frames, frames.plan, tmp_path / "disc.png")
+    made = [f"disc-{k:04d}.png" for k in range(1, 6)]
+    found = contents(tmp_path)
+    assert found.keys() == {*made, *kept, ".linkanim-disc.png.json"}
+    assert {found[name] for name in kept} == {BEFORE}
+
+
+@pytest.mark.parametrize("taken", ["disc-0001.png", "disc-0050.png"])
+def test_a_frame_s_name_that_is_another_s_is_refused_before_any_work(tmp_path: Path, taken: str) -> None:
+    for name in (taken, "disc-20240101.png"):
+        (tmp_path / name).write_bytes(BEFORE)
+    frames = at_frame(0, pytest.fail, "png")
+    with pytest.raises(BadInput, match=rf"{taken} is not known to be linkanim's.*choose another name"):
+        write(frames, frames.plan, tmp_path / "disc.png")
+    assert contents(tmp_path) == {taken: BEFORE, "disc-20240101.png": BEFORE}
 
 
 def test_numbered_frames_that_cannot_all_move_do_not_move_at_all(tmp_path: Path) -> None:
-    for name in ("disc-0001.png", "disc-0099.png"):
-        (tmp_path / name).write_bytes(BEFORE)
-    (tmp_path / "disc-0030.png").mkdir()
     frames = disc("png")
-    with pytest.raises(RecordingFailed):
+    write(frames, frames.plan, tmp_path / "disc.png")
+    (tmp_path / "disc-0030.png").unlink()
+    (tmp_path / "disc-0030.png").mkdir()
+    before = contents(tmp_path)
+    with pytest.raises(BadInput, match=r"disc-0030\.png is a folder"):
         write(frames, frames.plan, tmp_path / "disc.png")
-    assert {path.name for path in tmp_path.iterdir()} == {"disc-0001.png", "disc-0030.png", "disc-0099.png"}
-    assert (tmp_path / "disc-0001.png").read_bytes() == BEFORE
-    assert (tmp_path / "disc-0099.png").read_bytes() == BEFORE
+    assert contents(tmp_path) == before
 
 
 @pytest.mark.parametrize("seconds", [0.04, 2.0])

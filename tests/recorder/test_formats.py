@@ -86,7 +86,7 @@ def test_png_frames_are_numbered_from_one_and_exact(tmp_path: Path, alpha: bool)
     frames = disc("png", alpha=alpha)
     recording = write(frames, frames.plan, tmp_path / "disc.png")
     names = [f"disc-{k:04d}.png" for k in range(1, 51)]
-    assert sorted(path.name for path in tmp_path.iterdir()) == names
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".linkanim-disc.png.json", *names]
     assert recording.path == tmp_path / "disc-0001.png"
     for k, name in enumerate(names):
         with Image.open(tmp_path / name) as image:

@@ -1,0 +1,220 @@
+"""Sets of files whose names we choose: a list beside them says which we wrote, and only those are replaced.
+
+The list, `.linkanim-NAME.json`, holds the SHA-256 of each file. A file that it does not name, or that was
+changed since, is never touched: where its name is needed, the set is refused before anything is. While a
+set is put in place its list holds the old sums beside the new, so that a run which is killed at any moment
+leaves files that are whole, each the old one or the new, and the next one knows them all.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import shutil
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from linkanim.errors import BadInput
+from linkanim.intake import Intake
+from linkanim.whole import checked_folder, hold, refuse_taken, scratch, settle, take_place
+
+Sums = Mapping[str, frozenset[str]]
+"""The SHA-256 sums under which a file is known as ours, by its name."""
+
+VERSION = 1
+_MARK = "linkanim_wrote"
+_LIST = Intake("a list of files that linkanim wrote", most_bytes=50_000_000, most_values=1_000_000)
+_SUM = re.compile(r"[0-9a-f]{64}")
+_STRANGE = {
+    True: "was changed after linkanim wrote it, and is not written over",
+    False: "is not known to be linkanim's, which before 0.3.0 kept no list of what it wrote",
+}
+
+
+@dataclass(frozen=True)
+class FileSet:
+    """Files of one kind in a folder: the name of their list, and what their own names look like."""
+
+    folder: Path
+    name: str
+    pattern: str
+
+    @property
+    def list_path(self) -> Path:
+        """The file that says which we wrote."""
+        return self.folder / f".linkanim-{self.name}.json"
+
+    def sums(self) -> Sums:
+        """Return what we wrote; nothing where there is no list, `BadInput` for one that is none."""
+        path = self.list_path
+        if not os.path.lexists(path):
+            return {}
+        refuse_taken(path)
+        try:
+            text = _LIST.read(path, str(path))
+            _LIST.refuse_heavy(text, str(path))
+            document = json.loads(text)
+            if document[_MARK] != VERSION:
+                raise ValueError
+            found = {name: frozenset(_SUM.findall(sums)) for name, sums in document["files"].items()}
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+            raise BadInput(f"{path}: is not {_LIST.noun}; move it away, or choose another folder") from None
+        return {name: sums for name, sums in found.items() if re.fullmatch(self.pattern, name)}
+
+    def refuse_foreign(self, names: Iterable[str]) -> None:
+        """Refuse, as `BadInput`, names of files that we did not write, or that were changed since."""
+        known = self.sums()
+        for name in names:
+            path = self.folder / name
+            refuse_taken(path)
+            if os.path.lexists(path) and not is_ours(path, known):
+                raise BadInput(f"{path} {_STRANGE[name in known]}; move it away, or choose another name")
+
+
+def is_ours(path: Path, known: Sums) -> bool:
+    """Return whether a file is one that we wrote, and still what we wrote."""
+    with suppress(OSError, BadInput):
+        refuse_taken(path)
+        return path.name in known and _sum(path) in known[path.name]
+    return False
+
+
+@contextmanager
+def replacing(files: FileSet, names: Iterable[str] = (), *, others_go: bool = True) -> Iterator[Path]:
+    """Give a new folder, the files in which take their names in the set when the block ends well.
+
+    Those of the set that the list names, that are still as we wrote them and are not among the new ones go
+    then, unless others are to stay. Whatever ends the block otherwise, and where a file cannot take its
+    place, all are as they were. The set's folder is made where only it is missing. `BadInput` before any
+    work where one of `names`, known beforehand, is taken by a file that is not ours; at the end for all.
+    """
+    folder = checked_folder(files.folder)
+    files.refuse_foreign(names)
+    with scratch(folder if folder.is_dir() else folder.parent, folder / files.name) as room:
+        new = room / "new"
+        new.mkdir()
+        yield new
+        sums = {path.name: frozenset([_settled_sum(path)]) for path in sorted(new.iterdir())}
+        if folder.is_dir():
+            with _alone(folder):
+                _take_places(files, room, sums, others_go=others_go)
+        else:
+            _write_list(new / files.list_path.name, sums)
+            new.rename(folder)
+
+
+def _take_places(files: FileSet, room: Path, sums: Sums, *, others_go: bool) -> None:
+    """Put the new files in place, one by one, and take away what goes; undo it all where one fails."""
+    files.refuse_foreign(sums)
+    before, steps = files.sums(), _Steps(room / "old")
+    both = {name: before.get(name, frozenset()) | sums.get(name, frozenset()) for name in {**before, **sums}}
+    with steps.undone_where_one_fails():
+        steps.put(_write_list(room / "both", both), files.list_path)
+        for name in sums:
+            steps.put(room / "new" / name, files.folder / name)
+        for name in before.keys() - sums.keys() if others_go else ():
+            if is_ours(files.folder / name, before):
+                steps.take(files.folder / name)
+        after = sums if others_go else {**before, **sums}
+        steps.put(_write_list(room / "after", after), files.list_path)
+
+
+class _Steps:
+    """Files put in place and taken away, each in one step, and what is needed to undo them."""
+
+    def __init__(self, old: Path) -> None:
+        self._old = old
+        self._undo: list[Callable[[], None]] = []
+        old.mkdir()
+
+    def put(self, part: Path, target: Path) -> None:
+        """Have a file take the name; what is there is kept."""
+        kept = self._kept(target) if target.exists() else None
+        self._undo.append(partial(_put_back, part, target, kept))
+        take_place(part, target)
+
+    def take(self, target: Path) -> None:
+        """Take a file away, and keep it."""
+        kept = self._next()
+        self._undo.append(partial(_give_back, kept, target))
+        target.rename(kept)
+
+    @contextmanager
+    def undone_where_one_fails(self) -> Iterator[None]:
+        """Undo the steps, the last first, where the block fails."""
+        try:
+            yield
+        except BaseException:
+            for undo in reversed(self._undo):
+                undo()
+            raise
+
+    def _next(self) -> Path:
+        return self._old / str(len(self._undo))
+
+    def _kept(self, target: Path) -> Path:
+        kept = self._next()
+        try:
+            kept.hardlink_to(target)
+        except OSError:  # a file system that knows no links
+            shutil.copy2(target, kept)
+        return kept
+
+
+def _put_back(part: Path, target: Path, kept: Path | None) -> None:
+    """Undo that a file took a name, if it did."""
+    if part.exists():
+        return
+    if kept is None:
+        target.unlink(missing_ok=True)
+    else:
+        kept.replace(target)
+
+
+def _give_back(kept: Path, target: Path) -> None:
+    """Undo that a file was taken away, if it was."""
+    with suppress(FileNotFoundError):
+        kept.replace(target)
+
+
+def _write_list(path: Path, sums: Sums) -> Path:
+    """Write the list of what we wrote; return its path."""
+    document = {
+        _MARK: VERSION,
+        "about": "linkanim wrote these files and may replace them; without this list it replaces none",
+        "files": {name: " ".join(sorted(sums[name])) for name in sorted(sums)},
+    }
+    path.write_text(json.dumps(document, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    settle(path)
+    return path
+
+
+def _settled_sum(path: Path) -> str:
+    settle(path)
+    return _sum(path)
+
+
+def _sum(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Let one run at a time change a folder's files, where a folder can be locked: not on Windows."""
+    try:
+        lock = os.open(folder, os.O_RDONLY)
+    except OSError:
+        yield
+        return
+    try:
+        with suppress(OSError):
+            hold(lock, wait=True)
+        yield
+    finally:
+        os.close(lock)
