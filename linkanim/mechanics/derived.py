@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from .columns import components
+from .frames import holding
 from .kinds import Crank
 from .linkage import Body, Linkage
 
@@ -177,9 +178,14 @@ def output_body(linkage: Linkage) -> Body | None:
 
 def coupler_body(linkage: Linkage) -> Body | None:
     """Return the body that turns about nothing fixed: the first one without a fixed pin, None without one."""
-    fixed = {pin.name for pin in linkage.pins}
     turning = (body for body in linkage.bodies if body.slider is None)
-    return next((body for body in turning if not fixed & set(body.joints)), None)
+    return next((body for body in turning if not pivots_of(linkage, body)), None)
+
+
+def pivots_of(linkage: Linkage, body: Body) -> tuple[str, ...]:
+    """Return the fixed pins of a body that turns, those of what is rigid with it among them."""
+    frame = holding(linkage.frames, body.joints)
+    return tuple(pin.name for pin in linkage.pins if frame and pin.name in linkage.frames[frame])
 
 
 def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from .derived import crank_body, output_body
 from .effort import effort_token
+from .frames import holding
 from .kinds import Pin
 from .linkage import Body, Damper, Linkage, Spring
 from .measures import TURNING
@@ -62,7 +63,13 @@ def _wished(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
 
 
 def _in_chain(linkage: Linkage) -> tuple[Body, ...]:
-    """Return the bodies that turn, in the order in which the joints that move them are solved."""
+    """Return the bodies that turn, in the order in which the joints that move them are solved.
+
+    Of those that cannot move against each other it is the first.
+    """
     moving = [joint.name for joint in linkage.joints if not isinstance(joint, Pin)]
-    found = {body.name: body for name in moving for body in linkage.bodies if name in body.joints}
+    bodies = {body.name: body for name in moving for body in linkage.bodies if name in body.joints}
+    found: dict[int | None, Body] = {}
+    for body in bodies.values():
+        found.setdefault(holding(linkage.frames, body.joints), body)
     return tuple(found.values())

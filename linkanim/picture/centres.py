@@ -51,10 +51,13 @@ class Centres:
     @cached_property
     def pairs(self) -> tuple[BodyPair, ...]:
         """The bodies to the ground, and of few to each other."""
-        number = numbered(self.figure)
-        pairs = [BodyPair(body, None, _label("1", number[body])) for body in number]
-        if len(number) <= _MOST:
-            pairs += [BodyPair(a, b, _label(number[a], number[b])) for a, b in combinations(number, 2)]
+        links: dict[str, Body] = {}
+        for body, number in numbered(self.figure).items():
+            links.setdefault(number, body)
+        pairs = [BodyPair(body, None, _label("1", number)) for number, body in links.items()]
+        if len(links) <= _MOST:
+            both = combinations(links.items(), 2)
+            pairs += [BodyPair(a, b, _label(m, n)) for (m, a), (n, b) in both]
         return tuple(pairs)
 
     def marks(self, pose: Pose, places: Places) -> Group:

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.digits import short, typeset
-from linkanim.mechanics.kinds import Rigid
+from linkanim.mechanics.frames import holding
+from linkanim.mechanics.kinds import Brace, Rigid
 from linkanim.mechanics.linkage import Body
 from linkanim.picture.driven import driven_body
 from linkanim.picture.figure import Figure
@@ -80,10 +81,20 @@ def leg_part(legs: Legs, view: View, gauge: Gauge, colour: Colour) -> Part:
 
 
 def numbered(figure: Figure) -> dict[Body, str]:
-    """Return the links with their numbers: the scene's own, or in its order from 2; the ground is 1."""
-    bodies = figure.linkage.bodies
-    own = all(body.name.isdecimal() for body in bodies)
-    return {body: body.name if own else str(n) for n, body in enumerate(bodies, start=2)}
+    """Return the links with their numbers: the scene's own, or in its order from 2; the ground is 1.
+
+    What cannot move against each other has one number.
+    """
+    if all(body.name.isdecimal() for body in figure.links):
+        return {body: body.name for body in figure.links}
+    rigid = [_frame(figure, body) for body in figure.links]
+    number = {frame: str(n) for n, frame in enumerate(dict.fromkeys(rigid), start=2)}
+    return {body: number[frame] for body, frame in zip(figure.links, rigid, strict=True)}
+
+
+def _frame(figure: Figure, body: Body) -> int | str | None:
+    """Return which rigid body this one is; the block of a slider is its own."""
+    return body.slider or holding(figure.linkage.frames, body.joints)
 
 
 def written(symbol: str, value: float, unit: str) -> str:
@@ -111,8 +122,12 @@ def _numbered(figure: Figure, bodies: list[Body], numbers: Iterator[str]) -> Ite
         if others and others[0] in body.joints and len(others) > 1:
             yield _bar(figure, next(numbers), *others[:2])
             others = others[1:]
-        for name in rest[1:]:
-            yield _bar(figure, next(numbers), first, name)
+        for ends in ((first, name) for name in rest[1:]):
+            yield _bar(figure, next(numbers), *ends)
+        for joint in (joint for joint in figure.linkage.joints if isinstance(joint, Brace)):
+            for ends in joint.spans if {*joint.on, joint.name} <= set(body.joints) else ():
+                if first not in ends:
+                    yield _bar(figure, next(numbers), *ends)
 
 
 def _points(figure: Figure) -> list[Rigid]:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cached_property, reduce
 from math import tau
 
 import numpy as np
 
+from linkanim.mechanics.kinds import Brace
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.motion import Motion
 from linkanim.picture.raster import Loop
@@ -35,13 +36,28 @@ class Figure:
 
     @cached_property
     def bodies(self) -> tuple[Body, ...]:
-        """The bodies with named joints, and a bar for each length that neither they nor struts show."""
+        """The bodies with named joints, and a bar for each length that neither they nor struts show.
+
+        Three bars of a rigid triangle are one plate.
+        """
+        return tuple(body for body in self._parts if len(body.joints) > 1)
+
+    @cached_property
+    def links(self) -> dict[Body, str]:
+        """The named bodies, and what each is called: a plate after all of its bars."""
+        return {body: "-".join(filter(None, names)) for body, names in self._parts.items() if any(names)}
+
+    @cached_property
+    def _parts(self) -> dict[Body, tuple[str, ...]]:
+        """Every body that is drawn, with the names of those that it stands for."""
         named = [body for body in self.linkage.bodies if len(body.joints) > 1]
         # A length that a spring or damper shows, such as a cylinder's that is held, needs no bar.
         held = [*(set(body.joints) for body in named), *(set(strut.between) for strut in self.struts)]
         spans = [ends for joint in self.linkage.joints for ends in joint.spans]
         bare = [ends for ends in spans if not any(set(ends) <= joints for joints in held)]
-        return (*(Body("", ends) for ends in bare), *named)
+        parts = {body: (body.name,) for body in (*(Body("", ends) for ends in bare), *self.linkage.bodies)}
+        braces = (joint for joint in self.linkage.joints if isinstance(joint, Brace))
+        return reduce(_with_plate, braces, parts)
 
     @cached_property
     def pins(self) -> tuple[str, ...]:
@@ -137,3 +153,22 @@ def figure(scene: Scene) -> Figure:
     """Solve one cycle of the scene, closely enough for a smooth curve at 4K."""
     periods = min(round(scene.period / tau), _MOST_PERIODS)
     return Figure(scene, scene.cycle(SAMPLES * periods))
+
+
+def _with_plate(parts: dict[Body, tuple[str, ...]], brace: Brace) -> dict[Body, tuple[str, ...]]:
+    """Return the bodies with a brace's two bars and the body that they stand on as one plate.
+
+    They stay as they are where one of them is not shown, or says itself how it looks.
+    """
+    free = [body for body in parts if body.look is None and body.colour is None]
+    bars = [body for body in free if len(body.joints) == 2]
+    base = next((body for body in free if set(brace.on) <= set(body.joints)), None)
+    sides = [next((bar for bar in bars if set(bar.joints) == {end, brace.name}), None) for end in brace.on]
+    whole = [body for body in parts if body in (base, *sides)]
+    if len(whole) < 3:
+        return parts
+    first = next((body for body in whole if body.name), whole[0])
+    corners = tuple(dict.fromkeys(name for body in (first, *whole) for name in body.joints))
+    names = tuple(name for body in whole for name in parts[body])
+    plate = {body: (replace(body, joints=corners), names) for body in (first,)}
+    return dict(plate.get(body, (body, of)) for body, of in parts.items() if body is first or body not in whole)

@@ -166,7 +166,7 @@ def _links(ground: Whereabouts, hand: Hand) -> Iterator[Tag]:
     """Yield the links' names, on their bars where there is room."""
     named = _long_enough(ground, hand)
     for body, number in numbered(ground.figure).items():
-        lettering = hand.written(body.name if named else number, hand.layout.small_size, hand.theme.ink)
+        lettering = hand.written(ground.figure.links[body] if named else number, hand.layout.small_size, hand.theme.ink)
         if body.slider:
             yield Tag(lettering, body.slider, body.slider, ground.by_slider(body.slider, lettering.size))
         elif len(body.joints) > 1:
@@ -178,9 +178,9 @@ def _long_enough(ground: Whereabouts, hand: Hand) -> bool:
     """Return whether every bar has room for its link's name; else all are called by their numbers."""
     start, size = ground.figure.start, hand.layout.small_size
     return all(
-        hand.type.width(body.name, size, strong=True)
+        hand.type.width(name, size, strong=True)
         < _ROOM * ground.view.scale * abs(start(body.joints[1]) - start(body.joints[0]))
-        for body in ground.figure.linkage.bodies
+        for body, name in ground.figure.links.items()
         if len(body.joints) > 1
     )
 

@@ -9,7 +9,7 @@ from linkanim import units
 from linkanim.errors import AssemblyError, BadInput
 from linkanim.mechanics.frames import coincide, frames_of, holding
 from linkanim.mechanics.joint import Frame, Joint, Need
-from linkanim.mechanics.kinds import RRR, Crank, Pin
+from linkanim.mechanics.kinds import RRR, Crank, Pin, brace
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
 from linkanim.scenes.bodies import read_bodies
 from linkanim.scenes.check import Table, no_joint
@@ -43,9 +43,8 @@ def drafted(document: Mapping[str, Any], *, name: str, where: str, towards: Scen
     top = Table(where, document, unit=_length_unit(Table(where, document)))
     top.only(*_TOP)
     short = expand(top, _origin(top))
-    joints = _joints(top, short)
+    joints = _rigid(top, _joints(top, short))
     rigid = frames_of(joints)
-    _check_rigid(top, joints, rigid)
     bodies = read_bodies(top, joints, rigid, short.bodies)
     linkage = Linkage(
         joints=joints,
@@ -157,13 +156,23 @@ def _unfit(need: Need, joints: Mapping[str, Joint]) -> str | None:
     return None
 
 
-def _check_rigid(top: Table, joints: tuple[Joint, ...], rigid: tuple[Frame, ...]) -> None:
-    """Refuse points that are not on one body, and bars on one body that do not meet."""
+def _rigid(top: Table, joints: tuple[Joint, ...]) -> tuple[Joint, ...]:
+    """Return the joints, a dyad whose bars stand on one body as a point of it.
+
+    Refused are points that are not on one body, and bars on one body that do not meet.
+    """
+    found: list[Joint] = []
+    frames = frames_of(())
     for joint in joints:
+        table = top.table("joints").table(joint.name) if joint.body or isinstance(joint, RRR) else top
         if joint.body:
-            _check_body(top.table("joints").table(joint.name), joint.body, rigid)
-        elif isinstance(joint, RRR) and (n := holding(rigid, joint.ends)) is not None:
-            _check_brace(top.table("joints").table(joint.name), joint, rigid[n])
+            _check_body(table, joint.body, frames)
+        elif isinstance(joint, RRR) and (n := holding(frames, joint.ends)) is not None:
+            _check_brace(table, joint, frames[n])
+            joint = brace(joint, frames[n])
+        found.append(joint)
+        frames = joint.placed(frames)
+    return tuple(found)
 
 
 def _check_body(table: Table, names: tuple[str, ...], rigid: tuple[Frame, ...]) -> None:

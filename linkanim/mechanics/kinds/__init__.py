@@ -5,13 +5,13 @@ from linkanim.mechanics.rail import Line
 from .crank import Crank, Gear
 from .driven_slider import DrivenSlider
 from .pin import Pin, Polar
-from .rigid import Rigid
+from .rigid import Brace, Rigid, brace
 from .rpp import RPP
 from .rpr import RPR
 from .rrp import RRP
 from .rrr import RRR
 
-KINDS = (Pin, Crank, DrivenSlider, RRR, RRP, RPR, RPP, Rigid)
+KINDS = (Pin, Crank, DrivenSlider, RRR, RRP, RPR, RPP, Rigid, Brace)
 """Every kind that a linkage can be made of."""
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "RPR",
     "RRP",
     "RRR",
+    "Brace",
     "Crank",
     "DrivenSlider",
     "Gear",
@@ -27,4 +28,5 @@ __all__ = [
     "Pin",
     "Polar",
     "Rigid",
+    "brace",
 ]
