@@ -53,7 +53,7 @@ def _wished(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
     if output and not sliders:
         yield from (f"{output.name}.{measure.name}" for measure in TURNING)
     for body in _in_chain(linkage):
-        if not crank_body(linkage, body) and not (body is output and not sliders):
+        if not crank_body(linkage, body) and not (output and not sliders and _rigid(linkage, body, output)):
             yield f"{body.name}.angular_velocity"
     yield effort_token(linkage)
     for name in traced:
@@ -69,7 +69,13 @@ def _in_chain(linkage: Linkage) -> tuple[Body, ...]:
     """
     moving = [joint.name for joint in linkage.joints if not isinstance(joint, Pin)]
     bodies = {body.name: body for name in moving for body in linkage.bodies if name in body.joints}
-    found: dict[int | None, Body] = {}
+    found: list[Body] = []
     for body in bodies.values():
-        found.setdefault(holding(linkage.frames, body.joints), body)
-    return tuple(found.values())
+        if not any(_rigid(linkage, body, other) for other in found):
+            found.append(body)
+    return tuple(found)
+
+
+def _rigid(linkage: Linkage, body: Body, other: Body) -> bool:
+    """Tell whether two bodies that turn cannot move against each other."""
+    return holding(linkage.frames, body.joints) == holding(linkage.frames, other.joints)
