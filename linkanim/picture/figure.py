@@ -171,4 +171,6 @@ def _with_plate(parts: dict[Body, tuple[str, ...]], brace: Brace) -> dict[Body, 
     corners = tuple(dict.fromkeys(name for body in (first, *whole) for name in body.joints))
     names = tuple(name for body in whole for name in parts[body])
     plate = {body: (replace(body, joints=corners), names) for body in (first,)}
-    return dict(plate.get(body, (body, of)) for body, of in parts.items() if body is first or body not in whole)
+    return dict(
+        plate.get(body, (body, of)) for body, of in parts.items() if body is first or body not in whole
+    )

@@ -166,7 +166,9 @@ def _links(ground: Whereabouts, hand: Hand) -> Iterator[Tag]:
     """Yield the links' names, on their bars where there is room."""
     named = _long_enough(ground, hand)
     for body, number in numbered(ground.figure).items():
-        lettering = hand.written(ground.figure.links[body] if named else number, hand.layout.small_size, hand.theme.ink)
+        lettering = hand.written(
+            ground.figure.links[body] if named else number, hand.layout.small_size, hand.theme.ink
+        )
         if body.slider:
             yield Tag(lettering, body.slider, body.slider, ground.by_slider(body.slider, lettering.size))
         elif len(body.joints) > 1:
