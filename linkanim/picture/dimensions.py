@@ -122,12 +122,12 @@ def _numbered(figure: Figure, bodies: list[Body], numbers: Iterator[str]) -> Ite
         if others and others[0] in body.joints and len(others) > 1:
             yield _bar(figure, next(numbers), *others[:2])
             others = others[1:]
-        for ends in ((first, name) for name in rest[1:]):
-            yield _bar(figure, next(numbers), *ends)
+        for name in rest[1:]:
+            yield _bar(figure, next(numbers), first, name)
         for joint in (joint for joint in figure.linkage.joints if isinstance(joint, Brace)):
-            for ends in joint.spans if {*joint.on, joint.name} <= set(body.joints) else ():
-                if first not in ends:
-                    yield _bar(figure, next(numbers), *ends)
+            for start, _ in joint.bars if {*joint.on, joint.name} <= set(body.joints) else ():
+                if first not in (start, joint.name):
+                    yield _bar(figure, next(numbers), start, joint.name)
 
 
 def _points(figure: Figure) -> list[Rigid]:

@@ -55,7 +55,8 @@ class Figure:
         held = [*(set(body.joints) for body in named), *(set(strut.between) for strut in self.struts)]
         spans = [ends for joint in self.linkage.joints for ends in joint.spans]
         bare = [ends for ends in spans if not any(set(ends) <= joints for joints in held)]
-        parts = {body: (body.name,) for body in (*(Body("", ends) for ends in bare), *self.linkage.bodies)}
+        shown = (*(Body("", ends) for ends in bare), *self.linkage.bodies)
+        parts: dict[Body, tuple[str, ...]] = {body: (body.name,) for body in shown}
         braces = (joint for joint in self.linkage.joints if isinstance(joint, Brace))
         return reduce(_with_plate, braces, parts)
 
