@@ -27,9 +27,10 @@ def as_words(scene: Scene) -> str:
 def as_object(scene: Scene) -> dict[str, object]:
     """Return what `--json` prints: angles in radians, time in s, lengths in the scene's unit.
 
-    `stroke` and `time_ratio` are there for a linkage with a slider, and null where they have no meaning;
-    `work_per_period` (J), peak and mean torque (N m; of a cylinder force, N) for one with forces or masses,
-    null where they are unbounded.
+    `transmission_angle` is the least and the greatest, π/2 at the most; `worst_transmission` says of which
+    joint, and at which phase, it is least. `stroke` and `time_ratio` are there for a linkage with a slider,
+    and null where they have no meaning; `work_per_period` (J), peak and mean torque (N m; of a cylinder
+    force, N) for one with forces or masses, null where they are unbounded.
     """
     info = scene.info
     facts: dict[str, object] = {
@@ -51,6 +52,8 @@ def as_object(scene: Scene) -> dict[str, object]:
         "period_seconds": info.period_seconds,
         "transmission_angle": info.transmission_angle,
     }
+    if info.transmission:
+        facts["worst_transmission"] = {"joint": info.transmission.dyad, "phase": info.transmission.phase}
     if any(body.slider for body in scene.linkage.bodies):
         facts |= {"stroke": info.stroke, "time_ratio": info.time_ratio}
     if info.demand is not None:

@@ -22,7 +22,8 @@ from .naming import SAMPLES, FourBar, class_name, four_bar_of, one_cycle
 from .path import Path
 from .roots import Kind
 from .search import around, sign_changes
-from .transmission import transmission
+from .symbols import input_symbol
+from .transmission import Transmission, transmission
 
 SAME_ANGLE = 1e-9
 
@@ -108,9 +109,14 @@ class Info:
         return 2 * math.pi * self.mechanism.periods / abs(self.mechanism.linkage.drive.speed)
 
     @cached_property
-    def transmission_angle(self) -> tuple[float, float] | None:
-        """The least and the largest transmission angle; None where there is none."""
+    def transmission(self) -> Transmission | None:
+        """The worst transmission angle, where it is, and the best; None where there is none."""
         return transmission(self.mechanism)
+
+    @property
+    def transmission_angle(self) -> tuple[float, float] | None:
+        """The least and the greatest transmission angle, 90° at the most; None where there is none."""
+        return self.transmission and self.transmission[:2]
 
     @property
     def stroke(self) -> float | None:
@@ -274,8 +280,8 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
         yield "change points", _places(info, info.change_points)
     if info.circuits:
         yield "circuits", str(info.circuits)
-    if info.transmission_angle:
-        yield "transmission angle", _degrees(info.transmission_angle, "…")
+    if info.transmission:
+        yield "transmission angle", _worst(info, info.transmission)
     if info.stroke is not None:
         yield "stroke", f"{significant(info.stroke, 6)} {unit}"
     if info.time_ratio is not None:
@@ -291,6 +297,22 @@ def _demand_lines(info: Info, asked: Demand) -> Iterator[tuple[str, str]]:
     yield "work per period", f"{significant(asked.work, 6)} J"
     for label, value in ((f"peak {name}", asked.peak), (f"mean {name}", asked.mean)):
         yield label, "unbounded" if value is None else f"{significant(value, 6)} {unit}"
+
+
+def _worst(info: Info, found: Transmission) -> str:
+    """Return the least transmission angle in words, its dyad and where the input is then."""
+    least = f"{significant(math.degrees(found.least), 3)}° at {found.dyad}"
+    if found.greatest - found.least <= SAME_ANGLE:
+        return f"μ = {least}, all the way"
+    place = float(info.mechanism.solve(phase=found.phase, speed=1.0, derivatives=0).crank_angle)
+    linkage = info.mechanism.linkage
+    if linkage.slides:
+        where = f"{significant(place, 4)} {info.length_unit}"
+    else:
+        turned = round(math.degrees(place), 1) % 360 if info.full_turn else math.degrees(place)
+        where = f"{significant(turned, 3)}°"
+    symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
+    return f"μ ≥ {least}, {symbol} = {where}"
 
 
 def _places(info: Info, places: tuple[float, ...], between: str = ", ") -> str:

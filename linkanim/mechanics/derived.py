@@ -140,7 +140,7 @@ def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
 
 
 def transmission_angle(motion: Any, dyad: str) -> Any:
-    """Return a dyad's transmission angle, as its kind of joint defines it."""
+    """Return a dyad's transmission angle, 90° at the most, as its kind of joint defines it."""
 
     def place(name: str) -> Any:
         return as_complex(motion.position[name])
@@ -149,11 +149,8 @@ def transmission_angle(motion: Any, dyad: str) -> Any:
 
 
 def worst_transmission(motion: Any, dyads: tuple[str, ...]) -> Any:
-    """Return the transmission angle of the only dyad; of several how near to 0 or 180° the worst one is."""
-    angles = [transmission_angle(motion, dyad) for dyad in dyads]
-    if len(angles) == 1:
-        return angles[0]
-    return np.min([np.minimum(angle, math.pi - angle) for angle in angles], axis=0)[()]
+    """Return the least transmission angle of several dyads."""
+    return np.min([transmission_angle(motion, dyad) for dyad in dyads], axis=0)[()]
 
 
 def dyads_of(linkage: Linkage) -> tuple[str, ...]:

@@ -48,3 +48,17 @@ def called(body: Body) -> str:
     if not body.name.isdecimal():
         return body.name[:1].upper() + body.name[1:]
     return f"{'Slider' if body.slider else 'Link'} {body.name}"
+
+
+def driven_body(linkage: Linkage) -> Body | None:
+    """Return the body that the drive turns: the one of the crank pin and its pivot; None without a name."""
+    ends = {linkage.drive.joint, getattr(linkage.joint(linkage.drive.joint), "pivot", None)}
+    return next((body for body in linkage.bodies if ends <= set(body.joints)), None)
+
+
+def input_symbol(linkage: Linkage) -> str:
+    """Return the input's symbol: θ₂, of a four-bar driven at its rocker θ₄, of a slider s."""
+    if linkage.slides:
+        return "s"
+    body = driven_body(linkage)
+    return indexed("θ", link_labels(linkage)[body.name] if body else "2")

@@ -1,24 +1,28 @@
-"""The transmission angle of every dyad: its least and greatest over the motion, exact at both ends.
+"""The transmission angle of every dyad: the worst over the motion and where it is, and the best.
 
-It is 90° where the force in a dyad does nothing but drive what follows, and 0 (or 180°, between bars)
-where it drives nothing: see Uicker, Pennock and Shigley, Theory of Machines and Mechanisms. Each kind of
-dyad says what it is for the factors U and W of its root; they are at their extremes where what closes
-the dyad is, and the angle at a slider has one more where the rod lies along its line (U = W).
+It is 90° where the force in a dyad does nothing but drive what follows, and 0 where it drives nothing: see
+Uicker, Pennock and Shigley, Theory of Machines and Mechanisms. One past 90° between two bars counts as what
+is left to 180°, here as everywhere: as good as it is near 90°. Each kind of dyad says what it is for the
+factors U and W of its root; it is at its extremes where what closes the dyad is, and where U = W.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import partial
+from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .derived import transmission_angle
 from .expression import Graph
 from .mechanism import Mechanism
 from .planar import Slope
 from .program import Batch, batch
-from .search import around, sign_changes
+from .search import around, highest, sign_changes
 
 SAMPLES_A_TURN = 1440
 NEARLY = 2.0**-40
@@ -29,16 +33,45 @@ NONE_LEFT = 1e-12
 Array = NDArray[np.float64]
 
 
-def transmission(mechanism: Mechanism) -> tuple[float, float] | None:
-    """Return the least and greatest transmission angle over all dyads; None where there is no dyad."""
+class Transmission(NamedTuple):
+    """The least transmission angle over the motion, of which dyad and at which phase, and the greatest."""
+
+    least: float
+    greatest: float
+    dyad: str
+    phase: float
+
+
+def transmission(mechanism: Mechanism) -> Transmission | None:
+    """Return the least and greatest transmission angle over all dyads; None where there is no dyad.
+
+    Both are exact; of several phases at which the least is reached it is one.
+    """
     joint = mechanism.assembly.linkage.joint
     angles = [
-        angle
+        (angle, name)
         for name, factors in (*_of_loops(mechanism), *_of_chain(mechanism))
         for u, w in _emptied(factors, at_end=_reaches_its_end(mechanism, name))
         if (angle := joint(name).transmission(u, w)) is not None
     ]
-    return (min(angles), max(angles)) if angles else None
+    if not angles:
+        return None
+    least, dyad = min(angles, key=itemgetter(0))
+    return Transmission(least, max(angles)[0], dyad, _where_least(mechanism, dyad))
+
+
+def _where_least(mechanism: Mechanism, dyad: str) -> float:
+    """Return a phase at which a dyad's transmission angle is least."""
+
+    def negative(phases: Array) -> Array:
+        motion = mechanism.solve(phase=phases, speed=1.0, derivatives=0)
+        return -np.asarray(transmission_angle(motion, dyad), dtype=np.float64)
+
+    places = around(mechanism.periods, SAMPLES_A_TURN)
+    worst = float(places[np.nanargmax(negative(places))])
+    return highest(negative, worst, 2 * math.pi / SAMPLES_A_TURN, (-math.inf, math.inf)) % (
+        2 * math.pi * mechanism.periods
+    )
 
 
 def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
@@ -54,21 +87,27 @@ def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
 
 
 def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
-    """Yield U and W of each dyad on moving points where its separation, or its rate, changes its sign."""
+    """Yield U and W of each dyad on moving points where its separation, its rate or U - W changes sign."""
     assembly = mechanism.assembly
     found = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
     if not found:
         return
     parts = [
-        (closing.separation.value, closing.separation.rate, closing.u, closing.w)
+        (
+            closing.separation.value,
+            closing.separation.rate,
+            closing.half_difference,
+            closing.u,
+            closing.w,
+        )
         for closing in found.values()
     ]
     program = batch({"x": True}, [value for values in parts for value in values])
     places = around(assembly.path.periods, SAMPLES_A_TURN)
     for row, name in enumerate(found):
         with np.errstate(all="ignore"):
-            turning = [sign_changes(partial(_row, program, 4 * row + k), places, NEARLY) for k in (0, 1)]
-            factors = program(np.concatenate([places[:1], *turning]))[4 * row + 2 : 4 * row + 4]
+            turning = [sign_changes(partial(_row, program, 5 * row + k), places, NEARLY) for k in (0, 1, 2)]
+            factors = program(np.concatenate([places[:1], *turning]))[5 * row + 3 : 5 * row + 5]
         yield name, np.asarray(factors, dtype=np.float64).T
 
 

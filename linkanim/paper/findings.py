@@ -14,8 +14,8 @@ from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.derived import output_body
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.register import Quantity, register
+from linkanim.mechanics.symbols import input_symbol
 from linkanim.paper.curves import ChartRequest, Pace, curves_of, extremes
-from linkanim.picture.course import input_symbol
 from linkanim.scenes.scene import Scene
 
 _LEVEL = 1e-9
@@ -77,7 +77,7 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
 def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
     """Return every quantity of a scene at one instant, at each speed."""
     motions = [scene.solve(phase=instant.phase, speed=pace.speed) for pace in paces]
-    said = f"{input_symbol(scene)} = {_input_words(scene, float(motions[0].crank_angle))}"
+    said = f"{input_symbol(scene.linkage)} = {_input_words(scene, float(motions[0].crank_angle))}"
     sections: dict[str, list[Finding]] = {}
     for quantity in register(scene.linkage).values():
         rows = sections.setdefault(_section(quantity), [])

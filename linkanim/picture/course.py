@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.symbols import indexed, link_labels
+from linkanim.mechanics.symbols import input_symbol
 from linkanim.picture.axis import Axis, linear
-from linkanim.picture.driven import driven_body, driven_name, driven_words
+from linkanim.picture.driven import driven_name, driven_words
 from linkanim.picture.quantities import Series
 from linkanim.scenes.scene import Scene
 
@@ -100,15 +100,7 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
 
 def input_title(scene: Scene) -> str:
     """Return what an axis of the driven bar's angle is titled: "crank angle θ₂ (°)"."""
-    return f"{driven_name(scene)} angle {input_symbol(scene)} (°)"
-
-
-def input_symbol(scene: Scene) -> str:
-    """Return the input's symbol: θ₂, of a four-bar driven at its rocker θ₄, of a slider s."""
-    if scene.linkage.slides:
-        return "s"
-    body = driven_body(scene)
-    return indexed("θ", link_labels(scene.linkage)[body.name] if body else "2")
+    return f"{driven_name(scene)} angle {input_symbol(scene.linkage)} (°)"
 
 
 def _limits(scene: Scene, pace: float) -> Iterator[tuple[float, str]]:

@@ -11,7 +11,7 @@ from math import degrees
 import numpy as np
 
 from linkanim.digits import short, stepped, typeset
-from linkanim.picture.course import input_symbol
+from linkanim.mechanics.symbols import input_symbol
 from linkanim.picture.driven import driven_words
 from linkanim.picture.figure import Figure
 from linkanim.picture.fittings import rail_reach
@@ -119,8 +119,8 @@ class DeadCentres:
         scene = self.figure.scene
         angle = scene.pose(phase, 0).crank_angle
         if not scene.info.full_turn:
-            return f"{input_symbol(scene)} = {driven_words(scene, angle)}"
-        return f"{input_symbol(scene)} = {stepped(round(degrees(angle), 1) % 360, 0.1)}°"
+            return f"{input_symbol(scene.linkage)} = {driven_words(scene, angle)}"
+        return f"{input_symbol(scene.linkage)} = {stepped(round(degrees(angle), 1) % 360, 0.1)}°"
 
     def _caption(self, text: str, at: complex, out: complex) -> Caption:
         """Return a line of text that begins at a place and goes the way out."""

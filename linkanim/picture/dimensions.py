@@ -12,7 +12,7 @@ from linkanim.digits import short, typeset
 from linkanim.mechanics.frames import holding
 from linkanim.mechanics.kinds import Brace, Rigid
 from linkanim.mechanics.linkage import Body
-from linkanim.picture.driven import driven_body
+from linkanim.mechanics.symbols import driven_body
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts import Part
@@ -146,7 +146,7 @@ def _bar(figure: Figure, number: str, begin: str, end: str) -> Distance:
 
 
 def _angle(figure: Figure) -> str:
-    body = driven_body(figure.scene)
+    body = driven_body(figure.linkage)
     return f"θ{_lowered(numbered(figure)[body] if body else '2')}"
 
 

@@ -7,7 +7,7 @@ from math import degrees, pi
 
 from linkanim.digits import short, stepped, typeset
 from linkanim.errors import UnitError
-from linkanim.mechanics.linkage import Body
+from linkanim.mechanics.symbols import driven_body
 from linkanim.scenes.scene import Scene
 from linkanim.units import SPEED_UNITS, split
 
@@ -16,21 +16,13 @@ _SIGNS = {"deg/s": "°/s"}
 _SPELT = {"°/s": "deg/s"}
 
 
-def driven_body(scene: Scene) -> Body | None:
-    """Return the body that the drive turns: the one of the crank pin and its pivot; None without a name."""
-    joint = scene.linkage.drive.joint
-    pivot = getattr(scene.linkage.joint(joint), "pivot", None)
-    ends = {joint, pivot}
-    return next((body for body in scene.linkage.bodies if ends <= set(body.joints)), None)
-
-
 def driven_name(scene: Scene) -> str:
     """Return what the driven bar is called: "crank" if it turns; if it swings the scene's name for it.
 
     What swings is no crank, whatever its body is called: it is then the rocker, or the input rocker where
     another body has that name. A slider that drives is the slider.
     """
-    body = driven_body(scene)
+    body = driven_body(scene.linkage)
     name = body.name if body and not body.name.isdecimal() else "crank"
     if scene.linkage.slides:
         return "slider"

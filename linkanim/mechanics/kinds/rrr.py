@@ -108,16 +108,20 @@ class RRR(Joint):
             walk.add_piece(turning, (end, self.name), arm)
 
     def transmission(self, u: float, w: float) -> float:
-        """Return the angle μ between its bars: tan²(μ/2) = W/U, the cosine rule in its half-angle form."""
-        return 2 * math.atan2(math.sqrt(w), math.sqrt(u))
+        """Return the angle μ between its bars' lines: tan²(μ/2) = W/U or, past 90°, U/W.
+
+        It is the cosine rule in its half-angle form.
+        """
+        return 2 * math.atan2(math.sqrt(min(u, w)), math.sqrt(max(u, w)))
 
     def transmission_at(self, place: Callable[[str], Any]) -> Any:
-        """Return the angle between its bars."""
+        """Return the angle between its bars' lines."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
         one, other = (place(end) - place(self.name) for end in self.ends)
-        return abs(np.angle(one * other.conjugate()))
+        product = one * other.conjugate()
+        return np.arctan2(abs(product.imag), abs(product.real))
 
     def why_apart(self) -> str:
         """Say how far apart its pins would have to come."""
