@@ -15,8 +15,8 @@ from pictures import pixels
 
 from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.symbols import input_symbol
 from linkanim.picture.chart import pen_for
-from linkanim.picture.course import input_symbol
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.layout import Layout, layout
@@ -92,7 +92,7 @@ def test_an_input_that_swings_is_charted_over_time(speed: float, share: float) -
     ("name", "symbol"), [("crank-rocker", "θ₂"), ("press", "θ₂"), ("rocker-driven", "θ₄"), ("six-bar", "θ₂")]
 )
 def test_the_driven_bar_has_its_symbol(name: str, symbol: str) -> None:
-    assert input_symbol(load(name)) == symbol
+    assert input_symbol(load(name).linkage) == symbol
 
 
 def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:
