@@ -4,8 +4,8 @@ A C library's functions differ between machines, and numpy's vector versions fro
 rounds these five operations in one way only, so a float, a batch of any size and every machine get
 the same bits. Each formula is written once, on floats or noted expressions.
 
-An angle is first brought near zero by whole periods, held in three parts of which n times the first
-two is exact up to n = 2³² (W. J. Cody and W. Waite, "Software Manual for the Elementary Functions").
+An angle is first brought near zero by whole periods, held in parts of which n times each but the last
+is exact up to n = 2³² (W. J. Cody and W. Waite, "Software Manual for the Elementary Functions").
 Sines and cosines are rational in the tangent of a share of what is left, which is a sum over its poles; where
 squares of them are enough, the tangent stays a ratio of two polynomials.
 """
@@ -22,8 +22,10 @@ from .expression import Expr, Value, rint
 
 Pair = tuple[Value, Value]
 
-PI_PARTS = tuple(map(float.fromhex, ("0x1.921FBp1", "0x1.5110Ap-21", "0x1.4611A62633146p-41")))
-"""π: its first 21 bits, the next 21, and the rest."""
+PI_PARTS = tuple(
+    map(float.fromhex, ("0x1.921FBp1", "0x1.5110Ap-21", "0x1.4611Ap-41", "0x1.898CC51701B84p-63"))
+)
+"""π: its first 21 bits, the next 21, again, and the rest."""
 POLES = (
     (2.4674011035387218, 0.8105694770977893),
     (22.28701080796582, 0.09166082321842979),
@@ -51,11 +53,21 @@ Highest powers first. Times one factor, ψ N is the sine and D the cosine of hal
 def reduced(angle: Value, rest: Value, turns: float) -> Pair:
     """Return n and angle + rest - n × period, the period being `turns` (a power of two) half turns.
 
-    The result is within half a period of zero, and right to its own last digit.
+    The result is within half a period of zero, and right to its own last digit down to 1e-11 times n.
     """
-    first, second, third = (part * turns for part in PI_PARTS)
+    first, second, third, fourth = (part * turns for part in PI_PARTS)
     n = rint(angle * (1.0 / (turns * math.pi)))
-    return n, ((angle - n * first) - n * second) - (n * third - rest)
+    return n, ((angle - n * first) - n * second) - (n * (third + fourth) - rest)
+
+
+def sharply_reduced(angle: Value, rest: Value) -> Pair:
+    """Return n and angle + rest - n half turns, right to its own last digit however small it is."""
+    first, second, third, fourth = PI_PARTS
+    n = rint(angle * (1.0 / math.pi))
+    near, step = (angle - n * first) - n * second, n * third
+    close = near - step
+    lost = (near - close) - step
+    return n, close - ((n * fourth - rest) - lost)
 
 
 def tangent(angle: Value, share: float) -> Value:
@@ -99,6 +111,25 @@ class Half:
         return self._sides[1]
 
 
+def _left(angle: Value, rest: Value, quarters: int | None) -> Pair:
+    """Return n and what whole turns leave of angle + rest; all of it where `quarters` are off already."""
+    return reduced(angle, rest, 2.0) if quarters is None else (0.0, angle + rest)
+
+
+def _quartered(half: Half, quarters: int | None) -> Half:
+    """Return half an angle that many quarter turns on."""
+
+    def sides() -> Pair:
+        sine, cosine = half.sine, half.cosine
+        return ((sine, cosine), (cosine, -sine), (-sine, -cosine), (-cosine, sine))[(quarters or 0) % 4]
+
+    def squares(factor: float) -> Squares:
+        sine, cosine, product = half.squares(factor)
+        return Squares(cosine, sine, -product)
+
+    return Half(sides, squares if (quarters or 0) % 2 else half.squares) if quarters else half
+
+
 def half_of(sine: Value, cosine: Value) -> Half:
     """Return the half angle of a sine and a cosine."""
 
@@ -108,17 +139,20 @@ def half_of(sine: Value, cosine: Value) -> Half:
     return Half(lambda: (sine, cosine), squares)
 
 
-def half_angle(angle: Value, rest: Value = 0.0, size: float = 1.0) -> Half:
+def half_angle(angle: Value, rest: Value = 0.0, size: float = 1.0, quarters: int | None = None) -> Half:
     """Return half of angle + rest for its squares: cos² to the last digit of 1, sin² to its own.
 
     With B/A the tangent, sin², cos² and sin × cos are B², A² and A B over A² + B². Squares times `size` cost
     no more than those alone. Sine and cosine are those of `signed_half_angle`.
+    Where `quarters` are given, angle + rest lies within half a turn of zero, and the half is that of it and
+    of so many half turns beside it: the sine is then right to its own last digit (the cosine, of an odd
+    number) however small what was given is.
     """
     if _is_exact(angle):
-        return _exact_half(angle, rest)
+        return _exact_half(angle, rest, quarters)
 
     def squares(factor: float) -> Squares:
-        _, left = reduced(angle, rest, 2.0)
+        _, left = _left(angle, rest, quarters)
         square = left * left
         b, a = left * _polynomial(NUMERATOR, square), _polynomial(DENOMINATOR, square)
         # The product first: then the squares are written over what they are squares of.
@@ -126,7 +160,7 @@ def half_angle(angle: Value, rest: Value = 0.0, size: float = 1.0) -> Half:
         share = size / (a_square + b_square) * (factor / size)
         return Squares(b_square * share, a_square * share, product * share)
 
-    return Half(lambda: signed_half_angle(angle, rest).sides(), squares)
+    return _quartered(Half(lambda: _signed_half(angle, rest, size, quarters).sides(), squares), quarters)
 
 
 def _polynomial(coefficients: tuple[float, ...], x: Value) -> Value:
@@ -138,15 +172,21 @@ def _polynomial(coefficients: tuple[float, ...], x: Value) -> Value:
     return value
 
 
-def signed_half_angle(angle: Value, rest: Value = 0.0, size: float = 1.0) -> Half:
+def signed_half_angle(
+    angle: Value, rest: Value = 0.0, size: float = 1.0, quarters: int | None = None
+) -> Half:
     """Return half of angle + rest; the cosine to the last digit of 1, the sine to its own.
 
     Both are rational in the tangent t of half of it: (1 - t²)/(1 + t²) and 2t/(1 + t²). Squares times
-    `size` cost no more than those alone.
+    `size` cost no more than those alone. `quarters` are those of `half_angle`.
     """
     if _is_exact(angle):
-        return _exact_half(angle, rest)
-    n, left = reduced(angle, rest, 2.0)
+        return _exact_half(angle, rest, quarters)
+    return _quartered(_signed_half(angle, rest, size, quarters), quarters)
+
+
+def _signed_half(angle: Value, rest: Value, size: float, quarters: int | None) -> Half:
+    n, left = _left(angle, rest, quarters)
     t = tangent(left, 4.0)
     square = t * t
     norm, rest_of_norm = square + 16.0, 16.0 - square
@@ -164,10 +204,15 @@ def signed_half_angle(angle: Value, rest: Value = 0.0, size: float = 1.0) -> Hal
     return Half(sides, squares)
 
 
-def sharp_half_angle(angle: Value, rest: Value = 0.0) -> Half:
-    """Return half of angle + rest, sine and cosine each to its own last digit, also next to its zeros."""
+def sharp_half_angle(angle: Value, rest: Value = 0.0, *, quarters: int | None = None) -> Half:
+    """Return half of angle + rest, sine and cosine each to its own last digit, also next to its zeros.
+
+    `quarters` are those of `half_angle`; angle + rest then lies within three eighths of a turn of zero.
+    """
     if _is_exact(angle):
-        return _exact_half(angle, rest)
+        return _exact_half(angle, rest, quarters)
+    if quarters is not None:
+        return _quartered(half_of(*_halved(angle + rest)), quarters)
     return half_of(*_sharp_sides(angle, rest))
 
 
@@ -180,9 +225,9 @@ def _exactly(function: str, angle: Value) -> Value:
     return angle.graph.node(function, angle)
 
 
-def _exact_half(angle: Value, rest: Value) -> Half:
+def _exact_half(angle: Value, rest: Value, quarters: int | None) -> Half:
     half = (angle + rest) * 0.5
-    return half_of(_exactly("sin", half), _exactly("cos", half))
+    return _quartered(half_of(_exactly("sin", half), _exactly("cos", half)), quarters)
 
 
 def _sign(n: Value) -> Value:
@@ -196,7 +241,7 @@ def _sharp_sides(angle: Value, rest: Value) -> Pair:
 
     n quarter turns are k half turns and f ∈ {-1, 0, 1} quarters.
     """
-    n, left = reduced(angle, rest, 1.0)
+    n, left = sharply_reduced(angle, rest)
     sine, cosine = _halved(left)
     k = rint(n * 0.5)
     f = n - k * 2.0

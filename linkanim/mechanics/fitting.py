@@ -193,7 +193,7 @@ def _by_way(assembly: Assembly, path: Swing, name: str, *, upper: bool) -> Calla
     """Return the margin as a function of half the way to a limit."""
     graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
-    state = swing_by_angle(v - u, u, v, Slope(0.0), path.middle)
+    state = swing_by_angle((v - u, u, v), Slope(0.0), path.middle, path.amplitude)
     run = decimals(("u", "v"), _outputs(assembly.walk(state).closings[name])[:1])
     amplitude = (exactly(path.high) - exactly(path.low)) / 2
 

@@ -13,23 +13,26 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from .circular import Half, cosine_of, half_angle, sharp_half_angle
-from .exact import Sum, two_product, two_sum
+from .exact import Sum, quarter_turns, two_product, two_sum
 from .expression import Value, sqrt
 from .planar import Moving, Slope
 
-HalfForm = Callable[[Value, Value], Half]
-"""Returns half of an angle that is the sum of two numbers."""
+HalfForm = Callable[..., Half]
+"""Returns half of an angle that is the sum of two numbers; `quarters=` are half turns beside it."""
+NOTHING = 2.0**-100
+"""What is less is left of equal sums of two floats."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ends:
-    """The two limits of a swing: half the way left to each, and its signed root."""
+    """The two limits of a swing: half the way left to each, and its root, which may be `signed`."""
 
     u: Slope
     v: Slope
     root_u: Moving
     root_v: Moving
     by_phase: bool
+    signed: bool = True
 
     def share_of_rate(self, rate: Slope, upper: bool, lower: bool) -> Slope:
         """Return θ' divided by √u where `upper` and by √v where `lower`: regular by phase."""
@@ -47,7 +50,7 @@ class InputState:
 
     `angle` is θ without `origin`; `rate` and `second` are its derivatives in time; `pace` is the
     derivative of what drives it (φ' or θ') with its own derivative; `phase` is φ where a swing is
-    driven by it.
+    driven by it. `within` is how far from zero `angle` comes, where that is known.
     """
 
     angle: Value
@@ -57,6 +60,7 @@ class InputState:
     pace: Slope
     ends: Ends | None = None
     phase: Value | None = None
+    within: float = math.inf
 
     def shown(self, unscale: float) -> tuple[Value, Value, Value]:
         """Return what is told of the input, with its rates: its angle; of a slider its travel, `unscale`d."""
@@ -74,12 +78,36 @@ class InputState:
         return self.half_shifted(ratio, self.origin * ratio - reference, form)
 
     def half_shifted(self, ratio: Fraction, shift: Sum, form: HalfForm) -> Half:
-        """Return half of ratio × angle + shift."""
+        """Return half of ratio × angle + shift.
+
+        Half turns of the shift are kept apart where the angle stays near: a small way from where a sine or
+        cosine vanishes has more digits than the angle there.
+        """
         scaled, low = _scaled(self.angle, ratio)
-        if shift.high == 0 and shift.low == 0:
-            return form(scaled, low)
-        total, error = two_sum(scaled, shift.high)
-        return form(total, error + low + shift.low)
+        quarters, rest = _half_turns(shift)
+        if abs(ratio) * self.within + abs(rest.high) <= _reach(form):
+            return form(*_summed(scaled, low, rest), quarters=quarters)
+        return form(*_summed(scaled, low, shift))
+
+
+def _reach(form: HalfForm) -> float:
+    """Return how far from whole half turns a form may be used without reduction."""
+    return 0.75 * math.pi if form is sharp_half_angle else math.pi
+
+
+def _half_turns(angle: Sum) -> tuple[int, Sum]:
+    """Return the whole number of half turns nearest an angle, and what is left of it."""
+    count = round(float(angle) / math.pi)
+    left = angle - quarter_turns(2 * count)
+    return count, left if abs(left.high) > NOTHING else Sum(0.0)
+
+
+def _summed(angle: Value, low: Value, shift: Sum) -> tuple[Value, Value]:
+    """Return the sum of an angle in two parts and a shift, in two parts."""
+    if shift.high == 0 and shift.low == 0:
+        return angle, low
+    total, error = two_sum(angle, shift.high)
+    return total, error + low + shift.low
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +157,7 @@ def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> 
     rate = (both + both) * pace.value
     second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
     # A cosine of its own, not v - u: near the middle of the swing it keeps all its digits.
-    return InputState(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase)
+    return InputState(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase, amplitude)
 
 
 def swing_per_input(phase: Value, middle: Sum, amplitude: float) -> InputState:
@@ -140,15 +168,21 @@ def swing_per_input(phase: Value, middle: Sum, amplitude: float) -> InputState:
     root_u, root_v = (_rated(root, sign, Slope(1.0)) for root, sign in zip(roots, (-1.0, 1.0), strict=True))
     u, v = roots[0] * roots[0], roots[1] * roots[1]
     ends = Ends(Slope(u, -0.5), Slope(v, 0.5), root_u, root_v, by_phase=False)
-    return InputState(cosine_of(phase) * -amplitude, middle, 1.0, 0.0, Slope(1.0), ends, phase)
+    return InputState(cosine_of(phase) * -amplitude, middle, 1.0, 0.0, Slope(1.0), ends, phase, amplitude)
 
 
-def swing_by_angle(angle: Value, u: Value, v: Value, pace: Slope, middle: Sum) -> InputState:
-    """Return the state of a swing driven by its angle from the middle; u and v are half the ways left."""
+def swing_by_angle(
+    ways: tuple[Value, Value, Value], pace: Slope, middle: Sum, amplitude: float
+) -> InputState:
+    """Return the state of a swing driven by its angle.
+
+    `ways` are the angle from the middle, and half of what is left to the upper and the lower limit.
+    """
+    angle, u, v = ways
     root_u, root_v = (_root_of_way(way, sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
     half_rate = pace.value * 0.5
-    ends = Ends(Slope(u, -half_rate), Slope(v, half_rate), root_u, root_v, by_phase=False)
-    return InputState(angle, middle, pace.value, pace.rate, pace, ends)
+    ends = Ends(Slope(u, -half_rate), Slope(v, half_rate), root_u, root_v, by_phase=False, signed=False)
+    return InputState(angle, middle, pace.value, pace.rate, pace, ends, within=amplitude)
 
 
 def _root_of_way(way: Value, sign: float, pace: Slope) -> Moving:

@@ -201,7 +201,7 @@ class Swing(ThereAndBack):
     def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state: its angle and half the ways left."""
         x, u, v = (graph.input(name) for name in "xuv")
-        return ("x", "u", "v"), swing_by_angle(x, u, v, pace, self.middle)
+        return ("x", "u", "v"), swing_by_angle((x, u, v), pace, self.middle, self.amplitude)
 
     def solved_from(self, reached: WaysLeft) -> tuple[Array, ...]:
         """Return what the program by angle takes: the angle from the middle, and half the ways left."""

@@ -173,6 +173,21 @@ class _Ways:
         """cos(ψ/2) of U, sin(ψ/2) of W: to its own last digit, however near π the limits lie."""
         return sine_within(minimum(self.x.value, self.y.value) + 0.5 * self.short) * self.sign
 
+    @property
+    def sign_of_root(self) -> Value:
+        """The sign of the factor's root: that of the roots of the ways to those ends that it sets."""
+        sign: Value = 1.0
+        for held, root in ((self.upper, self.ends.root_u), (self.lower, self.ends.root_v)):
+            if held and self.ends.signed:
+                sign = sign * select(root.value, 0.0, -1.0, 1.0)
+        return sign
+
+    @property
+    def sines(self) -> Value:
+        """sin x sin y: the factor over K."""
+        x, y = self.x.value, self.y.value
+        return sine_within(minimum(x, y + self.short)) * sine_within(minimum(y, x + self.short))
+
 
 def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | None:
     """Return the ways to the limits that a factor sets; None where it sets none."""
@@ -207,6 +222,8 @@ def sharpened(root: LoopRoot, half: Half, swing: Swinging | None) -> Half:
 
 def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:
     """Return q as the product of its two signed roots, and ρ with what vanishes in both divided out."""
+    if swing is not None and not swing.ends.by_phase:
+        return _root_by_angle(root, half, pace, swing)
     half_rate, scale = pace.value * 0.5, math.sqrt(root.spread)
     first = half.squares(root.spread).product * pace.value
     u, w, _ = factor_values(root, half)
@@ -222,6 +239,43 @@ def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | Non
     numerator = share.scaled(root.spread) * part_u.left * part_w.left
     ratio = numerator / (part_u.regular * part_w.regular)
     return SignedRoot(part_u.whole * part_w.whole, ratio, part_u.whole)
+
+
+def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Swinging) -> SignedRoot:
+    """Return q and ρ where the input's angle is given, so that nothing vanishes above a limit's root.
+
+    ρ = K s c ψ'/(√U √W) with s, c of ψ/2, and at a steady pace ρ' = ρ ψ' (cW c/(s W) - cU s/(c U))/2: of what
+    U, W, s and c change by, nearly all cancels next to a change point, and is not formed.
+    """
+    scale, (u, w, _) = math.sqrt(root.spread), factor_values(root, half)
+    part_u = _part_by_angle(root.u, _ways(root, root.u, swing), u, (half.cosine, half.sine), scale)
+    part_w = _part_by_angle(root.w, _ways(root, root.w, swing), w, (half.sine, half.cosine), scale)
+    share = root.spread / (part_u.regular * part_w.regular)
+    ratio = share * part_u.left * part_w.left
+    bend = (part_w.bend * part_u.left - part_u.bend * part_w.left) * share * 0.5
+    rates = Slope(ratio * pace.value, ratio * pace.rate + bend * (pace.value * pace.value))
+    return SignedRoot(part_u.whole * part_w.whole, rates, part_u.whole)
+
+
+class _PartByAngle(NamedTuple):
+    """One signed root: whole, its regular part, what is left of sin or cos(ψ/2), and c/F of the other."""
+
+    whole: Value
+    regular: Value
+    left: Value
+    bend: Value
+
+
+def _part_by_angle(
+    factor: Factor, ways: _Ways | None, value: Value, sides: tuple[Value, Value], scale: float
+) -> _PartByAngle:
+    """Return the root of a factor F; `sides` are what vanishes with it, if it does, and the other one."""
+    touching, other = sides
+    if factor.kind is Kind.CHANGE_POINT:
+        return _PartByAngle(touching * scale, scale, 1.0, 0.0)
+    value = value if ways is None else ways.sines * (scale * scale)
+    whole = sqrt(value) * (1.0 if ways is None else ways.sign_of_root)
+    return _PartByAngle(whole, whole, touching, other * factor.least / value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,8 +27,8 @@ def directions(angles: ArrayLike) -> Directions:
     """Return cos + i sin of angles in radians, by the formulas of the poses (`mechanics.circular`)."""
     angle = np.asarray(angles, np.float64)
     quarters = np.rint(angle * (2 / pi))
-    first, second, third = (0.5 * part for part in PI_PARTS)
-    rest: Any = ((angle - quarters * first) - quarters * second) - quarters * third
+    first, second, third, fourth = (0.5 * part for part in PI_PARTS)
+    rest: Any = ((angle - quarters * first) - quarters * second) - quarters * (third + fourth)
     half: Any = tangent(rest, 2.0)
     norm = half * half + 4.0
     turned = np.empty(angle.shape, np.complex128)

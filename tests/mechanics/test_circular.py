@@ -19,6 +19,7 @@ from linkanim.mechanics.circular import (
     half_angle,
     reduced,
     sharp_half_angle,
+    sharply_reduced,
     signed_half_angle,
     sine_within,
     tangent,
@@ -51,10 +52,10 @@ def units(found: Value, true: Any, *, of: Any = 1) -> float:
     return float(abs(mpf(plain(found)) - true) / abs(of)) / EPS
 
 
-def test_pi_is_the_sum_of_its_parts_and_the_first_two_are_short() -> None:
+def test_pi_is_the_sum_of_its_parts_and_all_but_the_last_are_short() -> None:
     total = sum(mpf(part) for part in PI_PARTS)
     assert abs(total - mp.pi) < mpf(2) ** -94
-    for part in PI_PARTS[:2]:
+    for part in PI_PARTS[:3]:
         assert part.as_integer_ratio()[0].bit_length() <= 21
 
 
@@ -78,7 +79,16 @@ def test_what_is_left_of_an_angle_has_all_its_digits(turns: float) -> None:
             assert abs(left - true) <= abs(true) * mpf(2) ** -53 * 1.01 + least
 
 
-FORMS: Mapping[str, Callable[[float, float], Half]] = {
+def test_what_is_left_next_to_half_turns_has_all_its_digits() -> None:
+    for angle in [*ANGLES, *(float(k * mp.pi) for k in (*range(-9, 10), 10**6, 10**9))]:
+        for rest in (0.0, 1e-17 * angle):
+            n, left = (plain(value) for value in sharply_reduced(angle, rest))
+            true = mpf(angle) + mpf(rest) - n * mp.pi
+            assert abs(left) <= math.pi / 2 * (1 + 1e-6)
+            assert abs(left - true) <= (abs(true) * 1.01 + abs(rest)) * 2.0**-53
+
+
+FORMS: Mapping[str, Callable[..., Half]] = {
     "half": half_angle,
     "grown": partial(half_angle, size=0.3),
     "signed": signed_half_angle,
@@ -139,6 +149,32 @@ def test_next_to_a_zero_there_are_still_all_digits(form: str, names: list[str]) 
         true = true_half(angle, 0.0, SIZES[form])
         for name in names:
             assert units(found[name], true[name], of=true[name]) <= 4, (angle, name)
+
+
+@pytest.mark.parametrize("form", ["half", "signed", "sharp"])
+@pytest.mark.parametrize("quarters", range(-4, 6))
+def test_a_small_way_from_where_they_vanish_keeps_all_its_digits(form: str, quarters: int) -> None:
+    for way in (sign * 10.0**-n for n in range(301) for sign in (1, -1)):
+        half = FORMS[form](way, 0.0, quarters=quarters)
+        s, c = mp.sin(mpf(way) / 2), mp.cos(mpf(way) / 2)
+        sine, cosine = ((s, c), (c, -s), (-s, -c), (-c, s))[quarters % 4]
+        assert units(half.sine, sine, of=sine) <= 2
+        assert units(half.cosine, cosine, of=cosine) <= 2
+        if abs(way) > 1e-150:
+            squares = half.squares(1.0)
+            assert units(squares.sine, sine * sine, of=sine * sine) <= 4
+            assert units(squares.cosine, cosine * cosine, of=cosine * cosine) <= 4
+            assert units(squares.product, sine * cosine, of=sine * cosine) <= 4
+
+
+def test_the_floats_nearest_to_where_they_vanish_keep_all_their_digits() -> None:
+    places = [k * math.pi / 2 + sign * 10.0**-n for k in range(-8, 9) for n in range(18) for sign in (1, -1)]
+    for angle in [*places, *(10.0**-n for n in range(301))]:
+        cosine, sine = direction(angle)
+        assert units(sine, mp.sin(mpf(angle)), of=mp.sin(mpf(angle))) <= 2
+        assert units(cosine, mp.cos(mpf(angle)), of=mp.cos(mpf(angle))) <= 2
+        if 0 < angle <= math.pi / 2:
+            assert units(sine_within(angle), mp.sin(mpf(angle)), of=mp.sin(mpf(angle))) <= 2
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,38 @@
+"""Cranks that bars stop: 16 last digits of places and 64 of rates, by phase and by angle, near limits too."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from hard_cases import DIGITS, KINDS, Make, by_angle, by_phase, swinging
+from mpmath import mp
+
+POSITION, RATE = 16, 64
+
+
+@pytest.fixture(autouse=True)
+def many_digits() -> Iterator[None]:
+    with mp.workdps(DIGITS):
+        yield
+
+
+def check(make: Make, count: int, seed: int) -> None:
+    for (bars, solved), _ in zip(swinging(make, seed), range(count), strict=False):
+        for error in (by_phase(bars, solved), by_angle(bars, solved)):
+            assert error.position <= POSITION, bars
+            assert error.rate <= RATE, bars
+
+
+@pytest.mark.parametrize("part", range(4))
+@pytest.mark.parametrize("make", KINDS, ids=lambda make: make.__name__)
+def test_a_hundred_random_cranks_within_their_limits_are_right_to_the_last_digits(
+    make: Make, part: int
+) -> None:
+    check(make, 25, part)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("make", KINDS, ids=lambda make: make.__name__)
+def test_a_thousand_random_cranks_within_their_limits_are_right_to_the_last_digits(make: Make) -> None:
+    check(make, 1000, 100)
