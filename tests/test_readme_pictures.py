@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pygame
 import pytest
+from fidelity import psnr
 from numpy.typing import NDArray
 from PIL import Image
 
-from linkanim.bench.fidelity import psnr
 from linkanim.cli import main
 
 ROOT = Path(__file__).parent.parent

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from linkanim.bench.question import Points, Question
-from linkanim.bench.reference import Answer
+from linkanim.bench.chain import Floats, Places, Question
+from linkanim.bench.ours import Orders
+from linkanim.bench.reference import Answer, Exact
 
-Solve = Callable[[Question], Points]
+Solve = Callable[[Question], Orders]
 
 APART = 1e-8
 """In longest links: closures nearer than this count as one."""
@@ -18,45 +20,83 @@ APART = 1e-8
 
 @dataclass(frozen=True)
 class Score:
-    """Poses asked; the worst error among those on the right closure; the others, counted.
+    """Poses asked; the worst errors among those on the right closure; the others, counted.
 
-    The error is the larger one of B and P in longest links, NaN where no pose is right. A pose is
-    `wrong` where it lies at most half as far from the other closure's, `missing` where it is not a number.
+    `errors` are those of position, velocity and acceleration, of the joint that is farthest off: positions in
+    longest links, rates in longest links or the pose's largest rate, whichever is more. NaN where no pose is
+    right or the method gives none. A pose is `wrong` where a dyad's joint lies at most half as far from its
+    other closure, `missing` where a position is not a number.
     """
 
     poses: int
-    error: float
+    errors: tuple[float, float, float]
     wrong: int
     missing: int
+
+    @property
+    def error(self) -> float:
+        """The worst error of a position."""
+        return self.errors[0]
 
 
 def score(solve: Solve, answer: Answer) -> Score:
     """Ask one method one question."""
     with np.errstate(all="ignore"):
         found = solve(answer.question)
-    longest = answer.question.bars.longest
-    error = np.maximum(answer.b.distance(found.b), answer.p.distance(found.p)) / longest
-    other = _largest(found, answer.other) / longest
-    apart = _largest(Points(answer.b.high, answer.p.high), answer.other) / longest > APART
-    wrong, missing = apart & (2 * other < error), ~np.isfinite(error)
-    right = error[~wrong & ~missing]
-    worst = float(right.max()) if right.size else float("nan")
-    return Score(error.size, worst, int(wrong.sum()), int(missing.sum()))
-
-
-def _largest(one: Points, other: Points) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    largest: np.ndarray[tuple[int], np.dtype[np.float64]] = np.maximum(
-        np.abs(one.b - other.b), np.abs(one.p - other.p)
-    )
-    return largest
+        longest = answer.question.longest
+        error = _farthest(found[0], answer.orders[0]) / longest
+        wrong, missing = _elsewhere(found[0], answer), ~np.isfinite(error)
+        right = ~wrong & ~missing
+        rates = [
+            _farthest(places, exact) / np.maximum(_largest(exact), longest)
+            for places, exact in zip(found[1:], answer.orders[1:], strict=False)
+        ]
+    position, velocity, acceleration = (_worst(values, right) for values in _three(error, rates))
+    return Score(error.size, (position, velocity, acceleration), int(wrong.sum()), int(missing.sum()))
 
 
 def together(scores: Sequence[Score]) -> Score:
-    """Return the worst error and the sums of several scores."""
-    errors = [score.error for score in scores if not np.isnan(score.error)]
+    """Return the worst errors and the sums of several scores."""
+    errors = zip(*(score.errors for score in scores), strict=True)
+    position, velocity, acceleration = (
+        max((error for error in order if not np.isnan(error)), default=float("nan")) for order in errors
+    )
     return Score(
         sum(score.poses for score in scores),
-        max(errors, default=float("nan")),
+        (position, velocity, acceleration),
         sum(score.wrong for score in scores),
         sum(score.missing for score in scores),
+    )
+
+
+def _three(position: Floats, rates: Sequence[Floats]) -> list[Floats]:
+    return [position, *rates, *[np.full_like(position, np.nan)] * (2 - len(rates))]
+
+
+def _worst(errors: Floats, right: Any) -> float:
+    """Return the largest error of the right poses; a rate that is no number there is unboundedly wrong."""
+    kept = errors[right]
+    if not kept.size or np.isnan(errors).all():
+        return float("nan")
+    return float(np.nan_to_num(kept, nan=np.inf).max())
+
+
+def _farthest(found: Places, exact: Mapping[str, Exact]) -> Floats:
+    return np.max([place.distance(found[name]) for name, place in exact.items()], axis=0)  # type: ignore[no-any-return]
+
+
+def _largest(exact: Mapping[str, Exact]) -> Floats:
+    return np.max([np.abs(place.high) for place in exact.values()], axis=0)  # type: ignore[no-any-return]
+
+
+def _elsewhere(found: Places, answer: Answer) -> Any:
+    """Return which poses lie on another closure than the right one."""
+    here, apart = answer.orders[0], APART * answer.question.longest
+    return np.any(
+        [
+            (np.abs(other - here[name].high) > apart)
+            & (2 * np.abs(found[name] - other) < here[name].distance(found[name]))
+            for name, other in answer.other.items()
+        ],
+        axis=0,
     )

@@ -1,33 +1,57 @@
-"""The easy cycle and the hard cases: lengths and sequences of inputs, before anything is solved."""
+"""The linkages that are compared, the easy cycle and the hard cases of each, before anything is solved."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
-from linkanim.bench.question import TURN, Floats
+from linkanim.bench.chain import TURN, Floats
+from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage import Drive, Linkage
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
 
-Length = float | str
-"""A string is a decimal number, taken as it is written: the float nearest to it is not what was meant."""
+Lengths = tuple[float, float, float, float]
+Swing = Callable[[Any], tuple[Any, Any]]
+"""Gives, from mpmath, the ends of an input that swings."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A four-bar (ground, crank, coupler, rocker) and its inputs: angles, or phases where `by_phase`.
+    """A scene and its inputs: crank angles, or phases where `by_phase`.
 
-    `side` is the closure just after angle 0 of a turning input, or while sin φ > 0 of a swinging one.
-    `periods` is the number of turns after which the motion is back.
+    `flips` says at which phases a dyad on the smooth path goes over to its other closure: in half turns of
+    the phase, within the first `periods` turns; the closure that the scene names is the one just after 0.
+    `swing` gives the ends of an input that swings. `decimal`: the lengths are meant as they are written,
+    which the floats nearest to them are not.
     """
 
     name: str
-    lengths: tuple[Length, Length, Length, Length]
+    scene: Scene
     inputs: Floats
-    side: int = 1
+    flips: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    swing: Swing | None = None
     by_phase: bool = False
-    turns: bool = True
     periods: int = 1
+    decimal: bool = False
+
+    @property
+    def by_angle(self) -> bool:
+        """Whether an input that swings is given by its angle."""
+        return self.swing is not None and not self.by_phase
+
+
+@dataclass(frozen=True)
+class CaseSet:
+    """A kind of linkage: its easy cycle, and what is hard about it."""
+
+    name: str
+    easy: Case
+    hard: tuple[Case, ...]
 
 
 def degrees(first: int, last: int) -> Floats:
@@ -52,26 +76,183 @@ def towards(limit: float) -> Floats:
     return limit - np.logspace(-1, -12, 34)
 
 
+def four_bar(lengths: Lengths, side: int = 1) -> Scene:
+    """Return a four-bar (ground, crank, coupler, rocker) with a coupler point; it starts at angle 0."""
+    return _scene("four-bar", _loop(lengths, side))
+
+
+def slider_crank(crank: float, rod: float, offset: float) -> Scene:
+    """Return a slider-crank with a point of its rod; it starts at angle 0, the slider in front."""
+    joints = (
+        Pin("O2", (0.0, 0.0)),
+        Crank("A", "O2", crank),
+        RRP("B", "A", rod, Line("O2", 0.0, offset), 1),
+        Rigid("P", ("A", "B"), (0.5 * rod, 0.25 * rod)),
+    )
+    return _scene("slider-crank", joints)
+
+
+def six_bar(first: Lengths, second: Lengths, side: int = 1) -> Scene:
+    """Return two four-bars in series: the rocker of the first is the crank of the second."""
+    ground, crank, coupler, rocker = second
+    at = (first[0] + ground, 0.0)
+    joints = (
+        *_loop(first, side),
+        Rigid("C", ("O4", "B"), (crank, 0.0)),
+        Pin("O6", at, Polar(at[0], 0.0)),
+        RRR("D", ("C", "O6"), (coupler, rocker), 1),
+    )
+    return _scene("six-bar", joints)
+
+
+def built_in(name: str) -> Scene:
+    """Return a scene of the catalogue, its input at angle 0 as it begins, at 1 rad/s."""
+    scene = load(name)
+    drive = replace(scene.linkage.drive, start=0.0, speed=1.0)
+    return replace(scene, linkage=replace(scene.linkage, drive=drive))
+
+
+def _loop(lengths: Lengths, side: int) -> tuple[Any, ...]:
+    ground, crank, coupler, rocker = lengths
+    return (
+        Pin("O2", (0.0, 0.0)),
+        Pin("O4", (ground, 0.0), Polar(ground, 0.0)),
+        Crank("A", "O2", crank),
+        RRR("B", ("A", "O4"), (coupler, rocker), side),
+        Rigid("P", ("A", "B"), (0.5 * coupler, 0.25 * coupler)),
+    )
+
+
+def _scene(name: str, joints: tuple[Any, ...]) -> Scene:
+    return Scene("bench", name, "bench", "m", Linkage(joints, Drive("A", 1.0)), ("P",))
+
+
+def stretched(lengths: Lengths) -> Swing:
+    """Return the swing of a crank between the two poses in which coupler and rocker are in line."""
+
+    def ends(mp: Any) -> tuple[Any, Any]:
+        g, r, a, b = map(mp.mpf, lengths)
+        far = mp.acos((g * g + r * r - (a + b) ** 2) / (2 * g * r))
+        return -far, far
+
+    return ends
+
+
+def between(lengths: Lengths) -> Swing:
+    """Return the swing of a double-rocker above its ground line: folded at one end, stretched after."""
+
+    def ends(mp: Any) -> tuple[Any, Any]:
+        g, r, a, b = map(mp.mpf, lengths)
+        folded, far = ((g * g + r * r - bars**2) / (2 * g * r) for bars in (a - b, a + b))
+        return mp.acos(folded), mp.acos(far)
+
+    return ends
+
+
+def upright(crank: float, rod: float) -> Swing:
+    """Return the swing of a slider-crank with a rod shorter than its crank: upright at both ends."""
+
+    def ends(mp: Any) -> tuple[Any, Any]:
+        far = mp.asin(mp.mpf(rod) / mp.mpf(crank))
+        return -far, far
+
+    return ends
+
+
 ONE_TURN = beside(degrees(90, 450), TURN / 2, TURN)
 TWO_TURNS = beside(degrees(90, 810), TURN / 2, TURN, 3 * TURN / 2, 2 * TURN)
+AT_BOTH = AT_LIMITS = {"B": (0.0, 1.0)}
 
-EASY_LENGTHS = (100.0, 30.0, 90.0, 80.0)
-EASY = Case("easy cycle", EASY_LENGTHS, degrees(0, 360))
-
-SWINGS = (5.0, 4.0, 3.0, 3.5)
+EASY: Lengths = (100.0, 30.0, 90.0, 80.0)
+SQUARE: Lengths = (4.0, 2.0, 4.0, 2.0)
+SWINGS: Lengths = (5.0, 4.0, 3.0, 3.5)
 """r3 + r4 < r1 + r2: the input swings between ± TOGGLE."""
 TOGGLE = 2 * math.acos(math.sqrt((9.0**2 - 6.5**2) / (4 * 5.0 * 4.0)))
+ROCKERS: Lengths = (5.0, 3.5, 2.0, 4.0)
+CHANGES: Lengths = (5.0, 2.0, 4.0, 3.0)
+"""r1 + r2 = r3 + r4: a change point at half a turn."""
 
-HARD = (
-    Case("parallelogram", (4.0, 2.0, 4.0, 2.0), ONE_TURN),
-    Case("antiparallelogram", (4.0, 2.0, 4.0, 2.0), ONE_TURN, side=-1),
-    Case("change point at 0", (4.0, 2.0, 5.0, 3.0), TWO_TURNS, periods=2),
-    Case("change point at 180 deg", (5.0, 2.0, 4.0, 3.0), TWO_TURNS, periods=2),
-    Case("s + l = p + q in decimals", ("1.2", "0.3", "0.7", "0.8"), TWO_TURNS, periods=2),
-    Case("1e-12 from a change point", (5.0, 2.0, 4.0, 3.0 + 1e-12), ONE_TURN),
-    Case("1e-12 rad before a toggle", SWINGS, towards(TOGGLE), turns=False),
-    Case("through two limits", SWINGS, ONE_TURN, by_phase=True, turns=False),
-    Case("double-rocker", (5.0, 3.5, 2.0, 4.0), ONE_TURN, by_phase=True, turns=False),
-    Case("after 1e6 turns", EASY_LENGTHS, turned(1e6)),
-    Case("after 1e9 turns", EASY_LENGTHS, turned(1e9)),
+FOUR_BAR = CaseSet(
+    "four-bar",
+    Case("easy cycle", four_bar(EASY), degrees(0, 360)),
+    (
+        Case("parallelogram", four_bar(SQUARE), ONE_TURN, AT_BOTH),
+        Case("antiparallelogram", four_bar(SQUARE, -1), ONE_TURN, AT_BOTH),
+        Case("change point at 0", four_bar((4.0, 2.0, 5.0, 3.0)), TWO_TURNS, {"B": (0, 2)}, periods=2),
+        Case("change point at 180 deg", four_bar(CHANGES), TWO_TURNS, {"B": (1, 3)}, periods=2),
+        Case(
+            "s + l = p + q in decimals",
+            four_bar((1.2, 0.3, 0.7, 0.8)),
+            TWO_TURNS,
+            {"B": (1, 3)},
+            periods=2,
+            decimal=True,
+        ),
+        Case("1e-12 from a change point", four_bar((5.0, 2.0, 4.0, 3.0 + 1e-12)), ONE_TURN),
+        Case("1e-12 rad before a toggle", four_bar(SWINGS), towards(TOGGLE), AT_LIMITS, stretched(SWINGS)),
+        Case("through two limits", four_bar(SWINGS), ONE_TURN, AT_LIMITS, stretched(SWINGS), True),
+        Case("double-rocker", four_bar(ROCKERS), ONE_TURN, AT_LIMITS, between(ROCKERS), True),
+        Case("after 1e6 turns", four_bar(EASY), turned(1e6)),
+        Case("after 1e9 turns", four_bar(EASY), turned(1e9)),
+    ),
 )
+
+QUARTERS = beside(degrees(0, 360), TURN / 4, 3 * TURN / 4)
+
+SLIDER_CRANK = CaseSet(
+    "slider-crank",
+    Case("easy cycle", slider_crank(40.0, 120.0, 20.0), degrees(0, 360)),
+    (
+        Case("rod as long as the crank", slider_crank(50.0, 50.0, 0.0), QUARTERS, {"B": (0.5, 1.5)}),
+        Case("1e-12 from a change point", slider_crank(5.0, 5.0 + 1e-12, 0.0), QUARTERS),
+        Case(
+            "1e-12 rad before a toggle",
+            slider_crank(50.0, 40.0, 0.0),
+            towards(math.asin(0.8)),
+            AT_LIMITS,
+            upright(50.0, 40.0),
+        ),
+        Case(
+            "through two limits",
+            slider_crank(50.0, 40.0, 0.0),
+            ONE_TURN,
+            AT_LIMITS,
+            upright(50.0, 40.0),
+            True,
+        ),
+        Case("after 1e9 turns", slider_crank(40.0, 120.0, 20.0), turned(1e9)),
+    ),
+)
+
+AFTER: Lengths = (6.0, 1.0, 5.0, 4.0)
+"""A second loop that closes wherever the first one takes it."""
+
+SIX_BAR = CaseSet(
+    "six-bar",
+    Case("easy cycle", built_in("six-bar"), degrees(0, 360)),
+    (
+        Case(
+            "two change points in series",
+            six_bar(SQUARE, CHANGES),
+            TWO_TURNS,
+            {"B": (0, 1, 2, 3), "D": (1, 3)},
+            periods=2,
+        ),
+        Case("through two limits", six_bar(SWINGS, AFTER), ONE_TURN, AT_LIMITS, stretched(SWINGS), True),
+        Case(
+            "1e-12 rad before a toggle", six_bar(SWINGS, AFTER), towards(TOGGLE), AT_LIMITS, stretched(SWINGS)
+        ),
+        Case("after 1e9 turns", built_in("six-bar"), turned(1e9)),
+    ),
+)
+
+PRESS = CaseSet(
+    "press",
+    Case("easy cycle", built_in("press"), degrees(0, 360)),
+    (
+        Case("after 1e6 turns", built_in("press"), turned(1e6)),
+        Case("after 1e9 turns", built_in("press"), turned(1e9)),
+    ),
+)
+
+MECHANISMS = (FOUR_BAR, SLIDER_CRANK, SIX_BAR, PRESS)

@@ -1,68 +1,109 @@
-"""Speed against error as a picture: the easy cycle above, the hard cases below."""
+"""Speed against error as a picture: a column for each linkage, easy cycle above, hard cases below."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from io import BytesIO
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
 from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Measured, Result
-from linkanim.picture.offscreen import offscreen, png_bytes
-from linkanim.picture.scatter import Dot, ScatterTitles, scatter
 from linkanim.whole import checked_target, replacing
 
-SIZE = (1280, 640)
-LEAST = 1e-17
-"""Where an error of nothing is drawn."""
-OWN = ("batch", "single", "float32")
-ACROSS = "ns a pose, positions"
-UP = "worst error in longest links"
-
-
-class Picture(NamedTuple):
-    """One picture: what it shows, its points, and what its axes are called."""
-
-    title: str
-    points: list[Dot]
-    across: str = ACROSS
-    up: str = UP
+SIZE = (1600, 960)
+LEAST, MOST = 1e-17, 10.0
+"""Where an error of nothing is drawn, and one beyond all sense."""
+OWN = ("batch", "single")
+COLOURS = (
+    *("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f"),
+    *("#000000", "#8c564b", "#bcbd22", "#9467bd", "#17becf", "#f0a3c0"),
+)
+"""The first ones of Okabe and Ito, Color Universal Design: told apart by colour-blind readers, too."""
+MARKS = ("o", "^", "s")
+ORDERS = ("position", "velocity", "acceleration")
 
 
 def draw(result: Result, path: Path) -> Path:
-    """Write speed against error, on the easy cycle and on the hard cases; return where it is."""
-    return draw_pictures(list(panels(result)), path)
-
-
-def draw_pictures(pictures: Sequence[Picture], path: Path) -> Path:
-    """Write pictures, one below the other, as a PNG; return where it is.
+    """Write speed against error of all mechanisms as a PNG; return where it is.
 
     BadInput where the path cannot be; WorkFailed where the disk refuses.
     """
     target = checked_target(path, (".png",))
-    width, height = SIZE
-    sheet = offscreen((width, len(pictures) * height))
-    for number, (title, points, across, up) in enumerate(pictures):
-        sheet.blit(scatter(points, ScatterTitles(title, across, up), size=SIZE), (0, number * height))
     with replacing(target) as part:
-        part.write_bytes(png_bytes(sheet))
+        part.write_bytes(_png(result))
     return target
 
 
-def panels(result: Result) -> Iterator[Picture]:
-    """Yield the two pictures; beside a name, the share of hard poses on the wrong closure or NaN.
+def _png(result: Result) -> bytes:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
 
-    A million poses at once would lie on top of ten thousand.
-    """
+    # A million poses at once would lie on top of ten thousand.
     rows = [row for row in result.rows if "many" not in row.key]
-    yield Picture("Speed against error on an easy cycle", [_point(row, row.easy) for row in rows])
-    right = [row for row in rows if not math.isnan(row.hard.error)]
-    title = "On the hard cases (in brackets: poses on the wrong closure, or NaN)"
-    yield Picture(title, [_point(row, row.hard) for row in right])
+    names = list(dict.fromkeys(row.mechanism for row in rows))
+    styles = {key: n for n, key in enumerate(dict.fromkeys(row.key for row in rows))}
+    figure = Figure(figsize=(SIZE[0] / 100, SIZE[1] / 100), dpi=100, layout="constrained")
+    canvas = FigureCanvasAgg(figure)
+    panels = figure.subplots(2, len(names), sharex=True, sharey=True, squeeze=False)
+    for column, name in enumerate(names):
+        panels[1, column].set_xlabel("ns a pose; of rates with derivatives")
+        for panel, which in zip(panels[:, column], ("easy", "hard"), strict=True):
+            for row in rows:
+                if row.mechanism == name:
+                    _plot(panel, row, getattr(row, which), styles[row.key])
+            _dress(panel, f"{name}, {'an easy cycle' if which == 'easy' else 'hard cases'}")
+    figure.supylabel("worst error in longest links")
+    _key(figure, rows, styles)
+    buffer = BytesIO()
+    canvas.print_png(buffer)  # type: ignore[no-untyped-call]
+    return buffer.getvalue()
 
 
-def _point(row: Measured, score: Score) -> Dot:
-    lost = 100 * (score.wrong + score.missing) / score.poses
-    name = f"{row.name} ({lost:.0f} %)" if lost else row.name
-    return Dot(name, row.position_ns, max(score.error, LEAST), row.key in OWN)
+def _plot(panel: Any, row: Measured, score: Score, style: int) -> None:
+    """Draw the errors of a method, hollow where some of its poses are on the wrong closure or no number."""
+    lost = score.wrong + score.missing > 0
+    colour = COLOURS[style % len(COLOURS)]
+    for order, error in enumerate(score.errors):
+        nanos = row.derivatives_ns if order else row.position_ns
+        if math.isnan(error) or nanos is None:
+            continue
+        panel.plot(
+            nanos,
+            min(max(error, LEAST), MOST),
+            MARKS[order],
+            color=colour,
+            markerfacecolor="none" if lost else colour,
+            markersize=11 if row.key in OWN else 7,
+            markeredgewidth=1.6,
+        )
+
+
+def _dress(panel: Any, title: str) -> None:
+    panel.set_xscale("log")
+    panel.set_yscale("log")
+    panel.set_ylim(LEAST / 3, MOST * 3)
+    panel.set_title(title, fontsize=11)
+    panel.grid(visible=True, color="#dddddd")
+    panel.set_axisbelow(True)
+
+
+def _key(figure: Any, rows: list[Measured], styles: dict[str, int]) -> None:
+    """Say below which colour is whose, and which mark is what."""
+    from matplotlib.lines import Line2D
+
+    named = {row.key: row.name for row in rows}
+    methods = [
+        Line2D(
+            [], [], color=COLOURS[n % len(COLOURS)], marker="o", linestyle="", label=named[key], markersize=8
+        )
+        for key, n in styles.items()
+    ]
+    kinds = [
+        Line2D([], [], color="#444444", marker=mark, linestyle="", label=order)
+        for mark, order in zip(MARKS, ORDERS, strict=True)
+    ]
+    hollow = Line2D(
+        [], [], color="#444444", marker="o", markerfacecolor="none", linestyle="", label="with poses lost"
+    )
+    figure.legend(handles=[*methods, *kinds, hollow], loc="outside lower center", ncols=5, frameon=False)

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from linkanim.bench import methods, others, solver
+from linkanim.bench import methods, others, ours
 from linkanim.bench.accuracy import Solve
-from linkanim.bench.cases import EASY_LENGTHS
-from linkanim.bench.question import TURN, FourBarLengths, Points, Question, joined, scene_of
-from linkanim.scenes import load
-from linkanim.scenes.scene import Scene
+from linkanim.bench.cases import FOUR_BAR, Case, CaseSet
+from linkanim.bench.chain import TURN, Question
+from linkanim.bench.reference import answer
 
 FEW, MANY = 10_000, 1_000_000
 ONE_BY_ONE = 720
@@ -34,6 +33,7 @@ class Entry:
     `key` names it for ratios. Rows that share a `solve` are asked once.
     """
 
+    mechanism: str
     key: str
     name: str
     source: str
@@ -42,48 +42,46 @@ class Entry:
     derivatives: Timed | None = None
 
 
-def easy(count: int) -> Question:
-    """Return one turn of the easy linkage in so many poses."""
-    bars, angles = FourBarLengths(*EASY_LENGTHS), np.arange(count, dtype=np.float64) * (TURN / count)
-    start = joined(scene_of(bars, 1).solve(angle=angles[:1], derivatives=0).position["B"])[0]
-    return Question(bars, 1, angles, np.ones(count), complex(start), angles)
+class Easy:
+    """The easy cycle of a mechanism, in as many poses as are asked for."""
+
+    def __init__(self, case: Case) -> None:
+        self._one = answer(replace(case, inputs=case.inputs[:1])).question
+
+    def in_poses(self, count: int) -> Question:
+        """Return one turn in so many poses."""
+        angles = np.arange(count, dtype=np.float64) * (TURN / count)
+        sides = {name: np.full(count, side[0]) for name, side in self._one.sides.items()}
+        rates = (np.ones(count), np.zeros(count))
+        return replace(self._one, angles=angles, phases=angles, rates=rates, sides=sides)
 
 
-def entries() -> tuple[Entry, ...]:
-    """Return all rows in the order of the table."""
-    return (*_own(), *_closed_forms(), *_from_pose_to_pose(), *_tables(), *_packages())
+def entries(mechanism: CaseSet) -> tuple[Entry, ...]:
+    """Return all rows of a mechanism in the order of the table."""
+    easy, name = Easy(mechanism.easy), mechanism.name
+    counts = (FEW, MANY) if mechanism is FOUR_BAR else (FEW,)
+    rows = (*_own(easy, counts), *_closed_forms(easy), *_from_pose_to_pose(easy), *_tables(easy))
+    return tuple(replace(row, mechanism=name) for row in (*rows, *_packages(easy, counts)))
 
 
-def _own() -> Iterator[Entry]:
+def _own(easy: Easy, counts: tuple[int, ...]) -> Iterator[Entry]:
     here = "linkanim, this solver"
-    for key, count in (("batch", FEW), ("batch, many", MANY)):
-        runs = (_solved(easy(count), derivatives) for derivatives in (0, 2))
-        yield Entry(key, f"linkanim, {count:,} at once", here, solver.batch, *runs)
-    poses = (_posed(easy(ONE_BY_ONE), derivatives) for derivatives in (0, 2))
-    yield Entry("single", "linkanim, one pose a call", here, solver.single, *poses)
-    scene, phases = easy(FEW).scene, easy(FEW).angles.astype(np.float32)
-    run = Timed(lambda: solver.batch_float32(scene, phases), FEW)
-    yield Entry("float32", f"linkanim, float32, {FEW:,} at once", here, solver.float32, run)
+    for key, count in zip(("batch", "batch, many"), counts, strict=False):
+        runs = (_solved(easy.in_poses(count), derivatives) for derivatives in (0, 2))
+        yield Entry("", key, f"linkanim, {count:,} at once", here, ours.batch, *runs)
+    poses = (_posed(easy.in_poses(ONE_BY_ONE), derivatives) for derivatives in (0, 2))
+    yield Entry("", "single", "linkanim, one pose a call", here, ours.single, *poses)
 
 
 def _solved(question: Question, derivatives: int) -> Timed:
     scene, angles = question.scene, question.angles
     # Worked out when first read.
-    read = ("position", "velocity", "acceleration")[derivatives]
+    read = ours.QUANTITIES[derivatives]
     return Timed(lambda: getattr(scene.solve(angle=angles, derivatives=derivatives), read), angles.size)
 
 
 def _posed(question: Question, derivatives: int) -> Timed:
-    return _one_by_one(question.scene, question.angles.tolist(), derivatives)
-
-
-def press() -> Timed:
-    """Return the work of the press, one pose a call with all derivatives."""
-    return _one_by_one(load("press"), easy(ONE_BY_ONE).angles.tolist(), 2)
-
-
-def _one_by_one(scene: Scene, phases: list[float], derivatives: int) -> Timed:
-    pose = scene.pose
+    pose, phases = question.scene.pose, question.phases.tolist()
 
     def run() -> None:
         for phase in phases:
@@ -92,66 +90,59 @@ def _one_by_one(scene: Scene, phases: list[float], derivatives: int) -> Timed:
     return Timed(run, len(phases))
 
 
-def _asked(solve: Solve, count: int) -> Timed:
-    question = easy(count)
-    return Timed(lambda: solve(question), count)
+def _asking(solve: Solve, question: Question) -> Timed:
+    return Timed(lambda: solve(question), question.angles.size)
 
 
-def _closed_forms() -> Iterator[Entry]:
-    rates = easy(FEW)
-    yield Entry(
-        "half-angle",
-        "half-angle formula",
-        "Norton, Design of Machinery",
-        methods.half_angle,
-        _asked(methods.half_angle, FEW),
-        Timed(lambda: methods.half_angle_rates(rates), FEW),
-    )
-    yield Entry(
-        "circles", "circle intersection", "Bourke 1997", methods.circles, _asked(methods.circles, FEW)
-    )
+def _closed_forms(easy: Easy) -> Iterator[Entry]:
+    question = easy.in_poses(FEW)
+    for key, name, source, close in (
+        ("half-angle", "half-angle formula", "Norton, Design of Machinery", methods.half_angle_dyad),
+        ("circles", "circle intersection", "Bourke 1997", methods.circle_dyad),
+    ):
+        solve = methods.closed(close)
+        runs = (_asking(way, question) for way in (methods.positions(close), solve))
+        yield Entry("", key, name, source, solve, *runs)
 
 
-def _from_pose_to_pose() -> Iterator[Entry]:
+def _from_pose_to_pose(easy: Easy) -> Iterator[Entry]:
+    question = easy.in_poses(ONE_BY_ONE)
     for count in (1, 2, 3):
         solve = methods.newton(count)
+        runs = (_asking(way, question) for way in (methods.newton_positions(count), solve))
         name = f"Newton, {count} iteration{'s' if count > 1 else ''}"
-        yield Entry(f"newton {count}", name, "loop equation", solve, _asked(solve, ONE_BY_ONE))
+        yield Entry("", f"newton {count}", name, "each dyad's equations", solve, *runs)
     rk4 = methods.runge_kutta
-    yield Entry("rk4", "RK4 on the velocity", "loop equation", rk4, _asked(rk4, ONE_BY_ONE))
+    source = "each dyad's equations"
+    yield Entry("", "rk4", "RK4 on the velocity", source, rk4, _asking(rk4, question))
 
 
-def _tables() -> Iterator[Entry]:
-    question = easy(FEW)
+def _tables(easy: Easy) -> Iterator[Entry]:
+    question = easy.in_poses(FEW)
     table = methods.table_of(question)
     for key, name, read in (
         ("linear", "straight lines", methods.linear),
         ("cubic", "Hermite's cubics", methods.cubic),
     ):
-        run = _reading(read, table, question)
-        yield Entry(key, f"table of 1° steps, {name}", "poses of this solver", _looked_up(read), run)
+        run = Timed(lambda read=read: read(table, question), FEW)  # type: ignore[misc]
+        yield Entry("", key, f"table of 1° steps, {name}", "poses of this solver", _looked_up(read), run)
 
 
-def _reading(
-    read: Callable[[methods.Samples, Question], Points], table: methods.Samples, question: Question
-) -> Timed:
-    return Timed(lambda: read(table, question), FEW)
-
-
-def _looked_up(read: Callable[[methods.Samples, Question], Points]) -> Solve:
+def _looked_up(read: Callable[[methods.Samples, Question], ours.Orders]) -> Solve:
     return lambda question: read(methods.table_of(question), question)
 
 
-def _packages() -> Iterator[Entry]:
-    for key, count in (("pylinkage", FEW), ("pylinkage, many", MANY)):
-        model = others.pylinkage_model(easy(count), TURN / count).linkage
+def _packages(easy: Easy, counts: tuple[int, ...]) -> Iterator[Entry]:
+    for key, count in zip(("pylinkage", "pylinkage, many"), counts, strict=False):
+        model = others.pylinkage_model(easy.in_poses(count), TURN / count).linkage
         runs = (_stepped(work, count) for work in (model.step_fast, model.step_fast_with_kinematics))
         solve = others.pylinkage_fast(round(count / 360))
-        yield Entry(key, f"pylinkage step_fast, {count:,} at once", "pylinkage, numba", solve, *runs)
-    one = others.pylinkage_model(easy(ONE_BY_ONE), TURN / ONE_BY_ONE).linkage
+        yield Entry("", key, f"pylinkage step_fast, {count:,} at once", "pylinkage, numba", solve, *runs)
+    one = others.pylinkage_model(easy.in_poses(ONE_BY_ONE), TURN / ONE_BY_ONE).linkage
     runs = (_walked(work, ONE_BY_ONE) for work in (one.step, one.step_with_derivatives))
-    yield Entry("pylinkage step", "pylinkage step()", "pylinkage", others.pylinkage_step, *runs)
-    yield Entry("fsolve", "scipy fsolve", "scipy.optimize", others.fsolve, _asked(others.fsolve, 180))
+    yield Entry("", "pylinkage step", "pylinkage step()", "pylinkage", others.pylinkage_step, *runs)
+    asked = _asking(others.fsolve, easy.in_poses(180))
+    yield Entry("", "fsolve", "scipy fsolve", "scipy.optimize", others.fsolve, asked)
 
 
 def _stepped(work: Callable[[int], object], count: int) -> Timed:

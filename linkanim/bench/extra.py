@@ -7,7 +7,7 @@ from importlib.util import find_spec
 
 from linkanim.errors import BadInput
 
-NEEDED = ("mpmath", "pylinkage", "numba", "scipy")
+NEEDED = ("mpmath", "pylinkage", "numba", "scipy", "matplotlib")
 
 
 def require_extra(found: Callable[[str], object] = find_spec) -> None:

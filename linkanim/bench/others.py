@@ -1,4 +1,4 @@
-"""The same four-bar in other people's packages: pylinkage (Assur groups, numba) and scipy (root finding)."""
+"""The same linkages in other people's packages: pylinkage (Assur groups, numba) and scipy (root finding)."""
 
 from __future__ import annotations
 
@@ -8,94 +8,137 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkanim.bench.question import Complexes, Points, Question, coupler_point, crank_pin
+from linkanim.bench.chain import Dyad, MeetStep, Places, Question, SlideStep, TurnStep
+from linkanim.bench.methods import positions
+from linkanim.bench.ours import Orders
 
 
 class Model(NamedTuple):
-    """A pylinkage linkage of O2, O4, A, B, P, and its crank."""
+    """A pylinkage linkage, its cranks with their ratios, and the row of each joint in its answers."""
 
     linkage: Any
-    crank: Any
+    cranks: tuple[tuple[Any, float], ...]
+    rows: dict[str, int]
+
+    def run_at(self, speed: float, gain: float) -> None:
+        """Have the input turn at this speed and acceleration, for the rates."""
+        for crank, ratio in self.cranks:
+            self.linkage.set_input_velocity(crank, ratio * speed, ratio * gain)
 
 
 def pylinkage_model(question: Question, rate: float) -> Model:
-    """Return the four-bar at the question's first pose; its crank turns by `rate` radians at every step."""
-    from pylinkage.actuators import Crank
+    """Return the linkage at the question's first pose; its input turns by `rate` radians at every step."""
     from pylinkage.components import Ground
-    from pylinkage.dyads import FixedDyad, RRRDyad
     from pylinkage.simulation import Linkage
 
-    bars, start = question.bars, question.start
-    o2, o4 = Ground(0.0, 0.0), Ground(bars.ground, 0.0)
-    crank = Crank(o2, bars.crank, rate, float(question.angles[0]))
-    b = RRRDyad(crank.output, o4, bars.coupler, bars.rocker, start.real, start.imag)
-    arm = bars.point * bars.coupler
-    linkage = Linkage([o2, o4, crank, b, FixedDyad(crank.output, b, abs(arm), cmath.phase(arm))])
-    linkage.set_input_velocity(crank, 1.0)
-    return Model(linkage, crank)
+    made: dict[str, Any] = {name: Ground(at.real, at.imag) for name, at in question.chain.pins.items()}
+    parts, cranks = [*made.values()], []
+    rows = {name: row for row, name in enumerate(made)}
+    for step in question.chain.steps:
+        if isinstance(step, SlideStep):
+            guide = [Ground(at.real, at.imag) for at in (step.base, step.base + step.along)]
+            parts += guide
+        part = _part(step, made, question, rate, guide if isinstance(step, SlideStep) else [])
+        if isinstance(step, TurnStep):
+            cranks.append((part, step.ratio))
+        rows[step.name] = len(parts)
+        parts.append(part)
+        made[step.name] = part.output if isinstance(step, TurnStep) else part
+    model = Model(Linkage(parts), tuple(cranks), rows)
+    model.run_at(1.0, 0.0)
+    return model
 
 
-def pylinkage_fast(substeps: int) -> Callable[[Question], Points]:
+def _part(step: Any, made: dict[str, Any], question: Question, rate: float, guide: list[Any]) -> Any:
+    from pylinkage.actuators import Crank
+    from pylinkage.dyads import FixedDyad, RRPDyad, RRRDyad
+
+    start = question.start[step.name]
+    match step:
+        case TurnStep():
+            angle = step.ratio * float(question.angles[0]) + step.offset
+            return Crank(made[step.pivot], step.length, step.ratio * rate, angle)
+        case MeetStep():
+            ends = [made[end] for end in step.ends]
+            return RRRDyad(*ends, *step.lengths, start.real, start.imag)
+        case SlideStep():
+            return RRPDyad(made[step.end], *guide, step.length, start.real, start.imag)
+    return FixedDyad(*(made[name] for name in step.on), abs(step.at), cmath.phase(step.at))
+
+
+def pylinkage_fast(substeps: int) -> Callable[[Question], Orders]:
     """Return step_fast from pose to pose, with so many of its own equal steps from one input to the next.
 
-    Inputs at unequal distances are one step apart. The first pose is given; the next ones lie
-    nearest to their predecessor, as its solver decides.
+    Inputs at unequal distances are one step apart. The first pose is given; the next ones lie nearest to
+    their predecessor, as its solver decides.
     """
 
-    def solve(question: Question) -> Points:
+    def solve(question: Question) -> Orders:
         model = pylinkage_model(question, 1.0)
         ways = np.diff(question.angles)
         count = substeps if np.allclose(ways, ways[0], rtol=1e-3, atol=0.0) else 1
         steps = [0.0, *(ways / count).tolist()]
-        return _points(np.array([model.linkage.step_fast(count, dt=step)[-1] for step in steps]))
+        found = []
+        for step, speed, gain in zip(steps, *(rate.tolist() for rate in question.rates), strict=True):
+            model.run_at(speed, gain)
+            orders = model.linkage.step_fast_with_kinematics(count, dt=step)
+            found.append([order[-1] for order in orders])
+        return _orders(np.array(found), model)
 
     return solve
 
 
-def pylinkage_step(question: Question) -> Points:
+def pylinkage_step(question: Question) -> Orders:
     """Do the same with step(); what it refuses as unbuildable is NaN."""
     from pylinkage.exceptions import UnbuildableError
 
     model = pylinkage_model(question, 1.0)
-    found = np.full((len(question.angles), 5, 2), np.nan)
-    for row, step in zip(found, np.diff(question.angles, prepend=question.angles[0]).tolist(), strict=True):
+    count = len(question.angles)
+    found = np.full((count, 3, len(model.linkage.components), 2), np.nan)
+    ways = np.diff(question.angles, prepend=question.angles[0]).tolist()
+    for row, step, speed, gain in zip(found, ways, *(r.tolist() for r in question.rates), strict=True):
+        model.run_at(speed, gain)
         try:
-            row[:] = next(model.linkage.step(1, dt=step))
+            orders = next(model.linkage.step_with_derivatives(1, dt=step))
         except UnbuildableError:
             continue
-    return _points(found)
+        for order, values in zip(row, orders, strict=True):
+            order[:] = [(np.nan, np.nan) if value is None else value for value in values]
+    return _orders(found, model)
 
 
-def _points(found: Any) -> Points:
-    joined: Complexes = found[..., 0] + 1j * found[..., 1]
-    return Points(joined[:, 3], joined[:, 4])
+def _orders(found: Any, model: Model) -> Orders:
+    joined = found[..., 0] + 1j * found[..., 1]
+    return tuple({name: joined[:, order, row] for name, row in model.rows.items()} for order in range(3))
 
 
-def fsolve(question: Question) -> Points:
-    """Solve the two distance equations for B from the previous B; NaN where it says it did not converge."""
+def fsolve(question: Question) -> Orders:
+    """Solve each dyad's equations from its previous place; NaN where it says it did not converge."""
+    before = dict(question.start)
+
+    def close(dyad: Dyad, at: Places, _: Any) -> Any:
+        return np.array([_found(dyad, at, row, before) for row in range(question.angles.size)])
+
+    return positions(close)(question)
+
+
+def _found(dyad: Dyad, at: Places, row: int, before: dict[str, complex]) -> complex:
     from scipy.optimize import fsolve as find
 
-    bars, before, found = question.bars, question.start, []
-    pins = crank_pin(bars, question.angles)
-    for pin in pins.tolist():
-        equations = _distances(pin, question)
-        root, _, flag, _ = find(equations, (before.real, before.imag), full_output=True)
-        b = complex(root[0], root[1]) if flag == 1 else complex(np.nan, np.nan)
-        before = b if flag == 1 else before
-        found.append(b)
-    return coupler_point(bars, pins, np.array(found))
+    ends = dyad.ends if isinstance(dyad, MeetStep) else (dyad.end,)
+    lengths = dyad.lengths if isinstance(dyad, MeetStep) else (dyad.length,)
+    places = [complex(at[end][row]) if np.ndim(at[end]) else complex(at[end]) for end in ends]
+    largest = max(lengths) ** 2
 
+    def equations(guess: Any) -> list[float]:
+        here = complex(guess[0], guess[1])
+        ways = [abs(here - place) ** 2 - length**2 for place, length in zip(places, lengths, strict=True)]
+        off = [] if isinstance(dyad, MeetStep) else [((here - dyad.base) * dyad.along.conjugate()).imag]
+        return [way / largest for way in ways] + [way / max(lengths) for way in off]
 
-def _distances(pin: complex, question: Question) -> Any:
-    bars = question.bars
-    longest = bars.longest**2
-
-    def equations(at: Any) -> tuple[float, float]:
-        b = complex(at[0], at[1])
-        first, second = b - pin, b - bars.ground
-        return (
-            (first.real**2 + first.imag**2 - bars.coupler**2) / longest,
-            (second.real**2 + second.imag**2 - bars.rocker**2) / longest,
-        )
-
-    return equations
+    start = before[dyad.name]
+    root, _, flag, _ = find(equations, (start.real, start.imag), full_output=True)
+    if flag != 1:
+        return complex(np.nan, np.nan)
+    before[dyad.name] = complex(root[0], root[1])
+    return before[dyad.name]

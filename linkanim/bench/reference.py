@@ -1,34 +1,41 @@
-"""Answers of many digits by the plainest closed form: where two circles cross.
+"""Answers of many digits by the plainest closed forms: where circles and lines cross.
 
-Nothing is shared with the solver. At fifty digits the square root of a difference may lose half of
-them and still have more than a float holds.
+Nothing is shared with the solver. The square root of a difference may lose half of the digits and still have
+more than a float holds; rates are central differences of a step so small, at so many digits, that they are
+exact to far more than a float has.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from mpmath import mp, mpc, mpf, workdps
 
-from linkanim.bench.cases import Case, Length
-from linkanim.bench.question import Complexes, Floats, FourBarLengths, Points, Question
+from linkanim.bench.cases import Case
+from linkanim.bench.chain import (
+    Complexes,
+    Dyad,
+    DyadChain,
+    FixedStep,
+    Floats,
+    MeetStep,
+    Question,
+    SlideStep,
+    Step,
+    TurnStep,
+    chain_of,
+    longest_of,
+)
 
-DIGITS = 50
-
-
-class Closures(NamedTuple):
-    """An exact pose: B and P of the closure asked for, and of the other one."""
-
-    angle: Any
-    phase: Any
-    sign: int
-    b: Any
-    p: Any
-    other_b: Any
-    other_p: Any
+DIGITS = 140
+STEP = mpf(10) ** -22
+NUDGE = mpf(10) ** -40
+"""Added to every input: at a limit itself the two circles touch, and the side has no sign."""
+Pose = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -38,7 +45,7 @@ class Exact:
     high: Complexes
     low: Complexes
 
-    def distance(self, found: Complexes) -> Floats:
+    def distance(self, found: Any) -> Floats:
         """Return how far floats are from these numbers, without rounding the numbers first."""
         apart: Floats = np.abs((found - self.high) - self.low)
         return apart
@@ -46,107 +53,162 @@ class Exact:
 
 @dataclass(frozen=True)
 class Answer:
-    """A case put as a question, with the exact points of both closures."""
+    """A case put as a question, with exact positions and rates, and where each dyad's other closure is."""
 
     question: Question
-    b: Exact
-    p: Exact
-    other: Points
+    orders: tuple[Mapping[str, Exact], ...]
+    other: Mapping[str, Complexes]
 
 
 def answer(case: Case) -> Answer:
-    """Return a case with its fifty-digit poses."""
+    """Return a case with its poses in many digits."""
     with workdps(DIGITS):
-        poses = list(closures(case))
-        b, p = (_exact([getattr(pose, name) for pose in poses]) for name in ("b", "p"))
-        other = Points(_rounded(pose.other_b for pose in poses), _rounded(pose.other_p for pose in poses))
-        angles, phases = (
-            np.array([float(getattr(pose, name)) for pose in poses]) for name in ("angle", "phase")
+        path = CasePath(case)
+        inputs = [mpf(given) + NUDGE for given in case.inputs.tolist()]
+        poses = [[path.pose(given + k * STEP) for given in inputs] for k in (-1, 0, 1)]
+        moving = [step.name for step in path.chain.steps]
+        orders = tuple(
+            {name: _exact(list(_order(order, name, poses))) for name in moving} for order in range(3)
         )
-        named = np.array([float(case.side if case.turns else pose.sign) for pose in poses])
-    bars = FourBarLengths(*(float(length) for length in case.lengths))
-    start = complex(b.high[0])
-    by_angle = not (case.turns or case.by_phase)
-    question = Question(bars, case.side, angles, named, start, phases, case.periods, by_angle)
-    return Answer(question, b, p, other)
+        others = [path.others(pose) for pose in poses[1]]
+        other = {dyad.name: _rounded([places[dyad.name] for places in others]) for dyad in path.chain.dyads}
+        question = _question(case, path, inputs, orders[0])
+    return Answer(question, orders, other)
 
 
-def closures(case: Case) -> Iterator[Closures]:
-    """Yield the exact pose at each input of a case, at mpmath's present precision."""
-    bars = ExactFourBar(case.lengths, case.side)
-    ground, crank, coupler, rocker = bars.sizes
-    for given in map(mpf, case.inputs.tolist()):
-        phase = given if case.turns or case.by_phase else bars.phase_at(given)
-        angle, side = bars.angle(phase), bars.side_at(phase)
-        a = crank * mp.expj(angle)
-        b, other = (crossing(a, ground, coupler, rocker, sign) for sign in (side, -side))
-        point = mpc(FourBarLengths(1, 1, 1, 1).point)
-        yield Closures(angle, phase, side, b, a + (b - a) * point, other, a + (other - a) * point)
+def _question(case: Case, path: CasePath, inputs: list[Any], places: Mapping[str, Exact]) -> Question:
+    chain, phases = path.chain, [path.phase(given) for given in inputs]
+    named = {
+        dyad.name: [dyad.side if case.swing is None else path.side(dyad, phase) for phase in phases]
+        for dyad in chain.dyads
+    }
+    return Question(
+        case.scene,
+        chain,
+        _floats([path.angle(given) for given in inputs]),
+        _floats(phases),
+        _rates(path, inputs),
+        {name: _floats(sides) for name, sides in named.items()},
+        {name: complex(place.high[0]) for name, place in places.items()},
+        tuple(places),
+        longest_of(chain),
+        case.periods,
+        case.by_angle,
+    )
+
+
+def _rates(path: CasePath, inputs: list[Any]) -> tuple[Floats, Floats]:
+    """Return the first and the second derivative of the input's angle in what is given."""
+    ways = [[path.angle(given + k * STEP) - path.angle(given) for k in (-1, 1)] for given in inputs]
+    first = [(after - before) / (2 * STEP) for before, after in ways]
+    return _floats(first), _floats([(after + before) / STEP**2 for before, after in ways])
+
+
+def _order(order: int, name: str, poses: list[list[Pose]]) -> Iterator[Any]:
+    """Yield a joint's positions, or their first or second derivative in what is given."""
+    for before, here, after in zip(*poses, strict=True):
+        early, now, late = (pose[name] for pose in (before, here, after))
+        yield (now, (late - early) / (2 * STEP), (late - 2 * now + early) / STEP**2)[order]
 
 
 @dataclass(frozen=True)
-class ExactFourBar:
-    """Ground, crank, coupler and rocker, O4 on the real axis, on the smooth path that the crank drives.
+class CasePath:
+    """The poses of a case along its smooth path, in the digits that mpmath has at present."""
 
-    `side` is the closure just after phase 0, +1 for B left of A -> O4. A crank that turns fully stands at
-    `start` there; of two separate ranges a negative `start` means the one below the ground line.
-    Gaps below 2^-53 of the perimeter are none: decimal lengths are rarely exact in binary.
-    """
+    case: Case
 
-    lengths: tuple[Length, Length, Length, Length]
-    side: int = 1
-    start: Any = 0
+    @cached_property
+    def chain(self) -> DyadChain:
+        """The chain, its lengths floats."""
+        return chain_of(self.case.scene.linkage)
 
-    @property
-    def sizes(self) -> tuple[Any, ...]:
-        """The lengths in as many digits as mpmath has at present."""
-        return tuple(mpf(length) for length in self.lengths)
+    @cached_property
+    def _ends(self) -> tuple[Any, Any] | None:
+        return self.case.swing(mp) if self.case.swing else None
 
-    @property
-    def gaps(self) -> tuple[Any, Any, Any]:
-        """What is left when the bars are in line: stretched, and folded either way; 0 at a change point."""
-        g, r, a, b = self.sizes
-        least = mpf(2) ** -53 * (g + r + a + b)
-        gaps = (a + b - g - r, g - r - a + b, g - r + a - b)
-        return tuple(gap if abs(gap) > least else mpf(0) for gap in gaps)
+    @cached_property
+    def _exact(self) -> tuple[dict[str, Any], tuple[Step, ...]]:
+        """The pins and the steps, their numbers as the case means them."""
+        places = {name: self._place(pin) for name, pin in self.chain.pins.items()}
+        return places, tuple(self._meant(step) for step in self.chain.steps)
 
-    @property
-    def limits(self) -> tuple[Any, Any] | None:
-        """The ends of the crank's swing, by the law of cosines on bars in line; None where it turns fully."""
-        g, r, a, b = self.sizes
-        outer, first, second = self.gaps
-        far = mp.acos((g * g + r * r - (a + b) ** 2) / (2 * g * r)) if outer < 0 else None
-        near = mp.acos((g * g + r * r - (a - b) ** 2) / (2 * g * r)) if first * second < 0 else None
-        if far is not None and near is not None:
-            return (near, far) if self.start >= 0 else (-far, -near)
-        if far is not None:
-            return -far, far
-        return None if near is None else (near, 2 * mp.pi - near)
+    def _meant(self, step: Step) -> Step:
+        match step:
+            case TurnStep():
+                named = {key: self._number(getattr(step, key)) for key in ("length", "ratio", "offset")}
+                return step._replace(**named)
+            case FixedStep():
+                return step._replace(at=self._place(step.at) / self._number(step.length))
+            case MeetStep():
+                a, b = map(self._number, step.lengths)
+                return step._replace(lengths=(a, b))
+        along = mpc(step.along)
+        return step._replace(length=self._number(step.length), base=mpc(step.base), along=along / abs(along))
 
-    def angle(self, phase: Any) -> Any:
-        """Return the crank's angle from the ground line."""
-        if self.limits is None:
-            return self.start + phase
-        low, high = self.limits
-        return (low + high) / 2 - (high - low) / 2 * mp.cos(phase)
+    def angle(self, given: Any) -> Any:
+        """Return the input's angle: what is given, or of a phase of a swing, mid - amp·cos φ."""
+        if self._ends is None or self.case.by_angle:
+            return given
+        low, high = self._ends
+        return (low + high) / 2 - (high - low) / 2 * mp.cos(given)
 
-    def phase_at(self, angle: Any) -> Any:
-        """Return the phase at an angle of a swing, on the way up."""
-        assert self.limits is not None
-        low, high = self.limits
-        return mp.acos((low + high - 2 * angle) / (high - low))
+    def phase(self, given: Any) -> Any:
+        """Return the phase, of an angle of a swing on the way up."""
+        if self._ends is None or not self.case.by_angle:
+            return given
+        low, high = self._ends
+        return mp.acos((low + high - 2 * given) / (high - low))
 
-    def side_at(self, phase: Any) -> int:
-        """Return the closure on the smooth path: it changes at limits and at change points."""
-        return self.side * self._sign(mpf(10) ** -8) * self._sign(phase)
+    def side(self, dyad: Dyad, phase: Any) -> int:
+        """Return the closure on the smooth path."""
+        turn = 2 * self.case.periods
+        at = phase / mp.pi
+        passed = sum(
+            int(mp.floor((at - flip) / turn)) + (flip > 0) for flip in self.case.flips.get(dyad.name, ())
+        )
+        return -dyad.side if passed % 2 else dyad.side
 
-    def _sign(self, phase: Any) -> int:
-        """Return the sign that the path gives the closure, up to the one at the start."""
-        outer, first, second = self.gaps
-        half = self.angle(phase) / 2
-        sign = 1 if self.limits is None else sign_of(mp.sin(phase))
-        sign *= sign_of(mp.cos(half)) if outer == 0 else 1
-        return sign * (sign_of(mp.sin(half)) if first * second == 0 else 1)
+    def pose(self, given: Any) -> Pose:
+        """Return where every joint lies."""
+        angle, phase = self.angle(given), self.phase(given)
+        pins, steps = self._exact
+        at = dict(pins)
+        for step in steps:
+            match step:
+                case TurnStep():
+                    at[step.name] = at[step.pivot] + step.length * mp.expj(step.ratio * angle + step.offset)
+                case FixedStep():
+                    first, second = (at[name] for name in step.on)
+                    at[step.name] = first + (second - first) * step.at
+                case _:
+                    at[step.name] = closed(step, at, self.side(step, phase))
+        return at
+
+    def others(self, at: Pose) -> Pose:
+        """Return the other closure of each dyad, whose ends lie where they are."""
+        found = {}
+        for step in self._exact[1]:
+            if isinstance(step, MeetStep | SlideStep):
+                near, far = (closed(step, at, side) for side in (1, -1))
+                apart = [abs(place - at[step.name]) for place in (near, far)]
+                found[step.name] = near if apart[0] > apart[1] else far
+        return found
+
+    def _place(self, value: complex) -> Any:
+        return mpc(self._number(value.real), self._number(value.imag))
+
+    def _number(self, value: float) -> Any:
+        return mpf(repr(value)) if self.case.decimal else mpf(value)
+
+
+def closed(dyad: Dyad, at: Pose, side: int) -> Any:
+    """Return where a dyad's joint lies, its lengths in many digits."""
+    if isinstance(dyad, MeetStep):
+        p, q = (at[end] for end in dyad.ends)
+        return crossing(p, q, *dyad.lengths, side)
+    seen = (at[dyad.end] - dyad.base) / dyad.along
+    square = dyad.length**2 - mp.im(seen) ** 2
+    return dyad.base + dyad.along * (mp.re(seen) + side * mp.sqrt(max(square, mpf(0))))
 
 
 def crossing(p: Any, q: Any, a: Any, b: Any, side: int) -> Any:
@@ -161,16 +223,16 @@ def crossing(p: Any, q: Any, a: Any, b: Any, side: int) -> Any:
     return p + way / distance * mpc(along, side * mp.sqrt(max(square, mpf(0))))
 
 
-def sign_of(value: Any) -> int:
-    """Return -1 for a negative number, else 1."""
-    return 1 if value >= 0 else -1
+def _floats(values: list[Any]) -> Floats:
+    return np.array([float(value) for value in values])
 
 
-def _rounded(values: Iterator[Any]) -> Complexes:
+def _rounded(values: list[Any]) -> Complexes:
     return np.array([complex(value) for value in values])
 
 
 def _exact(values: list[Any]) -> Exact:
-    high = _rounded(iter(values))
-    low = _rounded(value - mpc(near) for value, near in zip(values, high.tolist(), strict=True))
-    return Exact(high, low)
+    high = _rounded(values)
+    return Exact(
+        high, _rounded([value - mpc(near) for value, near in zip(values, high.tolist(), strict=True)])
+    )

@@ -4,51 +4,66 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Measured, Result, Target
 
-TITLES = ("method", "ns a pose", "with derivatives", "worst error, easy", "hard", "wrong closure", "NaN")
+TITLES = (
+    "method",
+    "ns a pose",
+    "with derivatives",
+    "easy: position, velocity, acceleration",
+    "hard",
+    "wrong closure",
+    "NaN",
+)
 NOTE = (
-    "Four-bar with coupler point. ns a pose: processor time, medians of runs in turn. Errors in longest "
-    "links, against 50 digits, of poses on the right closure; wrong closure and NaN: of {poses:,} hard poses."
+    "ns a pose: processor time, medians of runs in turn. Errors against 50 digits and more, the worst of all "
+    "joints: positions in longest links, rates in longest links or the pose's largest rate, of poses on the "
+    "right closure; wrong closure and NaN: of {poses} hard poses."
 )
 
 Lines = Sequence[Sequence[str]]
 
 
 def as_text(result: Result) -> str:
-    """Return the machine, the table and the targets in aligned columns."""
-    return "\n\n".join(
-        [
-            result.machine.line,
-            columns(lines(result)),
-            NOTE.format(poses=result.rows[0].hard.poses),
-            columns(target_lines(result.targets)),
-        ]
-    )
+    """Return the machine, the tables and the targets in aligned columns."""
+    tables = [f"{name}\n{columns([TITLES, *rows])}" for name, rows in _by_mechanism(result)]
+    return "\n\n".join([result.machine.line, *tables, _note(result), columns(target_lines(result.targets))])
 
 
 def as_markdown(result: Result) -> str:
-    """Return the table and where it was measured, for the README."""
-    head, *body = lines(result)
-    rule = ["---", *["---:"] * (len(head) - 1)]
-    table = "\n".join(f"| {' | '.join(line)} |" for line in (head, rule, *body))
-    note = NOTE.format(poses=result.rows[0].hard.poses)
-    return f"{table}\n\n{note} Measured on {result.machine.line}.\n"
+    """Return the table, its mechanisms one after the other, and where it was measured, for the README."""
+    rule = ["---", *["---:"] * (len(TITLES) - 1)]
+    blank = [""] * (len(TITLES) - 1)
+    rows = [line for name, lines in _by_mechanism(result) for line in ([f"**{name}**", *blank], *lines)]
+    table = "\n".join(f"| {' | '.join(line)} |" for line in (TITLES, rule, *rows))
+    return f"{table}\n\n{_note(result)} Measured on {result.machine.line}.\n"
 
 
-def lines(result: Result) -> list[Sequence[str]]:
-    """Return the titles and a line for each method."""
-    return [TITLES, *(_line(row) for row in result.rows)]
+def _by_mechanism(result: Result) -> Iterator[tuple[str, list[Sequence[str]]]]:
+    """Yield each mechanism's name and its lines."""
+    for name in dict.fromkeys(row.mechanism for row in result.rows):
+        yield name, [_line(row) for row in result.rows if row.mechanism == name]
+
+
+def _note(result: Result) -> str:
+    poses = {row.mechanism: row.hard.poses for row in result.rows}
+    return NOTE.format(poses=", ".join(f"{count:,} ({name})" for name, count in poses.items()))
 
 
 def _line(row: Measured) -> Sequence[str]:
     times = (_time(row.position_ns), "" if row.derivatives_ns is None else _time(row.derivatives_ns))
-    errors = (_error(row.easy.error), _error(row.hard.error))
-    return (row.name, *times, *errors, f"{row.hard.wrong:,}", f"{row.hard.missing:,}")
+    return (
+        row.name,
+        *times,
+        _errors(row.easy),
+        _errors(row.hard),
+        f"{row.hard.wrong:,}",
+        f"{row.hard.missing:,}",
+    )
 
 
 def target_lines(targets: Sequence[Target]) -> list[Sequence[str]]:
@@ -79,19 +94,24 @@ def _time(nanos: float) -> str:
     return f"{nanos:,.1f}" if nanos < 100 else f"{float(f'{nanos:.3g}'):,.0f}"
 
 
-def _error(error: float) -> str:
-    return "none right" if math.isnan(error) else f"{error:.1e}"
+def _errors(score: Score) -> str:
+    """Return the errors of position and, where there are any, of rates; beyond 1 they mean nothing."""
+    if math.isnan(score.error):
+        return "none right"
+    return ", ".join(
+        "> 1" if error > 1 else f"{error:.1e}" for error in score.errors if not math.isnan(error)
+    )
 
 
 def as_json(result: Result) -> str:
-    """Return one object: machine, rows with every case, targets; errors in longest links, null where none."""
+    """Return one object: machine, rows with every case, targets; null where there is no number."""
     found = {
         "machine": result.machine._asdict(),
         "rows": [_row(row) for row in result.rows],
         "targets": [
             {
                 "what": target.what,
-                "measured": target.measured,
+                "measured": _finite(target.measured),
                 "least" if target.least else "most": target.bound,
                 "unit": target.unit,
                 "met": target.met,
@@ -104,6 +124,7 @@ def as_json(result: Result) -> str:
 
 def _row(row: Measured) -> dict[str, Any]:
     return {
+        "mechanism": row.mechanism,
         "key": row.key,
         "method": row.name,
         "source": row.source,
@@ -116,5 +137,10 @@ def _row(row: Measured) -> dict[str, Any]:
 
 
 def _score(score: Score) -> dict[str, Any]:
-    error = None if math.isnan(score.error) else score.error
-    return {"poses": score.poses, "error": error, "wrong": score.wrong, "nan": score.missing}
+    position, velocity, acceleration = map(_finite, score.errors)
+    errors = {"error": position, "velocity_error": velocity, "acceleration_error": acceleration}
+    return {"poses": score.poses, **errors, "wrong": score.wrong, "nan": score.missing}
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

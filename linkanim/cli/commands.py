@@ -168,6 +168,6 @@ COMMANDS = {
     "bench": Command(
         "measure speed against error, beside the usual ways to solve a linkage",
         add_arguments,
-        ("linkanim bench", "linkanim bench --draw", "linkanim bench --record --json"),
+        ("linkanim bench", "linkanim bench --json"),
     ),
 }

@@ -165,15 +165,15 @@ class Batch:
     spare: list[list[Array]] = field(default_factory=list, compare=False, repr=False)
     """Buffers of calls that are over; a call takes its own, so that threads do not share any."""
 
-    def __call__(self, *values: Array | float, dtype: type[np.floating[Any]] = np.float64) -> Array:
+    def __call__(self, *values: Array | float) -> Array:
         """Return the outputs as rows (outputs, N)."""
         several = len(self.arrays)
         arrays: Sequence[Any] = values[:several]
-        numbers = self._numbers(values[several:], dtype)
+        numbers = self._numbers(values[several:])
         count = arrays[0].shape[0]
-        results = aligned_rows(len(self.outputs), count, dtype)
+        results = aligned_rows(len(self.outputs), count)
         size = _block_size(count)
-        work = self._buffers(size, dtype)
+        work = self._buffers(size)
         if count == size:
             self.block(arrays, numbers, list(results), work)
         else:
@@ -183,31 +183,29 @@ class Batch:
         self.spare.append(work)
         return results
 
-    def _numbers(self, values: Sequence[Any], dtype: type[np.floating[Any]]) -> list[Array]:
+    def _numbers(self, values: Sequence[Any]) -> list[Array]:
         """Return what is the same along the array, without a dimension."""
-        uniform = [np.array(value, dtype) for value in self.prelude(*values)]
-        if dtype is np.float64:
-            return [*uniform, *self.constants]
-        return uniform + [constant.astype(dtype) for constant in self.constants]
+        return [*(np.array(value, np.float64) for value in self.prelude(*values)), *self.constants]
 
-    def _buffers(self, size: int, dtype: type[np.floating[Any]]) -> list[Array]:
+    def _buffers(self, size: int) -> list[Array]:
         """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
         work = self.spare.pop() if self.spare else []
-        if work and len(work[0]) == size and work[0].dtype.type is dtype:
+        if work and len(work[0]) == size:
             return work
-        return list(aligned_rows(self.buffers, size, dtype))
+        return list(aligned_rows(self.buffers, size))
 
 
-def aligned_rows(rows: int, count: int, dtype: type[np.floating[Any]]) -> Array:
+def aligned_rows(rows: int, count: int) -> Array:
     """Return an array (rows, count) to be filled, each row from a cache line's begin on.
 
     Vector units take whole cache lines; a row that begins elsewhere costs them two for each.
     """
-    line = CACHE_LINE // np.dtype(dtype).itemsize
+    line = CACHE_LINE // np.dtype(np.float64).itemsize
     width = -(-count // line) * line
-    memory = np.empty(rows * width + line, dtype)
+    memory = np.empty(rows * width + line)
     skipped = -addressof(c_char.from_buffer(memory.data)) % CACHE_LINE
-    return np.ndarray((rows, count), dtype, memory, skipped, (width * memory.itemsize, memory.itemsize))
+    strides = (width * memory.itemsize, memory.itemsize)
+    return np.ndarray((rows, count), np.float64, memory, skipped, strides)
 
 
 def _block_size(count: int) -> int:

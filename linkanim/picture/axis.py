@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from math import ceil, floor, log10
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.digits import power_of_ten, stepped
+from linkanim.digits import stepped
 
 _WILD = 8.0
 """A peak this many times the span of the middle nine tenths is cut off, or all else would be a line."""
@@ -21,26 +19,16 @@ _LITTLE = 0.06
 
 @dataclass(frozen=True)
 class Axis:
-    """The range of an axis, linear or logarithmic, and its ticks as (value, label)."""
+    """The range of an axis, and its ticks as (value, label)."""
 
     low: float
     high: float
     ticks: tuple[tuple[float, str], ...]
-    log: bool = False
 
     def share(self, values: ArrayLike) -> NDArray[np.float64]:
-        """Return where values lie, 0 at the low end and 1 at the high one; NaN where a log has none."""
-        low, high = self._ends
-        share: NDArray[np.float64] = (self._scaled(values) - low) / (high - low)
+        """Return where values lie, 0 at the low end and 1 at the high one."""
+        share: NDArray[np.float64] = (np.asarray(values, float) - self.low) / (self.high - self.low)
         return share
-
-    @cached_property
-    def _ends(self) -> tuple[float, float]:
-        return float(self._scaled(self.low)), float(self._scaled(self.high))
-
-    def _scaled(self, values: ArrayLike) -> Any:
-        array = np.asarray(values, float)
-        return np.log10(np.where(array > 0, array, np.nan)) if self.log else array
 
 
 def linear(low: float, high: float, *, most: int = 5, unit: str = "") -> Axis:
@@ -52,16 +40,6 @@ def linear(low: float, high: float, *, most: int = 5, unit: str = "") -> Axis:
     first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
     ticks = tuple((k * step, f"{stepped(k * step, step)}{unit}") for k in range(first, last + 1))
     return Axis(low, high, ticks)
-
-
-def decades(low: float, high: float, *, most: int = 8) -> Axis:
-    """Return a logarithmic axis over the whole decades that hold `low` to `high`, both positive."""
-    first, last = floor(log10(low) + 1e-9), ceil(log10(high) - 1e-9)
-    last = max(last, first + 1)
-    every = max(ceil((last - first) / most), 1)
-    powers = range(first, last + 1, every)
-    ticks = tuple((10.0**power, power_of_ten(power)) for power in powers)
-    return Axis(10.0**first, 10.0**last, ticks, log=True)
 
 
 def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "", room: float = _LITTLE) -> Axis:

@@ -9,65 +9,82 @@ import numpy as np
 import pytest
 
 from linkanim.bench.accuracy import Score, score, together
-from linkanim.bench.cases import EASY, degrees
-from linkanim.bench.question import Points, Question
+from linkanim.bench.cases import FOUR_BAR, degrees
+from linkanim.bench.chain import Complexes, Question
+from linkanim.bench.ours import Orders
 from linkanim.bench.reference import Answer, answer
 
 
 @pytest.fixture(scope="module")
-def asked() -> Answer:
-    return answer(replace(EASY, inputs=degrees(10, 14)))
+def posed() -> Answer:
+    return answer(replace(FOUR_BAR.easy, inputs=degrees(10, 14)))
 
 
-def test_the_exact_pose_has_the_error_of_its_rounding_only(asked: Answer) -> None:
-    found = score(lambda question: Points(asked.b.high, asked.p.high), asked)
-    assert found.error < 2**-52
+def exact(posed: Answer) -> list[dict[str, Complexes]]:
+    return [{name: place.high.copy() for name, place in order.items()} for order in posed.orders]
+
+
+def test_the_exact_pose_has_the_error_of_its_rounding_only(posed: Answer) -> None:
+    found = score(lambda question: tuple(exact(posed)), posed)
+    assert all(error < 2**-52 for error in found.errors)
     assert (found.poses, found.wrong, found.missing) == (4, 0, 0)
 
 
-def test_errors_are_in_longest_links(asked: Answer) -> None:
-    found = score(lambda question: Points(asked.b.high + 1e-3, asked.p.high), asked)
+def test_errors_are_in_longest_links_and_a_method_without_rates_has_none(posed: Answer) -> None:
+    places = exact(posed)[0]
+    found = score(lambda question: ({**places, "B": places["B"] + 1e-3},), posed)
     assert found.error == pytest.approx(1e-5)
+    assert math.isnan(found.errors[1])
+    assert math.isnan(found.errors[2])
 
 
-def test_each_pose_is_counted_once(asked: Answer) -> None:
-    def mixed(question: Question) -> Points:
-        b, p = asked.b.high.copy(), asked.p.high.copy()
-        b[1], p[1] = asked.other.b[1], asked.other.p[1]
-        p[2] = np.nan
-        b[3] += 1e-6
-        return Points(b, p)
+def test_a_rate_that_is_no_number_at_a_right_pose_is_unboundedly_wrong(posed: Answer) -> None:
+    places, first, second = exact(posed)
+    first["P"][2] = np.nan
+    assert score(lambda question: (places, first, second), posed).errors[1] > 1e300
 
-    found = score(mixed, asked)
+
+def test_each_pose_is_counted_once(posed: Answer) -> None:
+    def mixed(question: Question) -> Orders:
+        places = exact(posed)[0]
+        places["B"][1] = posed.other["B"][1]
+        places["P"][2] = np.nan
+        places["B"][3] += 1e-6
+        return (places,)
+
+    found = score(mixed, posed)
     assert (found.poses, found.wrong, found.missing) == (4, 1, 1)
     assert found.error == pytest.approx(1e-8)
 
 
-# At most half as far from the other closure's as from its own: between the two the error counts.
+# At most half as far from the other closure as from its own: between the two the error counts.
 @pytest.mark.parametrize(("share", "wrong"), [(0.0, 4), (0.32, 4), (0.35, 0), (0.9, 0)])
 def test_a_pose_between_the_closures_is_wrong_near_the_other_one(
-    asked: Answer, share: float, wrong: int
+    posed: Answer, share: float, wrong: int
 ) -> None:
-    def between(question: Question) -> Points:
-        b, p = (1 - share) * asked.other.b + share * asked.b.high, (1 - share) * asked.other.p
-        return Points(b, p + share * asked.p.high)
-
-    assert score(between, asked).wrong == wrong
+    places = exact(posed)[0]
+    places["B"] = (1 - share) * posed.other["B"] + share * places["B"]
+    assert score(lambda question: (places,), posed).wrong == wrong
 
 
-def test_closures_that_are_one_cannot_be_mistaken(asked: Answer) -> None:
+def test_closures_that_are_one_cannot_be_mistaken(posed: Answer) -> None:
     for apart, wrong in ((0.5e-8, 0), (2e-8, 4)):
-        other = Points(asked.b.high + 100 * apart, asked.p.high + 100 * apart)
-        found = score(lambda question, other=other: other, replace(asked, other=other))  # type: ignore[misc]
+        places = exact(posed)[0]
+        other = {"B": places["B"] + 100 * apart}
+        places["B"] = other["B"]
+        found = score(lambda question, places=places: (places,), replace(posed, other=other))  # type: ignore[misc]
         assert found.wrong == wrong
 
 
-def test_no_right_pose_has_no_error(asked: Answer) -> None:
-    found = score(lambda question: asked.other, asked)
+def test_no_right_pose_has_no_error(posed: Answer) -> None:
+    places = exact(posed)[0]
+    places["B"] = posed.other["B"]
+    found = score(lambda question: (places,), posed)
     assert math.isnan(found.error)
     assert found.wrong == 4
 
 
-def test_scores_add_up_and_the_worst_error_stays() -> None:
-    scores = (Score(4, 1e-9, 1, 0), Score(3, math.nan, 3, 0), Score(2, 1e-7, 0, 2))
-    assert together(scores) == Score(9, 1e-7, 4, 2)
+def test_scores_add_up_and_the_worst_errors_stay() -> None:
+    none = (math.nan, math.nan, math.nan)
+    scores = (Score(4, (1e-9, 1e-3, math.nan), 1, 0), Score(3, none, 3, 0), Score(2, (1e-7, 1e-4, 1.0), 0, 2))
+    assert together(scores) == Score(9, (1e-7, 1e-3, 1.0), 4, 2)

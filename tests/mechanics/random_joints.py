@@ -21,9 +21,8 @@ import numpy as np
 from build import four_bar, with_joints
 from chain_reference import places
 from mpmath import mp, mpf
-from reference import DIGITS, NUDGE, derivatives
+from reference import DIGITS, NUDGE, derivatives, sign_of
 
-from linkanim.bench.reference import sign_of
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.chain import Touch
 from linkanim.mechanics.joint import Joint

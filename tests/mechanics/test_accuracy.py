@@ -13,9 +13,9 @@ import pytest
 from build import four_bar, six_bar, slider_crank, slotted
 from mpmath import mp, mpf
 from numpy.typing import NDArray
-from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, on_line, unit
+from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, on_line, sign_of, unit
 
-from linkanim.bench.reference import crossing, sign_of
+from linkanim.bench.reference import crossing
 from linkanim.mechanics.chain import Touch
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Drive, Linkage

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from build import six_bar
 from mpmath import mp, mpf
-from reference import DIGITS, NUDGE, Points, Pose, derivatives, unit
+from reference import DIGITS, NUDGE, Points, Pose, derivatives, sign_of, unit
 
-from linkanim.bench.reference import crossing, sign_of
+from linkanim.bench.reference import crossing
 from linkanim.mechanics.chain import Touch
 from linkanim.mechanics.kinds import RRR, Crank, Gear, Pin
 from linkanim.mechanics.linkage import Body, Drive, Linkage

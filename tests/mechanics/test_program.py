@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from scaling import chain
 
-from linkanim.bench.scaling import chain
 from linkanim.mechanics.expression import Expr, Graph, Value, maximum, minimum, rint, select, sqrt
 from linkanim.mechanics.mechanism import mechanism
 from linkanim.mechanics.program import BLOCK, CACHE_LINE, aligned_rows, batch, needed, scalar
@@ -82,12 +82,6 @@ def test_constants_signs_and_uniform_factors_are_drawn_together() -> None:
     assert any(isinstance(argument, Expr) and argument.uniform for argument in scaled.args)
 
 
-def test_single_precision_stays_single() -> None:
-    program = batch({"x": True, "w": False}, noted())
-    rows = program(np.linspace(0, 1, 9, dtype=np.float32), 1.7, dtype=np.float32)
-    assert rows.dtype == np.float32
-
-
 def test_buffers_are_reused_not_one_for_each_operation() -> None:
     graph = Graph()
     value: Value = graph.input("x")
@@ -147,6 +141,6 @@ def test_a_longer_chain_needs_no_more_buffers(dyads: int) -> None:
 
 @pytest.mark.parametrize("count", [1, 7, BLOCK, BLOCK + 3, 3 * BLOCK + 17])
 def test_every_row_begins_at_a_cache_line(count: int) -> None:
-    for row in aligned_rows(3, count, np.float64):
+    for row in aligned_rows(3, count):
         assert row.ctypes.data % CACHE_LINE == 0
         assert row.shape == (count,)

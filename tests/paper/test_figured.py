@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pygame
 import pytest
+from fidelity import psnr
 
-from linkanim.bench.fidelity import psnr
 from linkanim.paper.figure import Figured
 from linkanim.picture.canvas import Canvas
 from linkanim.picture.look import Look

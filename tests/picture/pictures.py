@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 import pygame
+from fidelity import Pixels
 
-from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.items import Caption
 from linkanim.picture.look import Look

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkanim.picture.axis import around, decades, linear, zeros_level
+from linkanim.picture.axis import around, linear, zeros_level
 
 
 @pytest.mark.parametrize(
@@ -36,27 +36,6 @@ def test_there_are_never_too_many_ticks_and_all_lie_on_the_axis(low: float, span
     axis = linear(low, low + span, most=most)
     assert 0 < len(axis.ticks) <= most + 1 or len(axis.ticks) == 0 < most
     assert all(-1e-6 <= axis.share(value) <= 1 + 1e-6 for value, _ in axis.ticks)
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "labels"),
-    [
-        (3.0, 5e3, ["1", "10", "100", "1000", "1e4"]),
-        (2e-16, 3e-9, ["1e−16", "1e−15", "1e−14", "1e−13", "1e−12", "1e−11", "1e−10", "1e−9", "1e−8"]),
-        (1e-16, 1.0, ["1e−16", "1e−14", "1e−12", "1e−10", "1e−8", "1e−6", "1e−4", "1e−2", "1"]),
-        (10, 10, ["10", "100"]),
-    ],
-)
-def test_a_log_axis_covers_whole_decades(low: float, high: float, labels: list[str]) -> None:
-    axis = decades(low, high)
-    assert [label for _, label in axis.ticks] == labels
-    assert axis.low <= low <= high <= axis.high
-
-
-def test_a_log_axis_has_no_place_for_zero() -> None:
-    shares = decades(1, 100).share([0.0, 1.0, 10.0, 100.0])
-    assert math.isnan(shares[0])
-    assert shares[1:] == pytest.approx([0, 0.5, 1])
 
 
 @pytest.mark.parametrize(

@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import pygame
 import pytest
 
-from linkanim.picture.axis import decades, linear
+from linkanim.picture.axis import linear
 from linkanim.picture.chart import Pen, Plot, axes, curve_layer, point_layers, right_axis
 from linkanim.picture.items import Caption
 from linkanim.picture.raster import Layer
-from linkanim.picture.scatter import Dot, ScatterTitles, scatter
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
@@ -54,43 +52,3 @@ def test_a_dot_fills_most_of_its_ring(line: float) -> None:
     plot = Plot(Rect(40, 20, 200, 100), linear(0, 10), linear(-1, 1))
     ring, dot = point_layers(plot, [(5.0, 0.0)], (1, 2, 3), _pen(line))
     assert 0.7 < np.ptp(dot.loops[0].real) / np.ptp(ring.loops[0].real) < 0.8
-
-
-def test_a_log_log_picture_has_its_points_at_their_decades() -> None:
-    points = [Dot("one", 10.0, 1e-8), Dot("two", 1000.0, 1e-16, ours=True)]
-    names = ScatterTitles("title", "across", "up")
-    picture = scatter(points, names, size=(640, 360))
-    assert picture.get_size() == (640, 360)
-    ours = np.all(pygame.surfarray.array3d(picture) == LIGHT.acceleration, axis=-1)
-    theirs = np.all(pygame.surfarray.array3d(picture) == LIGHT.velocity, axis=-1)
-    x, y = (axis.mean() for axis in np.nonzero(ours))
-    u, v = (axis.mean() for axis in np.nonzero(theirs))
-    assert u < x
-    assert v < y
-    assert decades(10.0, 1000.0).share(100.0) == pytest.approx(0.5)
-
-
-def _changed(one: pygame.Surface, other: pygame.Surface) -> pygame.Rect:
-    apart = pygame.surfarray.array3d(one) != pygame.surfarray.array3d(other)
-    columns, rows = np.nonzero(apart.any(axis=-1))
-    assert rows.size
-    (left, right), (top, foot) = ((int(way.min()), int(way.max()) + 1) for way in (columns, rows))
-    return pygame.Rect(left, top, right - left, foot - top)
-
-
-def test_every_point_has_its_label_and_none_lies_on_another() -> None:
-    names = ScatterTitles("title", "across", "up")
-    points = [Dot("first one", 10.0, 1e-8), Dot("second", 12.0, 1.2e-8), Dot("third", 1e3, 1e-16, ours=True)]
-    whole = scatter(points, names, size=(640, 360))
-    found = []
-    for n, point in enumerate(points):
-        blank = [*points[:n], point._replace(label=" " * len(point.label)), *points[n + 1 :]]
-        found.append(_changed(whole, scatter(blank, names, size=(640, 360))))
-    assert whole.get_rect().contains(found[0].unionall(found[1:]))
-    assert not found[0].colliderect(found[1])
-
-
-@pytest.mark.parametrize("points", [[], [Dot("zero", 0.0, 1.0)], [Dot("inf", 1.0, math.inf)]])
-def test_a_log_log_picture_of_what_has_no_logarithm_is_refused(points: list[Dot]) -> None:
-    with pytest.raises(ValueError, match="positive and finite"):
-        scatter(points, ScatterTitles("t", "x", "y"))

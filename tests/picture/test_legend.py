@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pictures import inked
 
-from linkanim.bench.question import FourBarLengths, scene_of
+from linkanim.bench.cases import four_bar
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
 from linkanim.picture.legend import Legend, legend_for
@@ -84,7 +84,7 @@ def test_there_is_no_key_without_arrows() -> None:
 
 def test_arrows_are_as_long_however_small_the_unit_s_numbers_are() -> None:
     small, large = (
-        scene_of(FourBarLengths(size, 0.3 * size, 0.9 * size, 0.8 * size), 1) for size in (1, 100)
+        four_bar((size, 0.3 * size, 0.9 * size, 0.8 * size)) for size in (1, 100)
     )
     metres, centimetres = (
         arrows_of(figure(scene), "v", 720, gauge(1.0, 100.0), LIGHT).scale(1.0) for scene in (small, large)

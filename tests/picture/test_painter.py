@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import pygame
 import pytest
+from fidelity import frame_decibels
 from pictures import BARE, SMALL, alphas, painted, pixels
 
-from linkanim.bench.fidelity import frame_decibels
 from linkanim.errors import BadInput
 from linkanim.picture import drawing, staging
 from linkanim.picture import painter as painting

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pygame
 import pytest
+from fidelity import Pixels, averaged, centre, jitter, psnr
 from pictures import alphas, coverage, filled, pixels
 
-from linkanim.bench.fidelity import Pixels, averaged, centre, jitter, psnr
 from linkanim.picture.blend import mix
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.raster import Layer, Loop, paint, paints, pixels_of, stencil

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pygame
 import pytest
+from fidelity import Pixels
 from pictures import pixels
 
-from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.symbols import input_symbol
 from linkanim.picture.chart import pen_for

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pygame
 import pytest
+from fidelity import Pixels
 from pictures import pixels
 
-from linkanim.bench.fidelity import Pixels
 from linkanim.picture import fonts
 from linkanim.picture.offscreen import offscreen
 from linkanim.picture.staging import Staged, staged

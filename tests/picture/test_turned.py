@@ -9,10 +9,10 @@ from fractions import Fraction
 import numpy as np
 import pygame
 import pytest
+from fidelity import Pixels
 from pictures import BARE, painted, pixels
 from test_moving_parts import GAUGE, VIEW, geared, planetary
 
-from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.picture import raster, turned

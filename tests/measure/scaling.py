@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import time
 import tracemalloc
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.bench.drawing import Picture, draw_pictures
-from linkanim.bench.entries import ONE_BY_ONE, Timed, easy
+from linkanim.bench.cases import FOUR_BAR
+from linkanim.bench.chain import TURN
+from linkanim.bench.entries import ONE_BY_ONE, Timed
 from linkanim.bench.machine import Machine, this_machine
-from linkanim.bench.question import TURN
 from linkanim.bench.report import columns
 from linkanim.bench.timing import nanoseconds
 from linkanim.mechanics.kinds import RPP, RRP, RRR, Crank, Pin
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import Mechanism, mechanism
 from linkanim.mechanics.rail import Line
-from linkanim.picture.scatter import Dot
+from linkanim.whole import checked_target, replacing
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000)
 DYADS = (1, 2, 5, 10, 20, 50)
@@ -91,7 +91,7 @@ def run(progress: Callable[[int, int], None] | None = None, *, budget: float = B
 
 def sizes(counts: Sequence[int], **timing: Any) -> Iterator[Sized]:
     """Yield what a four-bar's pose costs at each number of poses at once."""
-    solved = easy(1).scene.mechanism
+    solved = FOUR_BAR.easy.scene.mechanism
     for derivatives in READ:
         _at_once(solved, np.zeros(1), derivatives).work()
     work = {(n, d): _at_once(solved, _turn(n), d) for n in counts for d in READ}
@@ -113,7 +113,7 @@ def chains(lengths: Sequence[int], **timing: Any) -> Iterator[Chained]:
 def kinds(**timing: Any) -> tuple[KindTimes, ...]:
     """Return what a Scotch yoke and a slider on a moving line cost beside a four-bar with a coupler point."""
     made = {
-        "four-bar": easy(1).scene.mechanism,
+        "four-bar": FOUR_BAR.easy.scene.mechanism,
         "Scotch yoke": mechanism(yoke()),
         "slider on a moving line": mechanism(moving_line()),
     }
@@ -206,28 +206,31 @@ def as_text(found: Growth) -> str:
     return "\n\n".join([found.machine.line, *tables, NOTE])
 
 
-def as_object(found: Growth) -> Mapping[str, Any]:
-    """Return the figures for JSON."""
-    return {name: [row._asdict() for row in getattr(found, name)] for name in TABLES} | {
-        "machine": found.machine._asdict()
-    }
-
-
 def draw(found: Growth, path: Path) -> Path:
-    """Write both courses as a PNG, one below the other; return where it is."""
-    return draw_pictures(list(pictures(found)), path)
+    """Write both courses as a PNG, one beside the other; return where it is."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    target = checked_target(path, (".png",))
+    figure = Figure(figsize=(12.8, 5.4), dpi=100, layout="constrained")
+    for panel, (title, across, rows) in zip(figure.subplots(1, 2), _courses(found), strict=True):
+        for name, place, mark in (("positions", 1, "o-"), ("with derivatives", 2, "s-")):
+            panel.loglog([row[0] for row in rows], [row[place] for row in rows], mark, label=name)
+        panel.set(title=title, xlabel=across, ylabel="ns a pose")
+        panel.grid(visible=True, color="#dddddd")
+        panel.legend(frameon=False)
+    with replacing(target) as part, part.open("wb") as file:
+        FigureCanvasAgg(figure).print_png(file)  # type: ignore[no-untyped-call]
+    return target
 
 
-def pictures(found: Growth) -> Iterator[Picture]:
-    """Yield what a pose costs over the poses asked at once, and over the dyads of a chain."""
-    for title, across, rows in (
-        ("What a pose costs as more are asked at once", "poses at once", found.poses),
-        (f"What a pose costs as a chain grows, {AT_ONCE:,} at once", "dyads in a chain", found.dyads),
-    ):
-        courses = (("positions", 1, True), ("with derivatives", 2, False))
-        points = [
-            Dot(name if row is rows[-1] else "", row[0], row[place], ours)
-            for name, place, ours in courses
-            for row in rows
-        ]
-        yield Picture(title, points, across, "ns a pose")
+def _courses(found: Growth) -> Iterator[tuple[str, str, Sequence[Any]]]:
+    """Yield title, horizontal axis and rows of each picture."""
+    yield "What a pose costs as more are asked at once", "poses at once", found.poses
+    yield f"What a pose costs as a chain grows, {AT_ONCE:,} at once", "dyads in a chain", found.dyads
+
+
+if __name__ == "__main__":
+    growth = run()
+    print(as_text(growth))
+    print(draw(growth, Path("recordings/cost-as-work-grows.png")))

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.bench.process import printed_by
+from linkanim.errors import WorkFailed
 from linkanim.picture.look import Look
 from linkanim.recorder.encode import Stream, encoding, ffmpeg
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan
@@ -92,12 +92,18 @@ def peak_memory(name: str, form: Format, *, frames: int = FRAMES) -> Memory:
 
     WorkFailed, with the process's last words, where it fails.
     """
-    order = f"from {__name__} import tell_memory; tell_memory({name!r}, {form!r}, {frames!r})"
-    told = printed_by([sys.executable, "-c", order], f"the {form.upper()} whose memory is measured")
-    return Memory(*json.loads(told.splitlines()[-1]))
+    order = f"from {__name__} import print_memory; print_memory({name!r}, {form!r}, {frames!r})"
+    here = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", order], check=False, env=here, capture_output=True, text=True
+    )
+    if done.returncode:
+        *_, last = (f"it ended with {done.returncode}", *done.stderr.strip().splitlines())
+        raise WorkFailed(f"the {form.upper()} whose memory is measured: {last}")
+    return Memory(*json.loads(done.stdout.splitlines()[-1]))
 
 
-def tell_memory(name: str, form: Format, frames: int) -> None:
+def print_memory(name: str, form: Format, frames: int) -> None:
     """Record a scene and print the largest memory of this process and of the encoder, MB, as JSON."""
     scene = load(name)
     plan = _plan(scene, form, frames)

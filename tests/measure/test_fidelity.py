@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
+import fidelity
 import numpy as np
 import pytest
+from cost import _decibels
+from fidelity import Pixels
 
-from linkanim.bench import fidelity
-from linkanim.bench.cost import _decibels
-from linkanim.bench.fidelity import Pixels
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.look import Look
 from linkanim.scenes import load

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
-from linkanim.bench.animation import animation_seconds
-from linkanim.bench.cost import FPS, FRAMES, SIZE, Cost, cost
+from animation import animation_seconds
+from cost import FPS, FRAMES, SIZE, Cost, cost
+
 from linkanim.bench.machine import Machine, this_machine
 from linkanim.bench.report import columns
 from linkanim.recorder.plan import Format
@@ -59,9 +59,7 @@ def as_text(found: Recordings) -> str:
 
 def _beside(found: Recordings) -> str:
     if found.animated is None:
-        return (
-            'matplotlib is not installed; with it (pip install "linkanim[bench]") its animation is timed, too'
-        )
+        return "matplotlib is not installed; with it its animation is timed, too"
     return (
         f"matplotlib's FuncAnimation with PillowWriter: {found.animated:.1f} s, "
         f"{found.times_faster:.1f} times as long as our GIF"
@@ -76,28 +74,5 @@ def _line(cost: Cost) -> tuple[str, ...]:
     return (cost.form.upper(), str(cost.frames), *times, f"{cost.megabytes:.2f} MB", quality, memory)
 
 
-def as_object(found: Recordings) -> dict[str, Any]:
-    """Return the figures for JSON; null where the system does not tell, or nothing is lost."""
-    return {
-        "machine": found.machine._asdict(),
-        "recordings": [
-            {
-                "format": cost.form,
-                "frames": cost.frames,
-                "s": cost.seconds,
-                "encode_s": cost.encode_seconds,
-                "ratio": cost.ratio,
-                "processor_s": {name: _finite(spent) for name, spent in cost.work._asdict().items()},
-                "MB": cost.megabytes,
-                "dB": _finite(cost.decibels),
-                "peak_MB": {name: _finite(peak) for name, peak in cost.memory._asdict().items()},
-            }
-            for cost in found.costs
-        ],
-        "matplotlib_s": found.animated,
-        "times_as_long": found.times_faster,
-    }
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
+if __name__ == "__main__":
+    print(as_text(run()))

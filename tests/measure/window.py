@@ -11,9 +11,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from statistics import median
 from tempfile import TemporaryDirectory
-from typing import Any
 
-from linkanim.bench.fidelity import frame_decibels, jitter
+from fidelity import frame_decibels, jitter
+
 from linkanim.bench.machine import Machine, this_machine
 from linkanim.bench.report import columns
 from linkanim.errors import WorkFailed
@@ -173,25 +173,5 @@ def as_text(drawing: WindowRun) -> str:
     return f"{drawing.machine.line}\n\n{columns(rows)}"
 
 
-def as_object(drawing: WindowRun) -> dict[str, Any]:
-    """Return the figures for JSON."""
-    return {
-        "machine": drawing.machine._asdict(),
-        "frames": [
-            {
-                "size": list(found.size),
-                "ms": found.milliseconds,
-                "ms_95": found.slowest,
-                "most_ms": BOUNDS_MS[found.size],
-                "processor_ms": found.processor,
-                "core_at_60_fps": found.core,
-            }
-            for found in drawing.frames
-        ],
-        "first_frame_s": drawing.first,
-        "most_first_frame_s": FIRST_BOUND,
-        "dB_against_64_samples": drawing.decibels,
-        "least_dB": DECIBELS_BOUND,
-        "slow_bar_px_rms": drawing.jitter,
-        "most_px_rms": JITTER_BOUND,
-    }
+if __name__ == "__main__":
+    print(as_text(run()))

@@ -1,0 +1,155 @@
+"""What every method is asked: the poses of a linkage along a sequence of inputs, as plain steps."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.kinds import RRP, RRR, Crank, Pin, Rigid
+from linkanim.mechanics.linkage import Linkage
+from linkanim.scenes.scene import Scene
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Places = Mapping[str, Any]
+"""Of each joint where it lies: complex numbers, one or an array; NaN where a method has no answer."""
+TURN = 2 * math.pi
+
+
+class TurnStep(NamedTuple):
+    """A crank pin: its angle is `ratio` times the input's, and `offset`."""
+
+    name: str
+    pivot: str
+    length: float
+    ratio: float = 1.0
+    offset: float = 0.0
+
+
+class MeetStep(NamedTuple):
+    """Two bars that meet, on the left (side +1) or the right of the way between their other ends."""
+
+    name: str
+    ends: tuple[str, str]
+    lengths: tuple[float, float]
+    side: int
+
+
+class SlideStep(NamedTuple):
+    """A bar to a slider on a line through `base`; of two places the one further along it for side +1."""
+
+    name: str
+    end: str
+    length: float
+    base: complex
+    along: complex
+    side: int
+
+
+class FixedStep(NamedTuple):
+    """A point of a body: `at` along the way of this length from first to second joint, and to its left."""
+
+    name: str
+    on: tuple[str, str]
+    at: complex
+    length: float
+
+
+Step = TurnStep | MeetStep | SlideStep | FixedStep
+Dyad = MeetStep | SlideStep
+
+
+class DyadChain(NamedTuple):
+    """Pins on the ground, and the steps in the order in which they can be taken."""
+
+    pins: Mapping[str, complex]
+    steps: tuple[Step, ...]
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        """The steps that have two closures."""
+        return tuple(step for step in self.steps if isinstance(step, MeetStep | SlideStep))
+
+
+def chain_of(linkage: Linkage) -> DyadChain:
+    """Return a linkage of pins, cranks, two kinds of dyads on fixed lines, and points of bodies as steps."""
+    pins: dict[str, complex] = {}
+    steps: list[Step] = []
+    for joint in linkage.joints:
+        match joint:
+            case Pin():
+                pins[joint.name] = complex(*joint.position)
+            case Crank():
+                gear = (float(joint.gear.ratio), joint.gear.offset) if joint.gear else (1.0, 0.0)
+                steps.append(TurnStep(joint.name, joint.pivot, joint.length, *gear))
+            case RRR():
+                steps.append(MeetStep(joint.name, joint.ends, joint.lengths, joint.side))
+            case RRP():
+                along = cmath.rect(1.0, joint.line.angle)
+                base = pins[joint.line.through] + 1j * along * joint.line.offset
+                steps.append(SlideStep(joint.name, joint.end, joint.length, base, along, joint.side))
+            case Rigid():
+                (length,) = (lengths for ends, lengths in _bars(steps) if ends == frozenset(joint.on))
+                steps.append(FixedStep(joint.name, joint.on, complex(*joint.at), length))
+            case _:
+                raise TypeError(f"{joint.name}: the comparison knows no such joint")
+    return DyadChain(pins, tuple(steps))
+
+
+def _bars(steps: list[Step]) -> list[tuple[frozenset[str], float]]:
+    """Return the two joints of each bar so far, and its length."""
+    found = []
+    for step in steps:
+        match step:
+            case TurnStep():
+                found.append((frozenset((step.pivot, step.name)), step.length))
+            case MeetStep():
+                pairs = zip(step.ends, step.lengths, strict=True)
+                found += [(frozenset((end, step.name)), length) for end, length in pairs]
+            case SlideStep():
+                found.append((frozenset((step.end, step.name)), step.length))
+    return found
+
+
+@dataclass(frozen=True)
+class Question:
+    """A scene, its chain, and a sequence of inputs.
+
+    `angles` are the input's; `phases` the drive's, for methods that take one: a turning input's are its
+    angles. `rates` are the angle's first and second derivative in what rates are asked for, which is the
+    phase, where `by_angle` the angle. `sides` is the closure of each dyad that a caller names at each pose:
+    one who names a constant closure gets it; where the input swings the way back is asked for on the other
+    one. `start` is the first pose, for methods that go on from the previous one. `shown` are the joints
+    that count, `longest` is the longest link, `periods` the turns after which the motion is back.
+    """
+
+    scene: Scene
+    chain: DyadChain
+    angles: Floats
+    phases: Floats
+    rates: tuple[Floats, Floats]
+    sides: Mapping[str, Floats]
+    start: Mapping[str, complex]
+    shown: tuple[str, ...]
+    longest: float
+    periods: int = 1
+    by_angle: bool = False
+
+
+def longest_of(chain: DyadChain) -> float:
+    """Return the longest link of a chain, the ground between two pins included."""
+    pins = list(chain.pins.values())
+    grounds = (abs(one - other) for one in pins for other in pins)
+    return max(*(length for _, length in _bars(list(chain.steps))), *grounds)
+
+
+def joined(vectors: Floats) -> Complexes:
+    """Return vectors (..., 2) as complex numbers."""
+    numbers: Complexes = vectors[..., 0] + 1j * vectors[..., 1]
+    return numbers
