@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from mpmath import mp, mpf
-from reference import unit
+from reference import sign_of, unit
 
-from linkanim.bench.reference import crossing, sign_of
+from linkanim.bench.reference import crossing
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.mechanism import Mechanism
 from linkanim.mechanics.path import Swing
