@@ -13,8 +13,11 @@ from linkanim import __version__
 from linkanim.bench.command import add_arguments
 from linkanim.cli import options
 from linkanim.cli.parser import Parser, join_negative
+from linkanim.cli.pygame_installed import refuse_mixed_pygame
 from linkanim.errors import BadInput
 from linkanim.units import shown
+
+_WITHOUT_PYGAME = ("solve", "info", "scenes", "check")
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,8 @@ def parse(argv: Sequence[str] | None = None) -> Namespace:
 
 def run(chosen: Namespace) -> None:
     """Import the module of the chosen command, and only that, and let it do its work."""
+    if chosen.command not in _WITHOUT_PYGAME:
+        refuse_mixed_pygame()
     work = cast(Callable[[Namespace], None], import_module(f"linkanim.cli.{chosen.command}").run)
     work(chosen)
 

@@ -33,7 +33,7 @@ class Fonts:
 
     def __init__(self) -> None:
         pygame.font.init()
-        self._opened: dict[tuple[str, int], pygame.Font] = {}
+        self._opened: dict[tuple[str, int], pygame.font.Font] = {}
         self._spelt: dict[str, tuple[str, str]] = {}
 
     def ascent(self, em: int) -> int:
@@ -70,9 +70,9 @@ class Fonts:
         font, (left, right) = self._font(face, em), (text for _, text in parts)
         return font.size(left + right)[0] - font.size(left)[0] - font.size(right)[0]
 
-    def _font(self, path: str, em: int) -> pygame.Font:
+    def _font(self, path: str, em: int) -> pygame.font.Font:
         if (path, em) not in self._opened:
-            self._opened[path, em] = pygame.Font(file_of(path), em)
+            self._opened[path, em] = pygame.font.Font(file_of(path), em)
         return self._opened[path, em]
 
     def _spelling(self, char: str) -> tuple[str, str]:
@@ -122,7 +122,7 @@ def _files() -> Iterator[str]:
     yield from (path for path in found if path)
 
 
-def _has(font: pygame.Font, char: str) -> bool:
+def _has(font: pygame.font.Font, char: str) -> bool:
     """Tell whether a font has a character with something to be seen; else it draws its sign for none."""
     if font.size(char)[0] == 0:
         return False

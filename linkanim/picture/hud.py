@@ -84,7 +84,7 @@ class Hud:
         if backed:
             inset = 0.5 * self.block.size
             surface.blit(self.backing, (round(self.place.x - inset), round(self.place.y - inset)))
-        surface.fblits(self.sheets)
+        surface.blits(self.sheets, doreturn=False)
         values = self.values(pose)
         draw(surface, values, self.type)
         if noted and values:

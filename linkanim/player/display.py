@@ -90,15 +90,15 @@ def is_full() -> bool:
 
 
 class Placement(NamedTuple):
-    """Where a window is and how large, to go back to from full screen."""
+    """Where a window is (None: not known) and how large, to go back to from full screen."""
 
-    position: tuple[int, int]
+    position: tuple[int, int] | None
     size: tuple[int, int]
 
 
 def frame() -> Placement:
     """Return where the window is now."""
-    return Placement(pygame.display.get_window_position(), pygame.display.get_window_size())
+    return Placement(_position(), pygame.display.get_window_size())
 
 
 def fill(back: Placement) -> Placement:
@@ -114,7 +114,7 @@ def fill(back: Placement) -> Placement:
     return back
 
 
-def _set_mode(size: tuple[int, int], flags: int, position: tuple[int, int]) -> None:
+def _set_mode(size: tuple[int, int], flags: int, position: tuple[int, int] | None) -> None:
     """Set another mode; under X with a single screen, where no window manager may be, in a new window.
 
     Without one an old window would neither move to the screen's corner nor shrink again.
@@ -127,4 +127,11 @@ def _set_mode(size: tuple[int, int], flags: int, position: tuple[int, int]) -> N
     pygame.display.init()
     pygame.display.set_caption(*caption)
     pygame.display.set_mode(size, flags)
-    pygame.display.set_window_position(position)
+    if position is not None and hasattr(pygame.display, "set_window_position"):
+        pygame.display.set_window_position(position)
+
+
+def _position() -> tuple[int, int] | None:
+    """Return where the window is; None with plain pygame, which cannot tell."""
+    known = hasattr(pygame.display, "get_window_position")
+    return pygame.display.get_window_position() if known else None
