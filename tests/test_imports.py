@@ -23,7 +23,7 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("bounds", "cells", "digits", "document", "intake", "units", "whole"),
+            ("bounds", "cells", "child", "digits", "document", "intake", "units", "whole"),
             ("manifest",),
             ("mechanics",),
             ("scenes",),
@@ -42,6 +42,7 @@ RANK = {
 THIRD_PARTIES = {
     "errors": set(),
     "bounds": set(),
+    "child": set(),
     "cells": {"numpy", "orjson"},
     "digits": set(),
     "document": set(),

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import re
 import subprocess
-import sys
 import tempfile
 from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from linkanim import child
 from linkanim.errors import WorkFailed
 from linkanim.player import tape_file
 from linkanim.player.files import FOLDER, free_stem
@@ -69,7 +69,7 @@ def render(tape: Tape, form: str) -> Rendering:
     stem = free_stem(into, tape.start.scene.name, (tape_file.SUFFIX, f".{form}"))
     kept, target = into / f"{stem}{tape_file.SUFFIX}", into / f"{stem}.{form}"
     tape_file.write(tape, kept)
-    command = [sys.executable, "-m", "linkanim", "record", str(kept), "-o", str(target), "--progress"]
+    command = child.python("-m", "linkanim", "record", str(kept), "-o", str(target), "--progress")
     number, name = tempfile.mkstemp()
     # it stays open as long as the rendering
     said = Path(name).open("rb", buffering=0)  # noqa: SIM115
@@ -93,5 +93,10 @@ def _forgotten(name: str) -> None:
 def _start(command: list[str], said: int) -> subprocess.Popen[bytes]:
     """Start a process that neither Ctrl-C in our terminal nor our end takes with it."""
     return subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said, start_new_session=True
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=said,
+        env=child.surroundings(),
+        start_new_session=True,
     )

@@ -8,10 +8,8 @@ colours tagged bt709 so that they come back as they were.
 from __future__ import annotations
 
 import json
-import os
 import re
 import subprocess
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import asdict, dataclass
@@ -20,6 +18,7 @@ from pathlib import Path
 
 from imageio_ffmpeg import get_ffmpeg_exe
 
+from linkanim import child
 from linkanim.errors import RecordingFailed
 from linkanim.recorder.changes import Comparing
 from linkanim.recorder.gif import Job, count_pictures
@@ -91,19 +90,13 @@ def _gif(
     stream: Stream, part: Path, palette: Callable[[], Sequence[Colour]]
 ) -> Iterator[Callable[[Frame], None]]:
     width, height = stream.size
-    command = [sys.executable, "-P", "-m", "linkanim.recorder.gif"]
-    with running(command, surroundings=_same_packages()) as write:
+    one_core = child.surroundings(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    with running(child.python("-m", "linkanim.recorder.gif"), surroundings=one_core) as write:
         colours = tuple(palette()) or ((0, 0, 0),)
         job = Job(str(part), width, height, round(100 / stream.rate), colours, stream.alpha)
         write(json.dumps(asdict(job)).encode() + b"\n")
         changed = Comparing()
         yield lambda frame: write(changed(frame))
-
-
-def _same_packages() -> dict[str, str]:
-    """Return an environment in which Python finds what we find, and computes on one core."""
-    places = os.pathsep.join(place or str(Path.cwd()) for place in sys.path)
-    return {**os.environ, "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 
 def _ffmpeg_to(stream: Stream, form: Format, part: Path) -> list[str]:

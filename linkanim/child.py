@@ -1,0 +1,42 @@
+"""Pythons that we start, and our own: none takes a module from the current folder.
+
+A scene lies beside a student's own files, and `python -m`, `-c` and an empty entry of PYTHONPATH have the
+current folder looked at first. Before `shut_out` has run nothing but `os` and `sys` may be imported.
+"""
+
+import os
+import sys
+
+import linkanim
+
+_HOME = os.path.dirname(os.path.dirname(os.path.abspath(linkanim.__file__)))  # noqa: PTH100, PTH120
+
+
+def shut_out_current_folder() -> None:
+    """Look for modules and programs no longer in the current folder, but last where linkanim lies there."""
+    sys.path[:] = _places()
+    # Windows looks for a program in the current folder first
+    os.environ.setdefault("NoDefaultCurrentDirectoryInExePath", "1")
+
+
+def python(*words: str) -> list[str]:
+    """Return the command of a Python with these words, which goes with `surroundings`."""
+    return [sys.executable, "-P", *words]
+
+
+def surroundings(**more: str) -> dict[str, str]:
+    """Return an environment in which Python finds what we find, with more variables in it."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(_places()), **more}
+
+
+def _places() -> list[str]:
+    """Return where we look for modules without the current folder."""
+    elsewhere = [place for place in sys.path if place and not _is_here(place)]
+    return [*elsewhere, _HOME] if _is_here(_HOME) else elsewhere
+
+
+def _is_here(place: str) -> bool:
+    try:
+        return os.path.samefile(place, os.curdir)  # noqa: PTH121
+    except OSError:
+        return False
