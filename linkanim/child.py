@@ -7,9 +7,7 @@ current folder looked at first. Before `shut_out` has run nothing but `os` and `
 import os
 import sys
 
-import linkanim
-
-_HOME = os.path.dirname(os.path.dirname(os.path.abspath(linkanim.__file__)))  # noqa: PTH100, PTH120
+_HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120
 
 
 def shut_out_current_folder() -> None:

@@ -10,8 +10,8 @@ from linkanim.cli.exits import guarded
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line `argv` (default: the process's own) and return its exit code.
 
-    0 done; 2 bad input or usage; 1 the work failed; 130 Ctrl-C; 143 SIGTERM. What went wrong is one
-    line on stderr.
+    0 done; 2 bad input or usage; 1 the work failed; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP. What went wrong
+    is one line on stderr.
     """
     return guarded(lambda: _run(argv))
 

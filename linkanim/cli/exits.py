@@ -6,10 +6,10 @@ import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
-from typing import NoReturn
 
 from linkanim.errors import LinkanimError
 
@@ -17,16 +17,25 @@ DONE = 0
 FAILED = 1
 INTERRUPTED = 130
 TERMINATED = 143
+HUNG_UP = 129
+
+_ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+_ONE_AND_THE_SAME = 3.0
+"""Seconds in which further signals say what the first did: a terminal that closes sends several."""
 
 
 class Terminated(BaseException):
     """SIGTERM arrived; not an Exception, so that only clean-up runs on its way out."""
 
 
+class HungUp(BaseException):
+    """SIGHUP arrived: the terminal was closed; handled as `Terminated`."""
+
+
 def guarded(work: Callable[[], None]) -> int:
     """Do the work, flush what it printed, and return the exit code; never raises, never a traceback."""
     try:
-        with _sigterm_raises():
+        with _signals_raise():
             _open_closed()
             _print_anything()
             work()
@@ -48,6 +57,8 @@ def _code_of(error: BaseException) -> int:
             return _say("interrupted", INTERRUPTED)
         case Terminated():
             return _say("terminated", TERMINATED)
+        case HungUp():
+            return _say("the terminal was closed", HUNG_UP)
         case LinkanimError():
             return _say(str(error), error.exit_code)
         case MemoryError():
@@ -128,17 +139,33 @@ def _print_anything() -> None:
 
 
 @contextmanager
-def _sigterm_raises() -> Iterator[None]:
-    """Turn SIGTERM into `Terminated` meanwhile; other threads than the main one cannot, and do not."""
+def _signals_raise() -> Iterator[None]:
+    """Turn what is to end us into an exception meanwhile, once: clean-up is not cut short by a second one.
+
+    What is ignored, as SIGHUP under nohup, stays so; other threads than the main one cannot, and do not.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.signal(signal.SIGTERM, _raise_terminated)
+    raised = [-_ONE_AND_THE_SAME]
+
+    def arrived(number: int, frame: FrameType | None) -> None:
+        if time.monotonic() - raised[0] >= _ONE_AND_THE_SAME:
+            raised[0] = time.monotonic()
+            raise _exception(number)
+
+    before = {number: signal.getsignal(number) for number in _ENDING}
+    ours = {number: old for number, old in before.items() if old not in (signal.SIG_IGN, None)}
+    for number in ours:
+        signal.signal(number, arrived)
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, old in ours.items():
+            signal.signal(number, old)
 
 
-def _raise_terminated(number: int, frame: FrameType | None) -> NoReturn:
-    raise Terminated
+def _exception(number: int) -> BaseException:
+    if number == signal.SIGINT:
+        return KeyboardInterrupt()
+    return Terminated() if number == signal.SIGTERM else HungUp()

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from linkanim.cli import main
-from linkanim.cli.exits import Terminated, guarded
+from linkanim.cli.exits import HungUp, Terminated, guarded
 from linkanim.errors import BadInput, NoDisplay, RecordingFailed, SceneError
 
 
@@ -43,6 +43,7 @@ def raising(error: BaseException) -> Callable[[], None]:
         # from outside
         (KeyboardInterrupt(), 130, "linkanim: interrupted"),
         (Terminated(), 143, "linkanim: terminated"),
+        (HungUp(), 129, "linkanim: the terminal was closed"),
     ],
 )
 def test_what_ends_the_work_is_one_line_and_a_code(
@@ -78,21 +79,50 @@ def test_work_that_ends_well_is_silent(capsys: pytest.CaptureFixture[str]) -> No
     assert capsys.readouterr() == ("", "")
 
 
-def test_sigterm_unwinds_the_work_and_the_handler_is_put_back(capsys: pytest.CaptureFixture[str]) -> None:
+ENDING = [(signal.SIGINT, 130), (signal.SIGTERM, 143)]
+ENDING += [(signal.SIGHUP, 129)] if hasattr(signal, "SIGHUP") else []
+
+
+@pytest.mark.parametrize(("number", "code"), ENDING)
+def test_a_signal_unwinds_the_work_and_the_handler_is_put_back(number: signal.Signals, code: int) -> None:
     def mine(number: int, frame: object) -> None: ...
 
-    before = signal.signal(signal.SIGTERM, mine)
+    before = signal.signal(number, mine)
     cleaned: list[str] = []
 
     def work() -> None:
         try:
-            os.kill(os.getpid(), signal.SIGTERM)
+            os.kill(os.getpid(), number)
         finally:
+            cleaned.append("cleaned")
+
+    assert guarded(work) == code
+    assert cleaned == ["cleaned"]
+    assert signal.signal(number, before) is mine
+
+
+# A terminal that closes sends several, and Ctrl-C is pressed twice.
+@pytest.mark.parametrize("second", [number for number, _ in ENDING])
+def test_a_second_signal_does_not_cut_the_clean_up_short(second: signal.Signals) -> None:
+    cleaned: list[str] = []
+
+    def work() -> None:
+        try:
+            signal.raise_signal(signal.SIGTERM)
+        finally:
+            signal.raise_signal(second)
             cleaned.append("cleaned")
 
     assert guarded(work) == 143
     assert cleaned == ["cleaned"]
-    assert signal.signal(signal.SIGTERM, before) is mine
+
+
+def test_a_signal_that_is_ignored_stays_so() -> None:
+    before = signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    try:
+        assert guarded(lambda: signal.raise_signal(signal.SIGTERM)) == 0
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 USAGE = [

@@ -432,7 +432,7 @@ def test_a_recording_is_taped_and_rendered_beside(
     tape = read(here / "recordings" / "crank-rocker-1.tape.json")
     assert [action.name for _, action in tape.actions] == ["trace"]
     assert (tape.actions[0][0], tape.frames) == (11, 17)
-    assert started[0][1:5] == ["-m", "linkanim", "record", "recordings/crank-rocker-1.tape.json"]
+    assert started[0][2:6] == ["-m", "linkanim", "record", "recordings/crank-rocker-1.tape.json"]
     player.tick(15)
     assert player.state.toast is not None
     assert "crank-rocker-1.gif is written" in player.state.toast.text
