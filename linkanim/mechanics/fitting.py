@@ -54,29 +54,58 @@ Rounded constants leave kinks of 1e-16 in the margin, where the formula of a loo
 """
 
 
-def refined(assembly: Assembly, name: str, phase: float, *, touching: bool) -> Sum:
+def refined(assembly: Assembly, name: str, phase: float) -> Sum:
     """Return the phase at which a dyad's margin vanishes, from that phase in floats (Newton's method).
 
-    Where it is `touching`, the margin has its extreme there. Slopes are differences: the formulas' own
-    rates have constants that are rounded otherwise than the margin's.
+    Slopes are differences: the formulas' own rates have constants that are rounded otherwise than the
+    margin's.
     """
     run = decimals(("x",), _by_phase(assembly, name)[:1])
     with localcontext(context()):
-        start = place = Decimal(phase)
-        for _ in range(STEPS):
-            before, here, after = (run(place + way)[0] for way in (-NUDGE, 0, NUDGE))
-            slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
-            step = slope / bend if touching else here / slope
-            if not abs(place - step - start) < Decimal(NEARBY):
-                return Sum(phase)
-            place -= step
-            if abs(step) < CONVERGED:
-                break
-        return nearest_sum(place)
+        place = _newton(phase, lambda place: _steps(run, place)[0])
+        return Sum(phase) if place is None else nearest_sum(place)
+
+
+def extreme(assembly: Assembly, name: str, phase: float) -> tuple[Sum, float, bool]:
+    """Return the phase at which a dyad's margin has its extreme, the margin, and whether it is a square there.
+
+    It is where the ends of equal bars come together, or the pin of a slot and its pivot.
+    """
+    closing = _closing(assembly, name)
+    run = decimals(("x",), (closing.u * closing.w, closing.half_difference))
+    with localcontext(context()):
+        found = _newton(phase, lambda place: _steps(run, place)[1])
+        place = Decimal(phase) if found is None else found
+        margin, difference = run(place)
+        return nearest_sum(place), float(margin), closing.across is not None and difference > 0
+
+
+def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decimal]:
+    """Return the steps to the margin's zero and to its extreme."""
+    before, here, after = (run(place + way)[0] for way in (-NUDGE, 0, NUDGE))
+    slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
+    return here / slope, slope / bend
+
+
+def _newton(phase: float, step: Callable[[Decimal], Decimal]) -> Decimal | None:
+    """Return where steps from a phase end; None where that is not nearby."""
+    place = Decimal(phase)
+    for _ in range(STEPS):
+        way = step(place)
+        if not abs(place - way - Decimal(phase)) < Decimal(NEARBY):
+            return None
+        place -= way
+        if abs(way) < CONVERGED:
+            break
+    return place
+
+
+def _closing(assembly: Assembly, name: str) -> Closing:
+    return assembly.walk_at(Graph(exact=True).input("x"), Slope(1.0)).closings[name]
 
 
 def _by_phase(assembly: Assembly, name: str) -> tuple[Value, ...]:
-    return _outputs(assembly.walk_at(Graph(exact=True).input("x"), Slope(1.0)).closings[name])
+    return _outputs(_closing(assembly, name))
 
 
 def _outputs(closing: Closing) -> tuple[Value, ...]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .exact import Sum
 from .expression import Graph
@@ -51,13 +52,18 @@ class ThereAndBack(ABC):
     def angles(self, phases: Array) -> Array:
         """Return the input's angle at phases."""
 
-    def sampled(self, count: int) -> Array:
-        """Return so many phases from one end to the other, both among them."""
-        return np.linspace(0.0, math.pi, count)
+    @abstractmethod
+    def phase_of(self, angle: float, near: float) -> float:
+        """Return the phase nearest to `near` at which the input stands at an angle, or at its end."""
 
-    def beside(self, start: float, places: Array, values: Array) -> tuple[Array, Array, int]:
-        """Return sampled phases and their values, and the index of the one nearest to the start."""
-        return places, values, int(np.abs(self.angles(places) - start).argmin())
+    def home(self, start: float) -> float:
+        """Return the phase of the start on the way to the far end, at most that of an end."""
+        return self.phase_of(start, 0.0)
+
+    def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
+        """Return phases of the way to the far end and what is known there (D, N), and the start's index."""
+        up = (phases >= 0) & (phases <= math.pi)
+        return phases[up], rows[:, up], int(np.abs(phases[up] - self.home(start)).argmin())
 
 
 def nearer_way(forth: float, near: float) -> float:

@@ -10,9 +10,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import localcontext
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
 
@@ -77,15 +78,15 @@ class Turn(Unlimited):
         """Return the phase at angles of the input."""
         return angles - self.start if self.start else angles
 
-    def sampled(self, count: int) -> Array:
-        """Return phases with so many steps a turn, over the true period, both ends among them."""
-        return np.linspace(0.0, 2 * math.pi * self.periods, count * self.periods + 1)
+    def home(self, start: float) -> float:
+        """Return the phase of the start."""
+        return 0.0
 
-    def beside(self, start: float, places: Array, values: Array) -> tuple[Array, Array, int]:
-        """Return sampled phases and their values as they come round on both sides, and the start's index."""
-        count, period = len(places) - 1, places[-1]
-        once = places[:count]
-        return np.concatenate([once - period, once, once + period]), np.tile(values[:count], 3), count
+    def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
+        """Return phases and what is known there (D, N) as they come round on both sides, and the start's index."""
+        once, period = (phases >= 0) & (phases < 2 * math.pi * self.periods), 2 * math.pi * self.periods
+        one, count = phases[once], int(once.sum())
+        return np.concatenate([one - period, one, one + period]), np.tile(rows[:, once], 3), count
 
     def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> Swing:
         """Return the swing between two phases, at each of which a dyad limits the input."""

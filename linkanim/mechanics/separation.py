@@ -1,0 +1,295 @@
+"""How far every dyad on moving points is from its limits along the input's path, and where that is extreme.
+
+A dyad closes while its separation s (L² between its ends, or how far one lies beside its line) keeps its
+factors U and W from going below zero. Both change with s alone. So between two neighbouring extremes of s,
+which are zeros of its rate, each factor has one zero at most, and what the dyad does at the extremes decides
+whether it closes: no sample does. The extremes are bracketed by samples, which are halved wherever the
+margin U·W could come to zero between them, until rate and slope leave no room for another extreme.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.errors import AssemblyError
+
+from .assembly import Assembly
+from .chain import Closing
+from .exact import Sum
+from .expression import Graph
+from .fitting import extreme
+from .path import Path
+from .planar import Slope
+from .program import batch
+from .search import around, ends_of
+from .walk import AT_ITS_LIMIT
+
+SAMPLES_A_TURN = 1440
+SAMPLES_A_GEARED_TURN = 96
+"""Of the crank that turns most while the input turns once."""
+TOUCHING = 1e-12
+"""Share of a margin's scale within which floats cannot tell its sign."""
+ROUNDING = 2.0**-47
+"""Share of a margin's scale that the last digits of lengths make: an extreme within it touches zero."""
+UNEVEN = 0.1
+"""How far the change of a rate may be off the one that its slopes make, where it has no sharper bend."""
+FLAT = 2.0**-52
+"""Share of a margin's scale by which it changes between samples that need no others between them."""
+MEETING = 2.0**-88
+"""The same where the margin is a square: the ends of equal bars meet, or a slot's pin its pivot."""
+FINEST = 2.0**-40
+HALVINGS = 32
+AT_END = 1e-6
+"""At its own limit, where the input turns back, a separation is extreme by phase: that is no touching."""
+
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+
+class Samples(NamedTuple):
+    """Phases (N,), and there for every dyad (4, D, N): s', s'', and over their scale U·W and U - W."""
+
+    phases: Array
+    rows: Array
+
+    def at(self, index: NDArray[np.intp] | slice) -> Samples:
+        """Return some of them."""
+        return Samples(self.phases[index], self.rows[..., index])
+
+    def followed(self, other: Samples) -> Samples:
+        """Return these, then the others."""
+        return Samples(
+            np.concatenate([self.phases, other.phases]), np.concatenate([self.rows, other.rows], axis=-1)
+        )
+
+    @property
+    def ordered(self) -> Samples:
+        """The samples in the order of their phases, each phase once."""
+        return self.at(np.unique(self.phases, return_index=True)[1])
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A place where a dyad's separation is extreme and its margin next to nothing, settled in many digits.
+
+    `closes` is +1 where the dyad closes there, -1 where it does not, 0 where its bars just fall into line.
+    """
+
+    phase: float
+    place: Sum
+    closes: int
+
+
+@dataclass(frozen=True)
+class Course:
+    """The margins of the dyads on moving points along a path, at samples among which are all that decide."""
+
+    names: tuple[str, ...]
+    scales: Array
+    """What each margin is beside (D,)."""
+    phases: Array
+    shut: Bools
+    """Of every dyad at every phase, whether it does not close there (D, N)."""
+    settled: tuple[tuple[Extreme, ...], ...]
+    """Of every dyad, the extremes at which floats cannot tell its margin from nothing."""
+    margins: Callable[[Array], Array]
+    """Returns the margins over their scale at phases (D, N)."""
+
+    @property
+    def closes(self) -> bool:
+        """Whether every dyad closes all along."""
+        return not self.shut.any()
+
+    def scale(self, name: str) -> float:
+        """Return what a dyad's margin is beside."""
+        return float(self.scales[self.names.index(name)])
+
+    def touches(self, name: str) -> tuple[Sum, ...]:
+        """Return the phases at which a dyad's bars just fall into line."""
+        return tuple(found.place for found in self.settled[self.names.index(name)] if found.closes == 0)
+
+
+def course(assembly: Assembly) -> Course | None:
+    """Return how the dyads on moving points fare along the path, over its true period; None without any.
+
+    AssemblyError where one is at its limit all along.
+    """
+    closings = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
+    if not closings:
+        return None
+    run, phases = _program(closings), _phases(assembly)
+    raw = run(phases)
+    scale = _scales(assembly, tuple(closings), raw)
+
+    def sampled(phases: Array) -> Samples:
+        return _over(scale, phases, run(phases))
+
+    samples = _halved(sampled, _over(scale, phases, raw))
+    extremes = _places(sampled, samples, _turning(samples), 0)
+    peaks = _places(sampled, samples, _passing(samples), 3)
+    samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
+    settled = tuple(
+        tuple(_settled(assembly, name, places, sampled(places).rows[2, row], float(scale[row])))
+        for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
+    )
+    return Course(
+        tuple(closings),
+        scale,
+        samples.phases,
+        _shut(samples, settled),
+        settled,
+        lambda phases: np.asarray(sampled(phases).rows[2]),
+    )
+
+
+def _program(closings: Mapping[str, Closing]) -> Callable[[Array], Array]:
+    """Return the function of phases (N,) that gives margins, s', s'', (U - W)/2 and sizes (5, D, N)."""
+    found = closings.values()
+    program = batch(
+        {"x": True},
+        [
+            *(closing.u * closing.w for closing in found),
+            *(closing.separation.rate for closing in found),
+            *(closing.separation.second for closing in found),
+            *(closing.half_difference for closing in found),
+            *(closing.size for closing in found),
+        ],
+    )
+
+    def run(phases: Array) -> Array:
+        with np.errstate(all="ignore"):
+            return np.asarray(program(phases), np.float64).reshape(5, len(closings), len(phases))
+
+    return run
+
+
+def _phases(assembly: Assembly) -> Array:
+    """Return phases over the true period, as near to each other as what turns fastest needs.
+
+    The start is among them, and the ends of a way there and back.
+    """
+    fastest = max((abs(gearing.ratio) for gearing in assembly.gears.values()), default=1)
+    count = max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * fastest))
+    marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
+    return np.union1d(around(assembly.path.periods, count), marks)
+
+
+def _scales(assembly: Assembly, names: tuple[str, ...], raw: Array) -> Array:
+    """Return what each dyad's margin is beside: its greatest value, at most what its bars make of it."""
+    most, size = np.nanmax(np.abs(raw[[0, 4]]), axis=2, initial=0.0)
+    longest = max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
+    nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * longest) ** 2)
+    for name in (name for name, flat in zip(names, nothing, strict=True) if flat):
+        raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
+    return np.asarray(np.minimum(most, size))
+
+
+def _over(scale: Array, phases: Array, raw: Array) -> Samples:
+    """Return the rates, and margins and differences over their scale."""
+    (margins, rates, bends, halves, _), beside = raw, scale[:, None]
+    with np.errstate(all="ignore"):
+        return Samples(phases, np.stack([rates, bends, margins / beside, 2.0 * halves / beside]))
+
+
+def _halved(sampled: Callable[[Array], Samples], samples: Samples) -> Samples:
+    """Return the samples with others between them wherever a second extreme could lie there."""
+    left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
+    fastest = np.nanmax(_speed(samples), axis=1, initial=0.0, keepdims=True) / 4
+    for _ in range(HALVINGS):
+        # At first a margin may change faster than at both neighbours; the nearer they are, the less.
+        with np.errstate(all="ignore"):
+            index = np.flatnonzero(_unclear(left, right, fastest).any(axis=0))
+        if not len(index):
+            break
+        left, right = left.at(index), right.at(index)
+        middle = sampled((left.phases + right.phases) / 2)
+        found = found.followed(middle)
+        left, right, fastest = left.followed(middle), middle.followed(right), fastest / 2
+    return found.ordered
+
+
+def _speed(samples: Samples) -> Array:
+    """Return how fast the margins change: by s' (U - W), since U' = -s' and W' = s'."""
+    rates, _, _, differences = samples.rows
+    return np.asarray(np.abs(rates * differences))
+
+
+def _near(left: Samples, right: Samples, fastest: Array | float = 0.0) -> Bools:
+    """Tell where a margin could be nothing between neighbours (D, N), changing so fast at least."""
+    before, after = left.rows[2], right.rows[2]
+    speed = np.maximum(np.maximum(_speed(left), _speed(right)), fastest)
+    clear = np.minimum(np.abs(before), np.abs(after)) > 2 * (right.phases - left.phases) * speed
+    return np.asarray(np.isfinite(before + after) & ~(clear & (before * after > 0)))
+
+
+def _unclear(left: Samples, right: Samples, fastest: Array) -> Bools:
+    """Tell between which neighbours a margin near nothing could have two extremes (D, N)."""
+    step = right.phases - left.phases
+    (r, b, _, d), (s, c, _, e) = left.rows, right.rows
+    size = np.max(np.abs([r, s, step * b, step * c]), axis=0)
+    even = np.abs((s - r) - step / 2 * (b + c)) <= UNEVEN * size
+    none = (r * s > 0) & (r * (r + step * b) > 0) & (s * (s - step * c) > 0)
+    one = (r * s <= 0) & (b * c > 0)
+    flat = size * step * np.maximum(np.abs(d), np.abs(e)) <= FLAT
+    return np.asarray(_near(left, right, fastest) & ~(even & (none | one)) & ~flat)
+
+
+def _turning(samples: Samples) -> Bools:
+    """Tell between which neighbours a separation near a limit has its extreme (D, N - 1)."""
+    positive = samples.rows[0] > 0
+    return np.asarray(_near(*_neighbours(samples)) & (positive[:, 1:] != positive[:, :-1]))
+
+
+def _passing(samples: Samples) -> Bools:
+    """Tell between which neighbours a separation passes from beyond one limit to beyond the other (D, N - 1)."""
+    before, after = (one.rows for one in _neighbours(samples))
+    return np.asarray((before[2] < 0) & (after[2] < 0) & ((before[3] > 0) != (after[3] > 0)))
+
+
+def _neighbours(samples: Samples) -> tuple[Samples, Samples]:
+    return samples.at(slice(None, -1)), samples.at(slice(1, None))
+
+
+def _places(sampled: Callable[[Array], Samples], samples: Samples, cells: Bools, row: int) -> list[Array]:
+    """Return for every dyad where that row of its samples changes its sign in the cells."""
+    dyads, index = np.nonzero(cells)
+    if not len(index):
+        return [np.empty(0) for _ in cells]
+    start = samples.rows[row, dyads, index] > 0
+    each = np.arange(len(dyads))
+
+    def alike(phases: Array) -> Bools:
+        return np.asarray((sampled(phases).rows[row, dyads, each] > 0) == start)
+
+    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST)
+    return [found[dyads == dyad] for dyad in range(len(cells))]
+
+
+def _settled(assembly: Assembly, name: str, phases: Array, margins: Array, scale: float) -> Iterator[Extreme]:
+    """Yield the extremes at which floats cannot tell a dyad's margin from nothing."""
+    for phase in phases[np.abs(margins) <= TOUCHING].tolist():
+        if not _at_own_end(assembly.path, name, phase):
+            place, margin, meeting = extreme(assembly, name, phase)
+            rounding = MEETING if meeting else ROUNDING
+            closes = 0 if abs(margin) <= rounding * scale else 1 if margin > 0 else -1
+            yield Extreme(phase, place, closes)
+
+
+def _at_own_end(path: Path, name: str, phase: float) -> bool:
+    ends = zip(path.ends, (0.0, math.pi), strict=False)
+    return any(end == name and abs(math.remainder(phase - at, 2 * math.pi)) <= AT_END for end, at in ends)
+
+
+def _shut(samples: Samples, settled: Sequence[Sequence[Extreme]]) -> Bools:
+    """Tell of every dyad at every sample whether it does not close there (D, N)."""
+    shut = ~(samples.rows[2] >= -TOUCHING)
+    for row, extremes in enumerate(settled):
+        for found in extremes:
+            shut[row, np.searchsorted(samples.phases, found.phase)] = found.closes < 0
+    return np.asarray(shut)
