@@ -20,10 +20,10 @@ from typing import NamedTuple
 
 from .circular import sharp_half_angle
 from .exact import Sum
-from .expression import Value, maximum, select, sqrt
+from .expression import Value, maximum, minimum, select, sqrt
 from .input_state import InputState
 from .planar import Moving, MovingPoint, Slope, Vec
-from .signed import Reduced, SignedRoot, plain_root
+from .signed import SMALLEST, Reduced, SignedRoot, plain_root
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +163,8 @@ Zero = End | Touch
 class Closing(NamedTuple):
     """What closes a dyad on moving points: U, W, what they change by, and its ends' way D where it has two.
 
-    `separation` is L² of two ends, or how far a single one lies beside its line; W' is its rate, U' less it.
+    `separation` is L² of two ends (`squared`), or how far a single one lies beside its line; W' is its rate,
+    U' less it.
     `half_difference` is (U - W)/2, or 1/2 of a `single` root, which has no U.
     """
 
@@ -172,6 +173,7 @@ class Closing(NamedTuple):
     separation: Moving
     single: bool
     across: MovingPoint | None
+    squared: bool = True
 
     @property
     def half_difference(self) -> Value:
@@ -182,6 +184,19 @@ class Closing(NamedTuple):
     def size(self) -> Value:
         """What the margin is beside: (U + W)², which is 16a²b² of two bars, or L²."""
         return self.separation.value if self.single else (self.u + self.w) * (self.u + self.w)
+
+    @property
+    def gap(self) -> Value:
+        """How much longer, or shorter, the separation may still become: its nearer factor as a length."""
+        if not self.squared:
+            return minimum(self.u, self.w)
+        distance = sqrt(self.separation.value)
+        least = sqrt(maximum(self.separation.value - self.w, 0.0))
+        folded = self.w / maximum(distance + least, SMALLEST)
+        if self.single:
+            return folded
+        most = sqrt(self.separation.value + self.u)
+        return minimum(self.u / maximum(distance + most, SMALLEST), folded)
 
     def rates(self, q: Moving) -> Slope:
         """Return ρ of a root that is known with its rates."""

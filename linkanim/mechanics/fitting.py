@@ -1,4 +1,4 @@
-"""Where the root of a dyad on moving points vanishes, and what is smooth there, found in fifty digits.
+"""Where the root of a dyad on moving points vanishes, or nearly, and what is smooth there, in fifty digits.
 
 The formulas of the linkage are compiled for decimals, so a margin has digits left wherever it matters:
 its zeros come from Newton's method, and R with margin = z²·R² (`chain`) from interpolation.
@@ -54,8 +54,8 @@ Rounded constants leave kinks of 1e-16 in the margin, where the formula of a loo
 """
 
 
-def refined(assembly: Assembly, name: str, phase: float) -> Sum:
-    """Return the phase at which a dyad's margin vanishes, from that phase in floats (Newton's method).
+def refined(assembly: Assembly, name: str, phase: Sum) -> Sum:
+    """Return the phase at which a dyad's margin vanishes, from that phase (Newton's method).
 
     Slopes are differences: the formulas' own rates have constants that are rounded otherwise than the
     margin's.
@@ -63,21 +63,31 @@ def refined(assembly: Assembly, name: str, phase: float) -> Sum:
     run = decimals(("x",), _by_phase(assembly, name)[:1])
     with localcontext(context()):
         place = _newton(phase, lambda place: _steps(run, place)[0])
-        return Sum(phase) if place is None else nearest_sum(place)
+        return phase if place is None else nearest_sum(place)
 
 
-def extreme(assembly: Assembly, name: str, phase: float) -> tuple[Sum, float, bool]:
-    """Return the phase at which a dyad's margin has its extreme, the margin, and whether it is a square there.
+class Turning(NamedTuple):
+    """Where a dyad's separation is extreme, by how much of a length it closes there, and how far it does not.
 
-    It is where the ends of equal bars come together, or the pin of a slot and its pivot.
+    It does not close within `reach` of the phase where `gap` is negative.
     """
+
+    phase: Sum
+    gap: float
+    reach: float
+
+
+def extreme(assembly: Assembly, name: str, phase: float) -> Turning:
+    """Return the extreme of a dyad's separation, from that phase in floats (Newton's method)."""
     closing = _closing(assembly, name)
-    run = decimals(("x",), (closing.u * closing.w, closing.half_difference))
+    run = decimals(("x",), (closing.u * closing.w, closing.gap))
     with localcontext(context()):
-        found = _newton(phase, lambda place: _steps(run, place)[1])
+        found = _newton(Sum(phase), lambda place: _steps(run, place)[1])
         place = Decimal(phase) if found is None else found
-        margin, difference = run(place)
-        return nearest_sum(place), float(margin), closing.across is not None and difference > 0
+        margin, gap = run(place)
+        bend = sum(run(place + way)[0] for way in (-NUDGE, NUDGE)) - 2 * margin
+        reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
+        return Turning(nearest_sum(place), float(gap), float(reach))
 
 
 def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decimal]:
@@ -87,12 +97,12 @@ def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decim
     return here / slope, slope / bend
 
 
-def _newton(phase: float, step: Callable[[Decimal], Decimal]) -> Decimal | None:
+def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
     """Return where steps from a phase end; None where that is not nearby."""
-    place = Decimal(phase)
+    start = place = exactly(phase)
     for _ in range(STEPS):
         way = step(place)
-        if not abs(place - way - Decimal(phase)) < Decimal(NEARBY):
+        if not abs(place - way - start) < Decimal(NEARBY):
             return None
         place -= way
         if abs(way) < CONVERGED:

@@ -152,6 +152,8 @@ def _limit(
 ) -> tuple[Sum, str]:
     """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
     row = int(shut.argmax())
-    inside, outside = (np.array([phase]) for phase in bracket)
-    last = ends_of(lambda phase: found.margins(phase)[row] >= 0, inside, outside)
-    return refined(assembly, found.names[row], float(last[0])), found.names[row]
+    start = found.beside(bracket[1], row, 1 if bracket[0] > bracket[1] else -1)
+    if start is None:
+        inside, outside = (np.array([phase]) for phase in bracket)
+        start = Sum(float(ends_of(lambda phase: found.margins(phase)[row] >= 0, inside, outside)[0]))
+    return refined(assembly, found.names[row], start), found.names[row]

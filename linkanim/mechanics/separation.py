@@ -21,7 +21,7 @@ from linkanim.errors import AssemblyError
 
 from .assembly import Assembly
 from .chain import Closing
-from .exact import Sum
+from .exact import FULL_TURN, Sum
 from .expression import Graph
 from .fitting import extreme
 from .path import Path
@@ -35,14 +35,12 @@ SAMPLES_A_GEARED_TURN = 96
 """Of the crank that turns most while the input turns once."""
 TOUCHING = 1e-12
 """Share of a margin's scale within which floats cannot tell its sign."""
-ROUNDING = 2.0**-47
-"""Share of a margin's scale that the last digits of lengths make: an extreme within it touches zero."""
+ROUNDING = 2.0**-48
+"""Share of the longest bar that rounded lengths make: within it bars just fall into line."""
 UNEVEN = 0.1
 """How far the change of a rate may be off the one that its slopes make, where it has no sharper bend."""
 FLAT = 2.0**-52
 """Share of a margin's scale by which it changes between samples that need no others between them."""
-MEETING = 2.0**-88
-"""The same where the margin is a square: the ends of equal bars meet, or a slot's pin its pivot."""
 FINEST = 2.0**-40
 HALVINGS = 32
 AT_END = 1e-6
@@ -84,6 +82,8 @@ class Extreme:
     phase: float
     place: Sum
     closes: int
+    reach: float
+    """How far to both sides it does not close."""
 
 
 @dataclass(frozen=True)
@@ -105,6 +105,14 @@ class Course:
     def closes(self) -> bool:
         """Whether every dyad closes all along."""
         return not self.shut.any()
+
+    def beside(self, phase: float, row: int, way: int) -> Sum | None:
+        """Return where a stretch about an extreme ends, on that side, in which floats see the dyad close."""
+        for found in self.settled[row]:
+            turns = round((phase - found.phase) / (2 * math.pi))
+            if found.closes < 0 and abs(phase - found.phase - turns * 2 * math.pi) <= found.reach:
+                return found.place + FULL_TURN.times(float(turns)) + Sum(way * found.reach)
+        return None
 
     def scale(self, name: str) -> float:
         """Return what a dyad's margin is beside."""
@@ -135,7 +143,7 @@ def course(assembly: Assembly) -> Course | None:
     peaks = _places(sampled, samples, _passing(samples), 3)
     samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
     settled = tuple(
-        tuple(_settled(assembly, name, places, sampled(places).rows[2, row], float(scale[row])))
+        tuple(_settled(assembly, name, places, sampled(places).rows[2, row]))
         for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
     )
     return Course(
@@ -183,11 +191,15 @@ def _phases(assembly: Assembly) -> Array:
 def _scales(assembly: Assembly, names: tuple[str, ...], raw: Array) -> Array:
     """Return what each dyad's margin is beside: its greatest value, at most what its bars make of it."""
     most, size = np.nanmax(np.abs(raw[[0, 4]]), axis=2, initial=0.0)
-    longest = max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
+    longest = _longest(assembly)
     nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * longest) ** 2)
     for name in (name for name, flat in zip(names, nothing, strict=True) if flat):
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     return np.asarray(np.minimum(most, size))
+
+
+def _longest(assembly: Assembly) -> float:
+    return max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
 
 
 def _over(scale: Array, phases: Array, raw: Array) -> Samples:
@@ -247,7 +259,7 @@ def _turning(samples: Samples) -> Bools:
 
 
 def _passing(samples: Samples) -> Bools:
-    """Tell between which neighbours a separation passes from beyond one limit to beyond the other (D, N - 1)."""
+    """Tell between which neighbours a separation passes from one limit to the other (D, N - 1)."""
     before, after = (one.rows for one in _neighbours(samples))
     return np.asarray((before[2] < 0) & (after[2] < 0) & ((before[3] > 0) != (after[3] > 0)))
 
@@ -271,14 +283,14 @@ def _places(sampled: Callable[[Array], Samples], samples: Samples, cells: Bools,
     return [found[dyads == dyad] for dyad in range(len(cells))]
 
 
-def _settled(assembly: Assembly, name: str, phases: Array, margins: Array, scale: float) -> Iterator[Extreme]:
+def _settled(assembly: Assembly, name: str, phases: Array, margins: Array) -> Iterator[Extreme]:
     """Yield the extremes at which floats cannot tell a dyad's margin from nothing."""
+    longest = _longest(assembly)
     for phase in phases[np.abs(margins) <= TOUCHING].tolist():
         if not _at_own_end(assembly.path, name, phase):
-            place, margin, meeting = extreme(assembly, name, phase)
-            rounding = MEETING if meeting else ROUNDING
-            closes = 0 if abs(margin) <= rounding * scale else 1 if margin > 0 else -1
-            yield Extreme(phase, place, closes)
+            place, gap, reach = extreme(assembly, name, phase)
+            closes = 0 if abs(gap) <= ROUNDING * longest else 1 if gap > 0 else -1
+            yield Extreme(phase, place, closes, reach)
 
 
 def _at_own_end(path: Path, name: str, phase: float) -> bool:

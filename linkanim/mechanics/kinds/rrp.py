@@ -101,7 +101,7 @@ class RRP(SliderDyad):
         if loop is not None:
             return walk.loop_root(loop, sign)[0]
         u, w = self.length - aside.value, self.length + aside.value
-        return walk.chain_root(self.name, Closing(u, w, aside, False, None)).times(sign)
+        return walk.chain_root(self.name, Closing(u, w, aside, False, None, squared=False)).times(sign)
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.

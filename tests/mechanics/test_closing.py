@@ -1,0 +1,76 @@
+"""No sample decides alone whether a dyad on moving points closes all along."""
+
+from __future__ import annotations
+
+import math
+import random
+
+import numpy as np
+import pytest
+from near_misses import is_right, near_miss, rows
+
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin
+from linkanim.mechanics.linkage import Drive, Linkage
+from linkanim.mechanics.mechanism import Mechanism, mechanism
+from linkanim.mechanics.path import Swing
+
+
+def knee(second: float, start_deg: float) -> Linkage:
+    """A slider-crank with two bars, 60 and that long, from its slider to the line's pin, which it runs over.
+
+    There, near 99.59 degrees, the bars cannot fold up: they are not equally long.
+    """
+    joints = (
+        Pin("O2", (150.0, 0.0)),
+        Pin("O", (0.0, 0.0)),
+        Crank("A", "O2", 50.0),
+        RRP("C", "A", 150.0, Line("O"), -1),
+        RRR("K", ("C", "O"), (60.0, second)),
+    )
+    return Linkage(joints, Drive("A", 1.0, math.radians(start_deg)))
+
+
+def finite(solved: Mechanism, angle: float) -> bool:
+    return bool(np.isfinite(rows(solved, angle)).all())
+
+
+@pytest.mark.parametrize("start_deg", [30.0, 30.1, 30.25])
+@pytest.mark.parametrize("more", [0.05, 0.02, 1e-8, 1e-10, 1e-12])
+def test_where_a_knee_is_stopped_does_not_hang_on_where_samples_fall(more: float, start_deg: float) -> None:
+    solved = mechanism(knee(60.0 + more, start_deg))
+    path = solved.assembly.path
+    assert isinstance(path, Swing)
+    assert path.ends == ("K", "K")
+    # The slider is as far from O as the bars are unlike: the law of cosines at O2.
+    base = 150.0 - ((60.0 + more) - 60.0)
+    end = math.acos((20_000.0 - base * base) / (100.0 * base))
+    assert path.input_range == pytest.approx((-end, end), abs=1e-15)
+    assert solved.periods == 1
+    assert finite(solved, path.limits[1])
+
+
+def close(number: int) -> None:
+    """Check one random linkage, by number: it is limited or closed as it should be, or refused."""
+    case = near_miss(random.Random(number))
+    try:
+        solved = mechanism(case.linkage)
+    except AssemblyError:
+        return
+    assert isinstance(solved.assembly.path, Swing) == (case.gap > 0), number
+    assert finite(solved, case.angle), number
+    if number % 10 == 0:
+        assert is_right(case, solved), number
+
+
+@pytest.mark.parametrize("first", range(0, 40, 10))
+def test_linkages_that_just_miss_closing_are_limited_and_those_that_just_close_turn(first: int) -> None:
+    for number in range(first, first + 10):
+        close(number)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", range(0, 20_000, 500))
+def test_twenty_thousand_near_misses(first: int) -> None:
+    for number in range(first, first + 500):
+        close(number)
