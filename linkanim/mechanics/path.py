@@ -83,7 +83,7 @@ class Turn(Unlimited):
         return 0.0
 
     def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
-        """Return phases and what is known there (D, N) as they come round on both sides; the start's index."""
+        """Return phases and what is known there (D, N), coming round on both sides; the start's index."""
         once, period = (phases >= 0) & (phases < 2 * math.pi * self.periods), 2 * math.pi * self.periods
         one, count = phases[once], int(once.sum())
         return np.concatenate([one - period, one, one + period]), np.tile(rows[:, once], 3), count
