@@ -66,7 +66,7 @@ def refined(assembly: Assembly, name: str, phase: Sum) -> Sum:
         return phase if place is None else nearest_sum(place)
 
 
-class Turning(NamedTuple):
+class NearestLimit(NamedTuple):
     """Where a dyad's separation is extreme, by how much of a length it closes there, and how far it does not.
 
     It does not close within `reach` of the phase where `gap` is negative.
@@ -77,7 +77,7 @@ class Turning(NamedTuple):
     reach: float
 
 
-def extreme(assembly: Assembly, name: str, phase: float) -> Turning:
+def extreme(assembly: Assembly, name: str, phase: float) -> NearestLimit:
     """Return the extreme of a dyad's separation, from that phase in floats (Newton's method)."""
     closing = _closing(assembly, name)
     run = decimals(("x",), (closing.u * closing.w, closing.gap))
@@ -87,7 +87,7 @@ def extreme(assembly: Assembly, name: str, phase: float) -> Turning:
         margin, gap = run(place)
         bend = sum(run(place + way)[0] for way in (-NUDGE, NUDGE)) - 2 * margin
         reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
-        return Turning(nearest_sum(place), float(gap), float(reach))
+        return NearestLimit(nearest_sum(place), float(gap), float(reach))
 
 
 def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decimal]:

@@ -24,7 +24,7 @@ from .fitting import fitted, refined
 from .linkage import Linkage
 from .path import ONE_PLACE, Swing
 from .search import ends_of
-from .separation import Course, course
+from .separation import Separations, separations
 from .touching import through_change_points
 
 USED_UP = 1e-10
@@ -46,7 +46,7 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
 
     `linkage` is the one asked for, with its own lengths, to be named in an AssemblyError.
     """
-    found = course(assembly)
+    found = separations(assembly)
     if found is None:
         return assembly
     closes = found.closes
@@ -66,7 +66,7 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     raise AssemblyError("the input has no range on which every dyad can be closed")
 
 
-def _cut(assembly: Assembly, linkage: Linkage, found: Course) -> tuple[Swing, Assembly, Course]:
+def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
     """Return the swing around the start on which every dyad closes on the way up, and how they fare on it."""
     first = found.shut.argmax(axis=0)
     if found.shut.any(axis=0).all():
@@ -84,10 +84,10 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Course) -> tuple[Swing, As
     return swing, limited, on_swing
 
 
-def _limited(assembly: Assembly, path: Swing, found: Course) -> tuple[Assembly, Course]:
+def _limited(assembly: Assembly, path: Swing, found: Separations) -> tuple[Assembly, Separations]:
     """Return the assembly on another path, its closures named anew, and how its dyads fare there."""
     limited = replace(resigned(replace(assembly, path=path, chain={})), chain=_ends(path, found.names))
-    return limited, course(limited) or found
+    return limited, separations(limited) or found
 
 
 def _ends(path: Swing, names: tuple[str, ...]) -> Mapping[str, ChainRoot]:
@@ -113,7 +113,7 @@ def _smooth_paths(swing: Swing) -> Iterator[Swing]:
         )
 
 
-def _runs_through(assembly: Assembly, found: Course) -> bool:
+def _runs_through(assembly: Assembly, found: Separations) -> bool:
     """Tell whether every dyad closes all the way, and those that limit the input do so at each visit."""
     path = assembly.path
     visits = np.arange(path.periods, dtype=np.float64) * (2 * math.pi)
@@ -124,7 +124,7 @@ def _runs_through(assembly: Assembly, found: Course) -> bool:
     )
 
 
-def _open_interval(assembly: Assembly, found: Course) -> tuple[Limit, Limit]:
+def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit]:
     """Return the ends of the interval around the start, or of the widest one where the start is shut."""
     phases, shut, home = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
     first, last = _run_around(np.asarray(~shut.any(axis=0)), home, phases)
@@ -148,7 +148,7 @@ def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[i
 
 
 def _limit(
-    assembly: Assembly, found: Course, bracket: tuple[float, float], shut: NDArray[np.bool_]
+    assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_]
 ) -> tuple[Sum, str]:
     """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
     row = int(shut.argmax())

@@ -50,26 +50,27 @@ Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 
-class Samples(NamedTuple):
+class Sampled(NamedTuple):
     """Phases (N,), and there for every dyad (4, D, N): s', s'', and over their scale U·W and U - W."""
 
     phases: Array
     rows: Array
 
-    def at(self, index: NDArray[np.intp] | slice) -> Samples:
+    def at(self, index: NDArray[np.intp] | slice) -> Sampled:
         """Return some of them."""
-        return Samples(self.phases[index], self.rows[..., index])
+        return Sampled(self.phases[index], self.rows[..., index])
 
-    def followed(self, other: Samples) -> Samples:
+    def followed(self, other: Sampled) -> Sampled:
         """Return these, then the others."""
-        return Samples(
+        return Sampled(
             np.concatenate([self.phases, other.phases]), np.concatenate([self.rows, other.rows], axis=-1)
         )
 
     @property
-    def ordered(self) -> Samples:
+    def ordered(self) -> Sampled:
         """The samples in the order of their phases, each phase once."""
-        return self.at(np.unique(self.phases, return_index=True)[1])
+        order = np.argsort(self.phases, kind="stable")
+        return self.at(order[np.diff(self.phases[order], prepend=-math.inf) > 0])
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ class Extreme:
 
 
 @dataclass(frozen=True)
-class Course:
+class Separations:
     """The margins of the dyads on moving points along a path, at samples among which are all that decide."""
 
     names: tuple[str, ...]
@@ -123,7 +124,7 @@ class Course:
         return tuple(found.place for found in self.settled[self.names.index(name)] if found.closes == 0)
 
 
-def course(assembly: Assembly) -> Course | None:
+def separations(assembly: Assembly) -> Separations | None:
     """Return how the dyads on moving points fare along the path, over its true period; None without any.
 
     AssemblyError where one is at its limit all along.
@@ -135,7 +136,7 @@ def course(assembly: Assembly) -> Course | None:
     raw = run(phases)
     scale = _scales(assembly, tuple(closings), raw)
 
-    def sampled(phases: Array) -> Samples:
+    def sampled(phases: Array) -> Sampled:
         return _over(scale, phases, run(phases))
 
     samples = _halved(sampled, _over(scale, phases, raw))
@@ -146,7 +147,7 @@ def course(assembly: Assembly) -> Course | None:
         tuple(_settled(assembly, name, places, sampled(places).rows[2, row]))
         for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
     )
-    return Course(
+    return Separations(
         tuple(closings),
         scale,
         samples.phases,
@@ -185,7 +186,7 @@ def _phases(assembly: Assembly) -> Array:
     fastest = max((abs(gearing.ratio) for gearing in assembly.gears.values()), default=1)
     count = max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * fastest))
     marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
-    return np.union1d(around(assembly.path.periods, count), marks)
+    return np.sort(np.concatenate([around(assembly.path.periods, count), marks]))
 
 
 def _scales(assembly: Assembly, names: tuple[str, ...], raw: Array) -> Array:
@@ -202,14 +203,14 @@ def _longest(assembly: Assembly) -> float:
     return max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
 
 
-def _over(scale: Array, phases: Array, raw: Array) -> Samples:
+def _over(scale: Array, phases: Array, raw: Array) -> Sampled:
     """Return the rates, and margins and differences over their scale."""
     (margins, rates, bends, halves, _), beside = raw, scale[:, None]
     with np.errstate(all="ignore"):
-        return Samples(phases, np.stack([rates, bends, margins / beside, 2.0 * halves / beside]))
+        return Sampled(phases, np.stack([rates, bends, margins / beside, 2.0 * halves / beside]))
 
 
-def _halved(sampled: Callable[[Array], Samples], samples: Samples) -> Samples:
+def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
     """Return the samples with others between them wherever a second extreme could lie there."""
     left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
     fastest = np.nanmax(_speed(samples), axis=1, initial=0.0, keepdims=True) / 4
@@ -226,13 +227,13 @@ def _halved(sampled: Callable[[Array], Samples], samples: Samples) -> Samples:
     return found.ordered
 
 
-def _speed(samples: Samples) -> Array:
+def _speed(samples: Sampled) -> Array:
     """Return how fast the margins change: by s' (U - W), since U' = -s' and W' = s'."""
     rates, _, _, differences = samples.rows
     return np.asarray(np.abs(rates * differences))
 
 
-def _near(left: Samples, right: Samples, fastest: Array | float = 0.0) -> Bools:
+def _near(left: Sampled, right: Sampled, fastest: Array | float = 0.0) -> Bools:
     """Tell where a margin could be nothing between neighbours (D, N), changing so fast at least."""
     before, after = left.rows[2], right.rows[2]
     speed = np.maximum(np.maximum(_speed(left), _speed(right)), fastest)
@@ -240,7 +241,7 @@ def _near(left: Samples, right: Samples, fastest: Array | float = 0.0) -> Bools:
     return np.asarray(np.isfinite(before + after) & ~(clear & (before * after > 0)))
 
 
-def _unclear(left: Samples, right: Samples, fastest: Array) -> Bools:
+def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
     """Tell between which neighbours a margin near nothing could have two extremes (D, N)."""
     step = right.phases - left.phases
     (r, b, _, d), (s, c, _, e) = left.rows, right.rows
@@ -252,23 +253,23 @@ def _unclear(left: Samples, right: Samples, fastest: Array) -> Bools:
     return np.asarray(_near(left, right, fastest) & ~(even & (none | one)) & ~flat)
 
 
-def _turning(samples: Samples) -> Bools:
+def _turning(samples: Sampled) -> Bools:
     """Tell between which neighbours a separation near a limit has its extreme (D, N - 1)."""
     positive = samples.rows[0] > 0
     return np.asarray(_near(*_neighbours(samples)) & (positive[:, 1:] != positive[:, :-1]))
 
 
-def _passing(samples: Samples) -> Bools:
+def _passing(samples: Sampled) -> Bools:
     """Tell between which neighbours a separation passes from one limit to the other (D, N - 1)."""
     before, after = (one.rows for one in _neighbours(samples))
     return np.asarray((before[2] < 0) & (after[2] < 0) & ((before[3] > 0) != (after[3] > 0)))
 
 
-def _neighbours(samples: Samples) -> tuple[Samples, Samples]:
+def _neighbours(samples: Sampled) -> tuple[Sampled, Sampled]:
     return samples.at(slice(None, -1)), samples.at(slice(1, None))
 
 
-def _places(sampled: Callable[[Array], Samples], samples: Samples, cells: Bools, row: int) -> list[Array]:
+def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools, row: int) -> list[Array]:
     """Return for every dyad where that row of its samples changes its sign in the cells."""
     dyads, index = np.nonzero(cells)
     if not len(index):
@@ -298,7 +299,7 @@ def _at_own_end(path: Path, name: str, phase: float) -> bool:
     return any(end == name and abs(math.remainder(phase - at, 2 * math.pi)) <= AT_END for end, at in ends)
 
 
-def _shut(samples: Samples, settled: Sequence[Sequence[Extreme]]) -> Bools:
+def _shut(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
     """Tell of every dyad at every sample whether it does not close there (D, N)."""
     shut = ~(samples.rows[2] >= -TOUCHING)
     for row, extremes in enumerate(settled):

@@ -11,13 +11,13 @@ from dataclasses import replace
 from .assembly import JUST_AFTER, Assembly
 from .chain import ChainRoot, Touch
 from .planar import Slope
-from .separation import Course, course
+from .separation import Separations, separations
 
 LEAST = 1e-40
 """Share of a margin's scale below which it has no digits left."""
 
 
-def through_change_points(assembly: Assembly, found: Course) -> tuple[Assembly, Course]:
+def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assembly, Separations]:
     """Return the assembly with the zeros of the dyads on moving points, and how they fare on it.
 
     In the chain's order: where one passes onto its other closure, what stands on it goes another way.
@@ -25,12 +25,12 @@ def through_change_points(assembly: Assembly, found: Course) -> tuple[Assembly, 
     for name in found.names:
         through = _through(assembly, name, found)
         if found.touches(name):
-            found = course(through) or found
+            found = separations(through) or found
         assembly = through
     return assembly, found
 
 
-def _through(assembly: Assembly, name: str, found: Course) -> Assembly:
+def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
     """Return the assembly with one dyad's zeros: its limits, which are known, and its change points."""
     path, known = assembly.path, assembly.chain.get(name, ChainRoot((), 0.0))
     touches = tuple(Touch(path.place(phase), path.periods, path.amplitude) for phase in found.touches(name))
