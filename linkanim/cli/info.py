@@ -27,10 +27,11 @@ def as_words(scene: Scene) -> str:
 def as_object(scene: Scene) -> dict[str, object]:
     """Return what `--json` prints: angles in radians, time in s, lengths in the scene's unit.
 
-    `transmission_angle` is the least and the greatest, π/2 at the most; `worst_transmission` says of which
-    joint, and at which phase, it is least. `stroke` and `time_ratio` are there for a linkage with a slider,
-    and null where they have no meaning; `work_per_period` (J), peak and mean torque (N m; of a cylinder
-    force, N) for one with forces or masses, null where they are unbounded.
+    `links` is what each body is called by what it does. `transmission_angle` is the least and the greatest,
+    π/2 at the most; `worst_transmission` says of which joint, and at which phase, it is least. `stroke` and
+    `time_ratio` are there for a linkage with a slider, and null where they have no meaning;
+    `work_per_period` (J), peak and mean torque (N m; of a cylinder force, N) for one with forces or masses,
+    null where they are unbounded.
     """
     info = scene.info
     facts: dict[str, object] = {
@@ -44,6 +45,7 @@ def as_object(scene: Scene) -> dict[str, object]:
         "grashof": info.grashof,
         "circuits": info.circuits,
         "turning_links": info.turning_links,
+        "links": info.link_names,
         "full_turn": info.full_turn,
         "input_range": info.input_range,
         "toggles": info.toggles,

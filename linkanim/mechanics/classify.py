@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -18,7 +18,7 @@ from .exact import HALF_TURN, Sum
 from .loop import Gearing
 from .mechanism import Mechanism
 from .motion import Array, Motion
-from .naming import SAMPLES, FourBar, class_name, four_bar_of, one_cycle
+from .naming import SAMPLES, FourBar, class_name, four_bar_of, link_names, turning_links
 from .path import Path
 from .roots import Kind
 from .search import around, sign_changes
@@ -165,7 +165,12 @@ class Info:
     @cached_property
     def turning_links(self) -> tuple[str, ...]:
         """The bodies that turn fully over one true period."""
-        return tuple(_turning(self.mechanism))
+        return tuple(turning_links(self.mechanism))
+
+    @cached_property
+    def link_names(self) -> Mapping[str, str]:
+        """What each body is called by what it does, by the name that it has in the scene."""
+        return link_names(self.mechanism, self.turning_links)
 
     @cached_property
     def lines(self) -> tuple[tuple[str, str], ...]:
@@ -254,17 +259,6 @@ def _stroke(mechanism: Mechanism) -> _Slider | None:
     return _Slider(span, max(way, whole - way) / min(way, whole - way), (back, forward))
 
 
-def _turning(mechanism: Mechanism) -> Iterator[str]:
-    """Yield the bodies that turn fully over one true period."""
-    motion = one_cycle(mechanism, 1)
-    closing = 2 * math.pi * mechanism.periods / SAMPLES
-    for body in mechanism.linkage.bodies:
-        if body.slider is None:
-            turned = float(np.sum(motion.angular_velocity[body.name])) * closing
-            if abs(turned) > math.pi:
-                yield body.name
-
-
 def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     yield "class", info.class_name
     if info.grashof:
@@ -273,7 +267,7 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     across = _places(info, info.input_range, "…")
     yield "input", "turns fully" if info.full_turn else f"{'slides' if slides else 'swings'} {across}"
     if info.turning_links:
-        yield "turns fully", ", ".join(info.turning_links)
+        yield "turns fully", ", ".join(info.link_names[name] for name in info.turning_links)
     if info.toggles:
         yield "toggles at", _places(info, info.toggles)
     if info.change_points:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from .derived import pivots_of
+from .frames import holding
 from .joint import Joint
 from .kinds import RRR
-from .linkage import Linkage
+from .linkage import Body, Linkage
 from .mechanism import Mechanism
 from .motion import Motion
 from .roots import Kind
@@ -30,6 +33,10 @@ GRASHOF = {
     "output": "crank-rocker driven at its rocker",
     "coupler": "double-rocker",
 }
+
+_PARTS = re.compile(r"(crank|rocker|coupler)\d*")
+"""The names of bodies that say what they do."""
+_ORDINALS = {2: "second", 3: "third"}
 
 
 @dataclass(frozen=True)
@@ -192,3 +199,62 @@ def one_cycle(mechanism: Mechanism, derivatives: int) -> Motion:
     """Return the motion over one true period, at equal steps of phase and at one radian a second."""
     phases = np.linspace(0.0, 2 * math.pi * mechanism.periods, SAMPLES, endpoint=False)
     return mechanism.solve(phase=phases, speed=1.0, derivatives=derivatives)
+
+
+def turning_links(mechanism: Mechanism) -> Iterator[str]:
+    """Yield the bodies that turn fully over one true period: cranks with the input, others as they wind."""
+    linkage, cycle = mechanism.linkage, one_cycle(mechanism, 0)
+    for body in linkage.bodies:
+        if body.slider is not None:
+            continue
+        if cycle.setting.crank_of(body):
+            turns = mechanism.assembly.path.full_turn
+        else:
+            first, second = (cycle.position[joint] @ np.array([1, 1j]) for joint in body.joints[:2])
+            way = second - first
+            turns = abs(float(np.angle(np.roll(way, -1) / way).sum())) > math.pi
+        if turns:
+            yield body.name
+
+
+def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:
+    """Return what each body is called: one that a scene names crank, rocker or coupler by what it does.
+
+    A crank turns fully about a fixed pin, a rocker swings about one, a coupler has none. Of cranks the
+    input is the crank, others are driven cranks; of rockers the input is the input rocker. Further ones of
+    a sort are counted: second coupler. Every other name stays.
+    """
+    parts = {body.name: _part_of(mechanism, body, turning) for body in mechanism.linkage.bodies}
+    driven = [name for name, (_, drives) in parts.items() if not drives]
+    first = next((noun for noun, drives in parts.values() if drives and noun), None)
+    count: dict[str, int] = {}
+    names = {}
+    for name, (noun, drives) in parts.items():
+        words = noun or name
+        if noun == "crank" and not drives and first != "rocker" and mechanism.assembly.path.full_turn:
+            words = "driven crank"
+        elif noun == "rocker" and drives and any(parts[other][0] == "rocker" for other in driven):
+            words = "input rocker"
+        count[words] = count.get(words, 0) + 1
+        names[name] = _counted(words, count[words]) if noun else name
+    return names
+
+
+def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tuple[str | None, bool]:
+    """Return crank, rocker or coupler, None for a body with another name; and whether it is the input."""
+    linkage = mechanism.linkage
+    own = _PARTS.fullmatch(body.name)
+    if own is None or body.slider is not None:
+        return None, False
+    pivoted = bool(pivots_of(linkage, body))
+    if pivoted == (own[1] == "coupler"):
+        return None, False
+    drives = linkage.drive.joint in linkage.frames[holding(linkage.frames, body.joints) or 0]
+    turns = mechanism.assembly.path.full_turn if drives and pivoted else body.name in turning
+    return ("crank" if turns else "rocker") if pivoted else "coupler", drives and pivoted
+
+
+def _counted(words: str, number: int) -> str:
+    if number == 1:
+        return words
+    return f"{_ORDINALS.get(number, f'{number}th')} {words}"

@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -32,6 +33,8 @@ from .linkage import Body, Damper, Linkage, Spring
 from .measures import CENTRE, CENTRE_PATH, DAMPER, DIRECTIONS, PATH, POINT, SPRING, Measure, measures_of
 from .symbols import called, indexed, link_labels
 
+NO_NAMES: Mapping[str, str] = MappingProxyType({})
+"""Every body by its own name."""
 _NEAREST = 3
 _ROUNDING = 1e-13
 """Of what is as large as the extent, moved at the input's speed."""
@@ -74,9 +77,12 @@ class Quantity:
         return f"{self.words} {self.symbol}" + (f" ({unit})" if unit else "")
 
 
-def register(linkage: Linkage) -> dict[str, Quantity]:
-    """Return all quantities of a linkage by their tokens: bodies, joints, centres of mass, struts."""
-    return {quantity.token: quantity for quantity in _quantities(linkage)}
+def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> dict[str, Quantity]:
+    """Return all quantities of a linkage by their tokens: bodies, joints, centres of mass, struts.
+
+    Tokens go by the bodies' own names; words by what `names` has for them.
+    """
+    return {quantity.token: quantity for quantity in _quantities(linkage, names)}
 
 
 def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
@@ -93,10 +99,10 @@ def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
     raise BadInput(f"quantity {token!r}: {of} has none of this name{meant}; it has {', '.join(known)}")
 
 
-def _quantities(linkage: Linkage) -> Iterator[Quantity]:
+def _quantities(linkage: Linkage, names: Mapping[str, str]) -> Iterator[Quantity]:
     labels = link_labels(linkage)
     for body in linkage.bodies:
-        yield from _of_body(linkage, body, labels[body.name])
+        yield from _of_body(linkage, body, labels[body.name], called(body, names))
     for joint in linkage.joints:
         if not isinstance(joint, Pin):
             for measure in POINT:
@@ -105,7 +111,7 @@ def _quantities(linkage: Linkage) -> Iterator[Quantity]:
                 yield _bound(measure, joint.name, indexed(measure.symbol, joint.name), joint.name)
     for body in linkage.bodies:
         if body.com is not None:
-            label, words = f"G{labels[body.name]}", f"{called(body)}, centre of mass"
+            label, words = f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
             for measure in CENTRE:
                 yield from _of_point(measure, body.name, label, words)
             for measure in CENTRE_PATH:
@@ -116,13 +122,13 @@ def _quantities(linkage: Linkage) -> Iterator[Quantity]:
         yield from _of_strut(damper, linkage.strut_word(damper), shared=damper.name in labels)
     for body in linkage.bodies:
         if body.slider is None:
-            yield from _of_pole(body, labels[body.name])
+            yield from _of_pole(body, labels[body.name], called(body, names))
     yield from _of_whole(linkage)
 
 
-def _of_pole(body: Body, label: str) -> Iterator[Quantity]:
+def _of_pole(body: Body, label: str, words: str) -> Iterator[Quantity]:
     """Yield where a body's instant centre to the ground lies, and each coordinate."""
-    token, said, index = f"{body.name}.pole", f"{called(body)}: instant centre to the ground", f"P1{label}"
+    token, said, index = f"{body.name}.pole", f"{words}: instant centre to the ground", f"P1{label}"
 
     def whole(motion: Any) -> Any:
         found = pole(motion, body)
@@ -165,10 +171,10 @@ def _effort(linkage: Linkage) -> Quantity:
     return Quantity(token, "T_{in}", "Input: torque", "N m", order, input_effort)
 
 
-def _of_body(linkage: Linkage, body: Body, label: str) -> Iterator[Quantity]:
+def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:
     own, slopes = measures_of(linkage, body)
     for measure in (*own, *slopes):
-        yield _bound(measure, body.name, indexed(measure.symbol, label), called(body))
+        yield _bound(measure, body.name, indexed(measure.symbol, label), words)
 
 
 def _bound(measure: Measure, part: str, symbol: str, words: str) -> Quantity:

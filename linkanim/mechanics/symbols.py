@@ -5,6 +5,8 @@ Subscripts are Unicode's digits (ω₃) or stand in braces (v_{B}).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from .linkage import Body, Linkage
 
 _STANDARD = {
@@ -43,10 +45,11 @@ def link_labels(linkage: Linkage) -> dict[str, str]:
     return labels
 
 
-def called(body: Body) -> str:
-    """Return what a body is called in words: "Rocker", "Link 3", "Slider 5"."""
+def called(body: Body, names: Mapping[str, str]) -> str:
+    """Return what a body is called in words, by its name in `names`: "Rocker", "Link 3", "Slider 5"."""
     if not body.name.isdecimal():
-        return body.name[:1].upper() + body.name[1:]
+        words = names.get(body.name, body.name)
+        return words[:1].upper() + words[1:]
     return f"{'Slider' if body.slider else 'Link'} {body.name}"
 
 

@@ -10,7 +10,9 @@ import numpy as np
 
 from linkanim.digits import significant, typeset
 from linkanim.mechanics.derived import output_body
+from linkanim.mechanics.mechanism import mechanism
 from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.naming import link_names, turning_links
 from linkanim.mechanics.register import Quantity, register
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import symbol
@@ -56,9 +58,15 @@ def _unit(motion: Motion) -> str:
     return next((unit for unit in length_units() if metre(unit) == scale), "")
 
 
+def _quantities(motion: Motion) -> dict[str, Quantity]:
+    """Return all quantities by their tokens, bodies called by what they do."""
+    solved = mechanism(motion.setting.linkage)
+    return register(solved.linkage, link_names(solved, tuple(turning_links(solved))))
+
+
 def _shown(motion: Motion) -> Iterator[Quantity]:
     """Yield what the table has: where moving joints are, and how far bodies have turned or slid."""
-    linkage, known = motion.setting.linkage, register(motion.setting.linkage)
+    linkage, known = motion.setting.linkage, _quantities(motion)
     for joint in linkage.joints:
         if not joint.fixed:
             yield from (known[f"{joint.name}.position.{axis}"] for axis in "xy")
@@ -89,7 +97,7 @@ def _row(values: Any) -> str:
 
 def _telling(motion: Motion) -> Quantity:
     """Return the quantity that is charted: how fast the output moves, or where it is without rates."""
-    linkage, known = motion.setting.linkage, register(motion.setting.linkage)
+    linkage, known = motion.setting.linkage, _quantities(motion)
     output = output_body(linkage)
     if output is None:
         return known["input.angular_velocity"]

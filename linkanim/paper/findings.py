@@ -13,7 +13,7 @@ from linkanim.digits import significant, stepped, typeset
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.mechanics.derived import output_body
 from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.register import Quantity, register
+from linkanim.mechanics.register import Quantity
 from linkanim.mechanics.symbols import input_symbol
 from linkanim.paper.curves import ChartRequest, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
@@ -79,7 +79,7 @@ def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
     motions = [scene.solve(phase=instant.phase, speed=pace.speed) for pace in paces]
     said = f"{input_symbol(scene.linkage)} = {_input_words(scene, float(motions[0].crank_angle))}"
     sections: dict[str, list[Finding]] = {}
-    for quantity in register(scene.linkage).values():
+    for quantity in scene.quantities.values():
         rows = sections.setdefault(_section(quantity), [])
         rows += _rows(scene, quantity, motions)
     found = tuple((title, tuple(rows)) for title, rows in sections.items())
@@ -118,7 +118,7 @@ def charted(scene: Scene) -> Iterator[tuple[str, str]]:
     cycle = scene.cycle(180)
     joints = {joint.name for joint in scene.linkage.joints} - set(scene.trace)
     bodies = {body.name for body in scene.linkage.bodies}
-    for token, quantity in register(scene.linkage).items():
+    for token, quantity in scene.quantities.items():
         owner, _, rest = token.partition(".")
         told_in_tables = owner in joints - bodies or rest.startswith("pole")
         if not told_in_tables and rest not in ("position", "com_position") and _changes(quantity, cycle):
@@ -133,7 +133,7 @@ def _changes(quantity: Quantity, cycle: Motion) -> bool:
 
 def paces_of(scene: Scene, token: str, paces: tuple[Pace, ...]) -> tuple[Pace, ...]:
     """Return the speeds at which a quantity is charted: one where the speed makes no difference."""
-    return paces if register(scene.linkage)[token].order else paces[:1]
+    return paces if scene.quantities[token].order else paces[:1]
 
 
 def table(scene: Scene, pace: Pace) -> tuple[list[str], np.ndarray]:
@@ -149,7 +149,7 @@ def table(scene: Scene, pace: Pace) -> tuple[list[str], np.ndarray]:
         [motion.phase, motion.crank_angle],
     )
     columns.append(motion.phase / abs(pace.speed))
-    for token, quantity in register(scene.linkage).items():
+    for token, quantity in scene.quantities.items():
         if len(quantity.columns) == 1:
             names.append(token)
             columns.append(np.asarray(quantity.read(motion), float))

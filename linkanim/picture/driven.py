@@ -17,20 +17,16 @@ _SPELT = {"°/s": "deg/s"}
 
 
 def driven_name(scene: Scene) -> str:
-    """Return what the driven bar is called: "crank" if it turns; if it swings the scene's name for it.
+    """Return what the driven bar is called: "crank" if it turns, the slider where one drives.
 
-    What swings is no crank, whatever its body is called: it is then the rocker, or the input rocker where
-    another body has that name. A slider that drives is the slider.
+    One that swings goes by its name in the scene; named crank it is the rocker that it is, or the input one.
     """
     body = driven_body(scene.linkage)
-    name = body.name if body and not body.name.isdecimal() else "crank"
     if scene.linkage.slides:
         return "slider"
     if scene.info.full_turn:
         return "crank"
-    if name != "crank":
-        return name
-    return "input rocker" if any(other.name == "rocker" for other in scene.linkage.bodies) else "rocker"
+    return scene.info.link_names[body.name] if body and not body.name.isdecimal() else "rocker"
 
 
 def driven_words(scene: Scene, value: float) -> str:

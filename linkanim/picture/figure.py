@@ -45,7 +45,12 @@ class Figure:
     @cached_property
     def links(self) -> dict[Body, str]:
         """The named bodies, and what each is called: a plate after all of its bars."""
-        return {body: "-".join(filter(None, names)) for body, names in self._parts.items() if any(names)}
+        called = self.scene.info.link_names
+        return {
+            body: "-".join(called[name] for name in names if name)
+            for body, names in self._parts.items()
+            if any(names)
+        }
 
     @cached_property
     def _parts(self) -> dict[Body, tuple[str, ...]]:

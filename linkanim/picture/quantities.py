@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.register import Quantity, look_up, register
+from linkanim.mechanics.register import Quantity, look_up
 from linkanim.mechanics.telling import telling as most_telling
 from linkanim.scenes.scene import Scene
 
@@ -30,7 +30,7 @@ class Series(NamedTuple):
 
 def quantities(scene: Scene) -> tuple[str, ...]:
     """Return the tokens of all quantities that a chart can show of this scene."""
-    return tuple(register(scene.linkage))
+    return tuple(scene.quantities)
 
 
 def telling(scene: Scene) -> tuple[str, ...]:
@@ -39,8 +39,14 @@ def telling(scene: Scene) -> tuple[str, ...]:
 
 
 def quantity(scene: Scene, token: str) -> Quantity:
-    """Return a scene's quantity; BadInput with the nearest ones and the list where there is none."""
-    return look_up(register(scene.linkage), token, scene.name)
+    """Return a scene's quantity, of a body by its name in the scene or by what it is called.
+
+    BadInput with the nearest ones and the list where there is none.
+    """
+    owner, dot, measure = token.partition(".")
+    own = {words: name for name, words in scene.info.link_names.items()}
+    named = token if token in scene.quantities else f"{own.get(owner, owner)}{dot}{measure}"
+    return look_up(scene.quantities, named if named in scene.quantities else token, scene.name)
 
 
 def series(scene: Scene, token: str, n: int) -> Series:

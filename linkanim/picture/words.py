@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from difflib import SequenceMatcher
 from itertools import groupby, zip_longest
 from typing import NamedTuple
 
@@ -14,6 +12,7 @@ from linkanim.picture.readings import Reading, notes, ranked, rows_of
 from linkanim.picture.text import Type
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.titles import unsaid
 
 STEP = 1.4
 """From row to row, in heights of their text."""
@@ -36,10 +35,6 @@ _MEASURED = 21
 """The size at which values are compared; the widest is so at any size."""
 _FASTEST = -10.0
 """The fastest that a scene is run at, backwards for the minus sign."""
-
-
-_BOUND = frozenset({"a", "an", "and", "at", "by", "its", "of", "the", "with"})
-"""Words that need what comes before them."""
 
 
 class WordLine(NamedTuple):
@@ -207,20 +202,3 @@ class _Setter:
             if len(lines) <= count and " ".join(lines).split() == words:
                 break
         return tuple(lines)
-
-
-def unsaid(title: str, class_name: str) -> str:
-    """Return what of a class the title does not say: "Grashof" of a crank-rocker that is called one."""
-    known, words = (list(re.finditer(r"\w+", text.lower())) for text in (title, class_name))
-    heard, told = ([word[0] for word in found] for found in (known, words))
-    if set(told) <= set(heard):
-        return ""
-    same = SequenceMatcher(None, heard, told, autojunk=False).find_longest_match()
-    # A word, or words from a preposition on, out of a phrase leave no phrase.
-    if not same.size or (same.b and (same.size == 1 or told[same.b] in _BOUND)):
-        return class_name
-    begin, end = words[same.b].start(), words[same.b + same.size - 1].end()
-    if "-" in (class_name[begin - 1 : begin], class_name[end : end + 1]):
-        return class_name
-    rest = f"{class_name[:begin].rstrip()} {class_name[end:].lstrip(' ,:')}".strip()
-    return rest[1:-1] if rest.startswith("(") and rest.endswith(")") else rest

@@ -9,6 +9,7 @@ from linkanim.errors import AssemblyError, LinkanimError
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS
+from linkanim.scenes.titles import retitled
 
 
 def other_closure(scene: Scene) -> Scene:
@@ -18,7 +19,7 @@ def other_closure(scene: Scene) -> Scene:
     or where it cannot be assembled further down the chain.
     """
     document = _switched(scene)
-    return scene_from(document, name=scene.name, where=scene.name)
+    return retitled(scene, scene_from(document, name=scene.name, where=scene.name))
 
 
 def closure_name(scene: Scene) -> str | None:

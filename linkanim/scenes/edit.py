@@ -19,6 +19,7 @@ from linkanim.scenes.labels import label
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS
+from linkanim.scenes.titles import retitled
 
 _BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
 _EXACT = 2**53
@@ -71,7 +72,7 @@ def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
     ("3 cm", "1 rad", "90 deg/s"), and a ratio may be a fraction ("1/3"). KeyError for a key that is
     not one of the scene's dimensions; SceneError and AssemblyError as reading a file raises them.
     """
-    return scene_from(_with(scene, values), name=scene.name, where=scene.name)
+    return retitled(scene, scene_from(_with(scene, values), name=scene.name, where=scene.name))
 
 
 def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
@@ -131,7 +132,7 @@ def _dimension(scene: Scene, key: Key, kind: DimensionKind) -> Dimension:
         value, unit = float(Fraction(written)), ""
     else:
         value, unit = units.split(written)
-    return Dimension(key, label(key, scene.document, scene.linkage), value, unit, kind)
+    return Dimension(key, label(key, scene), value, unit, kind)
 
 
 def _written(value: float | str, dimension: Dimension) -> object:

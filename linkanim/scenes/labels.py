@@ -11,21 +11,31 @@ from typing import Any
 
 from linkanim.mechanics.linkage import Body, Linkage
 from linkanim.scenes.joints import Key
+from linkanim.scenes.scene import Scene
 
-_WORDS: Mapping[tuple[str, str], str] = {
+_LINKS: Mapping[tuple[str | int, ...], tuple[str, int]] = {
+    ("four-bar", "crank"): ("crank", 2),
+    ("four-bar", "coupler"): ("coupler", 3),
+    ("four-bar", "rocker"): ("rocker", 4),
+    ("slider-crank", "crank"): ("crank", 2),
+    ("slider-crank", "rod"): ("rod", 3),
+    ("six-bar", "lengths", 1): ("crank", 2),
+    ("six-bar", "lengths", 2): ("coupler", 3),
+    ("six-bar", "lengths", 3): ("rocker", 4),
+    ("six-bar", "lengths", 6): ("coupler2", 7),
+    ("six-bar", "lengths", 7): ("rocker2", 8),
+}
+"""The bodies of shorthands that their lengths belong to, and the numbers of those."""
+_WORDS: Mapping[tuple[str | int, ...], str] = {
     ("four-bar", "ground"): "Ground 1",
-    ("four-bar", "crank"): "Crank 2",
-    ("four-bar", "coupler"): "Coupler 3",
-    ("four-bar", "rocker"): "Rocker 4",
-    ("slider-crank", "crank"): "Crank 2",
-    ("slider-crank", "rod"): "Rod 3",
     ("slider-crank", "offset"): "Offset of the line",
     ("slider-crank", "line_angle"): "Direction of the line",
-    ("six-bar", "link_angle"): "Angle of arm 6 on rocker 4",
+    ("six-bar", "lengths", 0): "Ground 1",
+    ("six-bar", "lengths", 4): "Ground 5",
+    ("six-bar", "lengths", 5): "Arm 6",
     ("drive", "speed"): "Input speed",
     ("drive", "start"): "Start angle",
 }
-_SIX_BAR = ("Ground 1", "Crank 2", "Coupler 3", "Rocker 4", "Ground 5", "Arm 6", "Coupler 7", "Rocker 8")
 _ANY = {
     "ground_angle": "Ground angle",
     "coupler_point": "Coupler point",
@@ -43,25 +53,28 @@ _WITHIN: Mapping[tuple[str, str], str] = {
 }
 
 
-def label(key: Key, document: Mapping[str, Any], linkage: Linkage) -> str:
-    """Return the words for a key of a document; those of a key without any are its own path."""
+def label(key: Key, scene: Scene) -> str:
+    """Return the words for a key of a scene's document; those of a key without any are its own path."""
+    document, names = scene.document, scene.info.link_names
+    if key in _LINKS:
+        return _numbered(*_LINKS[key], names)
+    if key in _WORDS:
+        return _WORDS[key]
     match key:
-        case ("six-bar", "lengths", int(place)):
-            return _SIX_BAR[place]
-        case (str(table), str(name)) if (table, name) in _WORDS:
-            return _WORDS[table, name]
+        case ("six-bar", "link_angle"):
+            return f"Angle of arm 6 on {_numbered('rocker', 4, names).lower()}"
         case (str(), str(name)) if name in _ANY:
             return _ANY[name]
         case (str(), str(name), int(place)) if name in _ANY:
             return f"{_ANY[name]}, {_PARTS[place]}"
         case ("joints", str(joint), *rest):
-            return _of_joint(joint, tuple(rest), document["joints"][joint], linkage)
+            return _of_joint(joint, tuple(rest), document["joints"][joint], scene)
         case ("ground", str(pin), *rest):
             return f"Pin {pin}, {_of_pin(rest)}"
         case ("bodies", str(body), "com", int(place)):
-            return f"{_named(body)} centre of mass, {_PARTS[place]}"
+            return f"{_named(body, names)} centre of mass, {_PARTS[place]}"
         case ("bodies", str(body), str(name)):
-            return f"{_named(body)}, {_OF_BODY.get(name, name)}"
+            return f"{_named(body, names)}, {_OF_BODY.get(name, name)}"
         case ("gravity",):
             return "Gravity"
         case ("drive", "cylinder" | "slider" as what, str(end)):
@@ -75,10 +88,10 @@ def _of_pin(rest: list[str | int]) -> str:
     return {"length": "distance", "angle": "direction", 0: "x", 1: "y"}[rest[0]]
 
 
-def _of_joint(name: str, rest: Key, table: Mapping[str, Any], linkage: Linkage) -> str:
+def _of_joint(name: str, rest: Key, table: Mapping[str, Any], scene: Scene) -> str:
     match rest:
         case ("length", *place):
-            return _bar(_start(table, place), name, linkage, turns="crank" in table)
+            return _bar(_start(table, place), name, scene, turns="crank" in table)
         case ("at", int(part)):
             first, second = table["on"]
             return f"{name} on {first}–{second}, {_PARTS[part]}"
@@ -95,18 +108,23 @@ def _start(table: Mapping[str, Any], place: list[str | int]) -> str | None:
     return source if isinstance(source, str) else None
 
 
-def _bar(start: str | None, end: str, linkage: Linkage, *, turns: bool) -> str:
+def _bar(start: str | None, end: str, scene: Scene, *, turns: bool) -> str:
     """Return what a bar is called: by its body's number, and by its joints where it is not a crank."""
-    body = _body({start, end}, linkage)
+    body = _body({start, end}, scene.linkage)
     ends = f"{start}–{end}" if start else end
     if body and body.name.isdigit():
         return f"Crank {body.name}" if turns else f"Bar {body.name}, {ends}"
-    return f"{_named(body.name) if body else 'Crank' if turns else 'Bar'} {ends}"
+    return f"{_named(body.name, scene.info.link_names) if body else 'Crank' if turns else 'Bar'} {ends}"
 
 
 def _body(joints: set[str | None], linkage: Linkage) -> Body | None:
     return next((body for body in linkage.bodies if joints <= set(body.joints)), None)
 
 
-def _named(body: str) -> str:
-    return f"Link {body}" if body.isdigit() else body.capitalize()
+def _named(body: str, names: Mapping[str, str]) -> str:
+    return f"Link {body}" if body.isdigit() else names[body].capitalize()
+
+
+def _numbered(body: str, number: int, names: Mapping[str, str]) -> str:
+    """Return a link with its number, which tells it from another of its sort."""
+    return f"{names[body].removeprefix('second ').capitalize()} {number}"

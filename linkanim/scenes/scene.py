@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from linkanim.mechanics.linkage import Linkage
     from linkanim.mechanics.mechanism import Mechanism
     from linkanim.mechanics.motion import Motion, Pose
+    from linkanim.mechanics.register import Quantity
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,9 @@ class Scene:
     towards: Scene | None = field(default=None, repr=False, compare=False)
     """The scene that this one, shown for an instant, is on the way to; what is told of that holds for it."""
 
+    own_title: tuple[str, str] | None = field(default=None, repr=False, compare=False)
+    """The title, and the class that it says, of a scene that was changed into another class."""
+
     @cached_property
     def mechanism(self) -> Mechanism:
         """The linkage put together; AssemblyError where it cannot be."""
@@ -56,6 +60,13 @@ class Scene:
         if self.towards is not None:
             return self.towards.info
         return classify(self.mechanism, self.length_unit)
+
+    @cached_property
+    def quantities(self) -> Mapping[str, Quantity]:
+        """All quantities by their tokens, bodies called by what they do."""
+        from linkanim.mechanics.register import register
+
+        return register(self.linkage, self.info.link_names)
 
     @property
     def period(self) -> float:

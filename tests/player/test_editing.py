@@ -90,7 +90,7 @@ def test_the_end_of_full_turns_is_refused_once(crank: State, ask: tuple[str, str
     )
     assert warned.editing.typed == "70"
     taken = after(warned, "take")
-    assert value(taken, "Crank 2") == 70.0
+    assert value(taken, "Input rocker 2") == 70.0
     assert taken.editing.refusal is None
 
 
