@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 from linkanim import child
 from linkanim.errors import WorkFailed
@@ -63,13 +63,66 @@ class Rendering:
         return self._said.read(_TAIL).decode("utf-8", "replace")
 
 
-def render(tape: Tape, form: str) -> Rendering:
-    """Write the tape into recordings/ and start rendering it beside; WorkFailed where that cannot be."""
+class Kept(NamedTuple):
+    """A tape that is written, and the file it is to be rendered into."""
+
+    tape: Path
+    target: Path
+
+
+class Queue:
+    """Recordings rendered one after the other: the rest wait, and are not lost when the window closes."""
+
+    def __init__(self) -> None:
+        self._running: Rendering | None = None
+        self._waiting: list[Kept] = []
+
+    def add(self, tape: Tape, form: str) -> None:
+        """Write a tape into recordings/ and have it rendered in its turn; WorkFailed where that cannot be."""
+        self._waiting.append(keep(tape, form))
+        self._go_on()
+
+    def news(self) -> tuple[str, ...]:
+        """Say how far the one rendered is, and how many wait; go on with the next where it is done."""
+        if self._running is None:
+            return ()
+        words = self._running.words()
+        if self._running.done:
+            self._running.close()
+            self._running = None
+            try:
+                self._go_on()
+            except WorkFailed as error:
+                words = f"{words} · {error}"
+        wait = len(self._waiting)
+        return (f"{words} · {wait} {'wait' if wait > 1 else 'waits'}" if wait else words,)
+
+    def close(self) -> None:
+        """Leave the rest to a process that renders one after the other; the one under way goes on."""
+        if self._running:
+            self._running.close()
+        if self._waiting:
+            rest = [str(path) for kept in self._waiting for path in kept]
+            _start(child.python("-m", "linkanim.cli.tapes", *rest), subprocess.DEVNULL)
+
+    def _go_on(self) -> None:
+        if self._running is None and self._waiting:
+            self._running = render(self._waiting.pop(0))
+
+
+def keep(tape: Tape, form: str) -> Kept:
+    """Write the tape into recordings/, under a name that is free for it and for what it is rendered into."""
     into = made_folder(FOLDER)
     stem = free_stem(into, tape.start.scene.name, (tape_file.SUFFIX, f".{form}"))
     kept, target = into / f"{stem}{tape_file.SUFFIX}", into / f"{stem}.{form}"
     tape_file.write(tape, kept)
-    command = child.python("-m", "linkanim", "record", str(kept), "-o", str(target), "--progress")
+    return Kept(kept, target)
+
+
+def render(kept: Kept) -> Rendering:
+    """Start rendering a tape beside; WorkFailed where that cannot be."""
+    target = kept.target
+    command = child.python("-m", "linkanim", "record", str(kept.tape), "-o", str(target), "--progress")
     number, name = tempfile.mkstemp()
     # it stays open as long as the rendering
     said = Path(name).open("rb", buffering=0)  # noqa: SIM115

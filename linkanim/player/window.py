@@ -29,7 +29,7 @@ from linkanim.player.tape import Reel, Tape, Taping
 from linkanim.scenes.write import save
 
 if TYPE_CHECKING:
-    from linkanim.player.rendering import Rendering
+    from linkanim.player.rendering import Queue
 
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
@@ -48,7 +48,7 @@ class Window:
         self._file = file
         self._reel = Reel(tape) if tape else None
         self._taping: Taping | None = None
-        self._renderings: list[Rendering] = []
+        self._renderings: Queue | None = None
         self.easel = Easel(state)
         self._keyboard, self._mouse = Keyboard(), Mouse()
         self._told: list[str] = []
@@ -75,8 +75,9 @@ class Window:
             if self.state.recording:
                 self._render(self.state.recording.format)
         finally:
-            while self._renderings:
-                self._renderings.pop().close()
+            if self._renderings:
+                self._renderings.close()
+                self._renderings = None
 
     def _advance(self, events: list[Event]) -> None:
         """Go one frame on; each key is asked what it means once those before it are done."""
@@ -150,10 +151,7 @@ class Window:
         if self._file and self.state.frame % FRAMES_PER_SECOND == 0:
             told += self._file.news()
         if self._renderings and self.state.frame % _TOLD_EVERY == 0:
-            told.append(" · ".join(rendering.words() for rendering in self._renderings))
-            for rendering in [one for one in self._renderings if one.done]:
-                self._renderings.remove(rendering)
-                rendering.close()
+            told += self._renderings.news()
         return tuple(Action("note", text) for text in told)
 
     def _carry_out(self, effect: Action) -> None:
@@ -217,9 +215,10 @@ class Window:
 
     def _render(self, form: str) -> None:
         if self._taping:
-            from linkanim.player.rendering import render
+            from linkanim.player.rendering import Queue
 
-            self._renderings.append(render(self._taping.tape(self.state.frame), form))
+            self._renderings = self._renderings or Queue()
+            self._renderings.add(self._taping.tape(self.state.frame), form)
             self._taping = None
 
     def _meant(self, event: Event) -> tuple[Action, ...]:

@@ -83,9 +83,7 @@ def test_there_is_no_key_without_arrows() -> None:
 
 
 def test_arrows_are_as_long_however_small_the_unit_s_numbers_are() -> None:
-    small, large = (
-        four_bar((size, 0.3 * size, 0.9 * size, 0.8 * size)) for size in (1, 100)
-    )
+    small, large = (four_bar((size, 0.3 * size, 0.9 * size, 0.8 * size)) for size in (1, 100))
     metres, centimetres = (
         arrows_of(figure(scene), "v", 720, gauge(1.0, 100.0), LIGHT).scale(1.0) for scene in (small, large)
     )

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from linkanim.cli import tapes
+from linkanim.cli.exits import TERMINATED
 from linkanim.errors import WorkFailed
 from linkanim.player import rendering
 from linkanim.player.state import begin
@@ -44,7 +46,7 @@ def test_what_a_rendering_says_is_told_and_nothing_of_it_is_left(
     if windows:
         monkeypatch.delattr(os, "pread", raising=False)
         monkeypatch.setattr(Path, "unlink", refused)
-    one = rendering.render(tape, "gif")
+    one = rendering.render(rendering.keep(tape, "gif"))
     open_ones.append(one)
     one._process.wait()
     for _ in range(2):
@@ -62,7 +64,7 @@ def test_a_rendering_that_runs_says_how_far_it_is(
         return subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
 
     monkeypatch.setattr(rendering, "_start", still_running)
-    one = rendering.render(tape, "gif")
+    one = rendering.render(rendering.keep(tape, "gif"))
     process = one._process
     try:
         assert one.words().endswith("kite-1.gif: 16 %")
@@ -82,6 +84,78 @@ def test_a_process_that_cannot_be_started_leaves_nothing_open(
     monkeypatch.setattr(rendering, "_start", refused)
     before = len(list(Path("/proc/self/fd").iterdir())) if Path("/proc/self/fd").exists() else 0
     with pytest.raises(WorkFailed, match="cannot be started: Resource temporarily unavailable"):
-        rendering.render(tape, "gif")
+        rendering.render(rendering.keep(tape, "gif"))
     assert list((here / "tmp").iterdir()) == []
     assert before == (len(list(Path("/proc/self/fd").iterdir())) if before else 0)
+
+
+class Running:
+    """A process that ends when it is told to."""
+
+    code: int | None = None
+
+    def poll(self) -> int | None:
+        return self.code
+
+
+@pytest.fixture
+def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[list[str], Running]]:
+    """The commands of what would have been started, and their processes."""
+    found: list[tuple[list[str], Running]] = []
+
+    def start(command: list[str], said: int) -> Running:
+        found.append((command, Running()))
+        return found[-1][1]
+
+    monkeypatch.setattr(rendering, "_start", start)
+    return found
+
+
+def test_of_several_recordings_one_is_rendered_and_the_rest_wait(
+    tape: Tape, here: Path, started: list[tuple[list[str], Running]]
+) -> None:
+    queue = rendering.Queue()
+    for _ in range(3):
+        queue.add(tape, "gif")
+    assert queue.news() == (f"{Path('recordings', 'kite-1.gif')}: … · 2 wait",)
+    assert len(started) == 1
+    for number, words in ((1, " · 1 waits"), (2, ""), (3, "")):
+        started[-1][1].code = 0
+        assert queue.news() == (f"{Path('recordings', f'kite-{number}.gif')} is written{words}",)
+    assert queue.news() == ()
+    assert [Path(command[-2]).name for command, _ in started] == ["kite-1.gif", "kite-2.gif", "kite-3.gif"]
+    queue.close()
+    assert len(started) == 3
+
+
+def test_what_waits_when_the_window_closes_is_left_to_one_process(
+    tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch, started: list[tuple[list[str], Running]]
+) -> None:
+    queue = rendering.Queue()
+    for _ in range(3):
+        queue.add(tape, "gif")
+    queue.close()
+    (_, (command, _)) = started
+    rest = [str(Path("recordings", f"kite-{n}{end}")) for n in (2, 3) for end in (".tape.json", ".gif")]
+    assert command[2:] == ["-m", "linkanim.cli.tapes", *rest]
+    recorded: list[list[str]] = []
+
+    def main(words: list[str]) -> int:
+        recorded.append(words)
+        return len(recorded)
+
+    monkeypatch.setattr(tapes, "main", main)
+    assert tapes.record_all([*rest, "c", "d"]) == 3
+    assert recorded == [["record", one, "-o", other] for one, other in (rest[:2], rest[2:], ["c", "d"])]
+
+
+def test_a_signal_ends_all_that_is_left_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    recorded: list[list[str]] = []
+
+    def main(words: list[str]) -> int:
+        recorded.append(words)
+        return TERMINATED
+
+    monkeypatch.setattr(tapes, "main", main)
+    assert tapes.record_all(["a", "b", "c", "d"]) == TERMINATED
+    assert recorded == [["record", "a", "-o", "b"]]
