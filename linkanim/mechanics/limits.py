@@ -9,7 +9,7 @@ left; there its quotient by the way to the limit, which is smooth, is taken from
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -47,7 +47,7 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     `linkage` is the one asked for, with its own lengths, to be named in an AssemblyError.
     """
     found = separations(assembly)
-    if found is None:
+    if not found.names:
         return assembly
     closes = found.closes
     whole, on_whole = through_change_points(assembly, found)
@@ -59,7 +59,7 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     swing, limited, on_limited = _cut(assembly, linkage, found)
     for path in _smooth_paths(swing):
         if path is not swing:
-            limited, on_limited = _limited(assembly, path, found)
+            limited, on_limited = _limited(assembly, path)
         limited, on_limited = through_change_points(limited, on_limited)
         if _runs_through(limited, on_limited):
             return fitted(limited)
@@ -77,23 +77,24 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
         swing = limited.path.cut(*_open_interval(limited, on_swing))
         if swing.amplitude < NO_WAY:
             raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
-        limited, on_swing = _limited(assembly, swing, found)
+        limited, on_swing = _limited(assembly, swing)
         up = (on_swing.phases >= 0) & (on_swing.phases <= math.pi)
         if not on_swing.shut[:, up].any():
             break
     return swing, limited, on_swing
 
 
-def _limited(assembly: Assembly, path: Swing, found: Separations) -> tuple[Assembly, Separations]:
+def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
     """Return the assembly on another path, its closures named anew, and how its dyads fare there."""
-    limited = replace(resigned(replace(assembly, path=path, chain={})), chain=_ends(path, found.names))
-    return limited, separations(limited) or found
+    dyads = [name for name in dict.fromkeys(path.ends) if name and name not in assembly.loops]
+    chain = {name: ChainRoot(_ends(path, name), 0.0) for name in dyads}
+    limited = replace(resigned(replace(assembly, path=path, chain={})), chain=chain)
+    return limited, separations(limited)
 
 
-def _ends(path: Swing, names: tuple[str, ...]) -> Mapping[str, ChainRoot]:
-    """Return, for each dyad on moving points that limits the swing, where it does so."""
-    found = {name: tuple(End(upper) for upper in (False, True) if path.ends[upper] == name) for name in names}
-    return {name: ChainRoot(ends, 0.0) for name, ends in found.items() if ends}
+def _ends(path: Swing, name: str) -> tuple[End, ...]:
+    """Return at which ends of a swing a dyad on moving points limits it."""
+    return tuple(End(upper) for upper in (False, True) if path.ends[upper] == name)
 
 
 def _smooth_paths(swing: Swing) -> Iterator[Swing]:

@@ -22,7 +22,7 @@ from linkanim.errors import AssemblyError
 from .assembly import Assembly
 from .chain import Closing
 from .exact import FULL_TURN, Sum
-from .expression import Graph
+from .expression import Graph, Value
 from .fitting import extreme
 from .path import Path
 from .planar import Slope
@@ -124,22 +124,27 @@ class Separations:
         return tuple(found.place for found in self.settled[self.names.index(name)] if found.closes == 0)
 
 
-def separations(assembly: Assembly) -> Separations | None:
-    """Return how the dyads on moving points fare along the path, over its true period; None without any.
+def separations(assembly: Assembly) -> Separations:
+    """Return how the dyads that come near their limits fare along the path, over its true period.
 
     AssemblyError where one is at its limit all along.
     """
-    closings = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
-    if not closings:
-        return None
-    run, phases = _program(closings), _phases(assembly)
-    raw = run(phases)
-    scale = _scales(assembly, tuple(closings), raw)
+    phases = _phases(assembly)
+    scales = _scales(assembly, phases)
+    if not scales:
+        nothing = np.zeros((0, len(phases)))
+        return Separations(
+            (), nothing[:, 0], phases, nothing > 0, (), lambda places: nothing[:, : len(places)]
+        )
+    scale = np.array([*scales.values()])
+    found = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
+    closings = {name: found[name] for name in scales}
+    run = _program(closings)
 
     def sampled(phases: Array) -> Sampled:
         return _over(scale, phases, run(phases))
 
-    samples = _halved(sampled, _over(scale, phases, raw))
+    samples = _halved(sampled, sampled(phases))
     extremes = _places(sampled, samples, _turning(samples), 0)
     peaks = _places(sampled, samples, _passing(samples), 3)
     samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
@@ -158,22 +163,25 @@ def separations(assembly: Assembly) -> Separations | None:
 
 
 def _program(closings: Mapping[str, Closing]) -> Callable[[Array], Array]:
-    """Return the function of phases (N,) that gives margins, s', s'', (U - W)/2 and sizes (5, D, N)."""
+    """Return the function of phases (N,) that gives s', s'', U·W and U - W (4, D, N)."""
     found = closings.values()
-    program = batch(
-        {"x": True},
+    return _compiled(
         [
-            *(closing.u * closing.w for closing in found),
-            *(closing.separation.rate for closing in found),
-            *(closing.separation.second for closing in found),
-            *(closing.half_difference for closing in found),
-            *(closing.size for closing in found),
-        ],
+            [closing.separation.rate for closing in found],
+            [closing.separation.second for closing in found],
+            [closing.u * closing.w for closing in found],
+            [closing.half_difference * 2.0 for closing in found],
+        ]
     )
+
+
+def _compiled(rows: Sequence[Sequence[Value]]) -> Callable[[Array], Array]:
+    """Return the function of phases (N,) that gives the values of rows of dyads (rows, D, N)."""
+    program = batch({"x": True}, [value for row in rows for value in row])
 
     def run(phases: Array) -> Array:
         with np.errstate(all="ignore"):
-            return np.asarray(program(phases), np.float64).reshape(5, len(closings), len(phases))
+            return np.asarray(program(phases), np.float64).reshape(len(rows), len(rows[0]), len(phases))
 
     return run
 
@@ -189,25 +197,33 @@ def _phases(assembly: Assembly) -> Array:
     return np.sort(np.concatenate([around(assembly.path.periods, count), marks]))
 
 
-def _scales(assembly: Assembly, names: tuple[str, ...], raw: Array) -> Array:
-    """Return what each dyad's margin is beside: its greatest value, at most what its bars make of it."""
-    most, size = np.nanmax(np.abs(raw[[0, 4]]), axis=2, initial=0.0)
-    longest = _longest(assembly)
-    nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * longest) ** 2)
-    for name in (name for name, flat in zip(names, nothing, strict=True) if flat):
+def _scales(assembly: Assembly, phases: Array) -> Mapping[str, float]:
+    """Return what the margin of each dyad that comes near its limits is beside: its greatest, or its bars'.
+
+    One that all along is more than it changes between three samples at the most keeps away from them.
+    """
+    closings = assembly.walk_at(Graph().input("x"), Slope(0.0)).closings
+    if not closings:
+        return {}
+    found = closings.values()
+    margins, sizes = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)
+    most, size = (np.nanmax(np.abs(rows), axis=1, initial=0.0) for rows in (margins, sizes))
+    nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * _longest(assembly)) ** 2)
+    for name in (name for name, flat in zip(closings, nothing, strict=True) if flat):
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
-    return np.asarray(np.minimum(most, size))
+    clear = margins.min(axis=1) > 3 * np.abs(np.diff(margins, axis=1)).max(axis=1)
+    scales = np.minimum(most, size).tolist()
+    return {name: scale for name, scale, away in zip(closings, scales, clear, strict=True) if not away}
 
 
 def _longest(assembly: Assembly) -> float:
     return max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
 
 
-def _over(scale: Array, phases: Array, raw: Array) -> Sampled:
+def _over(scale: Array, phases: Array, rows: Array) -> Sampled:
     """Return the rates, and margins and differences over their scale."""
-    (margins, rates, bends, halves, _), beside = raw, scale[:, None]
     with np.errstate(all="ignore"):
-        return Sampled(phases, np.stack([rates, bends, margins / beside, 2.0 * halves / beside]))
+        return Sampled(phases, np.concatenate([rows[:2], rows[2:] / scale[:, None]]))
 
 
 def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:

@@ -25,7 +25,7 @@ def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assem
     for name in found.names:
         through = _through(assembly, name, found)
         if found.touches(name):
-            found = separations(through) or found
+            found = separations(through)
         assembly = through
     return assembly, found
 
