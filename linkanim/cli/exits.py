@@ -20,6 +20,7 @@ TERMINATED = 143
 HUNG_UP = 129
 
 _ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+_NO_MEMORY = ("failed to map segment", "cannot allocate memory")
 _ONE_AND_THE_SAME = 3.0
 """Seconds in which further signals say what the first did: a terminal that closes sends several."""
 
@@ -61,13 +62,18 @@ def _code_of(error: BaseException) -> int:
             return _say("the terminal was closed", HUNG_UP)
         case LinkanimError():
             return _say(str(error), error.exit_code)
-        case MemoryError():
+        case MemoryError() | ImportError() if _lacks_memory(error):
             return _say("there is not enough memory for this", FAILED)
         case OSError():
             _forget_stdout()
             return _say(_reason(error), FAILED)
         case _:
             return _say(f"unexpected {type(error).__name__} in {_place(error)}: {error}", FAILED)
+
+
+def _lacks_memory(error: BaseException) -> bool:
+    """Return whether memory ran out, also while a library was loaded, which the system says in its words."""
+    return isinstance(error, MemoryError) or any(words in str(error).lower() for words in _NO_MEMORY)
 
 
 def _say(message: str, code: int) -> int:

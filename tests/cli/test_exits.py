@@ -36,6 +36,11 @@ def raising(error: BaseException) -> Callable[[], None]:
         (OSError(28, "No space left on device"), 1, "linkanim: No space left on device"),
         (PermissionError(13, "Permission denied", "/x"), 1, "linkanim: /x: Permission denied"),
         (MemoryError(), 1, "linkanim: there is not enough memory for this"),
+        (
+            ImportError("x.so: failed to map segment from it"),
+            1,
+            "linkanim: there is not enough memory for this",
+        ),
         # several lines in a message are one on stderr
         (BadInput("one\n  two"), 2, "linkanim: one two"),
         # nothing in one is an order to the terminal
