@@ -14,3 +14,7 @@ MOST_ACTIONS = 100_000
 """Actions of a tape."""
 LARGEST_SIDE = 16_384
 """Pixels of a picture's width or height; H.264 has no more."""
+MOST_DIGITS = 1_000
+"""Digits of a number as it is written."""
+MOST_ROWS_READ = 20_000
+"""Rows of a table that is laid over a chart."""

@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 
 NULL = "null"
 """What stands where a number is not finite."""
+_RUN = ("=", "+", "-", "@", "\t", "\r")
+"""What a text begins with that a spreadsheet takes for a formula."""
 
 
 def lines(columns: Sequence[ArrayLike]) -> list[str]:
@@ -27,9 +29,14 @@ def lines(columns: Sequence[ArrayLike]) -> list[str]:
 
 
 def csv_head(names: Iterable[str]) -> str:
-    """Return a table's first line: what its columns are called."""
+    """Return a table's first line: what its columns are called, each fit for a spreadsheet.
+
+    A name that one would run, such as "=A1", has an apostrophe in front.
+    """
     text = StringIO()
-    csv.writer(text, lineterminator="\n").writerow(names)
+    csv.writer(text, lineterminator="\n").writerow(
+        f"'{name}" if name.startswith(_RUN) else name for name in names
+    )
     return text.getvalue()
 
 

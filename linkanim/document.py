@@ -13,12 +13,14 @@ from typing import Any, ClassVar, Self, TypeVar
 
 from linkanim.bounds import LONGEST_TEXT
 from linkanim.errors import BadInput
+from linkanim.intake import control_in
 from linkanim.units import shown
 
 Option = TypeVar("Option", bound=str)
 
 _FEW = 12
 _LONG = 60
+_BREAK = re.compile(r"\s*[\t\n\r]\s*")
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?")
 
 
@@ -100,20 +102,21 @@ class Section:
         return replace(self, values=values)
 
     def text(self, key: str, default: str | None = None) -> str:
-        """Return a text; `default` where it is missing, an error where that is None."""
+        """Return a text, on one line; `default` where it is missing, an error where that is None."""
         value = self.need(key) if default is None else self.values.get(key, default)
         if not isinstance(value, str):
             raise self.error(key, "must be a text in quotes")
         if len(value) > LONGEST_TEXT:
             raise self.error(key, f"is longer than {LONGEST_TEXT:,} characters; cut it")
-        return value
+        return _BREAK.sub(" ", value)
 
     def texts(self, key: str) -> tuple[str, ...]:
         """Return a list of texts, empty where it is missing."""
         value = self.values.get(key, [])
         if not isinstance(value, list) or not all(isinstance(text, str) for text in value):
             raise self.error(key, 'must be a list of texts, such as ["one", "another"]')
-        return tuple(value)
+        items = self.listed(key) if value else self
+        return tuple(items.text(item) for item in items.values) if value else ()
 
     def choice(self, key: str, options: tuple[Option, ...]) -> Option:
         """Return one of the options, the first where the key is missing."""
@@ -142,6 +145,25 @@ class Section:
         if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
             raise self.error(key, f"must be a whole number from {low} to {high}")
         return value
+
+
+def refuse_controls(document: Section) -> None:
+    """Refuse a control character in any key or text of a document, wherever it stands in it."""
+    pending: list[tuple[tuple[str, ...], Any]] = [((), document.values)]
+    while pending:
+        keys, value = pending.pop()
+        if isinstance(value, str) and (found := control_in(value)):
+            place = ".".join(map(_written, keys))
+            raise document.at(f"{place} = {shown(value)}: has {found} in it; leave it out", *keys)
+        if isinstance(value, Mapping):
+            for key in value:
+                if found := control_in(key):
+                    place = ".".join(map(_written, (*keys, key)))
+                    raise document.at(f"{place}: has {found} in it; leave it out", *keys, key)
+            pending += [((*keys, key), inner) for key, inner in value.items()]
+        elif isinstance(value, list):
+            start, last = keys[:-1], keys[-1] if keys else ""
+            pending += [((*start, f"{last}[{n}]"), inner) for n, inner in enumerate(value)]
 
 
 def _written(key: str) -> str:

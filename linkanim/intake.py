@@ -12,6 +12,7 @@ import stat
 from dataclasses import dataclass
 from pathlib import Path
 
+from linkanim.bounds import MOST_DIGITS
 from linkanim.errors import BadInput
 
 DEEPEST = 16
@@ -27,6 +28,10 @@ _TEXTS = re.compile(
 # Before its fifth patch Python 3.11 errs about groups that are repeated without going back and may match
 # in several ways: there are none here.
 _DOTTED = re.compile(rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{DEEPEST}}}")
+_LONG_NUMBER = re.compile(rf"(?<![0-9_.])[0-9_.]{{{MOST_DIGITS + 1}}}")
+_CONTROLS = re.compile(
+    r"[\0-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
+)
 _BRACKETS = re.compile(r"[\[\]{}]")
 _MARKS = "=,:[{"
 
@@ -77,19 +82,34 @@ class Intake:
         return data
 
     def refuse_heavy(self, text: str, where: str) -> None:
-        """Refuse a document of more values than this kind has, or nested deeper than `DEEPEST`.
+        """Refuse a document of more values than this kind has, too long a number, or depth beyond `DEEPEST`.
 
-        Texts in quotes and comments weigh nothing; the time it takes grows with the length alone.
+        Texts in quotes and comments weigh nothing but by their digits; the time grows with the length alone.
         """
         bare = _TEXTS.sub("s", text)
         if sum(map(bare.count, _MARKS)) > self.most_values:
             raise self.refusal(f"{where}: has more than {self.most_values:,} values; it is not {self.noun}")
+        if number := _LONG_NUMBER.search(text):
+            line = text.count("\n", 0, number.start()) + 1
+            raise self.refusal(
+                f"{where}: has a number of more than {MOST_DIGITS:,} digits (line {line}); write fewer"
+            )
         if _DOTTED.search(bare) or _depth(bare) > DEEPEST:
             raise self.refusal(f"{where}: is nested deeper than {DEEPEST} levels; {self.noun} needs but four")
 
 
+def control_in(text: str) -> str | None:
+    """Return what in a text is no plain text, in words; None where all of it is.
+
+    Controls of the terminal and of the direction of writing, lines' and paragraphs' separators, halves of
+    characters: what a terminal obeys, or no page may hold. Tabs and line breaks pass.
+    """
+    found = _CONTROLS.search(text)
+    return f"the control character U+{ord(found[0]):04X}" if found else None
+
+
 def named(path: str | os.PathLike[str]) -> str:
-    """Return a path as messages show it, on one line."""
+    """Return a path as it is shown, on one line."""
     return "".join(c if c.isprintable() else "?" for c in os.fspath(path))
 
 

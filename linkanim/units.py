@@ -12,6 +12,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import NamedTuple
 
+from linkanim.bounds import MOST_DIGITS
 from linkanim.errors import UnitError
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|[+-]?(?:nan|inf(?:inity)?))", re.I | re.A)
@@ -183,6 +184,8 @@ def _split(value: object, units: Units) -> tuple[str, str]:
     match = _NUMBER.match(value)
     if match is None:
         raise UnitError(f"{shown(value)} is not {units.noun}; write {_examples(1, units)}")
+    if len(match[1]) > MOST_DIGITS:
+        raise UnitError(f"{shown(value)} has more than {MOST_DIGITS:,} digits; write fewer")
     written = value[match.end() :].strip()
     return match[1], _named(written, value, units) if written else ""
 

@@ -61,3 +61,8 @@ def test_columns_may_be_views_of_any_layout() -> None:
 
 def test_a_name_with_a_comma_is_quoted() -> None:
     assert csv_head(["angle", "joints.B, left.x"]) == 'angle,"joints.B, left.x"\n'
+
+
+def test_a_name_that_a_spreadsheet_would_run_has_an_apostrophe_in_front() -> None:
+    names = ["=A1.x", "+1", "-1.position.y", "@SUM", "\ttab", "a=b", "angle_deg"]
+    assert csv_head(names) == "'=A1.x,'+1,'-1.position.y,'@SUM,'\ttab,a=b,angle_deg\n"

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.intake import DEEPEST, Intake, named
+from linkanim.intake import DEEPEST, Intake, control_in, named
 
 NOTES = Intake("a note", most_bytes=1_000_000, most_values=1000)
 
@@ -107,3 +107,30 @@ def test_a_file_that_changes_while_it_is_read_is_refused(
 
 def test_a_path_is_shown_on_one_line() -> None:
     assert named(Path("a\nb\0.toml")) == "a?b?.toml"
+
+
+CONTROLS = (
+    "\0",
+    "\x07",
+    "\x1b",
+    "\x7f",
+    "\x85",
+    "\x9b",
+    "\u2028",
+    "\u2029",
+    "\u202e",
+    "\u2066",
+    "\ud800",
+    "\uffff",
+)
+PLAIN = ("", "two\nlines\tand\r", "é", "e\u0301", "机构", "שלום \u200f", "👩\u200d🔧", "a\u00a0b", "\u00ad")
+
+
+@pytest.mark.parametrize("char", CONTROLS, ids=lambda char: f"U+{ord(char):04X}")
+def test_what_a_terminal_obeys_or_no_page_may_hold_is_found(char: str) -> None:
+    assert control_in(f"plain {char} text") == f"the control character U+{ord(char):04X}"
+
+
+@pytest.mark.parametrize("text", PLAIN)
+def test_what_is_written_in_any_script_is_plain(text: str) -> None:
+    assert control_in(text) is None

@@ -15,6 +15,7 @@ from linkanim.cli import options
 from linkanim.cli.parser import Parser, join_negative
 from linkanim.cli.pygame_installed import refuse_mixed_pygame
 from linkanim.errors import BadInput
+from linkanim.intake import control_in
 from linkanim.units import shown
 
 _WITHOUT_PYGAME = ("solve", "info", "scenes", "check")
@@ -32,6 +33,9 @@ class Command:
 def parse(argv: Sequence[str] | None = None) -> Namespace:
     """Read a command line (default: the process's own); `BadInput` in one sentence where it is wrong."""
     words = join_negative(sys.argv[1:] if argv is None else argv)
+    for word in words:
+        if found := control_in(word):
+            raise BadInput(f"{shown(word)} has {found} in it; write plain text, and rename such a file")
     return build().parse_args(_with_command(words))
 
 

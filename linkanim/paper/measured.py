@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.bounds import MOST_ROWS_READ
 from linkanim.errors import BadInput, OutOfRange
+from linkanim.intake import Intake, control_in, named
 from linkanim.paper.curves import Curve, Curves
+from linkanim.units import shown
+
+_TABLE_FILE = Intake("a table of two columns", most_bytes=1_000_000, most_values=2 * MOST_ROWS_READ)
 
 
 @dataclass(frozen=True)
@@ -30,20 +36,32 @@ def read_table(path: Path) -> NDArray[np.float64]:
 
     BadInput where it cannot be read, or a line has not two finite numbers.
     """
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            lines = [line for line in csv.reader(file) if any(cell.strip() for cell in line)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        reason = getattr(error, "strerror", None) or "it is not a table of text"
-        raise BadInput(f"{path}: cannot be read: {str(reason).lower()}") from error
+    where = named(path)
+    lines = _lines(_TABLE_FILE.read(path, where), where)
     body = lines[1:] if lines and not _are_numbers(lines[0]) else lines
     if not body:
-        raise BadInput(f"{path}: has no rows; give a CSV of two columns, angle in degrees and value")
+        raise BadInput(f"{where}: has no rows; give a CSV of two columns, angle in degrees and value")
     for number, line in enumerate(body, start=1 + len(lines) - len(body)):
         if not _are_numbers(line):
-            said = ",".join(line)
-            raise BadInput(f"{path}: row {number} has not two numbers, angle in degrees and value: {said!r}")
+            text = shown(",".join(line))
+            raise BadInput(f"{where}: row {number} has not two numbers, angle in degrees and value: {text}")
     return np.array([[float(cell) for cell in line[:2]] for line in body])
+
+
+def _lines(text: str, where: str) -> list[list[str]]:
+    """Return a table's lines that hold anything, each in its cells."""
+    for number, line in enumerate(text.split("\n"), start=1):
+        if found := control_in(line):
+            raise BadInput(f"{where}: line {number} has {found} in it; save it as plain text")
+    try:
+        cells = csv.reader(StringIO(text, newline=""))
+        lines = [line for line in cells if any(cell.strip() for cell in line)]
+    except csv.Error:
+        raise BadInput(f"{where}: cannot be read: it is not a table of text") from None
+    if len(lines) > MOST_ROWS_READ + 1:
+        count = f"{len(lines):,} rows; {MOST_ROWS_READ:,} are the most that are read"
+        raise BadInput(f"{where}: has {count}: keep every tenth or so")
+    return lines
 
 
 def _are_numbers(line: list[str]) -> bool:

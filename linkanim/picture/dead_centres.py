@@ -25,6 +25,8 @@ from linkanim.picture.view import Rect, View
 
 _TICK = 1.6
 """How far a tick reaches beyond the rail, in half widths of a bar."""
+_VISIBLE = 1e-3
+"""Pixels that a slider travels at the least for its ends to be marked."""
 _NEAR = 0.3
 """What passes the guide no further off its ends, in strokes, is in the way of the words."""
 _FEW = 1e-6
@@ -78,13 +80,13 @@ class DeadCentres:
 
     @cached_property
     def _ends(self) -> tuple[complex, complex] | None:
-        """Where the slider is in pixels, furthest back and furthest forward."""
+        """Where the slider is in pixels, furthest back and forward; None where it travels too little."""
         scene, phases = self.figure.scene, self.figure.scene.info.dead_centres
         slider = next((body.slider for body in self.figure.linkage.bodies if body.slider), None)
         if slider is None or phases is None or self.figure.linkage.joint(slider).slides[0].start is not None:
             return None
         back, forward = (self.view.place(scene.pose(phase, 0).position[slider]) for phase in phases)
-        return back, forward
+        return (back, forward) if abs(forward - back) > _VISIBLE else None
 
     @cached_property
     def _frame(self) -> tuple[complex, complex]:

@@ -137,6 +137,11 @@ class Figure:
         low, high = np.nanmin(swept, axis=0), np.nanmax(swept, axis=0)
         return Box(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
+    @property
+    def extent(self) -> float:
+        """The width of that rectangle and its height together."""
+        return self.box.right - self.box.left + self.box.high - self.box.low
+
     @cached_property
     def shortest(self) -> float:
         """The shortest bar, in the scene's unit."""

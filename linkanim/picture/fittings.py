@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from math import frexp
 
 import numpy as np
 
@@ -25,6 +26,8 @@ from linkanim.picture.view import View
 
 _TRIED = 90
 """Poses of a cycle at which is looked how far a fitting reaches."""
+_LARGE = 20
+"""Powers of two in the size of a scene that is taken as it is; a larger one is scaled down."""
 _BLOCK = (4.6, 3.2)
 """A slider block's length and height in half widths of a bar."""
 SLOTTED, SLOT = 1.35, 0.5
@@ -83,9 +86,10 @@ def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
 
     x + yi in the scene's unit, y up, at some of the cycle's moments; where a joint is nowhere none.
     """
-    box = figure.box
-    thin = 1e-6 * max(figure.shortest, 1e-6 * (box.right - box.left + box.high - box.low))
-    bench = Bench(figure, View(1.0, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
+    # A power of two keeps every digit; arcs have as many points as their size in pixels asks for.
+    scale = 2.0 ** -max(frexp(figure.extent)[1] - _LARGE, 0)
+    thin = scale * 1e-6 * max(figure.shortest, 1e-6 * figure.extent)
+    bench = Bench(figure, View(scale, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
     parts = [part for fitting in fittings(bench) for part in (*fitting.behind, *fitting.before)]
     step = max(len(figure.cycle.phase) // _TRIED, 1)
     for part in parts:
@@ -97,7 +101,7 @@ def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
         turn = np.where(way == 0, 1, way / np.where(way == 0, 1, lengths(way)))
         known = np.isfinite(at + way)
         for loop in (loop for layer in part.layers for loop in layer.loops):
-            yield np.conj(loop), at[known], turn[known]
+            yield np.conj(loop) / scale, at[known], turn[known]
 
 
 def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[Loop]:

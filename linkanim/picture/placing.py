@@ -101,7 +101,7 @@ class Drift(NamedTuple):
         middle = share * count
         first = round(middle) - _REACH
         weights = [exp(-0.5 * ((first + n - middle) / _SOFT) ** 2) for n in range(2 * _REACH + 1)]
-        near, whole = np.arange(first, first + len(weights)) % count, sum(weights)
+        near, whole = (first % count + np.arange(len(weights))) % count, sum(weights)
         offset, shown = ((part.take(near, axis=0).T * weights).sum(axis=-1) / whole for part in self)
         return offset, shown
 

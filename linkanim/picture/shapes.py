@@ -59,7 +59,7 @@ def stroke(path: ArrayLike, width: float, *, closed: bool = False) -> list[Loop]
 def strokes(path: ArrayLike, widths: Iterable[float], *, closed: bool = False) -> Iterator[list[Loop]]:
     """Yield the outlines of a line along the path in several widths."""
     path = distinct(np.asarray(path, np.complex128))
-    if closed and path[0] == path[-1]:
+    if closed and len(path) > 1 and path[0] == path[-1]:
         path = path[:-1]
     if len(path) < 2:
         yield from ([path[0] + disc(width / 2)] for width in widths)

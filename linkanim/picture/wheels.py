@@ -16,6 +16,8 @@ _TEETH = 24
 _FEWEST = 9
 TIP, FOOT = 0.85, 1.0
 """How far a tooth reaches beyond the pitch circle and the gap below it, in modules."""
+_TOGETHER = 1e-9
+"""How far pivots that have nothing between them to show are apart, as a share of the picture."""
 _BELT = 0.3
 """The larger pulley's radius, as a share of the distance between the pivots."""
 
@@ -81,7 +83,7 @@ def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> WheelPair |
     if crank.pivot == driver.name and fixed:
         return _planet(figure, crank, driver)
     apart = figure.start(crank.pivot) - figure.start(driver.pivot)
-    if not (fixed and figure.linkage.joint(crank.pivot).fixed) or apart == 0:
+    if not (fixed and figure.linkage.joint(crank.pivot).fixed) or abs(apart) <= _TOGETHER * figure.extent:
         return None
     if gear.ratio > 0:
         return _pulleys((driver, crank), abs(apart), float(gear.ratio))

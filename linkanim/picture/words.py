@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby, zip_longest
@@ -136,7 +137,7 @@ class _Setter:
     def __init__(self, scenes: Sequence[Scene], layout: Layout, arrows: int, type_: Type) -> None:
         self._scene, self._layout, self._arrows, self._type = scenes[0], layout, arrows, type_
         shown = type_.width(self._scene.title, round(_TITLE * layout.text_size))
-        self._title = self._scene.title if shown else self._scene.name
+        self._title = self._scene.title if shown and self._scene.title.strip() else self._scene.name
         self._classes = [unsaid(self._title, scene.info.class_name) for scene in scenes]
         self._notes = [words for scene in scenes for words in notes(scene)]
 
@@ -192,13 +193,14 @@ class _Setter:
     def _broken(self, count: int, big: int) -> tuple[str, ...]:
         """Return the title in at most so many lines, between its words, as narrow as they can be."""
         words, room = self._title.split(), self._layout.stage.width - 2 * self._layout.margin
-        spans = (
-            " ".join(words[begin:end])
-            for begin in range(len(words))
-            for end in range(begin + 1, len(words) + 1)
-        )
-        for width in sorted({min(self._type.width(span, big, strong=True), room) for span in spans}):
-            lines = self._type.wrapped(self._title, big, width, strong=True)
-            if len(lines) <= count and " ".join(lines).split() == words:
-                break
-        return tuple(lines)
+
+        def lines(width: float) -> list[str]:
+            return self._type.wrapped(self._title, big, width, strong=True)
+
+        def fits(width: int) -> bool:
+            found = lines(width)
+            return len(found) <= count and " ".join(found).split() == words
+
+        widths = range(max(int(room), 0))
+        narrowest = bisect_left(widths, True, key=fits)
+        return tuple(lines(narrowest if narrowest < len(widths) else room)) or ("",)

@@ -10,6 +10,7 @@ from linkanim.picture.painter import Painter
 from linkanim.picture.shelf import Grid, ShelfPainter, by_chapter, grid
 from linkanim.player import display
 from linkanim.player.approach import Approach
+from linkanim.player.browsing import Browsing
 from linkanim.player.fade import Fade
 from linkanim.player.state import State
 from linkanim.scenes.handles import handles
@@ -132,23 +133,22 @@ class Easel:
         """Return where a point of the scene is in the window."""
         return self._painter.view.to_pixel(x, y)
 
-    def shelf_beside(self, place: int, rows: int) -> int:
-        """Return the place on the open shelf so many rows below another."""
-        return self._grid.beside(place, rows)
+    def shelf_beside(self, browsing: Browsing, rows: int) -> int:
+        """Return the place on a shelf so many rows below the chosen one; it need not be painted yet."""
+        return self._grid(browsing).beside(browsing.chosen, rows)
 
     def shelf_at(self, x: float, y: float) -> int | None:
         """Return the place on the open shelf under a pixel; None between its pictures."""
-        return self._grid.at(x, y)
+        assert self._state.browsing is not None
+        return self._grid(self._state.browsing).at(x, y)
 
     @property
     def is_shelf_open(self) -> bool:
         """Whether the shelf lies over the picture."""
         return self._state.browsing is not None
 
-    @property
-    def _grid(self) -> Grid:
-        assert self._state.browsing is not None
-        return grid(self.size, [count for _, count in by_chapter(self._state.browsing.entries)])
+    def _grid(self, browsing: Browsing) -> Grid:
+        return grid(self.size, [count for _, count in by_chapter(browsing.entries)])
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""

@@ -12,7 +12,7 @@ from typing import Any
 
 from linkanim import intake, whole
 from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS
-from linkanim.document import Section
+from linkanim.document import Section, refuse_controls
 from linkanim.errors import BadInput
 from linkanim.intake import Intake
 from linkanim.picture.look import Look
@@ -51,6 +51,8 @@ def read(path: Path) -> Tape:
         document = json.loads(text, parse_constant=_no_constant)
     except (ValueError, RecursionError):
         raise BadInput(f"{where}: is not JSON; a tape is a file that G or M wrote in the window") from None
+    if isinstance(document, dict):
+        refuse_controls(Section(where, document))
     return from_document(document, where)
 
 

@@ -106,7 +106,7 @@ class Window:
         """Yield an action; what depends on an open list or shelf, as what it means there."""
         browsing, listing = self.state.browsing, self.state.listing
         if action.name == "row" and browsing and isinstance(action.value, int):
-            yield Action("point", self.easel.shelf_beside(browsing.chosen, action.value))
+            yield Action("point", self.easel.shelf_beside(browsing, action.value))
         elif action.name == "pick" and browsing:
             yield Action("put", browsing.chosen)
         elif action.name == "pick" and listing:

@@ -17,7 +17,8 @@ from linkanim.mechanics.joint import Point
 
 _SMALL = 12
 _STEEP = 100
-_LARGEST = 1e100
+_LARGEST, _LONGEST = 1e30, 1e12
+_MOST_TURNS = 100
 _FRACTION = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)?", re.A)
 
 
@@ -72,7 +73,7 @@ class Table(Section):
 
     def length(self, key: str) -> float:
         """Return a length in the scene's unit, above zero."""
-        return self._positive(key, self.need(key), self._length)
+        return self._positive(key, self.need(key), self._length, _LONGEST)
 
     def lengths(self, key: str, count: int) -> tuple[float, ...]:
         """Return a list of `count` lengths, each above zero."""
@@ -81,7 +82,7 @@ class Table(Section):
 
     def offset(self, key: str) -> float:
         """Return a length of either sign, 0 where the key is missing."""
-        return self._quantity(key, self.values.get(key, 0), self._length)
+        return self._quantity(key, self.values.get(key, 0), self._length, _LONGEST)
 
     def point(self, key: str) -> Point:
         """Return two lengths of either sign."""
@@ -91,7 +92,10 @@ class Table(Section):
     def angle(self, key: str, default: str | None = None) -> float:
         """Return an angle in radians; `default` where it is missing, an error where that is None."""
         value = self.need(key) if default is None else self.values.get(key, default)
-        return self._quantity(key, value, units.angle)
+        angle = self._quantity(key, value, units.angle)
+        if abs(angle) > _MOST_TURNS * math.tau:
+            raise self.error(key, f"is more than {_MOST_TURNS} turns; leave whole turns out")
+        return angle
 
     def speed(self, key: str, default: str) -> float:
         """Return an angular speed in rad/s, not zero."""
@@ -129,21 +133,25 @@ class Table(Section):
     def _length(self, value: object) -> float:
         return units.length(value, unit=self.unit)
 
-    def _quantity(self, key: str, value: object, parse: Callable[[object], float]) -> float:
+    def _quantity(
+        self, key: str, value: object, parse: Callable[[object], float], most: float = _LARGEST
+    ) -> float:
         try:
             number = parse(value)
         except UnitError as error:
             raise self.at(f"{self.key(key)}: {error}", key) from None
-        if abs(number) > _LARGEST:
-            raise self.error(key, f"is beyond what can be computed; write less than {_LARGEST:g}")
+        if abs(number) > most:
+            raise self.error(key, f"is beyond what can be computed; write less than {most:g}")
         return number
 
-    def _positive(self, key: str, value: object, parse: Callable[[object], float]) -> float:
-        number = self._quantity(key, value, parse)
+    def _positive(
+        self, key: str, value: object, parse: Callable[[object], float], most: float = _LARGEST
+    ) -> float:
+        number = self._quantity(key, value, parse, most)
         if not number > 0.0:
             raise self.error(key, "must be above zero")
-        if number < 1.0 / _LARGEST:
-            raise self.error(key, f"is beyond what can be computed; write more than {1.0 / _LARGEST:g}")
+        if number < 1.0 / most:
+            raise self.error(key, f"is beyond what can be computed; write more than {1.0 / most:g}")
         return number
 
 

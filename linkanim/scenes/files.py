@@ -127,7 +127,7 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     where = intake.named(asked)
     missing = f"{meant(path.stem, names())}; `linkanim scenes` lists the built-in ones"
     document = parse(SCENE_FILE.read(path, where, missing=missing), where)
-    return scene_from(document, name=path.stem, where=where)
+    return scene_from(document, name=intake.named(path.stem), where=where)
 
 
 def path_of(name_or_path: str | os.PathLike[str]) -> Path | None:

@@ -51,7 +51,7 @@ def problems(text: str, *, name: str, where: str) -> list[Problem]:
     try:
         document = parse(text, where)
     except BadInput as error:
-        return [_syntax(str(error))]
+        return [_unparsed(error, text)]
     lines = lines_of(text)
     found = [
         Problem(stop.message, _line(lines, stop.keys)) for stop in _stops(document, name=name, where=where)
@@ -59,9 +59,11 @@ def problems(text: str, *, name: str, where: str) -> list[Problem]:
     return sorted(dict.fromkeys(found), key=lambda problem: problem.line or 0)
 
 
-def _syntax(message: str) -> Problem:
-    at = _AT_LINE.search(message)
-    return Problem(message, int(at[1] or at[2]) if at else None)
+def _unparsed(error: BadInput, text: str) -> Problem:
+    if error.keys:
+        return Problem(str(error), _line(lines_of(text), error.keys))
+    at = _AT_LINE.search(str(error))
+    return Problem(str(error), int(at[1] or at[2]) if at else None)
 
 
 def _stops(document: Mapping[str, Any], *, name: str, where: str) -> Iterator[_Stop]:

@@ -18,6 +18,7 @@ from linkanim.scenes.joints import read_joint, read_pin
 from linkanim.scenes.order import circle, solved_order
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS, Expansion, expand
+from linkanim.scenes.sizes import refuse_apart
 
 _TOP = (
     "title", "source", "chapter", "look_at", "notes", "length_unit",
@@ -55,6 +56,7 @@ def drafted(document: Mapping[str, Any], *, name: str, where: str, towards: Scen
         metre=units.metre(top.unit),
         gravity=_gravity(top, bodies),
     )
+    refuse_apart(top, linkage)
     return Scene(
         name=name,
         title=top.text("title", name),

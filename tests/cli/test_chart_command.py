@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -85,19 +86,37 @@ REFUSED = [
     (["--quantity", "rocker.angle", "--speeds", ","], "other than zero"),
     (["--quantity", "rocker.angle", "--size", "9999999x2"], "9999999"),
     (["--quantity", "rocker.angle", "--label", "x"], "--data"),
-    (["--quantity", "rocker.angle", "--data", "missing.csv"], "missing.csv: cannot be read"),
+    (["--quantity", "rocker.angle", "--data", "missing.csv"], "missing.csv: no such file"),
     (["--quantity", "rocker.angle", "--data", "empty.csv"], "has no rows"),
     (["--quantity", "rocker.angle", "--data", "one.csv"], "row 2 has not two numbers"),
+    (["--quantity", "rocker.angle", "--data", "/dev/zero"], "/dev/zero: is not a file with text in it"),
+    (["--quantity", "rocker.angle", "--data", "pipe.csv"], "pipe.csv: is not a file with text in it"),
+    (["--quantity", "rocker.angle", "--data", "long.csv"], "has 30,000 rows; 20,000 are the most"),
+    (["--quantity", "rocker.angle", "--data", "large.csv"], "is larger than 1 MB"),
+    (["--quantity", "rocker.angle", "--data", "escape.csv"], "line 2 has the control character U+001B"),
+    (["--quantity", "rocker.angle", "--data", "good.csv", "--label", "a\x1bb"], "U+001B"),
     (["--quantity", "P.position", "--data", "good.csv"], "take P.position.x or P.position.y"),
 ]
 
 
+TABLES = {
+    "empty.csv": "deg,value\n",
+    "one.csv": "deg,value\n3\n",
+    "good.csv": "1,2\n",
+    "long.csv": "1,2\n" * 30_000,
+    "large.csv": "1,2\n" * 300_000,
+    "escape.csv": "deg,value\n1,\x1b[31m\n",
+}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes and devices among files")
 @pytest.mark.parametrize(("words", "said"), REFUSED)
 def test_what_cannot_be_is_refused_in_a_line_and_nothing_is_written(
     words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name, text in (("empty.csv", "deg,value\n"), ("one.csv", "deg,value\n3\n"), ("good.csv", "1,2\n")):
+    for name, text in TABLES.items():
         (folder / name).write_text(text)
+    os.mkfifo(folder / "pipe.csv")
     before = set(folder.iterdir())
     assert main(["chart", "crank-rocker", *words]) == 2
     printed = capsys.readouterr()

@@ -266,6 +266,14 @@ def test_the_shelf_is_browsed_with_arrows_and_enter(player: Player) -> None:
     assert (player.state.scene.name, player.state.browsing) == (names()[below], None)
 
 
+def test_the_shelf_opened_and_browsed_within_one_frame_goes_a_row_down(player: Player) -> None:
+    for key, letter in ((pygame.K_o, "o"), (pygame.K_DOWN, "")):
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=key, mod=0, unicode=letter))
+    player.tick()
+    assert player.state.browsing
+    assert player.state.browsing.chosen > 0
+
+
 def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
     player.type("o")
     cell = _grid().cells[6]

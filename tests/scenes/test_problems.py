@@ -213,6 +213,7 @@ BEYOND = (
     "moves; name a fixed pin", "is not a crank", "is fixed, so nothing", "rigid body", "one point",
     "already a joint", "cannot meet", "second input", "free to be driven", "can be driven",
     "small fraction", "times as fast", "has both", "itself; ", "beyond what can be computed",
+    "too short beside", "whole turns out",
     "does not travel", "not a finite", "speed of zero", "is not TOML", "nested deeper",
     "two joints or more", "too large", "pulls at nothing", "never crosses", "or a fraction", "printable",
     "above zero",

@@ -301,7 +301,19 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("not TOML", FOUR_BAR + "crank 30\n", "is not TOML", "line 6"),
     ("a key twice", FOUR_BAR + "crank = 30\n", "is not TOML", "line 6"),
     ("deep brackets", "x = " + "[" * 5000, "nested deeper than 16 levels", ""),
-    ("endless integer", FOUR_BAR.replace("30", "3" * 5000), "is not TOML", ""),
+    ("endless integer", FOUR_BAR.replace("30", "3" * 5000), "more than 1,000 digits", "line 3"),
+    ("endless decimal", FOUR_BAR.replace("30", "0." + "3" * 5000), "more than 1,000 digits", "line 3"),
+    ("endless length", FOUR_BAR.replace("30", f'"{"3" * 5000} mm"'), "more than 1,000 digits", "line 3"),
+    # What no digits and no pixels show together, or at all.
+    ("sizes far apart", FOUR_BAR.replace("30", "3e11"), "four-bar: a bar of 80", "1e+09 times"),
+    ("a pin far away", "[ground]\nG = [1e11, 0]\n" + FOUR_BAR, "four-bar: a bar of 30", "the 1e+11 of G"),
+    ("a point on its joint", FOUR_BAR + "coupler_point = [0, 1e-12]\n", "a bar of 1e-12", "too short"),
+    ("a length in light-years", FOUR_BAR.replace("30", "1e13"), "four-bar.crank", "less than 1e+12"),
+    ("a start turns away", FOUR_BAR + '[drive]\nstart = "36001 deg"\n', "drive.start", "whole turns out"),
+    # Text that a terminal would obey, or that no page may hold.
+    ("an escape in a title", 'title = "a\\u001bb"\n' + FOUR_BAR, 'title = "a?b"', "U+001B"),
+    ("an override in a note", 'notes = ["a", "\\u202e"]\n' + FOUR_BAR, "notes[1]", "U+202E"),
+    ("a line separator in a name", '"\\u2028" = 1\n' + FOUR_BAR, '"?": has', "U+2028"),
 ]
 
 

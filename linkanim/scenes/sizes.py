@@ -1,0 +1,46 @@
+"""How far apart the sizes in one scene may be: beyond that neither digits nor pixels show them together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import hypot
+
+from linkanim.mechanics.joint import Joint
+from linkanim.mechanics.kinds import Rigid
+from linkanim.mechanics.linkage import Linkage
+from linkanim.scenes.check import Table
+from linkanim.scenes.shorthand import SHORTHANDS
+
+MOST_APART = 1e9
+"""How many times as long as its shortest bar anything in a scene may be."""
+
+
+def refuse_apart(top: Table, linkage: Linkage) -> None:
+    """Refuse a length, a place or a travel that is too long beside the shortest bar."""
+    bars = [(size, joint.name) for joint in linkage.joints for size in _bars(joint)]
+    shortest, name = min(bars, default=(1.0, ""))
+    longest, what = max(_sizes(linkage))
+    if longest > MOST_APART * shortest:
+        joints = top.table("joints")
+        short = next((key for key in SHORTHANDS if key in top), "ground")
+        raise (joints.table(name) if name in joints else top.table(short)).wrong(
+            f"a bar of {shortest:g} is too short beside the {longest:g} of {what}; "
+            f"nothing may be more than {MOST_APART:g} times as long as the shortest bar"
+        )
+
+
+def _bars(joint: Joint) -> Iterator[float]:
+    yield from (length for _, length in joint.bars)
+    if isinstance(joint, Rigid):
+        yield hypot(*joint.at)
+
+
+def _sizes(linkage: Linkage) -> Iterator[tuple[float, str]]:
+    drive = linkage.drive
+    for joint in linkage.joints:
+        yield from ((abs(length), joint.name) for length in joint.lengths)
+    for body in linkage.bodies:
+        yield from ((abs(part), f"{body.name}'s centre of mass") for part in body.com or ())
+    for stroke in (drive.cylinder, drive.travel):
+        if stroke:
+            yield max(abs(stroke.first), abs(stroke.last)), "the input's travel"

@@ -1,0 +1,221 @@
+"""Everything that is made of a scene file that `check` calls good, each under limits of time and memory."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+from collections.abc import Callable, Mapping
+from contextlib import chdir, redirect_stderr, redirect_stdout
+from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
+from random import Random
+from unicodedata import category
+from xml.etree import ElementTree
+
+import pygame
+import tomli_w
+from typed_linkages import Document
+
+from linkanim.cli import main
+from linkanim.errors import BadInput
+from linkanim.picture.quantities import quantities
+from linkanim.player import display
+from linkanim.player.action import Action
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
+from linkanim.player.tape_file import write
+from linkanim.player.window import Window
+from linkanim.scenes import load
+from linkanim.scenes.read import scene_from
+
+SECONDS, MEGABYTES = 10.0, 400
+"""What each output of a scene may take: processor time, and memory beside what was there before."""
+KEYS = "abcdehiklnoprtv0123456789+-=.?sg"
+MODS = (0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL)
+MOVES = (pygame.K_LEFT, pygame.K_RIGHT, pygame.K_UP, pygame.K_DOWN, pygame.K_RETURN, pygame.K_TAB)
+FAR = (-1e100, -1e9, 0.0, 1.0, 1e9, 1e16, 1e100)
+
+
+class Failure(Exception):
+    """An output that could not be made, with what was said."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A good scene file in a folder of its own, and the chances of what is random in its outputs."""
+
+    path: Path
+    rng: Random
+
+    @property
+    def folder(self) -> Path:
+        return self.path.parent
+
+    def command(self, *words: str) -> str:
+        """Run a command, and return what it printed; Failure where its exit code is not 0."""
+        printed, problems = StringIO(), StringIO()
+        with redirect_stdout(printed), redirect_stderr(problems):
+            code = main(words)
+        if code:
+            raise Failure(f"{' '.join(words)}: {code}: {problems.getvalue()}")
+        for line in (*printed.getvalue().splitlines(), *problems.getvalue().splitlines()):
+            if set(map(category, line)) & {"Cc", "Cs"}:
+                raise Failure(f"{' '.join(words)}: printed {line!r}")
+        return printed.getvalue()
+
+    def clear(self) -> None:
+        """Take the folder away with all that was made."""
+        shutil.rmtree(self.folder)
+
+    def made(self, name: str) -> Path:
+        """Return the path of a file that is to be made."""
+        return self.folder / name
+
+
+def is_good(document: Document) -> bool:
+    """Tell whether the reader takes a document."""
+    try:
+        scene_from(document, name="my", where="my.toml")
+    except BadInput:
+        return False
+    return True
+
+
+def written(document: Document, folder: Path, rng: Random) -> Case:
+    """Write a document as a scene file into a new folder."""
+    folder.mkdir()
+    path = folder / "my.toml"
+    path.write_text(tomli_w.dumps(document), encoding="utf-8")
+    return Case(path, rng)
+
+
+def checked(case: Case) -> None:
+    case.command("check", str(case.path))
+
+
+def solved(case: Case) -> None:
+    for words in (("info",), ("solve", "--phase", f"{case.rng.uniform(-9, 9)} rad")):
+        json.loads(case.command(words[0], str(case.path), "--json", *words[1:]))
+
+
+def swept(case: Case) -> None:
+    case.command(
+        "solve", str(case.path), "--sweep", "0:360:45", "--phase", "--csv", str(case.made("out.csv"))
+    )
+    with case.made("out.csv").open(encoding="utf-8") as file:
+        assert len({len(row) for row in csv.reader(file)}) == 1
+
+
+EVERYTHING = ("--names", "--names", "--vectors", "v,a", "--polygons")
+
+
+def drawn(case: Case) -> None:
+    size, phase = case.rng.choice(("64x36", "160x90", "36x64")), f"{case.rng.uniform(-9, 9)} rad"
+    more = case.rng.choice(
+        ((), ("--poses", "3"), ("--instant-centres",), ("--theme", "dark", "--transparent"))
+    )
+    words = (str(case.path), "--size", size, "--phase", phase, *EVERYTHING, *more)
+    svg = case.made("out.svg")
+    case.command("draw", *words, "-o", str(svg))
+    well_formed(svg.read_text(encoding="utf-8"))
+
+
+def painted(case: Case) -> None:
+    phase = f"{case.rng.uniform(-9, 9)} rad"
+    words = (str(case.path), "--size", "96x54", "--phase", phase, *EVERYTHING)
+    case.command("draw", *words, "-o", str(case.made("out.png")))
+
+
+def charted(case: Case) -> None:
+    scene = load(case.path)
+    tokens = case.rng.sample(sorted(quantities(scene)), 1)
+    suffix = case.rng.choice((".svg", ".png", ".csv"))
+    target = case.made(f"chart{suffix}")
+    over = case.rng.choice(("time", "phase"))
+    words = ("--quantity", ",".join(tokens), "--over", over, "--size", "200x120", "-o", str(target))
+    case.command("chart", str(case.path), *words)
+    if suffix == ".svg":
+        well_formed(target.read_text(encoding="utf-8"))
+
+
+def well_formed(text: str) -> None:
+    """Hold a picture to being well-formed, with nothing in it that is not a number."""
+    for element in ElementTree.fromstring(text).iter():
+        numbers = " ".join(element.get(key, "") for key in ("d", "x", "y", "font-size", "stroke-width"))
+        assert "nan" not in numbers, numbers
+        assert "inf" not in numbers, numbers
+
+
+def recorded(case: Case) -> None:
+    suffix, frames = case.rng.choice((("gif", 2), ("png", 2), ("gif", 3))), case.rng.choice(((), EVERYTHING))
+    words = ("--size", "64x36", "--seconds", f"{suffix[1] / 25}", "-o", str(case.made(f"clip.{suffix[0]}")))
+    case.command("record", str(case.path), *words, *frames)
+
+
+def reported(case: Case) -> None:
+    case.command("report", str(case.path), "-o", str(case.made("report")))
+    text = case.made("report").joinpath("report.html").read_text(encoding="utf-8")
+    assert text.isprintable() or set(text) - {"\n"} == set(text.replace("\n", ""))
+
+
+def taped(case: Case) -> None:
+    """Record a tape that goes far, with names and vectors."""
+    actions = [
+        Action("names"),
+        Action("scrub", case.rng.choice(FAR)),
+        Action("vectors", "a"),
+        Action("chart", 1),
+    ]
+    tape = Tape(begin(load(case.path)), 5, tuple((1, action) for action in actions), (64, 36))
+    path = case.made("my.tape.json")
+    path.unlink(missing_ok=True)
+    write(tape, path)
+    case.command("record", str(path), "--size", "64x36", "-o", str(case.made("tape.gif")))
+
+
+def played(case: Case) -> None:
+    """Open the window and press keys at random, several within one frame."""
+    with chdir(case.folder), display.opened((160, 90)):
+        window = Window(begin(load(case.path)))
+        try:
+            _play(window, case.rng)
+        finally:
+            window.close()
+    faults = [path.read_text(encoding="utf-8") for path in case.folder.glob("recordings/*fault*")]
+    shutil.rmtree(case.folder / "recordings", ignore_errors=True)
+    if faults:
+        raise Failure(faults[0])
+
+
+def _play(window: Window, rng: Random) -> None:
+    window.tick()
+    for _ in range(5):
+        for _ in range(rng.choice((1, 1, 2, 4))):
+            _press(rng)
+        window.tick(rng.choice((1, 1, 5, 60)))
+
+
+def _press(rng: Random) -> None:
+    at = rng.randrange(160), rng.randrange(90)
+    match rng.randrange(6):
+        case 0:
+            for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEMOTION, pygame.MOUSEBUTTONUP):
+                at = rng.randrange(160), rng.randrange(90)
+                more = {"rel": (0, 0), "buttons": (1, 0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
+                pygame.event.post(pygame.event.Event(kind, pos=at, **more))
+        case 1:
+            key = rng.choice(MOVES)
+            pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=key, mod=rng.choice(MODS), unicode=""))
+        case _:
+            letter = rng.choice(KEYS)
+            mod = rng.choice(MODS)
+            pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=ord(letter), mod=mod, unicode=letter))
+
+
+Output = Callable[[Case], None]
+OUTPUTS: Mapping[str, Output] = {
+    output.__name__: output
+    for output in (checked, solved, swept, drawn, painted, charted, recorded, reported, taped, played)
+}
