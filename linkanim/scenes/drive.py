@@ -76,7 +76,11 @@ def _cylinder(table: Table, joints: tuple[Joint, ...], driven: str) -> Cylinder:
     assert isinstance(crank, Crank)
     if not known[fixed].fixed or fixed == crank.pivot:
         raise table.error("between", f"names no fixed pin beside {crank.pivot}; one end stands on the ground")
-    carried = [frame for frame in frames_of(joints)[1:] if {crank.pivot, driven, moving} <= frame.keys()]
+    ground, *others = frames_of(joints)
+    if coincide(ground, fixed, crank.pivot):
+        reason = f"{fixed} and {crank.pivot} are one point, about which a cylinder turns nothing"
+        raise table.error("between", f"{reason}; name a pin beside it")
+    carried = [frame for frame in others if {crank.pivot, driven, moving} <= frame.keys()]
     if not carried or coincide(carried[0], crank.pivot, moving):
         raise table.error("between", f"{moving} is no joint of the body that turns with {driven}")
     start, end = table.length("from"), table.length("to")

@@ -310,6 +310,13 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("a point on its joint", FOUR_BAR + "coupler_point = [0, 1e-12]\n", "a bar of 1e-12", "too short"),
     ("a length in light-years", FOUR_BAR.replace("30", "1e13"), "four-bar.crank", "less than 1e+12"),
     ("a start turns away", FOUR_BAR + '[drive]\nstart = "36001 deg"\n', "drive.start", "whole turns out"),
+    (
+        "a cylinder on the crank's own pivot",
+        LONG.replace("O4", "G = [0, 0]\nO4", 1)
+        + '[drive]\ncylinder = { between = ["G", "A"], from = 1, to = 2 }\n',
+        "drive.cylinder.between",
+        "G and O2 are one point",
+    ),
     # Text that a terminal would obey, or that no page may hold.
     ("an escape in a title", 'title = "a\\u001bb"\n' + FOUR_BAR, 'title = "a?b"', "U+001B"),
     ("an override in a note", 'notes = ["a", "\\u202e"]\n' + FOUR_BAR, "notes[1]", "U+202E"),

@@ -23,7 +23,19 @@ SEED = 20
 PARTS = 4
 """Tests that many scenes are shared among, so that they run side by side."""
 ROTATION = tuple(name for name in OUTPUTS if name != "checked")
-FEW = ("solved", "drawn", "swept", "painted", "charted", "recorded", "solved", "played", "charted", "taped")
+FEW = (
+    "solved",
+    "drawn",
+    "charted",
+    "swept",
+    "painted",
+    "charted",
+    "recorded",
+    "solved",
+    "played",
+    "swept",
+    "taped",
+)
 
 
 class _Done:
@@ -71,7 +83,7 @@ def failures(
 
 
 def test_a_few_good_scenes_are_made_into_everything(tmp_path: Path) -> None:
-    assert failures(islice(good_scenes(SEED, 0, 1), 40), FEW, 1, tmp_path) == []
+    assert failures(islice(good_scenes(SEED, 0, 1), 22), FEW, 1, tmp_path) == []
 
 
 @pytest.mark.long
@@ -98,7 +110,7 @@ FOUND: dict[str, tuple[Document, str]] = {
     "a title of two hundred words": (FOUR_BAR | {"title": "long " * 199}, "recorded"),
     "a spring whose ends are one pin": (
         PINS | {"springs": {"s": {"between": ["O2", "G"]}}},
-        "drawn painted recorded reported played",
+        "drawn painted recorded",
     ),
     "a damper whose ends meet": (
         PINS | {"dampers": {"d": {"between": ["A", "H"], "coefficient": "2 N s/m"}}},
