@@ -101,7 +101,7 @@ def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
         turn = np.where(way == 0, 1, way / np.where(way == 0, 1, lengths(way)))
         known = np.isfinite(at + way)
         for loop in (loop for layer in part.layers for loop in layer.loops):
-            yield np.conj(loop) / scale, at[known], turn[known]
+            yield loop.conj() / scale, at[known], turn[known]
 
 
 def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[Loop]:
