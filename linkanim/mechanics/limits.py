@@ -31,6 +31,7 @@ USED_UP = 1e-10
 """A margin below this share of its greatest value is one at its limit."""
 NO_WAY = 1e-5
 """A swing of less than this is what rounding leaves of one place."""
+NO_RANGE = "the input has no range on which every dyad can be closed"
 STOPPED_SHORT = 1 / 64
 """Share of its range by which a swing stops short of a limit that it cannot pass."""
 CUTS = 8
@@ -63,7 +64,7 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
         limited, on_limited = through_change_points(limited, on_limited)
         if _runs_through(limited, on_limited):
             return fitted(limited)
-    raise AssemblyError("the input has no range on which every dyad can be closed")
+    raise AssemblyError(NO_RANGE)
 
 
 def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
@@ -128,7 +129,10 @@ def _runs_through(assembly: Assembly, found: Separations) -> bool:
 def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit]:
     """Return the ends of the interval around the start, or of the widest one where the start is shut."""
     phases, shut, home = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
-    first, last = _run_around(np.asarray(~shut.any(axis=0)), home, phases)
+    is_open = np.asarray(~shut.any(axis=0))
+    if not is_open.any():  # cut back for one dyad, nothing is left to another
+        raise AssemblyError(NO_RANGE)
+    first, last = _run_around(is_open, home, phases)
     below, above = (
         _limit(assembly, found, (phases[inside], phases[outside]), shut[:, outside])
         if 0 <= outside < len(phases)

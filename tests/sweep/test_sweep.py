@@ -44,6 +44,15 @@ def test_twenty_thousand_linkages_are_refused_or_run() -> None:
 
 # What sweeps have found, one of a kind: each once jumped, was nowhere, or ended in an exception.
 FOUND = {
+    "a swing that one dyad leaves nothing of what another leaves": {
+        "drive": {"start": "90 deg"},
+        "six-bar": {
+            "lengths": [6.3, 9.6, 5.9, 1.7, 7.5, 11.2, 5.8, 2.1],
+            "ground_angle": "180 deg",
+            "assembly": "crossed",
+            "assembly2": "crossed",
+        },
+    },
     "a chain that is shut at the start": {
         "four-bar": {"ground": 2, "crank": 4, "coupler": 2, "rocker": 2, "ground_angle": "90 deg"},
         "joints": {"D1": {"from": ["A", "O4"], "length": [5, 9]}},
