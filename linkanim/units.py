@@ -38,6 +38,8 @@ _ACCELERATION = Units(
     {"rad/s^2": Fraction(1), "deg/s^2": _PI / 180},
     {"rad/s²": "rad/s^2", "rad/s2": "rad/s^2", "deg/s²": "deg/s^2", "deg/s2": "deg/s^2", "°/s²": "deg/s^2"},
 )
+_FASTEST = 1.05e6
+"""In rad/s, 1e7 rpm and rounding."""
 _LENGTH = Units(
     "a length",
     {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1), "in": Fraction(254, 10000)},
@@ -90,8 +92,14 @@ def angle(value: object) -> float:
 
 
 def angular_speed(value: object) -> float:
-    """Return an angular speed in rad/s: "60 rpm", "6.28 rad/s", "360 deg/s"; UnitError as in `angle`."""
-    return _with_unit(value, _SPEED)
+    """Return an angular speed in rad/s: "60 rpm", "6.28 rad/s", "360 deg/s".
+
+    UnitError as in `angle`, and for what is faster than anything turns.
+    """
+    speed = _with_unit(value, _SPEED)
+    if abs(speed) > _FASTEST:
+        raise UnitError(f'{shown(value)} is faster than anything turns; write at most "1e7 rpm"')
+    return speed
 
 
 def angular_acceleration(value: object) -> float:

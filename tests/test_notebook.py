@@ -14,6 +14,8 @@ import pytest
 
 from linkanim.notebook import register
 from linkanim.scenes import load, names
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.toml import parse
 
 SVG = "{http://www.w3.org/2000/svg}"
 Shown = dict[tuple[str, str], Callable[[Any], str]]
@@ -101,3 +103,28 @@ assert [name for _, name in told] == ["Scene", "Motion"], told
 assert not {"numpy", "pygame", "linkanim.scenes"} & set(sys.modules)
 """
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+LONE = """
+length_unit = "mm"
+[drive]
+slider = { joint = "C", from = -60, to = 60 }
+speed = "20 rpm"
+[ground]
+O = [0, 0]
+[joints.C]
+line = { through = "O", angle = "30 deg" }
+"""
+
+
+def test_a_lone_slider_that_drives_can_be_shown(shown: Shown) -> None:
+    scene = scene_from(parse(LONE, "my.toml"), name="my", where="my.toml")
+    assert list(parsed(scene.cycle(12), shown).iter(f"{SVG}path"))
+
+
+def test_the_input_of_a_slider_that_drives_is_its_travel(shown: Shown) -> None:
+    motion = load("toggle-press").solve(phase=[0.5, 1.0, 2.0])
+    page = parsed(motion, shown)
+    assert texts(page, "th")[0] == "input travel (mm)"
+    first = [texts(row, "td")[0] for row in list(page.iter("tr"))[1:]]
+    assert [float(cell.replace("−", "-")) for cell in first] == pytest.approx(motion.crank_angle, rel=1e-5)

@@ -6,6 +6,7 @@ What is compared is what a reader sees: the words of the HUD, the chart's curve,
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import re
@@ -15,16 +16,24 @@ from typing import Any
 import numpy as np
 import pytest
 
+from linkanim.cells import csv_head, csv_rows
 from linkanim.cli import main
+from linkanim.cli.strict import json_text
+from linkanim.cli.tree import leaves, tree
+from linkanim.cli.tree import rows as rows_of_tree
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.register import Quantity, register
 from linkanim.picture.chart import pen_for
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.layout import layout
-from linkanim.picture.quantities import quantities, telling
+from linkanim.picture.quantities import quantities, series_of, telling
 from linkanim.picture.readings import rows
 from linkanim.picture.strip import Strip, strip
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.scene import Scene
 
 SPEEDS = (0.3, 1.0, 2 * math.pi / 3, 4 * math.pi / 3, 11.0)
 PHASES = (0.4, 1.7, 2.9, 4.1, 5.5)
@@ -164,3 +173,92 @@ def _tables(words: str) -> dict[str, list[float]]:
 
 def _is_number(word: str) -> bool:
     return re.fullmatch(r"-?[\d.]+(?:e[+-]?\d+)?", word) is not None
+
+
+# Every quantity in every place that shows it, from a start that is not zero: three speeds, both ways.
+PLACES = np.array([0.4, 1.7, 4.1])
+PACES = (0.7, -0.7, -9.0)
+
+
+def _started(name: str) -> Scene:
+    """Return a scene whose drive starts elsewhere where its input turns fully; a swing has its own ends."""
+    scene = load(name)
+    if not scene.info.full_turn:
+        return scene
+    document = {**scene.document, "drive": {**scene.document.get("drive", {}), "start": "33 deg"}}
+    return scene_from(document, name=name, where=name)
+
+
+def _solved(scene: Scene, speed: float) -> tuple[list[Mapping[str, Any]], list[Mapping[str, str]]]:
+    """Return what `solve` makes of a sweep: each row's JSON, and its cells of CSV."""
+    motion = scene.solve(phase=PLACES, speed=speed)
+    known = {"phase": motion.phase, **tree(scene, motion)}
+    names, columns = zip(*leaves(known), strict=True)
+    table = csv.DictReader((csv_head(names) + csv_rows(columns)).splitlines())
+    return [json.loads(json_text(row)) for row in rows_of_tree(known)], list(table)
+
+
+def _at(node: Any, path: tuple[str | int, ...]) -> float:
+    for key in path:
+        node = node[key]
+    return math.inf if node is None else float(node)
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_quantity_is_the_same_in_json_csv_chart_hud_and_api(name: str) -> None:
+    scene = _started(name)
+    known = register(scene.linkage)
+    cycle = scene.solve(phase=0.05 + np.arange(12) * (scene.period / 12))
+    extent = max(float(np.abs(places).max()) for places in cycle.position.values())
+    for speed in PACES:
+        printed, cells = _solved(scene, speed)
+        motion, paced = scene.solve(phase=PLACES, speed=speed), cycle.paced(speed / scene.linkage.drive.speed)
+        solved = scene.solve(phase=cycle.phase, speed=speed)
+        poses = [scene.pose(phase, speed=speed) for phase in PLACES.tolist()]
+        for quantity in known.values():
+            values = np.asarray(quantity.read(motion), float)
+            sizes = np.abs(values[np.isfinite(values)])
+            near = 1e-9 * (sizes.max(initial=0.0) + extent * 9.0**quantity.order)
+            _agree(quantity, values, [quantity.read(pose) for pose in poses], near)
+            if quantity.path:
+                _agree(quantity, values, [_at(row, quantity.path) for row in printed], 0.0)
+                _agree(quantity, values, [_cell(row, quantity.path) for row in cells], 0.0)
+            charted = series_of(scene, quantity, paced).values
+            meant = np.asarray(quantity.shown(solved), float).reshape(charted.shape)
+            _agree(quantity, meant, charted, 1e3 * near)
+        for pose in poses:
+            _hud_agrees(scene, pose)
+
+
+def _cell(row: Mapping[str, str], path: tuple[str | int, ...]) -> float:
+    *keys, last = path
+    ends = "12" if "coefficients" in path else "xy"
+    column = ".".join([*map(str, keys), ends[last] if isinstance(last, int) else last])
+    return float(row[column] or math.inf)
+
+
+def _agree(quantity: Quantity, meant: Any, found: Any, near: float) -> None:
+    """Assert that values are the same; what is not bounded, or has no value, is neither in both."""
+    one, other = np.asarray(meant, float), np.asarray(found, float)
+    bounded = np.isfinite(one)
+    assert np.array_equal(bounded, np.isfinite(other)), quantity.token
+    apart = one[bounded] - other[bounded]
+    if quantity.unit == "rad":
+        turn = 360.0 if np.abs(one[bounded]).max(initial=0.0) > 7 * math.pi else math.tau
+        apart = np.where(np.abs(apart) > near, apart - turn * np.rint(apart / turn), apart)
+    assert np.abs(apart).max(initial=0.0) <= near, quantity.token
+
+
+def _hud_agrees(scene: Scene, pose: Pose) -> None:
+    """Assert that each number of the HUD is that of the quantity it is about."""
+    known, shown = register(scene.linkage), dict(rows(scene, pose))
+    about = {"driving cylinder": "input.length"}
+    about |= {f"input {token.partition('.')[2]}": token for token in ("input.torque", "input.force")}
+    for item in scene.linkage.springs + scene.linkage.dampers:
+        word = scene.linkage.strut_word(item)
+        about[f"{word} {item.name}"] = f"{item.name}.{'rate' if word == 'damper' else 'length'}"
+    for label, token in about.items():
+        if label in shown and token in known:
+            value = float(known[token].shown(pose))
+            digits = shown[label].partition(".")[2].partition(" ")[0]
+            assert _number(shown[label]) == pytest.approx(value, abs=0.51 * 10.0 ** -len(digits)), label

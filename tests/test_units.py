@@ -86,6 +86,8 @@ REFUSED: list[tuple[str, Callable[[object], float], object, str]] = [
     ("nan", units.angle, "nan deg", "finite"),
     ("inf", units.angular_speed, "-inf rpm", "finite"),
     ("overflow", units.angular_speed, "1e999 rpm", "finite"),
+    ("faster than anything turns", units.angular_speed, "1e9 rpm", "1e7 rpm"),
+    ("as fast backwards", units.angular_speed, "-1.1e6 rad/s", "1e7 rpm"),
     ("nan float", mm, math.nan, "finite"),
     ("inf float", mm, math.inf, "finite"),
     ("bare inf", units.angle, math.inf, "finite"),

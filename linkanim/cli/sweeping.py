@@ -94,12 +94,20 @@ def blocks(
 
 
 def _continued(found: Tree, last: Tree | None) -> Tree:
-    """Return rows whose bodies' angles go on from the last row of those before, which is their first."""
-    for name, body in found["bodies"].items():
-        if last is not None and "angle" in body:
-            turns = np.rint((last["bodies"][name]["angle"][-1] - body["angle"][0]) / math.tau)
-            body["angle"] = body["angle"] + math.tau * np.nan_to_num(turns)
+    """Return rows whose angles and directions go on from the row before, which is their first."""
+    if last is None:
+        return found
+    for part, name, key in _continued_keys(found):
+        known = found[part][name]
+        turns = np.rint((last[part][name][key][-1] - known[key][0]) / math.tau)
+        known[key] = known[key] + math.tau * np.nan_to_num(turns)
     return found
+
+
+def _continued_keys(found: Tree) -> Iterator[tuple[str, str, str]]:
+    """Yield where angles stand that run on: of bodies, and the directions of springs and dampers."""
+    for part, key in (("bodies", "angle"), ("springs", "direction"), ("dampers", "direction")):
+        yield from ((part, name, key) for name, known in found[part].items() if key in known)
 
 
 def _without(found: Tree, rows: int) -> Tree:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Iterable, Iterator, Sequence
+from typing import Any
 
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
@@ -18,6 +19,7 @@ from linkanim.mechanics.measures import (
     Measure,
     coefficients_of,
 )
+from linkanim.mechanics.register import recorded
 from linkanim.mechanics.symbols import plain_unit
 from linkanim.scenes.scene import Scene
 
@@ -57,6 +59,18 @@ def _tables(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[list[str]]
         for item in items
     ]
     yield [["element", *_titles(SPRING, unit)], *elements]
+    yield [["whole", "value"], *_whole(linkage, unit, pose)]
+
+
+def _whole(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[str]]:
+    """Yield what is known of the linkage as a whole: words with the unit, and the value."""
+    for quantity in recorded(linkage):
+        if quantity.path == tuple(quantity.token.split(".")):
+            value: Any = pose
+            for key in quantity.path:
+                value = value[key]
+            words = f"{quantity.words} {plain_unit(quantity.unit, unit)}".rstrip()
+            yield [words, _degrees(value) if quantity.unit == "rad" else _number(value)]
 
 
 def _titles(measures: Iterable[Measure], unit: str) -> Iterator[str]:

@@ -5,16 +5,14 @@ The tree is that of `solve --json`; its leaves are arrays (N,), a value for each
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.columns import components
-from linkanim.mechanics.linkage import Body, Linkage
-from linkanim.mechanics.measures import CENTRE, DAMPER, POINT, SPRING, Measure, measures_of
 from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.register import Path, recorded
 from linkanim.scenes.scene import Scene
 
 Leaf = NDArray[np.float64]
@@ -27,32 +25,27 @@ def input_key(scene: Scene) -> str:
 
 
 def tree(scene: Scene, motion: Motion) -> Tree:
-    """Return joints, bodies, springs and dampers of N poses, in the scene's unit, radians and seconds."""
-    linkage = scene.linkage
-    return {
-        "joints": {joint.name: _known(POINT, motion, joint.name) for joint in linkage.joints},
-        "bodies": {body.name: _body(linkage, motion, body) for body in linkage.bodies},
-        "springs": {item.name: _known(SPRING, motion, item.name) for item in linkage.springs},
-        "dampers": {item.name: _known(DAMPER, motion, item.name) for item in linkage.dampers},
-    }
+    """Return every quantity of N poses under its path, in the scene's unit, radians and seconds."""
+    found: Tree = {"joints": {}, "bodies": {}, "springs": {}, "dampers": {}}
+    for quantity in recorded(scene.linkage):
+        _put(found, quantity.path, _leaf(quantity.read(motion), motion))
+    return found
 
 
-def _body(linkage: Linkage, motion: Motion, body: Body) -> Tree:
-    own, slopes = measures_of(linkage, body)
-    known = _known(own, motion, body.name)
-    known["coefficients"] = [measure.read(motion, body.name) for measure in slopes]
-    return {**known, "com": _known(CENTRE, motion, body.name)} if body.com else known
+def _put(found: Any, path: Path, leaf: Leaf) -> None:
+    """Put a leaf where a path leads, through tables and lists that are made on the way."""
+    key, *rest = path
+    if isinstance(key, int):
+        found.append(leaf)
+    elif rest:
+        _put(found.setdefault(key, [] if isinstance(rest[0], int) else {}), tuple(rest), leaf)
+    else:
+        found[key] = leaf
 
 
-def _known(measures: Iterable[Measure], motion: Motion, part: str) -> Tree:
-    return {measure.key: _leaf(measure.read(motion, part), motion) for measure in measures}
-
-
-def _leaf(found: Any, motion: Motion) -> Leaf | list[Leaf]:
-    """Return a vector as [x, y], and NaN at every instant for what is not known (None)."""
-    if found is None:
-        return np.full(np.shape(motion.phase), np.nan)
-    return list(components(found)) if np.ndim(found) > np.ndim(motion.phase) else found
+def _leaf(found: Any, motion: Motion) -> Leaf:
+    """Return what was found at every instant, NaN for what is not known (None)."""
+    return np.broadcast_to(np.asarray(np.nan if found is None else found, np.float64), np.shape(motion.phase))
 
 
 def mapped(change: Callable[[Any], Any], node: Any) -> Any:

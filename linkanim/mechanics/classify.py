@@ -13,6 +13,7 @@ import numpy as np
 from linkanim.digits import degrees, short, significant
 
 from .chain import Touch
+from .derived import output_slider
 from .effort import Demand, demand, effort_token, usual_effort
 from .exact import HALF_TURN, Sum
 from .loop import Gearing
@@ -120,17 +121,17 @@ class Info:
 
     @property
     def stroke(self) -> float | None:
-        """The first slider's stroke; None without one."""
+        """The output slider's stroke; None without a slider."""
         return self._slider.stroke if self._slider else None
 
     @property
     def time_ratio(self) -> float | None:
-        """The first slider's slow way's time over its quick way's; None without one."""
+        """The output slider's slow way's time over its quick way's; None without a slider."""
         return self._slider.time_ratio if self._slider else None
 
     @property
     def dead_centres(self) -> tuple[float, float] | None:
-        """The phases at which the first slider is furthest back and furthest forward; None where it rests."""
+        """Phases of the output slider's dead centres, back and then forward; None where it rests."""
         return self._slider.dead_centres if self._slider else None
 
     @cached_property
@@ -241,8 +242,11 @@ class _Slider(NamedTuple):
 
 
 def _stroke(mechanism: Mechanism) -> _Slider | None:
-    """Return how the first slider goes to and fro; its time ratio is the slow way's over the quick way's."""
-    slider = next((body for body in mechanism.linkage.bodies if body.slider is not None), None)
+    """Return how the output slider goes to and fro; its time ratio is the slow way's over the quick way's.
+
+    In a longer true period it goes so more than once: each way ends at the next dead centre.
+    """
+    slider = output_slider(mechanism.linkage)
     if slider is None:
         return None
     name, whole = slider.name, 2 * math.pi * mechanism.periods
@@ -254,9 +258,12 @@ def _stroke(mechanism: Mechanism) -> _Slider | None:
     span = float(np.ptp(travel)) if len(travel) else 0.0
     if span == 0:
         return _Slider(0.0, 1.0, None)
-    back, forward = float(reversals[travel.argmin()]), float(reversals[travel.argmax()])
-    way = (back - forward) % whole
-    return _Slider(span, max(way, whole - way) / min(way, whole - way), (back, forward))
+    near = SAME_ANGLE * span
+    backs, forwards = (reversals[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
+    forth = (forwards - backs[:, None]) % whole
+    row, column = np.unravel_index(int(forth.argmin()), forth.shape)
+    ways = float(forth.min()), float(((backs - forwards[:, None]) % whole).min())
+    return _Slider(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
 
 
 def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:

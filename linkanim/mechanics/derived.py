@@ -173,6 +173,14 @@ def output_body(linkage: Linkage) -> Body | None:
     return slider or (rockers[-1] if rockers else None)
 
 
+def output_slider(linkage: Linkage) -> Body | None:
+    """Return the slider that a linkage is there to move: the first one not driven, or else the driven."""
+    output = output_body(linkage)
+    if output is not None and output.slider is not None:
+        return output
+    return next((body for body in linkage.bodies if body.slider is not None), None)
+
+
 def coupler_body(linkage: Linkage) -> Body | None:
     """Return the body that turns about nothing fixed: the first one without a fixed pin, None without one."""
     turning = (body for body in linkage.bodies if body.slider is None)
@@ -215,4 +223,4 @@ def _faster(motion: Any, length: float, rates: tuple[str, str], output: str) -> 
 
 def input_rate(motion: Any) -> Any:
     """Return the input's own velocity, one value an instant: of a swing it is not the phase's."""
-    return motion.crank_rate + 0.0 * motion.crank_angle
+    return motion.crank_rate + 0.0 * motion.phase

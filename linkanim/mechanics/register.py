@@ -1,15 +1,15 @@
-"""The register of quantities: what can be told of a linkage, in which symbol, words and unit.
+"""The register of quantities: what is known of a linkage, in which symbol, words and unit, under which key.
 
-It puts the measures of each part together with what is told of the linkage as a whole; charts, their lists
-and refusals read from here.
+It puts the measures of each part together with what is known of the linkage as a whole; JSON, CSV, tables,
+charts, their lists and refusals, the HUD and notebooks read from here.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
 from types import MappingProxyType
 from typing import Any
 
@@ -19,11 +19,13 @@ from linkanim.errors import BadInput
 
 from .columns import components
 from .derived import (
+    between,
     dyads_of,
     input_rate,
     mechanical_advantage,
     output_body,
     pole,
+    size,
     transmission_angle,
     worst_transmission,
 )
@@ -40,12 +42,16 @@ _ROUNDING = 1e-13
 """Of what is as large as the extent, moved at the input's speed."""
 
 
+Path = tuple[str | int, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class Quantity:
     """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
 
     `read` takes a Motion (arrays) or a Pose (floats) and gives radians and the scene's unit of length:
-    one value an instant, or one in each of `columns`. `unit` and `order` are as in `Measure`.
+    one value an instant, or one in each of `columns`. `unit` and `order` are as in `Measure`. `path` is where
+    it stands in JSON, numbers being places in a list; what follows from others there has none.
     """
 
     token: str
@@ -55,6 +61,7 @@ class Quantity:
     order: int
     read: Callable[[Any], Any]
     columns: tuple[str, ...] = ("",)
+    path: Path = ()
 
     def shown(self, motion: Any) -> Any:
         """Return the values as people read them: angles in degrees."""
@@ -77,12 +84,23 @@ class Quantity:
         return f"{self.words} {self.symbol}" + (f" ({unit})" if unit else "")
 
 
-def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> dict[str, Quantity]:
+def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> Mapping[str, Quantity]:
     """Return all quantities of a linkage by their tokens: bodies, joints, centres of mass, struts.
 
     Tokens go by the bodies' own names; words by what `names` has for them.
     """
-    return {quantity.token: quantity for quantity in _quantities(linkage, names)}
+    return _registered(linkage, tuple(names.items()))
+
+
+@lru_cache(maxsize=16)
+def _registered(linkage: Linkage, names: tuple[tuple[str, str], ...]) -> Mapping[str, Quantity]:
+    found = _quantities(linkage, dict(names), still=False)
+    return MappingProxyType({quantity.token: quantity for quantity in found})
+
+
+def recorded(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield what JSON and CSV hold: fixed pins and forces that are not known as well."""
+    return (quantity for quantity in _quantities(linkage, NO_NAMES, still=True) if quantity.path)
 
 
 def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
@@ -99,27 +117,30 @@ def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
     raise BadInput(f"quantity {token!r}: {of} has none of this name{meant}; it has {', '.join(known)}")
 
 
-def _quantities(linkage: Linkage, names: Mapping[str, str]) -> Iterator[Quantity]:
+def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> Iterator[Quantity]:
+    """Yield all quantities, those of fixed pins and unknown forces where `still`."""
     labels = link_labels(linkage)
     for body in linkage.bodies:
         yield from _of_body(linkage, body, labels[body.name], called(body, names))
     for joint in linkage.joints:
-        if not isinstance(joint, Pin):
-            for measure in POINT:
-                yield from _of_point(measure, joint.name, joint.name, joint.name)
-            for measure in PATH:
-                yield _bound(measure, joint.name, indexed(measure.symbol, joint.name), joint.name)
+        moves, path = not isinstance(joint, Pin), ("joints", joint.name)
+        for measure in POINT if moves or still else ():
+            yield from _of_point(measure, joint.name, joint.name, joint.name, path)
+        for measure in PATH if moves else ():
+            symbol = indexed(measure.symbol, joint.name)
+            yield _bound(measure, joint.name, symbol, joint.name, (*path, measure.key))
     for body in linkage.bodies:
         if body.com is not None:
             label, words = f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
+            centre = ("bodies", body.name, "com")
             for measure in CENTRE:
-                yield from _of_point(measure, body.name, label, words)
+                yield from _of_point(measure, body.name, label, words, centre)
             for measure in CENTRE_PATH:
-                yield _bound(measure, body.name, indexed(measure.symbol, label), words)
-    for spring in linkage.springs:
-        yield from _of_strut(spring, linkage.strut_word(spring), shared=spring.name in labels)
-    for damper in linkage.dampers:
-        yield from _of_strut(damper, linkage.strut_word(damper), shared=damper.name in labels)
+                symbol = indexed(measure.symbol, label)
+                yield _bound(measure, body.name, symbol, words, (*centre, measure.key))
+    for strut in linkage.springs + linkage.dampers:
+        shared = strut.name in labels
+        yield from _of_strut(strut, linkage.strut_word(strut), shared=shared, every=still)
     for body in linkage.bodies:
         if body.slider is None:
             yield from _of_pole(body, labels[body.name], called(body, names))
@@ -137,28 +158,48 @@ def _of_pole(body: Body, label: str, words: str) -> Iterator[Quantity]:
     yield Quantity(token, indexed("r", index), said, "{}", 0, whole, ("x", "y"))
     for place, axis in enumerate("xy"):
         symbol = indexed(axis, index)
-        yield Quantity(f"{token}.{axis}", symbol, f"{said}, {axis}", "{}", 0, _component(whole, place))
+        path = ("bodies", body.name, "pole", place)
+        words, read = f"{said}, {axis}", _component(whole, place)
+        yield Quantity(f"{token}.{axis}", symbol, words, "{}", 0, read, path=path)
 
 
 def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     """Yield what is told of the linkage as a whole: its input, transmission and advantage."""
+    yield from map(_keyed, _of_input(linkage))
+    dyads = dyads_of(linkage)
+    if dyads:
+        read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
+        yield _keyed(Quantity("transmission_angle", "μ", "Transmission angle", "rad", 0, read))
+    for dyad in dyads if len(dyads) > 1 else ():
+        read, said = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
+        token, path = f"{dyad}.transmission_angle", ("joints", dyad, "transmission_angle")
+        yield Quantity(token, indexed("μ", dyad), said, "rad", 0, read, path=path)
+    output = output_body(linkage)
+    if output is not None and (output.slider or not linkage.slides):
+        read = mechanical_advantage(linkage)
+        yield _keyed(Quantity("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read))
+
+
+def _of_input(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield how fast the input moves, how long its cylinder is, and what it delivers."""
     if linkage.slides:
         yield Quantity("input.velocity", "v_{in}", "Input: velocity", "{}/s", 1, input_rate)
     else:
         yield Quantity("input.angular_velocity", "ω_{in}", "Input: angular velocity", "rad/s", 1, input_rate)
+    if linkage.drive.cylinder is not None:
+        ends = linkage.drive.cylinder.between
+
+        def length(motion: Any) -> Any:
+            return size(between(motion.position, ends))
+
+        yield Quantity("input.length", "L_{in}", "Input: length of the cylinder", "{}", 0, length)
     if linkage.forceful:
         yield _effort(linkage)
-    dyads = dyads_of(linkage)
-    if dyads:
-        read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
-        yield Quantity("transmission_angle", "μ", "Transmission angle", "rad", 0, read)
-    for dyad in dyads if len(dyads) > 1 else ():
-        read, said = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
-        yield Quantity(f"{dyad}.transmission_angle", indexed("μ", dyad), said, "rad", 0, read)
-    output = output_body(linkage)
-    if output is not None and (output.slider or not linkage.slides):
-        read = mechanical_advantage(linkage)
-        yield Quantity("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
+
+
+def _keyed(quantity: Quantity) -> Quantity:
+    """Return a quantity that stands in JSON under its own token."""
+    return replace(quantity, path=tuple(quantity.token.split(".")))
 
 
 def _effort(linkage: Linkage) -> Quantity:
@@ -173,18 +214,22 @@ def _effort(linkage: Linkage) -> Quantity:
 
 def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:
     own, slopes = measures_of(linkage, body)
-    for measure in (*own, *slopes):
-        yield _bound(measure, body.name, indexed(measure.symbol, label), words)
+    path = ("bodies", body.name)
+    for measure in own:
+        yield _bound(measure, body.name, indexed(measure.symbol, label), words, (*path, measure.key))
+    for place, measure in enumerate(slopes):
+        symbol = indexed(measure.symbol, label)
+        yield _bound(measure, body.name, symbol, words, (*path, "coefficients", place))
 
 
-def _bound(measure: Measure, part: str, symbol: str, words: str) -> Quantity:
+def _bound(measure: Measure, part: str, symbol: str, words: str, path: Path) -> Quantity:
     """Return the quantity that a measure is of one part."""
     token, said = f"{part}.{measure.name}", f"{words}: {measure.words}"
-    told = (token, symbol, said, measure.unit, measure.order)
-    return Quantity(*told, lambda motion: measure.read(motion, part))
+    known = (token, symbol, said, measure.unit, measure.order)
+    return Quantity(*known, lambda motion: measure.read(motion, part), path=path)
 
 
-def _of_point(measure: Measure, part: str, label: str, words: str) -> Iterator[Quantity]:
+def _of_point(measure: Measure, part: str, label: str, words: str, path: Path) -> Iterator[Quantity]:
     """Yield a vector, a position as its two components and else its magnitude, and each component."""
     token, said = f"{part}.{measure.name}", f"{words}: {measure.words}"
 
@@ -205,6 +250,7 @@ def _of_point(measure: Measure, part: str, label: str, words: str) -> Iterator[Q
             measure.unit,
             measure.order,
             _component(vector, index),
+            path=(*path, measure.key, index),
         )
 
 
@@ -217,10 +263,14 @@ def _size(vector: Any) -> Any:
     return math.hypot(x, y) if isinstance(vector, tuple) else np.hypot(x, y)
 
 
-def _of_strut(strut: Spring | Damper, word: str, *, shared: bool) -> Iterator[Quantity]:
-    """Yield a strut's quantities; in symbols `word` tells it from a body of the same name."""
+def _of_strut(strut: Spring | Damper, word: str, *, shared: bool, every: bool) -> Iterator[Quantity]:
+    """Yield a strut's quantities, a force that is not known where `every` is meant.
+
+    In symbols `word` tells it from a body of the same name.
+    """
     kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
     for measure in (*measures, *DIRECTIONS[kind]):
-        if measure.name != "force" or strut.forceful:
+        if measure.name != "force" or strut.forceful or every:
             symbol = indexed(measure.symbol, f"{word} {strut.name}" if shared else strut.name)
-            yield _bound(measure, strut.name, symbol, f"{word.capitalize()} {strut.name}")
+            path = (f"{kind}s", strut.name, measure.key)
+            yield _bound(measure, strut.name, symbol, f"{word.capitalize()} {strut.name}", path)

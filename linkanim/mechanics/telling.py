@@ -43,8 +43,9 @@ def _changes(one: Quantity, cycle: Motion) -> bool:
 
 
 def _wished(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
-    sliders = [body.name for body in linkage.bodies if body.slider is not None]
     output = output_body(linkage)
+    bodies = sorted(linkage.bodies, key=lambda body: body is not output)
+    sliders = [body.name for body in bodies if body.slider is not None]
     for name in sliders:
         yield from (f"{name}.travel_velocity", f"{name}.travel_acceleration")
     struts: tuple[Spring | Damper, ...] = (*linkage.springs, *linkage.dampers)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
@@ -58,7 +58,7 @@ def _unit(motion: Motion) -> str:
     return next((unit for unit in length_units() if metre(unit) == scale), "")
 
 
-def _quantities(motion: Motion) -> dict[str, Quantity]:
+def _quantities(motion: Motion) -> Mapping[str, Quantity]:
     """Return all quantities by their tokens, bodies called by what they do."""
     solved = mechanism(motion.setting.linkage)
     return register(solved.linkage, link_names(solved, tuple(turning_links(solved))))
@@ -77,9 +77,9 @@ def _shown(motion: Motion) -> Iterator[Quantity]:
 def _table(motion: Motion) -> str:
     """Return the input's angle, phase, joints and bodies, a row for each instant."""
     unit, shown = _unit(motion), list(_shown(motion))
-    titles = ["input angle (°)", "phase (°)"]
+    titles = [_input_title(motion), "phase (°)"]
     titles += [f"{one.symbol} ({one.shown_unit(unit)})" for one in shown]
-    inputs = np.degrees(motion.crank_angle), np.degrees(motion.phase)
+    inputs = _input(motion), np.degrees(motion.phase)
     columns = (np.ravel(column) for column in (*inputs, *(one.shown(motion) for one in shown)))
     rows = np.stack(list(columns), axis=1)
     head = "".join(f"<th>{symbol(title)}</th>" for title in titles)
@@ -88,6 +88,16 @@ def _table(motion: Motion) -> str:
     if cut:
         body.insert(_ENDS, f"<tr><td colspan='{len(titles)}'>… {len(cut):,} more rows …</td></tr>")
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table>"
+
+
+def _input_title(motion: Motion) -> str:
+    """Return what a column of the input is titled."""
+    return f"input travel ({_unit(motion)})" if motion.setting.linkage.slides else "input angle (°)"
+
+
+def _input(motion: Motion) -> Any:
+    """Return the input's angle in degrees, or the travel of a slider that drives."""
+    return motion.crank_angle if motion.setting.linkage.slides else np.degrees(motion.crank_angle)
 
 
 def _row(values: Any) -> str:
@@ -100,14 +110,15 @@ def _telling(motion: Motion) -> Quantity:
     linkage, known = motion.setting.linkage, _quantities(motion)
     output = output_body(linkage)
     if output is None:
-        return known["input.angular_velocity"]
+        return known["input.velocity" if linkage.slides else "input.angular_velocity"]
     where, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
     return known[f"{output.name}.{rate if motion.velocity else where}"]
 
 
 def _chart(motion: Motion, told: Quantity) -> str:
     """Return a chart of a quantity over the input's angle, or over the phase where the input swings."""
-    turns = bool((np.diff(motion.crank_angle) > 0).all() or (np.diff(motion.crank_angle) < 0).all())
+    slides, steps = motion.setting.linkage.slides, np.diff(motion.crank_angle)
+    turns = not slides and bool((steps > 0).all() or (steps < 0).all())
     x = np.degrees(motion.crank_angle if turns else motion.phase)
     values = np.asarray(told.shown(motion), float)
     type_, parts = Type(), layout(_CHART)

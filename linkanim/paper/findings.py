@@ -11,7 +11,7 @@ import numpy as np
 
 from linkanim.digits import significant, stepped, typeset
 from linkanim.errors import BadInput, OutOfRange
-from linkanim.mechanics.derived import output_body
+from linkanim.mechanics.derived import output_body, output_slider
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.register import Quantity
 from linkanim.mechanics.symbols import input_symbol
@@ -63,9 +63,8 @@ def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
 def usual_instants(scene: Scene) -> tuple[Instant, ...]:
     """Return the start, and where the output is furthest either way, if it turns back at all."""
     found = [Instant(0.0, "start")]
-    slider = next((body.name for body in scene.linkage.bodies if body.slider is not None), None)
-    output = output_body(scene.linkage)
-    token = f"{slider}.travel" if slider else f"{output.name}.angle" if output else None
+    slider, output = output_slider(scene.linkage), output_body(scene.linkage)
+    token = f"{slider.name}.travel" if slider else f"{output.name}.angle" if output else None
     if token is not None and (slider or output is None or output.name not in scene.info.turning_links):
         pace = Pace(abs(scene.linkage.drive.speed), "")
         curve = curves_of(scene, ChartRequest((token,), (pace,), "phase")).curves[0]

@@ -11,6 +11,7 @@ from math import degrees
 import numpy as np
 
 from linkanim.digits import short, stepped, typeset
+from linkanim.mechanics.derived import output_slider
 from linkanim.mechanics.symbols import input_symbol
 from linkanim.picture.driven import driven_words
 from linkanim.picture.figure import Figure
@@ -38,7 +39,7 @@ _SHARES: Mapping[Anchor, float] = {"left": 0.0, "centre": 0.5, "right": 1.0}
 
 @dataclass(frozen=True)
 class DeadCentres:
-    """The dead centres of a figure's first slider, if it slides on the ground; `sized` with its stroke."""
+    """The dead centres of a figure's output slider, if it slides on the ground; `sized` with its stroke."""
 
     figure: Figure
     view: View
@@ -82,7 +83,8 @@ class DeadCentres:
     def _ends(self) -> tuple[complex, complex] | None:
         """Where the slider is in pixels, furthest back and forward; None where it travels too little."""
         scene, phases = self.figure.scene, self.figure.scene.info.dead_centres
-        slider = next((body.slider for body in self.figure.linkage.bodies if body.slider), None)
+        body = output_slider(self.figure.linkage)
+        slider = body.slider if body else None
         if slider is None or phases is None or self.figure.linkage.joint(slider).slides[0].start is not None:
             return None
         back, forward = (self.view.place(scene.pose(phase, 0).position[slider]) for phase in phases)

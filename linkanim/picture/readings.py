@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from math import degrees, dist, floor, inf, log10, pi, tau
-from typing import NamedTuple
+from math import degrees, floor, inf, log10, pi, tau
+from typing import Any, NamedTuple
 
 from linkanim.digits import stepped
-from linkanim.mechanics.effort import input_effort
+from linkanim.mechanics.effort import effort_token
 from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.register import Quantity, register
 from linkanim.picture.driven import driven_name, driven_words, sign_of, speed_in, speed_unit, speed_words
 from linkanim.scenes.scene import Scene
 
@@ -82,38 +83,35 @@ def _input_rows(scene: Scene) -> Iterator[Row]:
 
 def _live(scene: Scene) -> Callable[[Pose], str]:
     """Return what tells the driven bar's angular velocity, or the slider's, always with as many decimals."""
+    known = register(scene.linkage)
     if scene.linkage.slides:
-        return lambda pose: f"{stepped(pose.crank_rate, 0.1)} {scene.length_unit}/s"
-    unit = speed_unit(scene)
+        read = known["input.velocity"].read
+        return lambda pose: f"{stepped(read(pose), 0.1)} {scene.length_unit}/s"
+    unit, read = speed_unit(scene), known["input.angular_velocity"].read
     largest = abs(speed_in(unit, scene.linkage.drive.speed))
     step = 10.0 ** (floor(log10(largest)) - 2)
-    return lambda pose: f"{stepped(speed_in(unit, pose.crank_rate), step)} {sign_of(unit)}"
+    return lambda pose: f"{stepped(speed_in(unit, read(pose)), step)} {sign_of(unit)}"
 
 
 def _strut_rows(scene: Scene) -> Iterator[Row]:
-    linkage, unit = scene.linkage, scene.length_unit
+    linkage, known, unit = scene.linkage, register(scene.linkage), scene.length_unit
     for item in linkage.springs + linkage.dampers:
         word = linkage.strut_word(item)
         kind = "spring" if word == "spring" else "damper"
-        part, of = ("rate", f"{unit}/s") if word == "damper" else ("length", unit)
-        yield Row(4, f"{word} {item.name}", _strut(kind, item.name, part, of))
+        part = "rate" if word == "damper" else "length"
+        yield Row(4, f"{word} {item.name}", _tenths(known[f"{item.name}.{part}"], unit))
         if item.forceful:
-            yield Row(2, f"{kind} force", _strut(kind, item.name, "force", "N"))
-    if driving := linkage.drive.cylinder:
-        first, last = driving.between
-        yield Row(
-            2,
-            "driving cylinder",
-            lambda pose: f"{stepped(dist(pose.position[first], pose.position[last]), 0.1)} {unit}",
-        )
+            yield Row(2, f"{kind} force", _tenths(known[f"{item.name}.force"], unit))
+    if linkage.drive.cylinder is not None:
+        yield Row(2, "driving cylinder", _tenths(known["input.length"], unit))
 
 
-def _strut(kind: str, name: str, part: str, unit: str) -> Callable[[Pose], str | None]:
-    """Return what tells a spring's or damper's length, rate or force, to a tenth."""
+def _tenths(quantity: Quantity, length_unit: str) -> Callable[[Pose], str | None]:
+    """Return what puts a quantity into words, to a tenth; None where it is not known."""
 
     def value(pose: Pose) -> str | None:
-        found = getattr(getattr(pose, kind)[name], part)
-        return None if found is None else f"{stepped(found, 0.1)} {unit}"
+        found, unit = quantity.shown(pose), quantity.shown_unit(length_unit)
+        return None if found is None else f"{stepped(float(found), 0.1)} {unit}"
 
     return value
 
@@ -123,8 +121,13 @@ def _effort_row(scene: Scene) -> Iterator[Row]:
     usual = scene.info.usual_effort
     if usual is not None:
         name, unit = scene.info.effort
-        step = 10.0 ** (floor(log10(usual)) - 2) if usual > 0 else 0.1
-        yield Row(2, f"input {name}", lambda pose: f"{stepped(float(input_effort(pose)), step)} {unit}")
+        step, read = 10.0 ** (floor(log10(usual)) - 2) if usual > 0 else 0.1, _effort(scene)
+        yield Row(2, f"input {name}", lambda pose: f"{stepped(float(read(pose)), step)} {unit}")
+
+
+def _effort(scene: Scene) -> Callable[[Any], Any]:
+    """Return how what the input delivers is read."""
+    return register(scene.linkage)[effort_token(scene.linkage)].read
 
 
 class Note(NamedTuple):

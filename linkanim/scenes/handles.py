@@ -110,8 +110,14 @@ def _of_pin(scene: Scene, name: str) -> Iterator[Handle]:
     yield from (Handle(("ground", name, part), part=part) for part in (0, 1))
     yield Handle(("ground", name, "length"))
     angle = scene.document.get("ground", {}).get(name)
-    if isinstance(angle, Mapping) and "deg" in str(angle.get("angle", "")):
+    if isinstance(angle, Mapping) and _in_degrees(angle.get("angle", "")):
         yield Handle(("ground", name, "angle"), angle=True)
     for table in ("four-bar", "six-bar"):
-        if name == "O4" and "deg" in str(scene.document.get(table, {}).get("ground_angle", "")):
+        if name == "O4" and _in_degrees(scene.document.get(table, {}).get("ground_angle", "")):
             yield Handle((table, "ground_angle"), "O2", angle=True)
+
+
+def _in_degrees(written: object) -> bool:
+    """Tell whether an angle is written in degrees, as "30 deg" or "30°"."""
+    text = str(written)
+    return text.rstrip().endswith("°") or "deg" in text.lower()

@@ -28,8 +28,15 @@ _PLAIN: tuple[object, ...] = (
 )  # fmt: skip
 _AT_LINE = re.compile(r"\(at line (\d+), column \d+\)|\(line (\d+)\)")
 _ITEM = re.compile(r"(.+)\[(\d+)\]")
-_OF_SHAPE = ("rigid body", "one point", "cannot meet", "is fixed, so nothing", "does not travel")
-"""Words of what may only follow from a mend that put a joint elsewhere."""
+_OF_SHAPE = (
+    "rigid body",
+    "one point",
+    "cannot meet",
+    "is fixed, so nothing",
+    "does not travel",
+    "no linkage",
+)
+"""Words of what may only follow from a mend that put a joint elsewhere, or left it out."""
 
 
 class Problem(NamedTuple):

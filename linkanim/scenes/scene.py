@@ -107,10 +107,7 @@ class Scene:
             from linkanim.mechanics.stroke import NO_ANGLE
 
             raise BadInput(f"{self.name}: {NO_ANGLE}")
-        if derivatives not in (0, 1, 2):
-            raise BadInput(
-                f"derivatives={derivatives}: give 0 (positions), 1 (velocities) or 2 (accelerations)"
-            )
+        _check_derivatives(derivatives)
         return self.mechanism.solve(
             angle=angle,
             phase=phase,
@@ -123,8 +120,8 @@ class Scene:
         """Return the motion at `count` phases, equally spaced over one true period, the end left out."""
         import numpy as np
 
-        if count < 1:
-            raise BadInput(f"cycle({count}): a cycle needs at least one phase")
+        if not isinstance(count, int | np.integer) or count < 1:
+            raise BadInput(f"cycle({count!r}): give a whole number of phases, at least 1")
         return self.solve(phase=np.arange(count) * (self.period / count), derivatives=derivatives)
 
     def pose(
@@ -135,8 +132,18 @@ class Scene:
         speed: float | None = None,
         acceleration: float = 0.0,
     ) -> Pose:
-        """Return the motion at one phase in plain floats: the way of a frame."""
+        """Return the motion at one phase in plain floats: the way of a frame.
+
+        BadInput for what is no number, or for other `derivatives` than 0, 1 and 2.
+        """
+        _check_derivatives(derivatives)
         rate = self.linkage.drive.speed if speed is None else speed
+        try:
+            phase, rate, acceleration = phase + 0.0, rate + 0.0, acceleration + 0.0
+        except TypeError:
+            raise BadInput(
+                f"pose({phase!r}): phase, speed and acceleration are numbers, in radians and seconds"
+            ) from None
         return self.mechanism.pose(float(phase), float(rate), float(acceleration), derivatives)
 
     def _repr_html_(self) -> str:
@@ -149,3 +156,10 @@ class Scene:
             if value
         )
         return f"<table>{cells}</table>"
+
+
+def _check_derivatives(derivatives: int) -> None:
+    if derivatives not in (0, 1, 2):
+        raise BadInput(
+            f"derivatives={derivatives!r}: give 0 (positions), 1 (velocities) or 2 (accelerations)"
+        )

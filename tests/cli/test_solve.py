@@ -67,7 +67,8 @@ def test_the_press_has_its_published_values(
 def test_one_pose_is_one_object_of_the_agreed_form(solved: Callable[..., Any]) -> None:
     pose = solved("press", "--angle", "87 deg", "--speed", "10 rad/s")
     head = ["scene", "angle", "phase", "speed", "acceleration", "length_unit"]
-    assert list(pose) == [*head, "joints", "bodies", "springs", "dampers"]
+    whole = ["input", "transmission_angle", "mechanical_advantage"]
+    assert list(pose) == [*head, "joints", "bodies", "springs", "dampers", *whole]
     assert {key: pose[key] for key in head} == {
         "scene": "press",
         "angle": math.radians(87),
@@ -77,16 +78,24 @@ def test_one_pose_is_one_object_of_the_agreed_form(solved: Callable[..., Any]) -
         "length_unit": "mm",
     }
     assert set(pose["joints"]) == {"O2", "O7", "G", "S", "A", "B", "C", "D", "H"}
-    assert {key: len(pair) for key, pair in pose["joints"]["B"].items()} == {
-        "position": 2,
-        "velocity": 2,
-        "acceleration": 2,
-    }
-    turning = {"angle", "angular_velocity", "angular_acceleration", "coefficients"}
+    vectors, path = (
+        ["position", "velocity", "acceleration"],
+        {
+            "normal_acceleration",
+            "tangential_acceleration",
+            "curvature_radius",
+        },
+    )
+    assert set(pose["joints"]["O2"]) == set(vectors)
+    assert set(pose["joints"]["B"]) == {*vectors, *path, "transmission_angle"}
+    assert [len(pose["joints"]["B"][key]) for key in vectors] == [2, 2, 2]
+    turning = {"angle", "angular_velocity", "angular_acceleration", "coefficients", "pole"}
     assert set(pose["bodies"]["3"]) == {*turning, "com"}
-    assert set(pose["bodies"]["3"]["com"]) == {"position", "velocity", "acceleration"}
+    assert set(pose["bodies"]["3"]["com"]) == {*vectors, *path}
     assert set(pose["bodies"]["5"]) == {"travel", "velocity", "acceleration", "coefficients"}
-    assert set(pose["springs"]["return"]) == set(pose["dampers"]["cushion"]) == {"length", "rate", "force"}
+    strut = {"length", "rate", "force", "direction", "direction_rate"}
+    assert set(pose["springs"]["return"]) == set(pose["dampers"]["cushion"]) == strut
+    assert set(pose["input"]) == {"angular_velocity", "torque"}
 
 
 def test_the_json_is_what_the_library_solves(solved: Callable[..., Any]) -> None:
@@ -169,7 +178,8 @@ def test_in_a_sweep_what_is_out_of_reach_is_a_row_of_nulls(solved: Callable[...,
 def test_a_sweep_of_the_phase_goes_through_the_limits(solved: Callable[..., Any]) -> None:
     found = solved("double-rocker", "--sweep", "0:360:5", "--phase")
     assert [pose["phase"] for pose in found] == pytest.approx([math.radians(5 * k) for k in range(73)])
-    assert nulls([pose["joints"] for pose in found]) == 0
+    points = [joint for pose in found for joint in pose["joints"].values()]
+    assert nulls([[joint[key] for key in ("position", "velocity", "acceleration")] for joint in points]) == 0
     assert found[0]["joints"]["B"]["position"] == pytest.approx(
         found[-1]["joints"]["B"]["position"], rel=1e-12
     )
@@ -331,7 +341,8 @@ def test_each_column_of_the_words_holds_what_its_title_says(solve: Solve, solved
 
 
 def test_a_force_that_the_scene_does_not_give_is_said_to_be_so(solve: Solve) -> None:
-    *_, title, stick, bucket = solve("excavator", "--phase", "1 rad").splitlines()
+    elements = solve("excavator", "--phase", "1 rad").split("\n\n")[-2]
+    title, stick, bucket = elements.splitlines()
     assert title.split("  ")[-1].strip() == "force N"
     for line, length in ((stick, "235"), (bucket, "205")):
         assert re.split(r"\s{2,}", line)[1::2] == [length, "not given"]

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
@@ -14,6 +15,9 @@ from linkanim.mechanics.classify import classify
 from linkanim.mechanics.kinds import RPR, RRR, Crank, Gear, Pin, Polar, Rigid
 from linkanim.mechanics.linkage import Drive, Linkage
 from linkanim.mechanics.mechanism import mechanism
+from linkanim.scenes import load
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.toml import parse
 
 # Ground, crank, coupler, rocker -> class, whether the crank turns, circuits.
 CLASSES = [
@@ -291,3 +295,39 @@ def test_of_many_loops_in_a_row_the_first_is_named(dyads: int, name: str) -> Non
 def test_a_parallelogram_down_the_chain_is_told_from_the_crossed_one(side: int, name: str) -> None:
     info = classify(mechanism(six_bar((100, 30, 90, 80), PARALLELOGRAM, side=side)), "mm")
     assert info.class_name.endswith(name)
+
+
+def _with_wheel(ratio: str) -> Linkage:
+    """Return a slider-crank beside which an unrelated wheel makes the true period longer."""
+    text = f"""
+length_unit = "mm"
+[slider-crank]
+crank = 40
+rod = 120
+offset = 30
+[ground]
+Q = [300, 300]
+[joints.W]
+crank = "Q"
+length = 20
+gear = {{ with = "A", ratio = "{ratio}", offset = "0 deg" }}
+"""
+    return scene_from(parse(text, "my.toml"), name="my", where="my.toml").linkage
+
+
+@pytest.mark.parametrize("ratio", ["1", "1/2", "1/5", "3/7"])
+def test_a_time_ratio_does_not_hang_on_a_wheel_that_makes_the_period_longer(ratio: str) -> None:
+    info = classify(mechanism(_with_wheel(ratio)), "mm")
+    lean = math.asin(30 / 80) - math.asin(30 / 160)  # of the crank between its two dead centres
+    assert info.time_ratio == pytest.approx((math.pi + lean) / (math.pi - lean), rel=1e-9)
+    assert info.dead_centres is not None
+    back, forward = info.dead_centres
+    assert 0 < (forward - back) % (2 * math.pi * info.true_period) < 2 * math.pi
+
+
+def test_the_stroke_is_that_of_the_slider_that_is_moved_not_of_the_one_that_drives() -> None:
+    scene = load("toggle-press")
+    travel = scene.cycle(7200).travel["ram"]
+    assert scene.info.stroke == pytest.approx(float(np.ptp(travel)), rel=1e-6)
+    assert scene.info.stroke == pytest.approx(73.155, abs=1e-3)
+    assert load("driven-piston").info.stroke == pytest.approx(100.0, rel=1e-12)

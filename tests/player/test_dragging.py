@@ -13,6 +13,8 @@ from linkanim.player.tape import Tape, starting
 from linkanim.scenes import load, names
 from linkanim.scenes.edit import dimensions
 from linkanim.scenes.handles import handles, span
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.toml import parse
 
 
 def after(state: State, *asked: Action | str) -> State:
@@ -237,3 +239,10 @@ def test_moves_of_one_frame_are_taken_as_one(player: Player, monkeypatch: pytest
         pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=at, rel=(1, 0), buttons=(1, 0, 0)))
     player.tick()
     assert [action.name for action in seen] == ["carry"]
+
+
+@pytest.mark.parametrize("angle", ["30 deg", "30°", "30 Deg", "30 °"])
+def test_a_pin_s_angle_has_a_handle_however_its_degrees_are_written(angle: str) -> None:
+    text = f'[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\nground_angle = "{angle}"\n'
+    scene = scene_from(parse(text, "my.toml"), name="my", where="my.toml")
+    assert ("four-bar", "ground_angle") in {handle.key for handle in handles(scene, "O4")}

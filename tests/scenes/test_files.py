@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 import linkanim.scenes
 from linkanim.errors import BadInput, SceneError
 from linkanim.scenes import chapter_of, chapters, load, names, titles
+from linkanim.scenes.scene import Scene
 
 FOUR_BAR = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
 
@@ -132,3 +137,27 @@ def test_listing_the_catalogue_needs_no_window_encoder_or_arrays() -> None:
     heavy = "{'pygame', 'imageio_ffmpeg', 'PIL', 'numpy'}"
     check = f"import sys; from linkanim.scenes import titles; titles(); assert not {heavy} & set(sys.modules)"
     assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0
+
+
+# What a library call is given is looked at before anything is solved.
+ASKED: list[tuple[Callable[[Scene], object], str]] = [
+    (lambda scene: scene.pose("1"), "pose"),  # type: ignore[arg-type]
+    (lambda scene: scene.pose(1.0, speed="2"), "numbers"),  # type: ignore[arg-type]
+    (lambda scene: scene.pose(1.0, derivatives=7), "derivatives=7"),
+    (lambda scene: scene.solve(phase=1.0, derivatives=-1), "derivatives=-1"),
+    (lambda scene: scene.cycle(2.5), "2.5"),  # type: ignore[arg-type]
+    (lambda scene: scene.cycle(0), "whole number"),
+]
+
+
+@pytest.mark.parametrize(("ask", "message"), ASKED, ids=[message for _, message in ASKED])
+def test_a_call_with_what_it_does_not_take_is_refused(ask: Callable[[Scene], object], message: str) -> None:
+    with pytest.raises(BadInput, match=re.escape(message)):
+        ask(load("press"))
+
+
+def test_whole_numbers_of_any_kind_are_numbers() -> None:
+    scene = load("press")
+    assert scene.pose(np.float64(1.0), 1).position == scene.pose(1, 1).position
+    count: Any = np.int64(3)
+    assert scene.cycle(count).phase.shape == (3,)

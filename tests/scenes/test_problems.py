@@ -295,3 +295,10 @@ def test_the_schema_knows_the_keys_of_a_shorthand(name: str) -> None:
     assert set(str(refusal.value).split("known here: ")[1].split(", ")) == set(
         SCHEMA["properties"][name]["properties"]
     )
+
+
+def test_joints_on_a_pin_that_is_missing_describe_a_linkage_all_the_same() -> None:
+    text = "".join(f"[joints.{name}]\ncrank = 'O2'\nlength = 30\n" for name in "ABC")
+    found = problems(text, name="my", where="my.toml")
+    assert [problem.line for problem in found] == [2, 5, 8]
+    assert all("no joint is called" in problem.message for problem in found)
