@@ -6,6 +6,7 @@ written over one of its arguments wherever one ends there.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -71,19 +72,29 @@ class _Free:
     """The places that are free; `filled` says at which pass each row gets its own values."""
 
     filled: Mapping[str, int]
-    places: list[str] = field(init=False)
+    rows: list[tuple[int, str]] = field(init=False)
+    """Those never used, with when they are filled: the first one to be filled first."""
+    places: list[str] = field(default_factory=list)
+    """Those given back, the last one last."""
     buffers: int = 0
 
     def __post_init__(self) -> None:
-        self.places = sorted(self.filled, key=self.filled.__getitem__, reverse=True)
+        self.rows = sorted((at, row) for row, at in self.filled.items())
 
     def take(self, at: int, last: int, heir: tuple[int, str]) -> str:
         """Take the row to which a value is handed down, one free that long, or one free while used."""
         until, row = heir
-        if row in self.places:
-            self.places.remove(row)
-            return row
-        return self._until(at, until) or self._until(at, last) or self._new()
+        return self._row(row) or self._until(at, until) or self._until(at, last) or self._new()
+
+    def _row(self, row: str) -> str | None:
+        """Take that row, if it is free."""
+        at = bisect_left(self.rows, (self.filled[row], row))
+        if at < len(self.rows) and self.rows[at][1] == row:
+            return self.rows.pop(at)[1]
+        if row not in self.places:
+            return None
+        self.places.remove(row)
+        return row
 
     def _until(self, at: int, until: int) -> str | None:
         """Take the place freed last of those that stay free from one pass to another, if there is any."""
@@ -93,7 +104,8 @@ class _Free:
                 return self.places.pop(n)
             if end < at:
                 del self.places[n]
-        return None
+        first = bisect_left(self.rows, (until, ""))
+        return self.rows.pop(first)[1] if first < len(self.rows) else None
 
     def _new(self) -> str:
         self.buffers += 1

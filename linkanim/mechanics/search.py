@@ -14,6 +14,10 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+
+BLOCK = 1024
+"""Places worked out at a time where a function has many rows."""
 
 FINEST = 2.0**-70
 """Share of the largest place below which a bracket is not halved further: a place may be zero itself."""
@@ -61,8 +65,44 @@ def sign_changes(function: Callable[[Array], Array], places: Array, share: float
 
     To that `share` of the places.
     """
-    values = function(places)
-    positive, known = values > 0, ~np.isnan(values)
-    index = np.flatnonzero((positive[:-1] != positive[1:]) & known[:-1] & known[1:])
-    start = positive[index]
-    return ends_of(lambda middle: (function(middle) > 0) == start, places[index], places[index + 1], share)
+    return changes_by_row(lambda x: function(x)[np.newaxis], places, share)[1]
+
+
+def changes_by_row(
+    function: Callable[[Array], Array], places: Array, share: float = FINEST
+) -> tuple[Indices, Array]:
+    """Return where each row of a function changes its sign: the row, and the place, of every change.
+
+    The function gives (rows, N) for places (N,). All brackets of all rows are halved together, and only a
+    block of places is worked out at a time: so both time and memory go with the rows.
+    """
+    rows, index, start = _brackets(function, places)
+    found = ends_of(
+        lambda middle: (own_rows(function, rows, middle) > 0) == start,
+        places[index],
+        places[index + 1],
+        share,
+    )
+    return rows, found
+
+
+def own_rows(function: Callable[[Array], Array], rows: Indices, places: Array) -> Array:
+    """Return the value of one row of a function at each place, a block of places at a time."""
+    found = np.empty(len(places))
+    for first in range(0, len(places), BLOCK):
+        part = slice(first, first + BLOCK)
+        values = function(places[part])
+        found[part] = values[rows[part], np.arange(values.shape[1])]
+    return found
+
+
+def _brackets(function: Callable[[Array], Array], places: Array) -> tuple[Indices, Indices, Bools]:
+    """Return the row and the place before each change of sign, and whether the row is positive there."""
+    found: list[tuple[Indices, Indices, Bools]] = []
+    for first in range(0, max(len(places) - 1, 1), BLOCK):
+        values = function(places[first : first + BLOCK + 1])
+        positive, known = values > 0, ~np.isnan(values)
+        rows, index = np.nonzero((positive[:, :-1] != positive[:, 1:]) & known[:, :-1] & known[:, 1:])
+        found.append((rows, index + first, positive[rows, index]))
+    rows, index, start = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return rows, index, start

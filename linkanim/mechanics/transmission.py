@@ -22,13 +22,15 @@ from .expression import Graph
 from .mechanism import Mechanism
 from .planar import Slope
 from .program import Batch, batch
-from .search import around, highest, sign_changes
+from .search import around, changes_by_row, highest, own_rows
 
 SAMPLES_A_TURN = 1440
 NEARLY = 2.0**-40
 """How near to an extreme, as a share of the phase: the angle there is off by the square of that."""
 NONE_LEFT = 1e-12
 """A factor below this share of its greatest value, in a dyad whose bars fall into one line, is none."""
+RIGID = 2.0**-44
+"""A rate below this share of its separation is rounding."""
 
 Array = NDArray[np.float64]
 
@@ -92,27 +94,29 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
     found = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
     if not found:
         return
-    parts = [
-        (
-            closing.separation.value,
-            closing.separation.rate,
-            closing.half_difference,
-            closing.u,
-            closing.w,
-        )
-        for closing in found.values()
-    ]
-    program = batch({"x": True}, [value for values in parts for value in values])
+    closings, count = found.values(), len(found)
+    parts = [(one.separation.value, one.separation.rate, one.half_difference) for one in closings]
+    turning = batch({"x": True}, [value for values in parts for value in values])
+    factors = batch({"x": True}, [closing.u for closing in closings] + [closing.w for closing in closings])
     places = around(assembly.path.periods, SAMPLES_A_TURN)
+    with np.errstate(all="ignore"):
+        rows, extremes = changes_by_row(partial(_moving, turning), places, NEARLY)
+        whose = np.concatenate([np.arange(count), rows // len(parts[0])])
+        where = np.concatenate([np.repeat(places[:1], count), extremes])
+        u, w = (own_rows(partial(_run, factors), whose + half, where) for half in (0, count))
     for row, name in enumerate(found):
-        with np.errstate(all="ignore"):
-            turning = [sign_changes(partial(_row, program, 5 * row + k), places, NEARLY) for k in (0, 1, 2)]
-            factors = program(np.concatenate([places[:1], *turning]))[5 * row + 3 : 5 * row + 5]
-        yield name, np.asarray(factors, dtype=np.float64).T
+        yield name, np.column_stack([u, w])[whose == row]
 
 
-def _row(program: Batch, row: int, places: Array) -> Array:
-    values: Array = program(places)[row]
+def _run(program: Batch, places: Array) -> Array:
+    return np.asarray(program(places), dtype=np.float64)
+
+
+def _moving(program: Batch, places: Array) -> Array:
+    """Return each separation, its rate, which is none where the ends are carried by one body, and U - W."""
+    values = _run(program, places)
+    rates = values[1::3]
+    rates[np.abs(rates) <= RIGID * np.abs(values[::3])] = 0.0
     return values
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.search import around, ends_of, sign_changes
+from linkanim.mechanics.search import BLOCK, around, changes_by_row, ends_of, own_rows, sign_changes
 
 
 def test_every_bracket_ends_at_the_last_float_that_holds() -> None:
@@ -44,3 +44,29 @@ def test_phases_once_around_hold_every_zero_once() -> None:
     # Among them the zeros at the start, which is also the end.
     for turns in (1, 3):
         assert len(sign_changes(np.sin, around(turns, 1440))) == 2 * turns
+
+
+@pytest.mark.parametrize("rows", [1, 7, 60])
+def test_changes_of_many_rows_are_searched_together_a_block_of_places_at_a_time(rows: int) -> None:
+    shifts = np.linspace(0.0, 1.0, rows)
+    asked: list[int] = []
+
+    def function(x: NDArray[np.float64]) -> NDArray[np.float64]:
+        asked.append(len(x))
+        return np.sin(x - shifts[:, np.newaxis])
+
+    found, places = changes_by_row(function, around(2, 1440))
+    expected = [shift + n * math.pi for shift in shifts for n in range(4)]
+    order = np.lexsort((places, found))
+    assert found[order].tolist() == [row for row in range(rows) for _ in range(4)]
+    assert places[order] == pytest.approx(expected, abs=1e-14)
+    assert max(asked) <= BLOCK + 1
+    # The samples, and of each of the four changes of a row one place for every halving, 80 at the most.
+    assert sum(asked) <= 2900 + 4 * rows * 80
+
+
+def test_each_place_gets_the_value_of_its_own_row() -> None:
+    places = np.linspace(0.0, 3.0, 2 * BLOCK + 5)
+    rows = np.arange(len(places)) % 3
+    found = own_rows(lambda x: np.array([x, -x, 0 * x]), rows, places)
+    assert found.tolist() == np.choose(rows, [places, -places, 0 * places]).tolist()

@@ -1,0 +1,45 @@
+"""Time grows with the number of joints, not with its square: counted, not timed."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from types import FrameType
+
+import pytest
+from generated import SHAPES
+
+from linkanim.scenes.read import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
+
+FEW, MANY = 8, 32
+LINEAR = 1.3 * MANY / FEW
+"""What four times the joints may take, a third more than four times as much."""
+
+
+def scene_of(text: str) -> Scene:
+    return scene_from(parse(text, "generated"), name="generated", where="generated")
+
+
+def calls(work: Callable[[], object]) -> int:
+    """Count the calls of functions while something is done."""
+    count = 0
+
+    def counted(frame: FrameType, event: str, argument: object) -> None:
+        nonlocal count
+        count += event in ("call", "c_call")
+
+    before = sys.getprofile()
+    sys.setprofile(counted)
+    try:
+        work()
+    finally:
+        sys.setprofile(before)
+    return count
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_what_is_said_of_a_linkage_takes_as_many_more_calls_as_it_has_more_joints(shape: str) -> None:
+    few, many = (calls(lambda n=n: scene_of(SHAPES[shape](n)).info.lines) for n in (FEW, MANY))
+    assert many <= LINEAR * few
