@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from types import FrameType
 
 import pytest
-from generated import SHAPES
+from generated import SHAPES, series
 
+from linkanim.picture.look import Look
+from linkanim.picture.painter import Painter
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse
@@ -20,6 +23,14 @@ LINEAR = 1.3 * MANY / FEW
 
 def scene_of(text: str) -> Scene:
     return scene_from(parse(text, "generated"), name="generated", where="generated")
+
+
+def facts(text: str) -> object:
+    return scene_of(text).info.lines
+
+
+def named(scene: Scene) -> Painter:
+    return Painter(scene, (1280, 720), Look(names=2), brief=True)
 
 
 def calls(work: Callable[[], object]) -> int:
@@ -41,5 +52,10 @@ def calls(work: Callable[[], object]) -> int:
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_what_is_said_of_a_linkage_takes_as_many_more_calls_as_it_has_more_joints(shape: str) -> None:
-    few, many = (calls(lambda n=n: scene_of(SHAPES[shape](n)).info.lines) for n in (FEW, MANY))
+    few, many = (calls(partial(facts, SHAPES[shape](dyads))) for dyads in (FEW, MANY))
+    assert many <= LINEAR * few
+
+
+def test_placing_names_takes_as_many_more_calls_as_there_are_more_joints() -> None:
+    few, many = (calls(partial(named, scene_of(series(dyads)))) for dyads in (FEW // 2, MANY // 2))
     assert many <= LINEAR * few

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import exp
 from typing import NamedTuple
 
@@ -31,6 +32,8 @@ _MARGIN = 0.08
 _FORBIDDEN = 60.0
 _CLOSE = 0.2
 """How near to a bar, in its own heights, a label's middle seems to lie on it."""
+_APART = 2.0
+"""So much further off than it can matter, in pixels, a thing is not looked at."""
 _SOFT = 1.5
 """The smoothing's standard deviation, in moments."""
 _GONE = 4
@@ -46,6 +49,39 @@ class Obstacles(NamedTuple):
     end: Loop
     half: _Floats
     weight: _Floats
+
+    def picked(self, which: NDArray[np.intp]) -> Obstacles:
+        """Return some of them."""
+        return Obstacles(self.begin[:, which], self.end[:, which], self.half[which], self.weight[which])
+
+
+class Extent(NamedTuple):
+    """How far m things reach at each of n moments (n, m), in pixels."""
+
+    left: _Floats
+    right: _Floats
+    top: _Floats
+    bottom: _Floats
+
+    @classmethod
+    def of(cls, points: Loop, half: _Floats | float = 0.0, high: _Floats | float | None = None) -> Extent:
+        """Return how far things with corners at points (n, m, c) reach, with `half` round each."""
+        across, down = half, half if high is None else high
+        return cls(
+            points.real.min(axis=2) - across,
+            points.real.max(axis=2) + across,
+            points.imag.min(axis=2) - down,
+            points.imag.max(axis=2) + down,
+        )
+
+    def near(self, places: Loop, across: float, down: float) -> NDArray[np.intp]:
+        """Return which things come so near to one of the places (n, k) at some moment, in their order."""
+        x, y = places.real, places.imag
+        apart = self.left > x.max(axis=1, keepdims=True) + across
+        apart |= self.right < x.min(axis=1, keepdims=True) - across
+        apart |= self.top > y.max(axis=1, keepdims=True) + down
+        apart |= self.bottom < y.min(axis=1, keepdims=True) - down
+        return np.flatnonzero(~apart.all(axis=0))
 
 
 class Solid(NamedTuple):
@@ -68,6 +104,49 @@ class Clutter:
     inside: Rect
     bars: Obstacles
     solids: tuple[Solid, ...] = ()
+
+    @cached_property
+    def discs_reach(self) -> Extent:
+        """How far the discs reach."""
+        return Extent.of(self.discs[:, :, None], self.radii)
+
+    @cached_property
+    def bars_reach(self) -> Extent:
+        """How far the bars reach."""
+        return Extent.of(np.stack((self.bars.begin, self.bars.end), axis=2), self.bars.half)
+
+    @cached_property
+    def solids_reach(self) -> Extent:
+        """How far the solids reach."""
+        each = [Extent.of(solid.corners[:, None], solid.half) for solid in self.solids]
+        return Extent(*(np.concatenate(sides, axis=1) for sides in zip(*each, strict=True)))
+
+    @cached_property
+    def between(self) -> Clutter:
+        """What must not be touched, half a moment later; the cycle is closed."""
+        return replace(self, discs=_between(self.discs))
+
+
+@dataclass(frozen=True)
+class _Taken:
+    """The labels placed so far: where each stands at each moment (n, m), and its sizes (m, 2)."""
+
+    tracks: Loop
+    sizes: _Floats
+
+    def with_label(self, track: Loop, size: tuple[float, float]) -> _Taken:
+        """Return them with one more."""
+        return _Taken(np.column_stack((self.tracks, track)), np.vstack((self.sizes, size)))
+
+    @cached_property
+    def reach(self) -> Extent:
+        """How far they reach."""
+        return Extent.of(self.tracks[:, :, None], self.sizes[:, 0] / 2, self.sizes[:, 1] / 2)
+
+    @cached_property
+    def between(self) -> _Taken:
+        """Return them half a moment later."""
+        return _Taken(_between(self.tracks), self.sizes)
 
 
 class Wish(NamedTuple):
@@ -108,20 +187,20 @@ class Drift(NamedTuple):
 
 def place(wishes: Sequence[Wish], clutter: Clutter) -> list[Drift]:
     """Return a path for each label; the first have the first choice."""
-    taken: list[tuple[Loop, tuple[float, float]]] = []
-    paths = []
+    paths: list[Drift] = []
+    taken = _Taken(np.zeros((len(clutter.discs), 0), np.complex128), np.zeros((0, 2)))
     for wish in wishes:
         path = _placed(wish, clutter, taken)
         if path.shown.any():
-            taken.append((_track(path, wish), wish.size))
+            taken = taken.with_label(_track(path, wish), wish.size)
         paths.append(path)
     return paths
 
 
-def _placed(wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, float]]]) -> Drift:
+def _placed(wish: Wish, clutter: Clutter, taken: _Taken) -> Drift:
     margin = 2 * _MARGIN * wish.size[1]
     planned = wish._replace(size=(wish.size[0] + margin, wish.size[1] + margin))
-    cost = wish.price + _lying(wish, clutter.bars)
+    cost = wish.price + _lying(wish, clutter)
     cost += _FORBIDDEN * (
         _blocked(wish.places, planned, clutter, taken) | _mistaken(wish.places, wish, clutter)
     )
@@ -131,8 +210,7 @@ def _placed(wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, f
     path = Drift(np.take_along_axis(local, chosen[:, None], axis=1)[:, 0], np.ones(len(cost)))
     track = _track(path, wish)[:, None]
     blocked = (_blocked(track, wish, clutter, taken) | _mistaken(track, wish, clutter, chosen))[:, 0]
-    later = replace(clutter, discs=_between(clutter.discs)), [(_between(way), size) for way, size in taken]
-    between = _blocked(_between(track), wish, *later)[:, 0]
+    between = _blocked(_between(track), wish, clutter.between, taken.between)[:, 0]
     return path._replace(shown=_eased(blocked | between | np.roll(between, 1)))
 
 
@@ -184,19 +262,19 @@ def _walked(cost: _Floats, moves: _Floats) -> NDArray[np.int64]:
     return chosen
 
 
-def _blocked(
-    places: Loop, wish: Wish, clutter: Clutter, taken: list[tuple[Loop, tuple[float, float]]]
-) -> _Bools:
+def _blocked(places: Loop, wish: Wish, clutter: Clutter, taken: _Taken) -> _Bools:
     """Return whether the label would lie on a disc, a rectangle or another label, or reach outside."""
     wide, high = wish.size
-    away = places[:, :, None] - clutter.discs[:, None, :]
+    near = clutter.discs_reach.near(places, wide / 2 + _APART, high / 2 + _APART)
+    away = places[:, :, None] - clutter.discs[:, None, near]
     beside = np.maximum(np.abs(away.real) - wide / 2, 0), np.maximum(np.abs(away.imag) - high / 2, 0)
-    blocked: _Bools = np.asarray((np.hypot(*beside) < clutter.radii).any(axis=2))
+    blocked: _Bools = np.asarray((np.hypot(*beside) < clutter.radii[near]).any(axis=2))
     for rect in clutter.rects:
         middle = complex(rect.x + rect.width / 2, rect.y + rect.height / 2)
         blocked |= _over(places - middle, wide + rect.width, high + rect.height)
-    for track, (width, height) in taken:
-        blocked |= _over(places - track[:, None], wide + width + 2, high + height)
+    for n in taken.reach.near(places, wide / 2 + _APART, high / 2 + _APART):
+        width, height = taken.sizes[n]
+        blocked |= _over(places - taken.tracks[:, n, None], wide + width + 2, high + height)
     room = clutter.inside
     inside = (places.real - wide / 2 >= room.x) & (places.real + wide / 2 <= room.right)
     inside &= (places.imag - high / 2 >= room.y) & (places.imag + high / 2 <= room.bottom)
@@ -209,7 +287,10 @@ def _mistaken(places: Loop, wish: Wish, clutter: Clutter, chosen: NDArray[np.int
     if shunned is None:
         return mistaken
     at = shunned[None] if chosen is None else shunned[chosen][:, None]
-    for n in np.flatnonzero(shunned.any(axis=0)):
+    close = _CLOSE * wish.size[1] + _APART
+    for n in clutter.solids_reach.near(places, close, close):
+        if not shunned[:, n].any():
+            continue
         solid = clutter.solids[n]
         mistaken |= at[..., n] & (_off(places, solid.corners) < solid.half + _CLOSE * wish.size[1])
     return mistaken
@@ -237,16 +318,18 @@ def _over(away: Loop, width: float, height: float) -> _Bools:
     return np.asarray((2 * np.abs(away.real) < width) & (2 * np.abs(away.imag) < height))
 
 
-def _lying(wish: Wish, bars: Obstacles) -> _Floats:
+def _lying(wish: Wish, clutter: Clutter) -> _Floats:
     """Return how much each place lies over bars: 0 for none, 1 for right on one, more for more."""
     wide, high = wish.size
-    weight = bars.weight.copy()
+    weight = clutter.bars.weight.copy()
     weight[list(wish.own)] = 0.0
     reach = max(wide - high, 0.0) / 2
+    near = clutter.bars_reach.near(wish.places, reach + high / 2 + _APART, high / 2 + _APART)
+    bars = clutter.bars.picked(near)
     points = wish.places[:, :, None, None] + np.array([-reach, 0.0, reach])[:, None]
     away = _distance(points, bars.begin[:, None, None, :], bars.end[:, None, None, :])
     over = np.clip((bars.half + high / 2 - away) / high, 0, 1).max(axis=2)
-    lying: _Floats = (over * weight * np.minimum(2 * bars.half / high, 1)).sum(axis=2)
+    lying: _Floats = (over * weight[near] * np.minimum(2 * bars.half / high, 1)).sum(axis=2)
     return lying
 
 

@@ -173,31 +173,47 @@ class Whereabouts:
     def _is_plate(self, body: Body) -> bool:
         return len(self._corners(body)) > 2
 
-    @property
+    @cached_property
     def _bars(self) -> Flags:
         """Which of the solids are bars."""
-        return np.array([*(not self._is_plate(body) for body in self.figure.bodies), *self._no_strut])
+        struts = [False] * len(self.figure.struts)
+        return np.array([*(not self._is_plate(body) for body in self.figure.bodies), *struts])
 
-    @property
-    def _no_strut(self) -> list[bool]:
-        return [False] * len(self.figure.struts)
+    @cached_property
+    def _owned(self) -> dict[str, set[int]]:
+        """The numbers of the solids that have each joint."""
+        found: dict[str, set[int]] = {}
+        owners = (*(body.joints for body in self.figure.bodies), *(s.between for s in self.figure.struts))
+        for n, joints in enumerate(owners):
+            for joint in joints:
+                found.setdefault(joint, set()).add(n)
+        return found
 
     def _others(self, own: Iterable[str]) -> Flags:
         """Return which of the solids do not have all these joints; without joints every one."""
-        joints = [set(body.joints) for body in self.figure.bodies]
-        joints += [set(strut.between) for strut in self.figure.struts]
-        return np.array([not (own and set(own) <= of) for of in joints])
+        owners = [self._owned.get(joint, set[int]()) for joint in own]
+        others = np.ones(len(self.figure.bodies) + len(self.figure.struts), np.bool_)
+        others[list(set.intersection(*owners) if owners else ())] = False
+        return others
 
     def _in_front(self, body: Body) -> Flags:
         """Return which of them are bars drawn over a body: plates lie behind all bars."""
-        bodies, plate = self.figure.bodies, self._is_plate(body)
-        later = [plate or n > bodies.index(body) for n in range(len(bodies))]
-        found: Flags = self._others(body.joints) & self._bars & np.array([*later, *self._no_strut])
+        found = self._others(body.joints) & self._bars
+        if not self._is_plate(body):
+            found[: self.figure.bodies.index(body) + 1] = False
         return found
 
     def _numbers(self, body: Body) -> tuple[int, ...]:
         """Return which of the obstacles are the sides of a body."""
-        return tuple(n for n, (other, _) in enumerate(self._sides()) if other is body)
+        return self._numbered.get(id(body), ())
+
+    @cached_property
+    def _numbered(self) -> dict[int, tuple[int, ...]]:
+        """The numbers of the obstacles that are the sides of each body."""
+        found: dict[int, tuple[int, ...]] = {}
+        for n, (body, _) in enumerate(self._sides()):
+            found[id(body)] = (*found.get(id(body), ()), n)
+        return found
 
     def _sides(self) -> Iterator[tuple[Body, tuple[str, str]]]:
         """Yield the sides of bodies, from joint to joint."""
