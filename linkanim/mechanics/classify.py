@@ -53,6 +53,18 @@ class Info:
         return _grashof(self._four_bar) if self._four_bar else None
 
     @property
+    def why_swinging(self) -> str | None:
+        """What keeps the input from turning fully, lengths or joints; None where nothing does."""
+        stops = tuple(dict.fromkeys(filter(None, getattr(self.mechanism.assembly.path, "ends", ()))))
+        if not stops:
+            return None
+        if self._four_bar is None or stops != (self._four_bar.joint,):
+            return f"{' and '.join(stops)} cannot close all the way round"
+        if self._four_bar.margin < 0:
+            return self.grashof
+        return f"{self.grashof}, but the shortest is the {self._four_bar.shortest}"
+
+    @property
     def input_range(self) -> tuple[float, float]:
         """How far the driven angle, or the travel of a slider that drives, goes."""
         return self.mechanism.assembly.path.input_range

@@ -128,8 +128,11 @@ class Joint(ABC):
         """Return the class of a linkage whose only dyad this is; None where the kind has no name for it."""
         return None
 
-    def why_apart(self) -> str:
-        """Say in words and numbers why it cannot be assembled at any angle of the input."""
+    def why_apart(self, u: float, w: float) -> str:
+        """Say in words and numbers why it cannot be assembled at any angle of the input.
+
+        `u` and `w` are the greatest that its root's factors come to.
+        """
         return "it cannot be assembled"
 
     def transmission(self, u: float, w: float) -> float | None:

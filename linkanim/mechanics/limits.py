@@ -20,9 +20,12 @@ from linkanim.errors import AssemblyError
 from .assembly import Assembly, resigned
 from .chain import ChainRoot, End
 from .exact import Sum
+from .expression import Graph
 from .fitting import fitted, refined
 from .linkage import Linkage
 from .path import ONE_PLACE, Swing
+from .planar import Slope
+from .program import batch
 from .search import ends_of
 from .separation import Separations, separations
 from .touching import through_change_points
@@ -72,7 +75,9 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
     first = found.shut.argmax(axis=0)
     if found.shut.any(axis=0).all():
         name = found.names[int(first.max())]
-        raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart()}")
+        raise AssemblyError(
+            f"joint {name}: {linkage.joint(name).why_apart(*_most(assembly, name, found.phases))}"
+        )
     on_swing, limited = found, assembly
     for _ in range(CUTS):
         swing = limited.path.cut(*_open_interval(limited, on_swing))
@@ -91,6 +96,14 @@ def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
     chain = {name: ChainRoot(_ends(path, name), 0.0) for name in dyads}
     limited = replace(resigned(replace(assembly, path=path, chain={})), chain=chain)
     return limited, separations(limited)
+
+
+def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
+    """Return the greatest that the factors U and W of a dyad come to, in squares of the scene's unit."""
+    closing = assembly.walk_at(Graph().input("x"), Slope(0.0)).closings[name]
+    with np.errstate(all="ignore"):
+        u, w = (float(np.nanmax(values)) for values in batch({"x": True}, [closing.u, closing.w])(phases))
+    return u * assembly.unscale**2, w * assembly.unscale**2
 
 
 def _ends(path: Swing, name: str) -> tuple[End, ...]:

@@ -41,8 +41,12 @@ _ORDINALS = {2: "second", 3: "third"}
 
 @dataclass(frozen=True)
 class FourBar:
-    """The four lengths of a four-bar seen from its input, and which of the two closures it has."""
+    """The four lengths of a four-bar seen from its input, and which of the two closures it has.
 
+    `joint` is the one in which coupler and output meet.
+    """
+
+    joint: str
     ground: float
     input: float
     coupler: float
@@ -61,6 +65,12 @@ class FourBar:
         }
 
     @property
+    def shortest(self) -> str:
+        """The part of the shortest link, the output as the link that it drives."""
+        part = _part(self, min)
+        return "driven link" if part == "output" else part
+
+    @property
     def margin(self) -> float:
         """p + q - s - l: positive for Grashof linkages, zero at a change point."""
         s, p, q, longest = sorted(self.links.values())
@@ -76,7 +86,7 @@ def four_bar_of(mechanism: Mechanism) -> FourBar | None:
             sign = mechanism.assembly.signs[name] * (-1 if loop.swapped else 1)
             scale = mechanism.assembly.unscale
             touching = (loop.root.u.kind, loop.root.w.kind).count(Kind.CHANGE_POINT)
-            return FourBar(loop.ground.length * scale, loop.crank.length * scale, a, b, sign, touching)
+            return FourBar(name, loop.ground.length * scale, loop.crank.length * scale, a, b, sign, touching)
     return None
 
 
@@ -152,7 +162,7 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
                 along = cycle.position[joint.name] - cycle.position[moving]
                 apart = along - (cycle.position[fixed] - cycle.position[pivot])
                 sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
-                yield FourBar(ground, crank, a, b, sign, _change_point_count(ground, crank, a, b))
+                yield FourBar(joint.name, ground, crank, a, b, sign, _change_point_count(ground, crank, a, b))
                 break
 
 

@@ -114,13 +114,19 @@ class Walk:
         margin = closing.u * closing.w
         if isinstance(margin, float) and margin <= 0:
             # Its end keeps its distance from the line: what does not change is no formula, but a number.
-            joint = self.linkage.joint(name)
-            raise AssemblyError(f"joint {name}: {joint.why_apart() if margin < 0 else AT_ITS_LIMIT}")
+            raise AssemblyError(f"joint {name}: {self._why_shut(name, closing)}")
         self.closings[name] = closing
         root = self.assembly.chain.get(name)
         if root is not None:
             return root.root(closing, self.state)
         return plain_root(closing.u, closing.w, closing.separation, closing.half_difference)
+
+    def _why_shut(self, name: str, closing: Closing) -> str:
+        """Say why a dyad whose factors do not change has no two closures."""
+        u, w = closing.u, closing.w
+        if not (isinstance(u, float) and isinstance(w, float) and u * w < 0):
+            return AT_ITS_LIMIT
+        return self.linkage.joint(name).why_apart(u, w)
 
     def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
         """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""

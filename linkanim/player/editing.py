@@ -169,7 +169,7 @@ def loss_of_turning(before: Info, after: Info) -> str | None:
     if after.full_turn or not before.full_turn:
         return None
     low, high = (typeset(degrees(limit)) for limit in after.input_range)
-    cause = f"{after.grashof}: " if after.grashof else ""
+    cause = f"{after.why_swinging}: " if after.why_swinging else ""
     return f"{cause}the crank cannot turn fully; it swings {low}…{high}"
 
 

@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import json
 import math
+import re
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from linkanim.cli import main
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.derived import transmission_angle
 from linkanim.mechanics.naming import GRASHOF, TRIPLE_ROCKERS
 from linkanim.picture.driven import driven_name
 from linkanim.picture.figure import figure
 from linkanim.picture.quantities import quantity
+from linkanim.player.editing import loss_of_turning
 from linkanim.scenes import load, names
 from linkanim.scenes.closure import other_closure
 from linkanim.scenes.edit import dimensions, with_dimensions
+from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 
 SAMPLES = 7200
@@ -183,3 +189,66 @@ def test_the_other_closure_has_its_own_title() -> None:
     other = other_closure(load("parallelogram"))
     assert (other.title, other.info.class_name) == ("Antiparallelogram", "antiparallelogram")
     assert other_closure(other).title == "Parallelogram"
+
+
+LINKS = {"ground": 100, "crank": 30, "coupler": 90, "rocker": 80}
+
+
+def apart(document: dict[str, Any], ends: tuple[str, str]) -> tuple[float, float]:
+    """Return the least and the greatest distance of two joints, of a scene without what joins them."""
+    motion = scene_from(document, name="my", where="my").cycle(SAMPLES, derivatives=0)
+    distance = np.abs((motion.position[ends[0]] - motion.position[ends[1]]) @ [1, 1j])
+    return float(distance.min()), float(distance.max())
+
+
+# bars on two joints that are too far from each other, or too near: on the crank, and down the chain
+@pytest.mark.parametrize("ends", [("A", "O4"), ("B", "O6"), ("C", "A")])
+@pytest.mark.parametrize("far", [True, False])
+def test_bars_that_cannot_meet_are_told_how_far_their_ends_ever_are(ends: tuple[str, str], far: bool) -> None:
+    document: dict[str, Any] = {
+        "four-bar": LINKS,
+        "ground": {"O6": [150, -20]},
+        "joints": {"C": {"on": ["O4", "B"], "at": [90, 30]}},
+    }
+    least, most = apart(document, ends)
+    lengths = [least / 4, least / 4] if far else [most * 3, most]
+    dyad = {"T": {"from": list(ends), "length": lengths}}
+    said = f"at least {least:.4g}" if far else f"at most {most:.4g}"
+    needs = f"these bars reach {least / 2:.4g}" if far else f"these bars need {2 * most:.4g}"
+    with pytest.raises(AssemblyError) as refused:
+        scene_from({**document, "joints": document["joints"] | dyad}, name="my", where="my")
+    told = re.search(r"–(\w+) is (at \w+) ([\d.]+); (these bars \w+) ([\d.]+)$", str(refused.value))
+    assert told is not None, refused.value
+    assert f"{ends[0]}–{ends[1]}" in str(refused.value)
+    assert f"{told[2]} {float(told[3]):.4g}" == said
+    assert f"{told[4]} {float(told[5]):.4g}" == needs
+
+
+# what a change of one length does to an input that turned fully, and what stops it then
+@pytest.mark.parametrize(
+    ("name", "key", "value", "cause"),
+    [
+        ("crank-rocker", ("four-bar", "crank"), 70.0, "s + l = 170 > p + q = 165: the crank"),
+        # Grashof holds, and yet it is another link that turns.
+        ("crank-rocker", ("four-bar", "rocker"), 20.0, "but the shortest is the driven link: the crank"),
+        ("crank-rocker", ("four-bar", "coupler"), 30.0, "but the shortest is the coupler: the crank"),
+        (
+            "grashof-limit-six-bar",
+            ("six-bar", "lengths", 7),
+            30.0,
+            "D cannot close all the way round: the crank",
+        ),
+    ],
+)
+def test_what_ends_a_full_turn_is_what_is_told(
+    name: str, key: tuple[str | int, ...], value: float, cause: str
+) -> None:
+    before = load(name)
+    after = with_dimensions(before, {key: value})
+    refusal = loss_of_turning(before.info, after.info)
+    assert refusal is not None
+    assert cause in refusal
+    for dyad in re.findall(r"(\w+) cannot close", refusal):
+        # There its bars lie in one line: its transmission angle is nothing at a limit of the input.
+        angles = [transmission_angle(after.solve(angle=limit), dyad) for limit in after.info.toggles]
+        assert min(angles) == pytest.approx(0.0, abs=1e-6)

@@ -132,7 +132,7 @@ class RPR(Joint):
         arm = abs(place(self.through) - place(self.pivot))
         return np.arccos(np.minimum(abs(self.offset) / arm, 1.0))
 
-    def why_apart(self) -> str:
+    def why_apart(self, u: float, w: float) -> str:
         """Say that the slot's offset is too large."""
         return (
             f"the slot's offset {self.offset:g} is more than the pin {self.through} is ever away "

@@ -130,7 +130,7 @@ class RRP(SliderDyad):
             bar = bar * axis.conjugate()
         return np.arctan2(abs(bar.real), abs(bar.imag))
 
-    def why_apart(self) -> str:
+    def why_apart(self, u: float, w: float) -> str:
         """Say that the bar is too short for its line."""
         return (
             f"the bar of {self.length:g} cannot reach its line of travel from {self.end} "

@@ -123,13 +123,16 @@ class RRR(Joint):
         product = one * other.conjugate()
         return np.arctan2(abs(product.imag), abs(product.real))
 
-    def why_apart(self) -> str:
-        """Say how far apart its pins would have to come."""
+    def why_apart(self, u: float, w: float) -> str:
+        """Say how near its ends come, or how far apart: U = (a + b)² - L², W = L² - (a - b)²."""
         a, b = self.lengths
-        return (
-            f"the bars of {a:g} and {b:g} cannot meet at any angle of the input: the pins "
-            f"{self.ends[0]} and {self.ends[1]} are never {abs(a - b):g} to {a + b:g} apart"
-        )
+        least, most = math.sqrt(max((a + b) ** 2 - u, 0.0)), math.sqrt(max((a - b) ** 2 + w, 0.0))
+        if w < 0:
+            apart = f"at most {most:.6g}; these bars need {abs(a - b):g}"
+        else:
+            apart = f"at least {least:.6g}; these bars reach {a + b:g}"
+        ends = "–".join(self.ends)
+        return f"the bars of {a:g} and {b:g} cannot meet at any angle of the input: {ends} is {apart}"
 
 
 def _turned(joint: RRR, swapped: bool) -> tuple[tuple[str, str], tuple[float, float]]:
