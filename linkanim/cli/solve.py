@@ -104,7 +104,7 @@ def out_of_range(scene: Scene, angle: float) -> OutOfRange:
     low, high = (f"{significant(math.degrees(limit), 6)} deg" for limit in scene.info.input_range)
     return OutOfRange(
         f"{scene.name}: --angle {significant(math.degrees(angle), 6)} deg cannot be reached; "
-        f"the crank angle goes from {low} to {high} (--phase runs through both limits)"
+        f"the {scene.info.input_name} angle goes from {low} to {high} (--phase runs through both limits)"
     )
 
 

@@ -9,7 +9,6 @@ from typing import Any
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
 from linkanim.mechanics.kinds import Pin
-from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.measures import (
     DAMPER,
     POINT,
@@ -32,25 +31,26 @@ def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
         f"{_input(scene, pose)}, phase {_degrees(pose['phase'])} deg, "
         f"speed {_number(pose['speed'])} rad/s, acceleration {_number(pose['acceleration'])} rad/s^2"
     )
-    tables = _tables(scene.linkage, scene.length_unit, pose)
+    tables = _tables(scene, pose)
     return "\n\n".join([where, *(columns(lines) for lines in tables if len(lines) > 1)])
 
 
 def _input(scene: Scene, row: Tree) -> str:
     if scene.linkage.slides:
         return f"travel {_number(row['travel'])} {scene.length_unit}"
-    return f"crank angle {_degrees(row['angle'])} deg"
+    return f"{scene.info.input_name} angle {_degrees(row['angle'])} deg"
 
 
-def _tables(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[list[str]]]:
+def _tables(scene: Scene, pose: Tree) -> Iterator[list[list[str]]]:
+    linkage, unit, called = scene.linkage, scene.length_unit, scene.info.link_names
     bodies = pose["bodies"].items()
-    coms = [(f"com of {name}", body["com"]) for name, body in bodies if "com" in body]
+    coms = [(f"com of {called[name]}", body["com"]) for name, body in bodies if "com" in body]
     points = [*pose["joints"].items(), *coms]
     yield [["joint", *_titles(POINT, unit)], *([name, *_cells(POINT, point)] for name, point in points)]
     turning = (*TURNING, *coefficients_of(linkage, turning=True))
     sliding = (*TRAVELLING, *coefficients_of(linkage, turning=False))
     for title, key, measures in (("body", "angle", turning), ("slider", "travel", sliding)):
-        found = [[name, *_cells(measures, _flat(body))] for name, body in bodies if key in body]
+        found = [[called[name], *_cells(measures, _flat(body))] for name, body in bodies if key in body]
         yield [[title, *_titles(measures, unit)], *found]
     struts = ((linkage.springs, SPRING, pose["springs"]), (linkage.dampers, DAMPER, pose["dampers"]))
     elements = [
@@ -103,13 +103,14 @@ def _flat(body: Tree) -> Tree:
 def of_sweep(scene: Scene, found: Iterator[Tree]) -> str:
     """Return a row for each input: moving joints, bodies' angles in degrees, sliders' travel."""
     fixed = {joint.name for joint in scene.linkage.joints if isinstance(joint, Pin)}
-    lines = [list(_sweep_cells(row, fixed, scene.length_unit)) for row in found]
+    lines = [list(_sweep_cells(row, fixed, scene)) for row in found]
     titles = [title for title, _ in lines[0]]
     return columns([titles, *([cell for _, cell in line] for line in lines)])
 
 
-def _sweep_cells(row: Tree, fixed: Container[str], unit: str) -> Iterator[tuple[str, str]]:
+def _sweep_cells(row: Tree, fixed: Container[str], scene: Scene) -> Iterator[tuple[str, str]]:
     """Yield (title, cell) along a row."""
+    unit, called = scene.length_unit, scene.info.link_names
     if "travel" in row:
         yield f"travel {unit}", _number(row["travel"])
     else:
@@ -123,9 +124,9 @@ def _sweep_cells(row: Tree, fixed: Container[str], unit: str) -> Iterator[tuple[
     for name, body in row["bodies"].items():
         slides = "travel" in body
         yield (
-            (f"{name} {unit}", _number(body["travel"]))
+            (f"{called[name]} {unit}", _number(body["travel"]))
             if slides
-            else (f"{name} deg", _degrees(body["angle"]))
+            else (f"{called[name]} deg", _degrees(body["angle"]))
         )
 
 

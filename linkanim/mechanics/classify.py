@@ -23,7 +23,7 @@ from .naming import SAMPLES, FourBar, class_name, four_bar_of, link_names, turni
 from .path import Path
 from .roots import Kind
 from .search import around, sign_changes
-from .symbols import input_symbol
+from .symbols import driven_body, input_symbol
 from .transmission import Transmission, transmission
 
 SAME_ANGLE = 1e-9
@@ -184,6 +184,19 @@ class Info:
     def link_names(self) -> Mapping[str, str]:
         """What each body is called by what it does, by the name that it has in the scene."""
         return link_names(self.mechanism, self.turning_links)
+
+    @cached_property
+    def input_name(self) -> str:
+        """What the driven bar is called: "crank" if it turns, the slider where one drives.
+
+        One that swings goes by its name in the scene; named crank it is the rocker, or the input rocker.
+        """
+        body = driven_body(self.mechanism.linkage)
+        if self.mechanism.linkage.slides:
+            return "slider"
+        if self.full_turn:
+            return "crank"
+        return self.link_names[body.name] if body and not body.name.isdecimal() else "rocker"
 
     @cached_property
     def lines(self) -> tuple[tuple[str, str], ...]:

@@ -55,7 +55,7 @@ def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
             low, high = (f"{degrees(limit):.6g} deg" for limit in path.input_range)
             raise OutOfRange(
                 f"{scene.name}: --angles {degrees(angle):.6g} deg cannot be reached; "
-                f"the crank angle goes from {low} to {high}"
+                f"the {scene.info.input_name} angle goes from {low} to {high}"
             )
     return tuple(Instant(path.phase_of(angle, 0.0), "") for angle in angles)
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim.errors import BadInput
 from linkanim.mechanics.symbols import input_symbol
 from linkanim.picture.axis import Axis, linear
-from linkanim.picture.driven import driven_name, driven_words
+from linkanim.picture.driven import driven_words
 from linkanim.picture.quantities import Series
 from linkanim.scenes.scene import Scene
 
@@ -100,7 +100,7 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
 
 def input_title(scene: Scene) -> str:
     """Return what an axis of the driven bar's angle is titled: "crank angle θ₂ (°)"."""
-    return f"{driven_name(scene)} angle {input_symbol(scene.linkage)} (°)"
+    return f"{scene.info.input_name} angle {input_symbol(scene.linkage)} (°)"
 
 
 def _limits(scene: Scene, pace: float) -> Iterator[tuple[float, str]]:

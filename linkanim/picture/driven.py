@@ -7,26 +7,12 @@ from math import degrees, pi
 
 from linkanim.digits import short, stepped, typeset
 from linkanim.errors import UnitError
-from linkanim.mechanics.symbols import driven_body
 from linkanim.scenes.scene import Scene
 from linkanim.units import SPEED_UNITS, split
 
 _PER_RADIAN = {"rad/s": 1.0, "rpm": 30 / pi, "deg/s": 180 / pi}
 _SIGNS = {"deg/s": "°/s"}
 _SPELT = {"°/s": "deg/s"}
-
-
-def driven_name(scene: Scene) -> str:
-    """Return what the driven bar is called: "crank" if it turns, the slider where one drives.
-
-    One that swings goes by its name in the scene; named crank it is the rocker that it is, or the input one.
-    """
-    body = driven_body(scene.linkage)
-    if scene.linkage.slides:
-        return "slider"
-    if scene.info.full_turn:
-        return "crank"
-    return scene.info.link_names[body.name] if body and not body.name.isdecimal() else "rocker"
 
 
 def driven_words(scene: Scene, value: float) -> str:

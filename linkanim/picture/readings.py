@@ -10,7 +10,7 @@ from linkanim.digits import stepped
 from linkanim.mechanics.effort import effort_token
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.register import Quantity, register
-from linkanim.picture.driven import driven_name, driven_words, sign_of, speed_in, speed_unit, speed_words
+from linkanim.picture.driven import driven_words, sign_of, speed_in, speed_unit, speed_words
 from linkanim.scenes.scene import Scene
 
 _NEAR_LIMIT = 0.06 * pi
@@ -66,7 +66,7 @@ def rows_of(scene: Scene) -> tuple[Row, ...]:
 
 def _input_rows(scene: Scene) -> Iterator[Row]:
     info, slides = scene.info, scene.linkage.slides
-    name = f"{driven_name(scene)} {'travel' if slides else 'angle'}"
+    name = f"{scene.info.input_name} {'travel' if slides else 'angle'}"
     if info.full_turn:
         yield Row(0, name, lambda pose: _turned(pose.crank_angle))
         yield Row(1, "input speed", lambda pose: speed_words(scene, pose.input_speed))

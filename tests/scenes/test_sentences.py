@@ -15,7 +15,6 @@ from linkanim.cli import main
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.derived import transmission_angle
 from linkanim.mechanics.naming import GRASHOF, TRIPLE_ROCKERS
-from linkanim.picture.driven import driven_name
 from linkanim.picture.figure import figure
 from linkanim.picture.quantities import quantity
 from linkanim.player.editing import loss_of_turning
@@ -70,7 +69,7 @@ def test_a_link_that_is_called_crank_turns_and_one_called_rocker_swings(name: st
             assert noun == "coupler" or turns_fully(scene, body) == (noun == "crank"), (body, words)
     assert len(set(scene.info.link_names.values())) == len(scene.info.link_names)
     if not scene.linkage.slides and scene.linkage.drive.cylinder is None:
-        assert (driven_name(scene) == "crank") == scene.info.full_turn
+        assert (scene.info.input_name == "crank") == scene.info.full_turn
 
 
 # what the links of a scene are called where their names in the file say otherwise
@@ -108,6 +107,19 @@ def test_words_follow_the_motion_and_tokens_stay(capsys: pytest.CaptureFixture[s
     assert told["links"] == {"crank": "crank", "coupler": "coupler", "rocker": "driven crank"}
     assert main(["solve", "drag-link", "--angle", "10 deg", "--json"]) == 0
     assert list(json.loads(capsys.readouterr().out)["bodies"]) == ["crank", "coupler", "rocker"]
+
+
+def test_tables_and_refusals_call_the_input_by_what_it_does(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", "drag-link", "--angle", "10 deg"]) == 0
+    table = capsys.readouterr().out
+    assert "crank angle 10 deg" in table
+    assert "driven crank" in table
+    assert main(["solve", "double-rocker", "--phase", "1 rad"]) == 0
+    assert "\ninput rocker angle " in capsys.readouterr().out
+    assert main(["solve", "double-rocker", "--angle", "1 deg"]) == 2
+    assert "the input rocker angle goes from 13.7953 deg" in capsys.readouterr().err
+    assert main(["solve", "double-rocker", "--sweep", "20:30:5"]) == 0
+    assert "input rocker deg" in capsys.readouterr().out.splitlines()[0]
 
 
 @pytest.mark.parametrize("name", NAMES)
