@@ -9,6 +9,7 @@ from typing import Any
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
 from linkanim.mechanics.kinds import Pin
+from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.measures import (
     DAMPER,
     POINT,
