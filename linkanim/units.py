@@ -17,6 +17,34 @@ from linkanim.errors import UnitError
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|[+-]?(?:nan|inf(?:inity)?))", re.I | re.A)
 _PI = Fraction(math.pi)
+PI_REST = 1.2246467991473532e-16
+"""What `math.pi` lacks of π: their sum is right to 32 digits."""
+
+
+class Angle(float):
+    """An angle in radians as a float, and the `rest` that it lacks of the angle as it was written."""
+
+    __slots__ = ("rest",)
+    rest: float
+
+    def __new__(cls, nearest: float, rest: float = 0.0) -> Angle:
+        """Return the angle that is the sum of two floats."""
+        angle = super().__new__(cls, nearest)
+        angle.rest = rest
+        return angle
+
+    def __eq__(self, other: object) -> bool:
+        # To a plain float it is equal, as the float that it is.
+        equal = float.__eq__(self, other)
+        return self.rest == getattr(other, "rest", self.rest) if equal is True else equal
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __reduce__(self) -> tuple[type[Angle], tuple[float, float]]:
+        return Angle, (float(self), self.rest)
+
+    __hash__ = float.__hash__
 
 
 class Units(NamedTuple):
@@ -82,13 +110,20 @@ INERTIA_UNITS = tuple(_INERTIA.factors)
 FALL_UNITS = tuple(_FALL.factors)
 
 
-def angle(value: object) -> float:
-    """Return an angle in radians: "87 deg" or "1.5 rad".
+def angle(value: object) -> Angle:
+    """Return an angle in radians: "87 deg" or "1.5 rad", with what rounding takes from it.
 
     A multiple of 90 degrees comes back as that multiple of `math.pi / 2`, rounded once. UnitError
     where the unit is missing or unknown, or the number is not finite.
     """
-    return _with_unit(value, _ANGLE)
+    nearest = _with_unit(value, _ANGLE)
+    if nearest == 0.0:
+        return Angle(nearest)
+    number, unit = _split(value, _ANGLE)
+    exact = _ANGLE.factors[unit] * Fraction(Decimal(number))
+    if unit == "deg":
+        exact *= 1 + Fraction(PI_REST) / _PI
+    return Angle(nearest, float(exact - Fraction(nearest)))
 
 
 def angular_speed(value: object) -> float:

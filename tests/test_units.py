@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import pickle
 from collections.abc import Callable
 from functools import partial
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mpmath import mp, mpf
 
 from linkanim import units
 from linkanim.errors import UnitError
@@ -175,3 +177,23 @@ def test_quarter_turns_are_exact(quarters: int) -> None:
 )
 def test_a_value_is_shown_short_and_on_one_line(value: object, told: str) -> None:
     assert units.shown(value) == told
+
+
+@pytest.mark.parametrize(
+    "number", ["30", "-107.47", "37.482910348571", "90", "360000012.3", "1e-9", "0.1", "0"]
+)
+@pytest.mark.parametrize("unit", ["deg", "rad"])
+def test_an_angle_keeps_what_a_float_lacks_of_it(number: str, unit: str) -> None:
+    angle = units.angle(f"{number} {unit}")
+    with mp.workdps(50):
+        true = mpf(number) * (mp.pi / 180 if unit == "deg" else 1)
+        assert abs(mpf(float(angle)) + mpf(angle.rest) - true) <= abs(true) * mpf(10) ** -30
+
+
+def test_angles_are_equal_where_all_their_digits_are() -> None:
+    written, other = units.angle("30 deg"), units.angle(f"{math.radians(30)!r} rad")
+    assert float(written) == float(other)
+    assert written != other
+    assert written == float(written)
+    assert written == pickle.loads(pickle.dumps(written))
+    assert pickle.loads(pickle.dumps(written)).rest == written.rest

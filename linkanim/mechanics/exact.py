@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from linkanim.units import PI_REST, Angle
+
 from .circular import direction
 
 QUARTER_TURN_HIGH = math.pi / 2
-QUARTER_TURN_LOW = 6.123233995736766e-17
+QUARTER_TURN_LOW = PI_REST / 2
 """π/2 is the sum of the two, to 32 digits."""
 
 
@@ -37,8 +39,13 @@ class Sum:
         high, error = two_product(self.high, factor)
         return _renormalised(high, error + self.low * factor)
 
+    @property
+    def fraction(self) -> Fraction:
+        """The number itself."""
+        return Fraction(self.high) + Fraction(self.low)
+
     def __mul__(self, ratio: Fraction) -> Sum:
-        exact = (Fraction(self.high) + Fraction(self.low)) * ratio
+        exact = self.fraction * ratio
         high = float(exact)
         return Sum(high, float(exact - Fraction(high)))
 
@@ -88,26 +95,31 @@ FULL_TURN = quarter_turns(4)
 
 
 def exact_angle(angle: float) -> Sum:
-    """Return the angle as a sum; the float nearest a multiple of a right angle stands for that multiple."""
+    """Return the angle as a sum; the float nearest a multiple of a right angle stands for that multiple.
+
+    One that was written keeps what the float lacks of it.
+    """
     count = round(angle / QUARTER_TURN_HIGH)
     multiple = quarter_turns(count)
-    return multiple if multiple.high == angle else Sum(angle)
+    if multiple.high == float(angle):
+        return multiple
+    return _renormalised(float(angle), angle.rest) if isinstance(angle, Angle) else Sum(angle)
 
 
 def unit(angle: float) -> tuple[float, float]:
     """Return (cos, sin), exact at multiples of a right angle."""
     count = round(angle / QUARTER_TURN_HIGH)
-    if quarter_turns(count).high == angle:
+    if quarter_turns(count).high == float(angle):
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[count % 4]
     return direction(angle)
 
 
-def snapped(number: float, marks: Iterable[float], reach: float) -> float:
+def snapped(number: Sum, marks: Iterable[float], reach: float) -> Sum:
     """Return the mark from which a number differs by rounding alone, else the number.
 
     It was worked out from coordinates that reach so far, with a direction's sine and cosine.
     """
-    return next((mark for mark in marks if abs(number - mark) <= reach * 2.0**-51), number)
+    return next((Sum(mark) for mark in marks if abs(float(number) - mark) <= reach * 2.0**-51), number)
 
 
 def gap(*lengths: float) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING
@@ -16,6 +17,7 @@ from .exact import HALF_TURN, Sum, exact_angle, gap, unit
 from .expression import Value
 from .input_state import InputState
 from .planar import Slope, Vec
+from .precise import context, exactly, nearest_sum, sine_and_cosine
 from .roots import Kind, LoopRoot
 from .signed import SignedRoot, sharpened, sign_of_root, signed_root
 
@@ -37,11 +39,20 @@ class Gearing:
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """The ground link between two fixed pins: length, direction, and the angle of that direction."""
+    """The ground link between two fixed pins: length, direction, and the angle of that direction.
+
+    `rest` is what rounding took from a length that is read from coordinates.
+    """
 
     length: float
     direction: Vec
     angle: Sum
+    rest: float = 0.0
+
+    @property
+    def exact(self) -> Sum:
+        """The length to twice a float's digits."""
+        return Sum(self.length, self.rest)
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,8 +134,8 @@ def find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop
 def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     """Return the ground link from a crank's pivot to another fixed pin, as exactly as it was written.
 
-    None where they are one point, and no direction leads from one to the other. A length that was
-    rounded from coordinates is the crank's own where rounding is all that tells them apart.
+    None where they are one point, and no direction leads from one to the other. A length that is
+    read from coordinates is the crank's own where rounding is all that tells them apart.
     """
     first, second = linkage.pin(crank.pivot), linkage.pin(end)
     if _written_from(second, first):
@@ -135,8 +146,52 @@ def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     length = math.hypot(dx, dy)
     if not length:
         return None
-    direction, angle = Vec(dx / length, dy / length), exact_angle(math.atan2(dy, dx))
-    return Ground(length if gap(length, -crank.length) else crank.length, direction, angle)
+    direction = Vec(dx / length, dy / length)
+    exact, angle = _way(_place(linkage, first), _place(linkage, second))
+    if not (dx and dy):
+        angle = exact_angle(math.atan2(dy, dx))
+    if gap(exact.high, exact.low, -crank.length) == 0:
+        exact = Sum(crank.length)
+    return Ground(exact.high, direction, angle, exact.low)
+
+
+def aside_of(linkage: Linkage, pin: Pin, base: Pin, angle: float) -> Sum:
+    """Return how far a fixed pin lies left of the line through another at an angle."""
+    (x0, y0), (x1, y1) = _place(linkage, base), _place(linkage, pin)
+    sine, cosine = _sides(angle)
+    with localcontext(context()):
+        return nearest_sum((y1 - y0) * cosine - (x1 - x0) * sine)
+
+
+def _sides(angle: float) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine of an angle as it was written, exact at multiples of a right angle."""
+    along, left = unit(angle)
+    if 0.0 in (along, left):
+        return Decimal(left), Decimal(along)
+    with localcontext(context()):
+        return sine_and_cosine(exactly(exact_angle(angle)))
+
+
+def _place(linkage: Linkage, pin: Pin) -> tuple[Decimal, Decimal]:
+    """Return where a fixed pin lies, as it was written."""
+    if pin.polar is None:
+        return Decimal(pin.position[0]), Decimal(pin.position[1])
+    base, length = pin.polar.base, Decimal(pin.polar.length)
+    x, y = _place(linkage, linkage.pin(base)) if base else (Decimal(0), Decimal(0))
+    sine, cosine = _sides(pin.polar.angle)
+    with localcontext(context()):
+        return x + length * cosine, y + length * sine
+
+
+def _way(start: tuple[Decimal, Decimal], end: tuple[Decimal, Decimal]) -> tuple[Sum, Sum]:
+    """Return length and angle of the way between two points to twice a float's digits."""
+    with localcontext(context()):
+        dx, dy = end[0] - start[0], end[1] - start[1]
+        near = Decimal(math.atan2(dy, dx))
+        sine, cosine = sine_and_cosine(near)
+        # What a float lacks of the angle is so small that it is its own tangent.
+        rest = (dy * cosine - dx * sine) / (dx * cosine + dy * sine)
+        return nearest_sum((dx * dx + dy * dy).sqrt()), nearest_sum(near + rest)
 
 
 def _written_from(pin: Pin, base: Pin) -> bool:

@@ -95,7 +95,7 @@ def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
         return nearest_sum(2 * (half + (target - sine * sine) / (2 * sine * cosine)))
 
 
-def four_bar_root(ground: float, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:
+def four_bar_root(ground: Sum, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:
     """Return the root of crank pin against fixed pin: ground r1, crank r2, bars r3, r4.
 
     cU = (r3+r4-r1-r2)(r3+r4+r1+r2) and cW = (r1-r2-r3+r4)(r1-r2+r3-r4). Where neither root vanishes they
@@ -103,12 +103,13 @@ def four_bar_root(ground: float, crank: float, bars: tuple[float, float], refere
     of which the root is exact.
     """
     coupler, rocker = bars
-    g, r, a, b = (Fraction(length) for length in (ground, crank, coupler, rocker))
+    g, r, a, b = ground.fraction, *(Fraction(length) for length in (crank, coupler, rocker))
+    longer, shorter = (ground.high, ground.low), (-ground.high, -ground.low)
     u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2
-    u_least = gap(coupler, rocker, -ground, -crank) * math.fsum((coupler, rocker, ground, crank))
-    w_least = gap(ground, -crank, -coupler, rocker) * gap(ground, -crank, coupler, -rocker)
-    touching_u = gap(coupler, rocker, -ground, crank) == 0
-    touching_w = 0 in (gap(ground, crank, -coupler, rocker), gap(ground, crank, coupler, -rocker))
+    u_least = gap(coupler, rocker, *shorter, -crank) * math.fsum((coupler, rocker, *longer, crank))
+    w_least = gap(*longer, -crank, -coupler, rocker) * gap(*longer, -crank, coupler, -rocker)
+    touching_u = gap(coupler, rocker, *shorter, crank) == 0
+    touching_w = 0 in (gap(*longer, crank, -coupler, rocker), gap(*longer, crank, coupler, -rocker))
     spread = 2 * r if u_least > 0 and w_least > 0 else Fraction(1)
     unit = 4 * g * r / spread
     return LoopRoot(
@@ -120,28 +121,30 @@ def four_bar_root(ground: float, crank: float, bars: tuple[float, float], refere
     )
 
 
-def slider_root(crank: float, rod: float, eccentricity: float, reference: Sum) -> LoopRoot:
+def slider_root(crank: float, rod: float, eccentricity: Sum, reference: Sum) -> LoopRoot:
     """Return the root of crank pin against a line: √((r3-e)(r3+e)), e = eccentricity - r2 cos ψ.
 
     `eccentricity` is how far the crank's pivot lies left of the line of travel.
     """
-    r, b, e = (Fraction(length) for length in (crank, rod, eccentricity))
+    r, b, e = Fraction(crank), Fraction(rod), eccentricity.fraction
+    left, right = (eccentricity.high, eccentricity.low), (-eccentricity.high, -eccentricity.low)
     return LoopRoot(
         2.0 * crank,
-        factor(gap(rod, -eccentricity, -crank), gap(rod, -eccentricity, crank), 2 * r, b - e + r),
-        factor(gap(rod, eccentricity, -crank), gap(rod, eccentricity, crank), 2 * r, b + e + r),
+        factor(gap(rod, *right, -crank), gap(rod, *right, crank), 2 * r, b - e + r),
+        factor(gap(rod, *left, -crank), gap(rod, *left, crank), 2 * r, b + e + r),
         reference,
     )
 
 
-def slot_root(ground: float, crank: float, offset: float, reference: Sum) -> LoopRoot:
+def slot_root(ground: Sum, crank: float, offset: float, reference: Sum) -> LoopRoot:
     """Return the root of a slot through the crank pin: √((L-o)(L+o)), L from slot pivot to pin."""
-    g, r, o = (Fraction(length) for length in (ground, crank, offset))
-    least = gap(ground, -crank, -offset) * gap(ground, -crank, offset)
+    g, r, o = ground.fraction, Fraction(crank), Fraction(offset)
+    length = ground.high, ground.low
+    least = gap(*length, -crank, -offset) * gap(*length, -crank, offset)
     most = (g + r) ** 2 - o**2
-    touching = 0 in (gap(ground, crank, -offset), gap(ground, crank, offset))
+    touching = 0 in (gap(*length, crank, -offset), gap(*length, crank, offset))
     only = factor(least, _unless(touching, most), 4 * g * r, most)
-    return LoopRoot(4.0 * ground * crank, ALWAYS, only, reference)
+    return LoopRoot(4.0 * ground.high * crank, ALWAYS, only, reference)
 
 
 def _unless(touching: bool, most: Fraction) -> float:

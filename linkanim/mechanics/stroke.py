@@ -30,9 +30,8 @@ from .exact import Sum, exact_angle
 from .expression import Graph, Value, arctan2, sqrt
 from .input_path import ThereAndBack, Unlimited, half_squares, nearer_way
 from .input_state import HalfForm, InputState, TravelState
-from .kinds import Pin
 from .linkage import Cylinder, Linkage, Travel
-from .loop import Ground, ground_between
+from .loop import ground_between
 from .planar import Moving, Slope, Vec
 from .reach import Array, WaysLeft
 
@@ -293,19 +292,10 @@ def cylinder_stroke(linkage: Linkage, unscale: float) -> CylinderStroke:
     sides = ground.length, abs(arm)
     _check(cylinder, sides)
     own = exact_angle(math.atan2(arm.imag, arm.real))
-    base, lost = ground.angle - own, _lost(ground, linkage.pin(crank.pivot), linkage.pin(fixed))
+    base = ground.angle - own
     ends = cylinder.first, cylinder.last
-    paths = [CylinderStroke(*ends, sides, base, side, lost, unscale=unscale) for side in (1, -1)]
+    paths = [CylinderStroke(*ends, sides, base, side, ground.rest, unscale=unscale) for side in (1, -1)]
     return next((path for path in paths if path.holds(drive.start)), paths[0])
-
-
-def _lost(ground: Ground, first: Pin, second: Pin) -> float:
-    """Return what rounding took from the length of a ground link between pins known by coordinates."""
-    if first.polar or second.polar:
-        return 0.0
-    (x0, y0), (x1, y1) = (map(Fraction, pin.position) for pin in (first, second))
-    length = Fraction(ground.length)
-    return float(((x1 - x0) ** 2 + (y1 - y0) ** 2 - length**2) / (2 * length))
 
 
 def _check(cylinder: Cylinder, sides: tuple[float, float]) -> None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .circular import Half
+from .exact import Sum
 from .expression import Value, sqrt
 from .planar import Moving, MovingPoint, Slope, Vec
 from .signed import Reduced, SignedRoot
@@ -39,7 +40,7 @@ class PinLoop:
     `half` is ψ/2, `pace` is ψ' with its derivative; K and the unit of lengths squared are the root's.
     """
 
-    ground: float
+    ground: Sum
     direction: Vec
     crank: float
     half: Half
@@ -47,10 +48,15 @@ class PinLoop:
     spread: float
     unit: float
 
+    @property
+    def short(self) -> float:
+        """How much longer the ground is than the crank, rounded once."""
+        return float(self.ground - Sum(self.crank))
+
     def across(self) -> Vec:
         """Return D from the crank pin to the fixed pin, exact where the two nearly meet."""
         squares = self.half.squares(2.0 * self.crank)
-        return Vec(squares.sine + (self.ground - self.crank), -squares.product).times(self.direction)
+        return Vec(squares.sine + self.short, -squares.product).times(self.direction)
 
 
 def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) -> Triangle:
@@ -58,22 +64,22 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
 
     Lengths squared are taken over the root's unit, so that L² is K sin²(ψ/2) and a constant.
     """
-    (a, b), g, r = lengths, loop.ground, loop.crank
-    if g == r and a == b:
+    (a, b), short, total = lengths, loop.short, loop.ground.high + loop.crank
+    if short == 0 and a == b:
         return _kite(loop, root)
     w, wd = loop.pace.value, loop.pace.rate
     unit, squares = loop.unit, loop.half.squares(loop.spread)
     square = squares.sine
-    share = 0.5 / (square + (g - r) * (g - r) / unit)
+    share = 0.5 / (square + short * short / unit)
     # (L²)'/(4 L⁴): what the shares of D and e both change with.
     change = squares.product * w * share * share
-    excess, outer = 2.0 * (b - a) * (b + a) / unit, 2.0 * (g - r) * (g + r) / unit
+    excess, outer = 2.0 * (b - a) * (b + a) / unit, 2.0 * short * total / unit
     turn = Slope(*(_turn(loop, square, share, rate) for rate in (w, wd)))
     across = loop.across()
     return Triangle(
         across=across,
-        near=(square + _near_constant(g - r, a, b) / unit) * share,
-        far=(square + _near_constant(g - r, b, a) / unit) * share,
+        near=(square + _near_constant(short, a, b) / unit) * share,
+        far=(square + _near_constant(short, b, a) / unit) * share,
         lift=across.left().scaled(root.q * share),
         turn=turn.plus(0.0, change * (root.ratio.value * excess + w * outer)),
         ratio=root.ratio,
@@ -85,10 +91,10 @@ def _turn(loop: PinLoop, square: Value, share: Value, rate: Value) -> Value:
 
     Where one is much the longer, the half would cancel and leave few digits of a small rest.
     """
-    g, r, unit = loop.ground, loop.crank, loop.unit
+    g, r, unit = loop.ground.high, loop.crank, loop.unit
     if g < 8 * r and r < 8 * g:
-        return share * (rate * ((r - g) * (r + g) / unit)) + rate * 0.5
-    return (square + (r - g) * (2.0 * r) / unit) * share * rate
+        return share * (rate * (-loop.short * (r + g) / unit)) + rate * 0.5
+    return (square - loop.short * (2.0 * r) / unit) * share * rate
 
 
 def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:

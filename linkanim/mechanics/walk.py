@@ -92,7 +92,7 @@ class Walk:
         assert loop.ground is not None
         root, half, pace = self.loop_root(loop, sign)
         ground, units = loop.ground, (loop.root.spread, loop.root.unit)
-        return root, PinLoop(ground.length, ground.direction, loop.crank.length, half, pace, *units)
+        return root, PinLoop(ground.exact, ground.direction, loop.crank.length, half, pace, *units)
 
     def span_root(self, name: str, across: MovingPoint, lengths: tuple[float, float]) -> SignedRoot:
         """Return the root of two bars on points that both move, D apart."""

@@ -58,13 +58,14 @@ class Error(NamedTuple):
 def near_a_toggle(rng: Random) -> Bars:
     """Return bars that a swing, or what it lacks of a turn, of 1e-6 or more is left to.
 
-    Pins that nearly meet just there are left out: what turns a hundred times as fast as the crank cancels.
+    Left out are bars of a thousandth of the others, and pins that nearly meet just there: what turns a
+    hundred times as fast as the crank cancels.
     """
     g, r, a = (rng.uniform(1, 10) for _ in range(3))
-    if abs(g - r) < 0.1 * g:
-        return near_a_toggle(rng)
     gap = rng.choice((-1, 1)) * 10 ** rng.uniform(-11, 0)
     rocker = abs(rng.choice((g + r - a, abs(g - r) + a, g + r + a)) + gap)
+    if abs(g - r) < 0.1 * g or rocker < 1:
+        return near_a_toggle(rng)
     return _bars(rng, (g, "0"), r, a, rocker)
 
 
@@ -86,7 +87,12 @@ def on_pins_given_by_coordinates(rng: Random) -> Bars:
 
 
 Make = Callable[[Random], Bars]
-KINDS: tuple[Make, ...] = (near_a_toggle,)
+KINDS: tuple[Make, ...] = (
+    near_a_toggle,
+    driven_at_its_crank_on_tilted_ground,
+    driven_at_its_rocker_on_tilted_ground,
+    on_pins_given_by_coordinates,
+)
 
 
 def _on_tilted_ground(rng: Random, *, rocker: bool) -> Bars:

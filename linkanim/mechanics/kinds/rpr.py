@@ -86,7 +86,7 @@ class RPR(Joint):
                 ground = ground_between(linkage, crank, fixed)
                 if ground is None:
                     return None
-                root = slot_root(ground.length, crank.length, self.offset, ground.angle)
+                root = slot_root(ground.exact, crank.length, self.offset, ground.angle)
                 return Loop(moving, crank, gears[moving], ground, root, bool(swapped))
         return None
 
@@ -155,7 +155,7 @@ def _loop_direction(ground: PinLoop, root: SignedRoot, bar: tuple[float, int], *
     """
     offset, sign = bar
     way = -1.0 if swapped else 1.0
-    if ground.ground == ground.crank and offset == 0:
+    if ground.short == 0 and offset == 0:
         return Vec(-ground.half.sine, ground.half.cosine).times(ground.direction).scaled(way * sign)
     return _direction(ground.across().scaled(-way), root.q, offset)
 

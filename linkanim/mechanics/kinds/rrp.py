@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkanim.mechanics.chain import Closing
-from linkanim.mechanics.exact import exact_angle, quarter_turns, snapped, unit
+from linkanim.mechanics.exact import Sum, exact_angle, quarter_turns, snapped
 from linkanim.mechanics.joint import Need
-from linkanim.mechanics.loop import Loop
+from linkanim.mechanics.loop import Loop, aside_of
 from linkanim.mechanics.planar import Moving
 from linkanim.mechanics.rail import Line
 from linkanim.mechanics.roots import slider_root
@@ -66,13 +66,11 @@ class RRP(SliderDyad):
         crank = linkage.crank(self.end) if self.end in gears else None
         if crank is None or self.line.on or not linkage.joint(crank.pivot).fixed:
             return None
-        pivot, through = linkage.pin(crank.pivot).position, linkage.pin(self.line.through).position
-        along = unit(self.line.angle)
-        dx, dy = pivot[0] - through[0], pivot[1] - through[1]
-        eccentricity = dy * along[0] - dx * along[1] - self.line.offset
+        pivot, through = linkage.pin(crank.pivot), linkage.pin(self.line.through)
+        aside = aside_of(linkage, pivot, through, self.line.angle)
         tie = self.length - crank.length
-        reach = abs(dx) + abs(dy) + abs(self.line.offset)
-        eccentricity = snapped(eccentricity, (0.0, tie, -tie), reach)
+        reach = sum(abs(a - b) for a, b in zip(pivot.position, through.position, strict=True))
+        eccentricity = snapped(aside - Sum(self.line.offset), (0.0, tie, -tie), reach + abs(self.line.offset))
         reference = exact_angle(self.line.angle) - quarter_turns(1)
         root = slider_root(crank.length, self.length, eccentricity, reference)
         return Loop(self.end, crank, gears[self.end], None, root)

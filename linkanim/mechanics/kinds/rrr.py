@@ -83,7 +83,7 @@ class RRR(Joint):
                 ground = ground_between(linkage, crank, fixed)
                 if ground is None:
                     return None
-                root = four_bar_root(ground.length, crank.length, bars, ground.angle)
+                root = four_bar_root(ground.exact, crank.length, bars, ground.angle)
                 return Loop(moving, crank, gears[moving], ground, root, swapped)
         return None
 
