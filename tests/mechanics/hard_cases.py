@@ -13,14 +13,14 @@ import random
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from mpmath import mp, mpf
-from reference import sign_of, unit
+from reference import derivatives, sign_of, unit
 
 from linkanim.bench.reference import crossing
-from linkanim.errors import AssemblyError
+from linkanim.errors import BadInput
 from linkanim.mechanics.mechanism import Mechanism
 from linkanim.mechanics.path import Swing
 from linkanim.scenes.read import scene_from
@@ -46,6 +46,15 @@ class Bars:
     crank: float
     bars: tuple[float, float]
     side: int
+
+
+@dataclass(frozen=True)
+class Guided:
+    """A bar to a slider, or a slotted bar, on the crank's pin: J at an angle, NaN where it cannot close."""
+
+    document: dict[str, Any]
+    longest: float
+    place: Callable[[Any], Any]
 
 
 class Error(NamedTuple):
@@ -87,12 +96,62 @@ def on_pins_given_by_coordinates(rng: Random) -> Bars:
 
 
 Make = Callable[[Random], Bars]
+Some = TypeVar("Some", Bars, Guided)
 KINDS: tuple[Make, ...] = (
     near_a_toggle,
     driven_at_its_crank_on_tilted_ground,
     driven_at_its_rocker_on_tilted_ground,
     on_pins_given_by_coordinates,
 )
+
+
+def slider_on_a_tilted_line(rng: Random) -> Guided:
+    """Return a bar from the crank's pin to a line at an angle of degrees, all pins given by coordinates."""
+    r, b, offset = round(rng.uniform(2, 9), 3), round(rng.uniform(1, 9), 3), round(rng.uniform(-4, 4), 2)
+    tilt, pins = f"{rng.uniform(-180, 180):.3f}", _pins(rng)
+    line = {"through": "O4", "angle": f"{tilt} deg", "offset": offset}
+    joint = {"from": "A", "length": b, "line": line, "side": "forward"}
+    with mp.workdps(DIGITS):
+        start, base = (mp.mpc(*map(mpf, at)) for at in pins)
+        along = unit(mpf(tilt) * mp.pi / 180)
+
+    def place(angle: Any) -> Any:
+        end = (start + mpf(r) * unit(angle) - base) / along
+        square = mpf(b) ** 2 - (end.imag - mpf(offset)) ** 2
+        return base + along * mp.mpc(end.real + mp.sqrt(square), mpf(offset)) if square > 0 else mp.nan
+
+    return Guided(_document(rng, pins, r, joint), max(r, b), place)
+
+
+def slot_beside_its_pivot(rng: Random) -> Guided:
+    """Return a bar whose slot the crank's pin runs in, all pins given by coordinates."""
+    r, b, offset = round(rng.uniform(2, 9), 3), round(rng.uniform(2, 9), 2), round(rng.uniform(1, 6), 2)
+    pins = _pins(rng)
+    joint = {"slot": {"pivot": "O4", "through": "A", "offset": offset}, "length": b}
+    with mp.workdps(DIGITS):
+        start, base = (mp.mpc(*map(mpf, at)) for at in pins)
+
+    def place(angle: Any) -> Any:
+        way = start + mpf(r) * unit(angle) - base
+        square = abs(way) ** 2 - mpf(offset) ** 2
+        return base + mpf(b) * way / mp.mpc(mp.sqrt(square), mpf(offset)) if square > 0 else mp.nan
+
+    return Guided(_document(rng, pins, r, joint), max(r, b), place)
+
+
+GUIDED: tuple[Callable[[Random], Guided], ...] = (slider_on_a_tilted_line, slot_beside_its_pivot)
+
+
+def _pins(rng: Random) -> list[list[float]]:
+    return [[round(rng.uniform(-5, 5), 2) for _ in "xy"] for _ in range(2)]
+
+
+def _document(rng: Random, pins: list[list[float]], crank: float, joint: dict[str, Any]) -> dict[str, Any]:
+    return {
+        "drive": {"joint": "A", "start": f"{rng.uniform(0, 360):.1f} deg"},
+        "ground": dict(zip(("O2", "O4"), pins, strict=True)),
+        "joints": {"A": {"crank": "O2", "length": crank}, "J": joint},
+    }
 
 
 def _on_tilted_ground(rng: Random, *, rocker: bool) -> Bars:
@@ -210,14 +269,14 @@ def _meeting(ways: tuple[Any, Any], parts: tuple[Any, Any]) -> Any:
     return mp.mpc((p * b.imag - q * a.imag) / size, (q * a.real - p * b.real) / size)
 
 
-def swinging(make: Make, seed: int = 7) -> Iterator[tuple[Bars, Mechanism]]:
-    """Yield bars that go together and stop the crank."""
+def swinging(make: Callable[[Random], Some], seed: int = 7) -> Iterator[tuple[Some, Mechanism]]:
+    """Yield linkages that go together and stop the crank."""
     rng = Random(seed)
     while True:
         bars = make(rng)
         try:
             solved = scene_from(bars.document, name="bars", where="bars").mechanism
-        except AssemblyError:
+        except BadInput:
             continue
         if isinstance(solved.assembly.path, Swing):
             yield bars, solved
@@ -245,12 +304,7 @@ def by_angle(bars: Bars, solved: Mechanism) -> Error:
     """Return how far the motion by angle is off near the limits; rates in themselves, or in longest bars."""
     path = solved.assembly.path
     assert isinstance(path, Swing)
-    exact = _Exact(bars, path)
-    low, high = float(path.low), float(path.high)
-    angles = [end + way * share * (high - low) for end, way in ((low, 1), (high, -1)) for share in SHARES]
-    # The float nearest a limit stands for it.
-    near = 16 * np.spacing(max(abs(low), abs(high)))
-    angles = [angle for angle in angles if min(angle - low, high - angle) > near]
+    exact, angles = _Exact(bars, path), _angles(path)
     motion = solved.solve(angle=np.array(angles), speed=1.0)
     found, longest, errors = [exact.by_angle(mpf(angle)) for angle in angles], float(max(exact.sizes)), []
     for order, kind in enumerate(QUANTITIES):
@@ -263,6 +317,29 @@ def by_angle(bars: Bars, solved: Mechanism) -> Error:
         ]
         errors.append(_worst(getattr(motion, kind)["J"], reference))
     return Error(errors[0], max(errors[1:]))
+
+
+def guided_by_angle(guided: Guided, solved: Mechanism) -> Error:
+    """Return the same of a bar to a slider, or of a slotted bar."""
+    path = solved.assembly.path
+    assert isinstance(path, Swing)
+    angles = [angle for angle in _angles(path) if not mp.isnan(guided.place(mpf(angle)))]
+    motion = solved.solve(angle=np.array(angles), speed=1.0)
+    found = [derivatives(lambda angle: {"J": guided.place(angle)}, mpf(angle)) for angle in angles]
+    errors = []
+    for order, kind in enumerate(QUANTITIES):
+        true = [one[order]["J"] for one in found]
+        sizes = [max(guided.longest, float(abs(one)) if order else 0.0) for one in true]
+        errors.append(_worst(getattr(motion, kind)["J"], list(zip(true, sizes, strict=True))))
+    return Error(errors[0], max(errors[1:]))
+
+
+def _angles(path: Swing) -> list[float]:
+    """Return angles of a swing up to its limits; the float nearest a limit stands for it."""
+    low, high = path.input_range
+    near = 16 * np.spacing(max(abs(low), abs(high)))
+    angles = [end + way * share * (high - low) for end, way in ((low, 1), (high, -1)) for share in SHARES]
+    return [angle for angle in angles if min(angle - low, high - angle) > near]
 
 
 def _worst(values: Any, reference: list[tuple[Any, float]]) -> float:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from random import Random
 
 import pytest
-from hard_cases import DIGITS, KINDS, Make, by_angle, by_phase, swinging
+from hard_cases import DIGITS, GUIDED, KINDS, Guided, Make, by_angle, by_phase, guided_by_angle, swinging
 from mpmath import mp
 
 POSITION, RATE = 16, 64
@@ -36,3 +37,26 @@ def test_a_hundred_random_cranks_within_their_limits_are_right_to_the_last_digit
 @pytest.mark.parametrize("make", KINDS, ids=lambda make: make.__name__)
 def test_a_thousand_random_cranks_within_their_limits_are_right_to_the_last_digits(make: Make) -> None:
     check(make, 1000, 100)
+
+
+def check_guided(make: Callable[[Random], Guided], count: int, seed: int) -> None:
+    for (guided, solved), _ in zip(swinging(make, seed), range(count), strict=False):
+        error = guided_by_angle(guided, solved)
+        assert error.position <= POSITION, guided
+        assert error.rate <= RATE, guided
+
+
+@pytest.mark.parametrize("part", range(2))
+@pytest.mark.parametrize("make", GUIDED, ids=lambda make: make.__name__)
+def test_a_hundred_random_sliders_and_slots_are_right_up_to_their_limits(
+    make: Callable[[Random], Guided], part: int
+) -> None:
+    check_guided(make, 50, part)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("make", GUIDED, ids=lambda make: make.__name__)
+def test_a_thousand_random_sliders_and_slots_are_right_up_to_their_limits(
+    make: Callable[[Random], Guided],
+) -> None:
+    check_guided(make, 1000, 100)
