@@ -70,17 +70,23 @@ class Near:
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the way to it."""
+    """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the way to it.
+
+    Where the dyad fails to close on a short stretch only, of which half is the `stretch`, z² is that times
+    half the way to its other end.
+    """
 
     upper: bool
     near: Near | None = None
+    stretch: float = 0.0
 
     def way(self, state: InputState) -> Way:
         """Return the way to the limit."""
         assert state.ends is not None
         ends = state.ends
         z, half = (ends.root_u, ends.u) if self.upper else (ends.root_v, ends.v)
-        return Way(z, Moving(half.value, half.rate, (z * z).second))
+        argument = Moving(half.value, half.rate, (z * z).second)
+        return Way(z * _root(argument, self.stretch) if self.stretch else z, argument)
 
     def chosen(self, way: Way, width: float, close: Value, otherwise: Value) -> Value:
         """Return `close` within the width, else the other."""
@@ -274,6 +280,13 @@ class ChainRoot:
             if other is not zero:
                 others = others * _sign(other.way(state).z.value)
         return others
+
+
+def _root(x: Moving, more: float) -> Moving:
+    """Return the root of what moves and some more, which is positive."""
+    root = sqrt(x.value + more)
+    rate = x.rate * 0.5 / root
+    return Moving(root, rate, (x.second * 0.5 - rate * rate) / root)
 
 
 def _vector(x: Moving, y: Moving) -> MovingPoint:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from linkanim.errors import AssemblyError
 
 from .assembly import Assembly
-from .chain import ChainRoot, Closing, End, Fit, Near, Touch, Zero
+from .chain import ChainRoot, Closing, End, Fit, Near, Zero
 from .exact import Sum
 from .expression import Graph, Value
 from .input_state import swing_by_angle
@@ -45,7 +45,11 @@ POINTS = 20
 WIDEST = 0.5
 NARROWEST = 1e-4
 """Beyond a narrower stretch than this the margin itself would have lost its digits."""
-TRIES = 12
+NARROWEST_AT_A_LIMIT = 1e-12
+"""A margin grows the faster beside a limit, the nearer another one lies behind it."""
+TRIES = 16
+SHORT = 0.05
+"""Half the longest stretch on which a dyad fails to close that is taken as one place."""
 LAST = 1e-17
 TOLERABLE = 1e-13
 """What the last coefficients of a fit should be beside the first one, and what they may be.
@@ -132,9 +136,30 @@ def fitted(assembly: Assembly) -> Assembly:
 
 def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
     with localcontext(context()):
-        return replace(
-            root, zeros=tuple(replace(zero, near=_near(assembly, name, zero)) for zero in root.zeros)
-        )
+        zeros = [_with_stretch(assembly, name, zero) for zero in root.zeros]
+        return replace(root, zeros=tuple(replace(zero, near=_near(assembly, name, zero)) for zero in zeros))
+
+
+def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
+    """Return a limit with the stretch behind it on which the dyad does not close, where that is short."""
+    path = assembly.path
+    if not isinstance(zero, End) or not isinstance(path, Swing):
+        return zero
+    sampled = _by_way(assembly, path, name, zero)
+    before, here, after = (sampled(way).margin for way in (-NUDGE, Decimal(0), NUDGE))
+    slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
+    place = -2 * slope / bend
+    if not -Decimal(SHORT) < place < 0:
+        return zero
+    for _ in range(STEPS):
+        low, high = (sampled(place * (1 + way)).margin for way in (-NUDGE, NUDGE))
+        step = (low + high) / (high - low) * place * NUDGE
+        place -= step
+        if not -2 * Decimal(SHORT) < place < 0:
+            return zero
+        if abs(step) < CONVERGED:
+            return replace(zero, stretch=float(-place))
+    return zero
 
 
 def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
@@ -144,6 +169,7 @@ def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
     """
     sampled, width = _sampler(assembly, name, zero)
     zeroth, best, least = sampled(Decimal(0)), None, TOLERABLE
+    narrowest = NARROWEST_AT_A_LIMIT if isinstance(zero, End) else NARROWEST
     for _ in range(TRIES):
         half = width / 2 if isinstance(zero, End) else width
         stretch = _Stretch(width, half if isinstance(zero, End) else 0.0, half)
@@ -153,9 +179,9 @@ def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
         shares = [_shares(samples, zeroth, k) for k in (0, 1)] if meeting else []
         fits = [root, *(stretch.fit(samples, values) for values in shares)]
         last = max(_last(fits[:1]), _last(fits[1:]))
-        if last <= least and width >= NARROWEST:
+        if last <= least and width >= narrowest:
             best, least = Near(root, (fits[1], fits[2]) if meeting else None), last
-        if last <= LAST or width < NARROWEST:
+        if last <= LAST or width < narrowest:
             break
         width *= max(min(0.8 * (LAST / last) ** (1 / POINTS), 0.8), 0.1)
     if best is None and meeting:
@@ -163,7 +189,12 @@ def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
             f"joint {name}: the two ends of its equal bars meet and part the way they came, so that it could "
             "go on in any direction; make one of the bars longer or shorter"
         )
-    if best is None and isinstance(zero, Touch):
+    if best is None and isinstance(zero, End):
+        raise AssemblyError(
+            f"joint {name}: its limit lies too near to another one to be told from it; "
+            "make one length a little longer or shorter"
+        )
+    if best is None:
         raise AssemblyError(
             f"joint {name}: it falls into one line just where it turns back, so that it could go on either "
             "way; make one of its lengths a little longer or shorter"
@@ -215,7 +246,7 @@ def _sampler(assembly: Assembly, name: str, zero: Zero) -> tuple[Callable[[Decim
     path = assembly.path
     if isinstance(zero, End):
         assert isinstance(path, Swing)
-        return _by_way(assembly, path, name, upper=zero.upper), path.amplitude / 2
+        return _by_way(assembly, path, name, zero), path.amplitude / 2
     run = decimals(("x",), _by_phase(assembly, name))
     start = Decimal(0) if zero.amplitude else exactly(path.place(Sum(0.0)))
     place, turns = exactly(zero.place) - start, zero.turns
@@ -228,7 +259,7 @@ def _sampler(assembly: Assembly, name: str, zero: Zero) -> tuple[Callable[[Decim
     return sampled, WIDEST / turns
 
 
-def _by_way(assembly: Assembly, path: Swing, name: str, *, upper: bool) -> Callable[[Decimal], Sample]:
+def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[Decimal], Sample]:
     """Return the margin as a function of half the way to a limit."""
     graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
@@ -237,7 +268,7 @@ def _by_way(assembly: Assembly, path: Swing, name: str, *, upper: bool) -> Calla
     amplitude = (exactly(path.high) - exactly(path.low)) / 2
 
     def sampled(way: Decimal) -> Sample:
-        margin = run(*((way, amplitude - way) if upper else (amplitude - way, way)))[0]
-        return Sample(way, way.sqrt(), margin)
+        margin = run(*((way, amplitude - way) if end.upper else (amplitude - way, way)))[0]
+        return Sample(way, (way * (way + Decimal(end.stretch)) if end.stretch else way).sqrt(), margin)
 
     return sampled

@@ -25,7 +25,7 @@ from .joint import Joint
 from .linkage import Linkage
 from .loop import Loop
 from .planar import Slope
-from .precise import context, cosine, exactly, nearest_sum
+from .precise import context, cosine, exactly, nearest_sum, sine
 from .reach import Array, WaysLeft, reach
 from .roots import Kind, LoopRoot
 from .signed import Swinging
@@ -178,10 +178,18 @@ class Swing(ThereAndBack):
     def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> Swing:
         """Return the swing between two phases; at one without a dyad the input goes to its own limit."""
         angles = [
-            own if dyad is None else self.middle + _cosine(phase).times(-self.amplitude)
+            own if dyad is None else self._angle(phase)
             for (phase, dyad), own in zip((low, high), (self.low, self.high), strict=True)
         ]
         return Swing(angles[0], angles[1], (low[1] or self.ends[0], high[1] or self.ends[1]), self.repeats)
+
+    def _angle(self, phase: Sum) -> Sum:
+        """Return the angle at a phase on the way up, from the nearer end: twice the way is known exactly."""
+        with localcontext(context()):
+            way = 2 * exactly(self.amplitude)
+            if float(phase) < math.pi / 2:
+                return nearest_sum(exactly(self.low) + way * sine(exactly(phase) / 2) ** 2)
+            return nearest_sum(exactly(self.high) - way * cosine(exactly(phase) / 2) ** 2)
 
     def place(self, phase: Sum) -> Sum:
         """Return the phase: of an angle's two ways through it, each is a place of its own."""
@@ -218,12 +226,6 @@ class Swing(ThereAndBack):
 
 
 Path = Turn | Swing | CylinderStroke | SliderStroke
-
-
-def _cosine(angle: Sum) -> Sum:
-    """Return the cosine to twice a float's digits."""
-    with localcontext(context()):
-        return nearest_sum(cosine(exactly(angle)))
 
 
 @dataclass(frozen=True, slots=True)
