@@ -22,13 +22,25 @@ settings.register_profile("linkanim", deadline=None, derandomize=True, database=
 settings.load_profile("linkanim")
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Skip what needs a real window where there is no display; have each test carry what it withstands."""
+    _mark_quick(items)
     no_display = pytest.mark.skip(reason="needs a display; .ci/run starts one")
     for item in items:
         if "window" in item.keywords and not os.environ.get("DISPLAY"):
             item.add_marker(no_display)
         item.user_properties += [(*mark.args, 1)[:2] for mark in item.iter_markers(MARK)]
+
+
+def _mark_quick(items: list[pytest.Item]) -> None:
+    """Mark the first case of every test that is neither slow nor about the benchmarks."""
+    seen: set[str] = set()
+    for item in items:
+        test = item.nodeid.split("[")[0]
+        if test not in seen and not {"slow", "long", "window"} & set(item.keywords) and "/bench/" not in test:
+            item.add_marker(pytest.mark.quick)
+        seen.add(test)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

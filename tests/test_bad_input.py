@@ -241,6 +241,7 @@ def told(limits: Limits, record: Record) -> None:
 
 @pytest.mark.withstands("bad inputs tried", FEW)
 @cases
+@pytest.mark.slow
 def test_bad_input(case: Case, record_property: Record) -> None:
     tried(case, usual, record_property)
 

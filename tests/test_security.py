@@ -6,7 +6,7 @@ import ast
 import json
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -101,19 +101,21 @@ def test_names_are_but_keys_in_the_formulas(text: str, sources: list[str]) -> No
 NEVER = {"socket", "ssl", "http", "urllib", "ftplib", "smtplib", "requests", "webbrowser", "pickle"}
 
 
-@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: path.name)
-def test_no_file_imports_a_way_out(path: Path) -> None:
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
+def ways_out(path: Path) -> Iterator[str]:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         match node:
             case ast.Import(names=names):
-                assert not {name.name.split(".")[0] for name in names} & NEVER
-            case ast.ImportFrom(module=str(module), level=0):
-                assert module.split(".")[0] not in NEVER
-            case ast.Call(func=ast.Name(id="eval" | "exec")):
-                assert path.name == "program.py"
+                yield from {name.name.split(".")[0] for name in names} & NEVER
+            case ast.ImportFrom(module=str(module), level=0) if module.split(".")[0] in NEVER:
+                yield module
+            case ast.Call(func=ast.Name(id="eval" | "exec" as call)) if path.name != "program.py":
+                yield call
             case ast.keyword(arg="shell"):
-                pytest.fail("runs a shell")
+                yield "a shell"
+
+
+def test_no_file_imports_a_way_out() -> None:
+    assert [(path, way) for path in sorted(PACKAGE.rglob("*.py")) for way in ways_out(path)] == []
 
 
 # What the interpreter itself reports of a run: every socket, every shell, every process.

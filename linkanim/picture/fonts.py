@@ -1,6 +1,6 @@
 """Which font has a character: the bundled face, or the system's; what none has is spelt or left out.
 
-The face is Source Sans Pro (Paul D. Hunt, SIL Open Font License 1.1), from a wheel of its own: Latin,
+The face is Source Sans Pro (Paul D. Hunt, SIL Open Font License 1.1), which lies in `faces`: Latin,
 Greek and Cyrillic, subscripts, digits of one width, and the same glyphs on every machine.
 """
 
@@ -109,7 +109,7 @@ class Fonts:
 def file_of(path: str) -> str:
     """Return where a font's file lies; the bundled face's by its name alone."""
     bundled = path in (REGULAR, SEMIBOLD)
-    return str(files("font_source_sans_pro") / "files" / path) if bundled else path
+    return str(files("linkanim.picture") / "faces" / path) if bundled else path
 
 
 def _files() -> Iterator[str]:

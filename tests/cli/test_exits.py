@@ -279,6 +279,7 @@ for at in [*range(1, 60), *range(60, 1000, 40)]:
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+@pytest.mark.slow
 def test_ctrl_c_during_the_start_is_one_line() -> None:
     done = subprocess.run(
         [sys.executable, "-c", INTERRUPTED_START], check=True, capture_output=True, text=True

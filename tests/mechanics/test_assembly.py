@@ -159,17 +159,18 @@ def may_be_assembled(lengths: Lengths) -> bool:
     return 2 * max(lengths) < sum(lengths)
 
 
-SIZES = (2.0, 3.0, 4.0, 5.0)
+SIZES = (2.0, 3.0, 4.0)
 SMALL = [lengths for lengths in itertools.product(SIZES, SIZES, SIZES, SIZES) if may_be_assembled(lengths)]
 
 
 @pytest.mark.parametrize("side", [1, -1], ids=["open", "crossed"])
 @pytest.mark.parametrize("build", [four_bar, rocker_driven], ids=["crank", "rocker"])
+@pytest.mark.slow
 def test_every_four_bar_that_can_be_assembled_loads_with_either_name(
     build: Callable[..., Linkage], side: int
 ) -> None:
     # Grashof, triple rockers, parallelograms, kites and rhombi among them.
-    assert len(SMALL) > 200
+    assert len(SMALL) > 60
     for lengths in SMALL:
         assert is_closed(mechanism(build(lengths, side=side)), lengths), lengths
 
@@ -189,6 +190,7 @@ def test_the_antiparallelogram_driven_at_its_rocker_is_the_crossed_one() -> None
         assert parallel is not crossed
 
 
+@pytest.mark.slow
 def test_where_b_lies_on_one_side_for_both_the_name_is_that_of_the_pin_a() -> None:
     named_by_a = 0
     for lengths in SMALL[::3]:

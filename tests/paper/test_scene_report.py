@@ -50,6 +50,7 @@ def test_the_page_s_path_is_printed(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert capsys.readouterr().out == f"{tmp_path / 'out' / 'report.html'}\n"
 
 
+@pytest.mark.slow
 def test_the_page_holds_everything_and_loads_nothing(press: Path) -> None:
     text = (press / "report.html").read_text(encoding="utf-8")
     page = Parts(text)

@@ -36,9 +36,15 @@ def type_of_words() -> Type:
     return Type()
 
 
-@pytest.mark.parametrize("size", FORMATS)
-@pytest.mark.parametrize("chart", [False, True])
-@pytest.mark.parametrize("name", names())
+# every scene with a chart and without, each time in another format, so that all are met by many
+@pytest.mark.parametrize(
+    ("name", "chart", "size"),
+    [
+        (name, chart, FORMATS[(k + 2 * chart) % len(FORMATS)])
+        for k, name in enumerate(names())
+        for chart in (False, True)
+    ],
+)
 def test_what_a_scene_sweeps_fills_the_height_or_the_width(
     name: str, chart: bool, size: tuple[int, int]
 ) -> None:
@@ -59,8 +65,9 @@ def _moments(name: str, count: int) -> Iterator[float]:
     yield from np.linspace(0.0, load(name).period, count, endpoint=False)
 
 
-@pytest.mark.parametrize("size", [(480, 270), (320, 180)])
-@pytest.mark.parametrize("name", names())
+@pytest.mark.parametrize(
+    ("name", "size"), [(name, [(480, 270), (320, 180)][k % 2]) for k, name in enumerate(names())]
+)
 def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, int]) -> None:
     scene, look = load(name), Look(chart=None)
     painter, surface = Painter(scene, size, look), offscreen(size)
@@ -265,6 +272,7 @@ def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, r
     assert unsaid(title, class_name) == rest
 
 
+@pytest.mark.slow
 def test_a_chart_does_not_drive_out_the_words() -> None:
     wanted = Staged((480, 270), True, 2, True, False)
     for name in names():

@@ -42,7 +42,7 @@ def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size:
     painter = Painter(scene, size, Look(names=1, chart="A.velocity" if name == "press" else None))
     gauge, words, reach = painter.drawing.scenery.gauge, painter._layout.words, painter._layout.reach
     assert words
-    for phase in np.linspace(0, scene.period, 31):
+    for phase in np.linspace(0, scene.period, 16):
         pose = scene.pose(float(phase))
         labels = list(standing(painter, pose))
         pins = [painter.drawing.places(pose)[pin] for pin in painter._figure.pins]

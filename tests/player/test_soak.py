@@ -130,6 +130,7 @@ def resident_mb() -> float:
 
 @pytest.mark.withstands("frames run", 1_000)
 @needs_proc
+@pytest.mark.slow
 def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, object], None]) -> None:
     run = states(1_000, 0.3)
     for state in islice(run, 500):
@@ -141,6 +142,7 @@ def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, ob
 
 
 @pytest.mark.withstands("frames run", 108)
+@pytest.mark.slow
 def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rendering, "_start", fake_start([]))
     with display.opened(SIZE):
@@ -148,6 +150,7 @@ def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.Monk
 
 
 @needs_proc
+@pytest.mark.slow
 def test_windows_opened_one_after_the_other_take_no_more_memory(here: Path) -> None:
     def one_more() -> float:
         with display.opened(SIZE):

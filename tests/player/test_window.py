@@ -161,6 +161,7 @@ def test_a_number_is_a_scene(player: Player, number: int) -> None:
     assert player.state.scene == load(names()[number - 1])
 
 
+@pytest.mark.slow
 def test_every_scene_runs_in_the_window(player: Player) -> None:
     player.press(*SPACE)
     for name in names():

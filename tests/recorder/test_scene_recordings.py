@@ -35,8 +35,9 @@ SIZE = (96, 54)
 BARE = Look(hud=False, trace=False)
 
 
-@pytest.mark.parametrize("name", names())
-def test_every_scene_loops_over_its_true_period_without_a_seam(tmp_path: Path, name: str) -> None:
+# of every chapter some, with true periods of several turns; that each scene's period closes, mechanics holds
+@pytest.mark.parametrize("name", [*names()[::4], "kite", "press", "geared-five-bar-3-2"])
+def test_a_scene_loops_over_its_true_period_without_a_seam(tmp_path: Path, name: str) -> None:
     scene = load(name)
     made = record(scene, tmp_path / "out.gif", size=SIZE, fps=20, look=BARE)
     assert loops_for_ever(made.path)
@@ -111,7 +112,7 @@ def test_flat_colours_of_the_theme_come_out_exactly(tmp_path: Path, theme: str) 
 def test_a_transparent_recording_has_no_background(tmp_path: Path, form: str) -> None:
     look = Look(background=False)
     record(load("crank-rocker"), tmp_path / f"out.{form}", size=(192, 108), seconds=0.4, look=look)
-    pictures = [shot for path in sorted(tmp_path.iterdir()) for shot in frames_of(path, "RGBA")]
+    pictures = [shot for path in sorted(tmp_path.glob(f"out*.{form}")) for shot in frames_of(path, "RGBA")]
     assert len(pictures) == 10
     for picture in pictures:
         assert not picture[[0, -1], -1, 3].any()
@@ -215,6 +216,7 @@ def test_a_tapes_pictures_do_not_depend_on_the_order_in_which_they_are_drawn() -
     assert [bytes(one.draw(k)) for k in (0, 3, 7, 7, 2, 9)] == [anew[k] for k in (0, 3, 7, 7, 2, 9)]
 
 
+@pytest.mark.slow
 def test_the_gallery_is_small_whole_and_the_same_every_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -241,6 +243,7 @@ def test_the_sheet_keeps_flat_areas_as_they_are_and_the_rest_near() -> None:
     assert np.abs(found[120:].astype(int) - shades).mean() < 8
 
 
+@pytest.mark.slow
 def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -252,10 +255,12 @@ def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
     assert smaller.file_bytes < largest.file_bytes
 
 
+@pytest.mark.slow
 def test_a_gallery_recording_that_is_too_large_at_any_rate_is_smaller(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gallery, "SIZE", (160, 90))
+    monkeypatch.setattr(gallery, "RATES", gallery.RATES[-1:])
     monkeypatch.setattr(gallery, "LARGEST", 0)
     (large,) = make_gallery(tmp_path, ["kite"]).recordings
     monkeypatch.setattr(gallery, "MOST", large.file_bytes - 1)

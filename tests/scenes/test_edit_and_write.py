@@ -276,6 +276,7 @@ TITLES = st.text(st.characters(codec="utf-8"), max_size=20)
     unit=st.sampled_from(["mm", "cm", "m", "in"]),
     pin=st.tuples(OFFSETS, OFFSETS),
 )
+@pytest.mark.slow
 def test_whatever_a_document_says_is_written_to_the_last_bit(
     title: str,
     lengths: list[float],
