@@ -34,10 +34,12 @@ _HOME = {
 }
 
 
-if "IPython" in sys.modules:
+# An IPython that is only half imported has no shell yet.
+_shell = getattr(sys.modules.get("IPython"), "get_ipython", None)
+if _shell is not None:
     from linkanim.notebook import register
 
-    register(sys.modules["IPython"].get_ipython())
+    register(_shell())
 
 
 def __getattr__(name: str) -> object:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 MOST_NAMES = 500
 """Joints, pins, bodies, springs or dampers of a scene, each."""
+MOST_TURNS = 1_000
+"""Turns of the input, or ways there and back, after which every joint is back."""
+MOST_DYAD_TURNS = 2_000
+"""The same times the dyads, each of which is looked at all along."""
 LONGEST_TEXT = 1_000
 """Characters of a title or any other text that is shown on a line."""
 MOST_FRAMES = 100_000

@@ -8,8 +8,9 @@ from functools import partial
 from types import FrameType
 
 import pytest
-from generated import SHAPES, series
+from generated import SHAPES, geared, series
 
+from linkanim.errors import AssemblyError
 from linkanim.picture.look import Look
 from linkanim.picture.painter import Painter
 from linkanim.scenes.read import scene_from
@@ -59,3 +60,15 @@ def test_what_is_said_of_a_linkage_takes_as_many_more_calls_as_it_has_more_joint
 def test_placing_names_takes_as_many_more_calls_as_there_are_more_joints() -> None:
     few, many = (calls(partial(named, scene_of(series(dyads)))) for dyads in (FEW // 2, MANY // 2))
     assert many <= LINEAR * few
+
+
+def test_gears_that_bring_everything_back_too_late_are_refused_by_name() -> None:
+    with pytest.raises(AssemblyError) as refused:
+        facts(geared(7, 11, 9, 8, 5))
+    for part in ("D0 (1/7), D1 (1/11), D2 (1/9), D3 (1/8), D4 (1/5)", "27,720 turns", "1,000 are"):
+        assert part in str(refused.value)
+
+
+def test_any_two_gears_and_the_longest_of_three_are_taken() -> None:
+    assert scene_of(geared(12, 11)).info.true_period == 132
+    assert scene_of(geared(9, 10, 11)).info.true_period == 990

@@ -80,8 +80,9 @@ def _of_tape(options: Namespace) -> Callable[..., Recording]:
     usual = parse(["record", options.scene])
     for name in _OF_A_SCENE:
         if getattr(options, name) != getattr(usual, name):
+            option = f"--{'no-' if getattr(options, name) is False else ''}{name.replace('_', '-')}"
             raise BadInput(
-                f"--{name} is for a scene; a tape keeps its own (--size, --fps and --for are free)"
+                f"{option} is for a scene; a tape keeps its own (--size, --fps and --for are free)"
             )
     return partial(record_tape, options.scene)
 

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from linkanim.bounds import MOST_DYAD_TURNS, MOST_TURNS
 from linkanim.digits import degrees
 from linkanim.errors import AssemblyError
 
@@ -157,13 +158,29 @@ def turns_to_return(linkage: Linkage, loops: Mapping[str, Loop]) -> int:
     """Return after how many turns of the input every joint is back.
 
     A crank geared p/q needs q turns; a loop with one change point needs its half angle to return.
+    AssemblyError where that is longer than can be looked at.
     """
-    counts = [gearing.ratio.denominator for gearing in gearings(linkage).values()]
+    gears = gearings(linkage)
+    counts = [gearing.ratio.denominator for gearing in gears.values()]
     for loop in loops.values():
         kinds = (loop.root.u.kind, loop.root.w.kind)
         if kinds.count(Kind.CHANGE_POINT) == 1:
             counts.append((loop.gearing.ratio / 2).denominator)
-    return math.lcm(*counts)
+    turns = math.lcm(*counts)
+    if turns > (most := most_turns(linkage)):
+        geared = [f"{name} ({gears[name].ratio})" for name in gears if gears[name].ratio.denominator > 1]
+        raise AssemblyError(
+            f"joint {geared[-1].partition(' ')[0]}: with the gears {', '.join(geared)} every joint is back "
+            f"after {turns:,} turns only, and {most:,} are the most here;"
+            " give their ratios denominators in common"
+        )
+    return turns
+
+
+def most_turns(linkage: Linkage) -> int:
+    """Return after how many turns of the input every joint has to be back: with many dyads, fewer."""
+    dyads = sum(joint.dyad for joint in linkage.joints)
+    return min(MOST_TURNS, MOST_DYAD_TURNS // max(dyads, 1))
 
 
 def _sign_choices(linkage: Linkage, loops: Mapping[str, Loop], path: Path) -> Iterator[dict[str, int]]:

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .assembly import JUST_AFTER, Assembly
+from linkanim.errors import AssemblyError
+
+from .assembly import JUST_AFTER, Assembly, most_turns
 from .chain import ChainRoot, Touch
 from .planar import Slope
 from .separation import Separations, separations
@@ -41,4 +43,10 @@ def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
     assert isinstance(side, float)
     if len(touches) % 2:
         path = replace(path, rounds=2 * path.rounds)
+        if path.periods > (most := most_turns(assembly.linkage)):
+            raise AssemblyError(
+                f"joint {name}: with the change points up to this one every joint is back after "
+                f"{path.periods:,} turns only, and {most:,} are the most here;"
+                " make one of its lengths a little longer or shorter"
+            )
     return replace(assembly, path=path, chain={**assembly.chain, name: replace(root, sign=side)})

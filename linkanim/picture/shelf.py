@@ -169,12 +169,17 @@ class ShelfPainter:
     def __init__(self) -> None:
         self._made_for: object = None
         self._sheet: _Sheet | None = None
-        self._type = Type()
+        self._type: Type | None = None
+
+    def close(self) -> None:
+        """Forget what was drawn for a shelf that is no longer open."""
+        self._made_for = self._sheet = self._type = None
 
     def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
         """Draw the shelf instead of the picture, with one mechanism more than before."""
         made_for = (surface.get_size(), shelf.theme, shelf.entries)
         if self._sheet is None or self._made_for != made_for:
+            self._type = self._type or Type()
             self._made_for, self._sheet = made_for, _sheet(surface.get_size(), shelf, self._type)
         sheet = self._sheet
         if len(sheet.live) < len(shelf.entries):

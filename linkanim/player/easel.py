@@ -50,6 +50,7 @@ class Easel:
         if over.shelf:
             self._shelf.draw(surface, over.shelf)
         else:
+            self._shelf.close()
             canvas.paint(surface, state.phase, state.clock.speed, over)
 
     def _name(self, title: str) -> None:

@@ -63,11 +63,11 @@ class Mouse:
     def __init__(self) -> None:
         self._drag: Literal["pan", "crank", "chart", "joint"] | None = None
         self._at = (0.0, 0.0)
-        self._moved_yet = False
+        self._seen = False
 
     def actions(self, event: Event, stage: Stage) -> tuple[Action, ...]:
         """Return what a mouse event asks for."""
-        self._moved_yet = self._moved_yet or event.type == pygame.MOUSEMOTION
+        self._seen = self._seen or event.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN)
         if stage.is_shelf_open:
             return self._on_the_shelf(event, stage)
         match event.type:
@@ -89,8 +89,8 @@ class Mouse:
         return ()
 
     def hovered(self, stage: Stage) -> str | None:
-        """Return the joint under the mouse that can be dragged; None before the mouse has moved."""
-        if not self._moved_yet or stage.is_shelf_open or self._drag in ("pan", "chart"):
+        """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
+        if not self._seen or stage.is_shelf_open or self._drag in ("pan", "chart"):
             return None
         return stage.handle_at(*self._at, _REACH * stage.size[1]) or (
             stage.scene.linkage.drive.joint if self._is_at_pin(stage) else None
@@ -117,7 +117,9 @@ class Mouse:
         return "pan" if stage.charted(*self._at) is None else "chart"
 
     def _zoomed(self, notches: float, stage: Stage) -> tuple[Action, ...]:
-        x, y = (at - side / 2 for at, side in zip(self._at, stage.size, strict=True))
+        """Zoom about the mouse; about the middle before it is known where that is."""
+        middle = stage.size[0] / 2, stage.size[1] / 2
+        x, y = (at - half for at, half in zip(self._at if self._seen else middle, middle, strict=True))
         return (Action("zoom", (float(notches), x / stage.size[1], y / stage.size[1])),)
 
     def _panned(self, before: tuple[float, float], stage: Stage) -> tuple[Action, ...]:

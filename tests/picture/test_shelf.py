@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+
 import pygame
 import pytest
 from pictures import pixels
@@ -9,6 +11,7 @@ from pictures import pixels
 from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
 from linkanim.picture.overlay import Shelf
+from linkanim.picture.painter import Painter
 from linkanim.picture.shelf import ShelfPainter, grid, titled
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
@@ -57,6 +60,18 @@ def _shown(size: tuple[int, int], chosen: int) -> pygame.Surface:
     for frame in range(4):
         painter.draw(surface, Shelf(("kite", "hart", "wiper"), chosen, frame, "light", still=True))
     return surface
+
+
+def test_a_closed_shelf_keeps_no_picture() -> None:
+    def painters() -> int:
+        gc.collect()
+        return sum(isinstance(one, Painter) for one in gc.get_objects())
+
+    before, painter = painters(), ShelfPainter()
+    painter.draw(pygame.Surface((640, 480), 0, 32), Shelf(("kite",), 0, 0, "light", still=True))
+    assert painters() > before
+    painter.close()
+    assert painters() == before
 
 
 @pytest.mark.parametrize("chosen", [0, 2])

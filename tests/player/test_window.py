@@ -389,6 +389,13 @@ def test_the_wheel_zooms_about_the_mouse(player: Player) -> None:
     assert player.settle() == pixels
 
 
+def test_the_wheel_zooms_about_the_middle_before_the_mouse_was_seen(player: Player) -> None:
+    middle = middle_of(player.window.easel.size)
+    before = player.window.easel.world(*middle)
+    player.mouse(pygame.MOUSEWHEEL, (0, 0), x=0, y=2)
+    assert player.window.easel.world(*middle) == pytest.approx(before)
+
+
 def test_a_drag_pans(player: Player) -> None:
     pixels = player.pixels
     before = player.window.easel.world(*middle_of(SIZE))

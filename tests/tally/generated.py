@@ -52,6 +52,16 @@ def scissors(dyads: int) -> str:
     return text
 
 
+def geared(*denominators: int) -> str:
+    """Return cranks geared to one by 1/q each, the first of which makes a five-bar with it."""
+    pins = "".join(f"P{i} = [{200 + 100 * i}, 0]\n" for i in range(len(denominators)))
+    cranks = (
+        f'[joints.D{i}]\ncrank = "P{i}"\nlength = 20\ngear = {{ with = "A", ratio = "1/{q}" }}\n'
+        for i, q in enumerate(denominators)
+    )
+    return HEAD.format("geared", pins) + CRANK + "".join(cranks) + DYAD.format("B", "A", "D0", 190, 180)
+
+
 SHAPES: Mapping[str, Callable[[int], str]] = {
     "series": series,
     "ladder": ladder,
