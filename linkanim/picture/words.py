@@ -12,8 +12,8 @@ from linkanim.picture.layout import Layout
 from linkanim.picture.readings import Reading, notes, ranked, rows_of
 from linkanim.picture.text import Type
 from linkanim.picture.view import Rect
+from linkanim.scenes.own_title import unsaid
 from linkanim.scenes.scene import Scene
-from linkanim.scenes.titles import unsaid
 
 STEP = 1.4
 """From row to row, in heights of their text."""

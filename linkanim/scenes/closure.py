@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkanim.errors import AssemblyError, LinkanimError
+from linkanim.scenes.own_title import retitled
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS
-from linkanim.scenes.titles import retitled
 
 
 def other_closure(scene: Scene) -> Scene:

@@ -16,10 +16,10 @@ from linkanim import units
 from linkanim.scenes.drive import DEFAULT_SPEED
 from linkanim.scenes.joints import DimensionKind, Key, reader_of
 from linkanim.scenes.labels import label
+from linkanim.scenes.own_title import retitled
 from linkanim.scenes.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.shorthand import SHORTHANDS
-from linkanim.scenes.titles import retitled
 
 _BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
 _EXACT = 2**53

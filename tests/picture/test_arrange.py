@@ -25,7 +25,7 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 from linkanim.scenes.closure import ghost_of
-from linkanim.scenes.titles import unsaid
+from linkanim.scenes.own_title import unsaid
 
 FORMATS = ((1280, 720), (1024, 768), (720, 1280), (320, 180))
 BACKGROUND = theme_of("light").background
