@@ -215,6 +215,26 @@ def test_a_tape_nested_deeply_is_refused_before_it_is_parsed(tmp_path: Path) -> 
         read(tmp_path / "x.tape.json")
 
 
+# JSON's escapes let anything into a text, and a number may have any number of digits.
+UNREADABLE: dict[str, tuple[Spoil, str]] = {
+    "an escape sequence": (lambda d: d["scene"].update(name="a\x1b[31m"), r"scene.name = .*U\+001B"),
+    "half a character": (lambda d: d["scene"]["document"].update(title="\ud800"), r"title = .*U\+D800"),
+    "an override in an action": (lambda d: d["actions"].append([90, "type", "\u202e"]), r"U\+202E"),
+    "an endless number": (lambda d: d.update(frames=10**1001), r"1,000 digits \(line \d+\)"),
+}
+
+
+@pytest.mark.parametrize(("spoil", "reason"), UNREADABLE.values(), ids=UNREADABLE)
+def test_what_a_tape_may_not_hold_is_refused_as_it_is_read(
+    tape: Tape, tmp_path: Path, spoil: Spoil, reason: str
+) -> None:
+    document = json.loads(json.dumps(to_document(tape)))
+    spoil(document)
+    (tmp_path / "my.tape.json").write_text(json.dumps(document))
+    with pytest.raises(BadInput, match=reason):
+        read(tmp_path / "my.tape.json")
+
+
 def test_a_tape_of_too_many_actions_is_refused(tape: Tape) -> None:
     document = json.loads(json.dumps(to_document(replace(tape, actions=()))))
     document["actions"] = [[1, "trace"]] * (MOST_ACTIONS + 1)
