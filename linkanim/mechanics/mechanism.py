@@ -76,13 +76,20 @@ class Mechanism:
     def _programs(self) -> dict[Variant, Programs]:
         return {}
 
-    def pose(self, phase: float, speed: float, acceleration: float, derivatives: int) -> Pose:
-        """Return one instant, solved in plain floats."""
-        return self._posed((derivatives, acceleration != 0.0, False), phase, speed, acceleration)
+    def pose(
+        self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
+    ) -> Pose:
+        """Return one instant, solved in plain floats; its rates by the input instead of time `per_input`."""
+        key = derivatives, acceleration != 0.0, per_input
+        program = self._poses.get(key) or self._program_of_poses(key)
+        try:
+            return Pose(program(phase, speed, acceleration))
+        except (ZeroDivisionError, ValueError):
+            return Pose(self._from_arrays(key, phase, speed, acceleration))
 
     def pose_per_input(self, phase: float) -> Pose:
         """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
-        return self._posed((2, False, not self.assembly.path.full_turn), phase, 1.0, 0.0)
+        return self.pose(phase, 1.0, 0.0, 2, not self.assembly.path.full_turn)
 
     def per_input(self, request: Request) -> Motion:
         """Return a request's motion, its rates by the input's angle, or travel, instead of those in time."""
@@ -90,13 +97,6 @@ class Mechanism:
         variant = Variant(by_phase, False, per_input=by_phase and not self.assembly.path.full_turn)
         asked = request._replace(programs=self.programs(variant), rates=(1.0, 0.0))
         return Motion(self.setting, 1.0, 0.0, asked)
-
-    def _posed(self, key: tuple[int, bool, bool], phase: float, speed: float, second: float) -> Pose:
-        program = self._poses.get(key) or self._program_of_poses(key)
-        try:
-            return Pose(program(phase, speed, second))
-        except (ZeroDivisionError, ValueError):
-            return Pose(self._from_arrays(key, phase, speed, second))
 
     def _program_of_poses(self, key: tuple[int, bool, bool]) -> Callable[..., dict[str, Any]]:
         derivatives, accelerates, per_input = key

@@ -136,15 +136,13 @@ class Scene:
 
         BadInput for what is no number, or for other `derivatives` than 0, 1 and 2.
         """
-        _check_derivatives(derivatives)
+        if derivatives not in (0, 1, 2):
+            _check_derivatives(derivatives)
         rate = self.linkage.drive.speed if speed is None else speed
-        try:
-            phase, rate, acceleration = phase + 0.0, rate + 0.0, acceleration + 0.0
-        except TypeError:
-            raise BadInput(
-                f"pose({phase!r}): phase, speed and acceleration are numbers, in radians and seconds"
-            ) from None
-        return self.mechanism.pose(float(phase), float(rate), float(acceleration), derivatives)
+        # A pose takes a microsecond or two: what is a float already is not looked at any closer.
+        if not (type(phase) is type(rate) is type(acceleration) is float):
+            phase, rate, acceleration = _as_floats(phase, rate, acceleration)
+        return self.mechanism.pose(phase, rate, acceleration, derivatives)
 
     def _repr_html_(self) -> str:
         """Return the scene's title and what is told of its linkage, as a notebook shows it."""
@@ -156,6 +154,15 @@ class Scene:
             if value
         )
         return f"<table>{cells}</table>"
+
+
+def _as_floats(phase: float, speed: float, acceleration: float) -> tuple[float, float, float]:
+    try:
+        return float(phase + 0.0), float(speed + 0.0), float(acceleration + 0.0)
+    except TypeError:
+        raise BadInput(
+            f"pose({phase!r}): phase, speed and acceleration are numbers, in radians and seconds"
+        ) from None
 
 
 def _check_derivatives(derivatives: int) -> None:
