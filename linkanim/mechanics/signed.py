@@ -111,9 +111,24 @@ def signed_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None)
     `half` is ψ/2, sharpened where the loop limits the input; `pace` is ψ'.
     """
     if root.u.kind is Kind.PLAIN and root.w.kind is Kind.PLAIN:
-        u, w, half_difference = factor_values(root, half)
-        return plain_root(u, w, _spread_rates(root, half, pace), half_difference)
+        return _turning_root(root, half, pace)
     return _product_root(root, half, pace, swing)
+
+
+def _turning_root(root: LoopRoot, half: Half, pace: Slope) -> SignedRoot:
+    """Return q and ρ where neither factor vanishes, the digits of ρ' kept however near they come to it.
+
+    At a steady pace ρ' = K ψ'² (cW c²/W - cU s²/U)/(2 q), as in `_root_by_angle`.
+    """
+    w, squares = pace.value, half.squares(root.spread)
+    (u, v), cosine = factor_values(root, half), squares.cosine
+    if root.wide:
+        cosine = root.spread - squares.sine
+    square = v * u
+    q = sqrt(square)
+    bend = (cosine * u * (0.5 * root.w.least) - squares.sine * v * (0.5 * root.u.least)) / square
+    rates = Slope(squares.product * w / q, (bend * (w * w) + squares.product * pace.rate) / q)
+    return SignedRoot(q, rates)
 
 
 def sign_of_root(root: LoopRoot, half: Half) -> int:
@@ -125,22 +140,13 @@ def sign_of_root(root: LoopRoot, half: Half) -> int:
     return math.prod(-1 if factor.kind is Kind.CHANGE_POINT and side < 0 else 1 for factor, side in sides)  # type: ignore[operator]
 
 
-def _spread_rates(root: LoopRoot, half: Half, pace: Slope) -> Moving:
-    """Return K sin²(ψ/2) with its two derivatives."""
-    w, squares = pace.value, half.squares(root.spread)
-    bend = (0.5 * root.spread - squares.sine) * (w * w)
-    return Moving(squares.sine, squares.product * w, bend + squares.product * pace.rate)
-
-
-def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value, Value]:
-    """Return U, W and half of U - W (1/2 where there is no U)."""
+def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value]:
+    """Return U (1 where there is none) and W."""
     squares = half.squares(root.spread)
-    spread = squares.sine
-    w = spread + root.w.least
+    w = squares.sine + root.w.least
     if root.single:
-        return 1.0, w, 0.5
-    u = root.u.most - spread if root.wide else squares.cosine + root.u.least
-    return u, w, 0.5 * (root.u.most - root.w.least) - spread
+        return 1.0, w
+    return root.u.most - squares.sine if root.wide else squares.cosine + root.u.least, w
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,7 +232,7 @@ def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | Non
         return _root_by_angle(root, half, pace, swing)
     half_rate, scale = pace.value * 0.5, math.sqrt(root.spread)
     first = half.squares(root.spread).product * pace.value
-    u, w, _ = factor_values(root, half)
+    u, w = factor_values(root, half)
     sine = Slope(half.sine, half.cosine * half_rate)
     cosine = Slope(half.cosine, -(half.sine * half_rate))
     plain_u = Slope(u, 0.0 if root.single else -first)
@@ -247,7 +253,7 @@ def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Swinging) -> 
     ρ = K s c ψ'/(√U √W) with s, c of ψ/2, and at a steady pace ρ' = ρ ψ' (cW c/(s W) - cU s/(c U))/2: of what
     U, W, s and c change by, nearly all cancels next to a change point, and is not formed.
     """
-    scale, (u, w, _) = math.sqrt(root.spread), factor_values(root, half)
+    scale, (u, w) = math.sqrt(root.spread), factor_values(root, half)
     part_u = _part_by_angle(root.u, _ways(root, root.u, swing), u, (half.cosine, half.sine), scale)
     part_w = _part_by_angle(root.w, _ways(root, root.w, swing), w, (half.sine, half.cosine), scale)
     share = root.spread / (part_u.regular * part_w.regular)
