@@ -76,6 +76,11 @@ class FileSet:
                 raise BadInput(f"{path} {_STRANGE[name in known]}; move it away, or choose another name")
 
 
+def single(path: Path) -> FileSet:
+    """Return the set of one file."""
+    return FileSet(path.parent, path.name, re.escape(path.name))
+
+
 def is_ours(path: Path, known: Sums) -> bool:
     """Return whether a file is one that we wrote, and still what we wrote."""
     with suppress(OSError, BadInput):

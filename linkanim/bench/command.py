@@ -32,15 +32,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: Namespace, progress: Progress | None = None) -> None:
     """Measure speed against error and print it.
 
-    BadInput where the extra is not installed or the folder cannot be one, before anything is measured.
+    BadInput where the extra is not installed, the folder cannot be one or the chart's name in it is taken,
+    before anything is measured.
     """
     from linkanim.bench.extra import require_extra
 
     require_extra()
-    into = made_folder(options.into)
     from linkanim.bench import drawing, report, result
+    from linkanim.manifest import single
+
+    chart = made_folder(options.into) / CHART
+    single(chart).refuse_foreign([CHART])
 
     found = result.run(progress)
     form = report.as_json if options.json else report.as_markdown if options.markdown else report.as_text
     print(form(found))
-    print(drawing.draw(found, into / CHART), file=sys.stderr)
+    print(drawing.draw(found, chart), file=sys.stderr)

@@ -9,7 +9,8 @@ from typing import Any
 
 from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Measured, Result
-from linkanim.whole import checked_target, replacing
+from linkanim.manifest import replacing, single
+from linkanim.whole import checked_target
 
 SIZE = (1600, 960)
 LEAST, MOST = 1e-17, 10.0
@@ -27,11 +28,12 @@ ORDERS = ("position", "velocity", "acceleration")
 def draw(result: Result, path: Path) -> Path:
     """Write speed against error of all mechanisms as a PNG; return where it is.
 
-    BadInput where the path cannot be; WorkFailed where the disk refuses.
+    BadInput where the path cannot be, or is taken by a file that is not such a picture of ours; WorkFailed
+    where the disk refuses.
     """
     target = checked_target(path, (".png",))
-    with replacing(target) as part:
-        part.write_bytes(_png(result))
+    with replacing(single(target), [target.name]) as new:
+        (new / target.name).write_bytes(_png(result))
     return target
 
 

@@ -12,6 +12,7 @@ from linkanim.bench.command import CHART
 from linkanim.bench.extra import require_extra
 from linkanim.cli.record import advance, bar
 from linkanim.errors import BadInput
+from linkanim.manifest import single
 from linkanim.recorder.gallery import Gallery, make_gallery
 from linkanim.recorder.recording import Progress
 from linkanim.scenes import names
@@ -20,19 +21,30 @@ from linkanim.scenes import names
 def run(options: Namespace) -> None:
     """Record every built-in scene, draw the sheet and the chart; print each file's path.
 
+    `BadInput` before any work where one of their names is taken by a file that is not ours.
     Without the packages that `bench` compares with, the chart is left as it is, and that is said on stderr.
     """
-    into = options.into
-    made = _recorded(into)
+    chart = options.into / CHART
+    missing = _missing()
+    if not missing:
+        single(chart).refuse_foreign([CHART])
+    made = _recorded(options.into)
     for recording in made.recordings:
         print(recording.path)
     print(made.sheet, flush=True)
+    if missing:
+        print(f"{chart} is left as it is: {missing}", file=sys.stderr)
+    else:
+        print(_charted(chart))
+
+
+def _missing() -> str:
+    """Return what is not installed for the chart, in a sentence; nothing where it can be drawn."""
     try:
         require_extra()
     except BadInput as missing:
-        print(f"{into / CHART} is left as it is: {missing}", file=sys.stderr)
-    else:
-        print(_charted(into / CHART))
+        return str(missing)
+    return ""
 
 
 def _recorded(into: Path) -> Gallery:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import imageio.v3 as iio
 import numpy as np
 
+from linkanim.errors import RecordingFailed
+from linkanim.manifest import FileSet, replacing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.wheels import teeth_a_second
@@ -20,7 +23,7 @@ from linkanim.recorder.scene_frames import SceneFrames, record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
-from linkanim.whole import made_folder, replacing
+from linkanim.whole import checked_folder
 
 SIZE = (400, 225)
 RATES = (20.0, 100 / 6, 12.5, 10.0)
@@ -56,13 +59,24 @@ def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progre
     """Record scenes by name into a folder as NAME.gif, from a NAME.tape.json there if it is, and the sheet.
 
     A GIF has as many frames a second, 20 to 10, as keep it within `LARGEST` bytes, and never so few that
-    a gear's teeth seem to stand or to turn back. The folder is made where only it is missing. `watch`
-    gives the progress to report to, by scene. `BadInput` where it cannot be a folder; else as `record`.
+    a gear's teeth seem to stand or to turn back. The folder is made where only it is missing. Each file
+    appears when it is whole, and replaces one that we wrote; those finished stay where a later one fails.
+    `watch` gives the progress to report to, by scene. `BadInput` before any work where it cannot be a
+    folder or a name is taken by another file; else as `record`.
     """
-    made_folder(into)
     chosen = tuple(names)
-    recordings = tuple(_recorded(into, name, watch(name) if watch else None) for name in chosen)
-    return Gallery(recordings, contact_sheet(into / SHEET, [load(name) for name in chosen]))
+    files = gallery_files(into)
+    checked_folder(into)
+    files.refuse_foreign([*map(_gif, chosen), SHEET])
+    recordings = tuple(_kept(files, name, watch(name) if watch else None) for name in chosen)
+    with replacing(files, [SHEET], others_go=False) as new:
+        (new / SHEET).write_bytes(contact_sheet([load(name) for name in chosen]))
+    return Gallery(recordings, into / SHEET)
+
+
+def gallery_files(folder: Path) -> FileSet:
+    """Return the set of a gallery's files in a folder."""
+    return FileSet(folder, "gallery", rf"[\w.-]+\.gif|{re.escape(SHEET)}")
 
 
 def rates(scene: Scene) -> tuple[float, ...]:
@@ -71,8 +85,8 @@ def rates(scene: Scene) -> tuple[float, ...]:
     return tuple(fps for fps in RATES if fps > _FRAMES_A_TOOTH * teeth) or RATES[:1]
 
 
-def contact_sheet(path: Path, scenes: Iterable[Scene]) -> Path:
-    """Write one picture of each scene, four in a row, into a PNG; return its path."""
+def contact_sheet(scenes: Iterable[Scene]) -> bytes:
+    """Return one picture of each scene, four in a row, as a PNG."""
     tiles = [_tile(scene) for scene in scenes]
     width, height = SIZE
     rows = math.ceil(len(tiles) / _COLUMNS)
@@ -81,10 +95,8 @@ def contact_sheet(path: Path, scenes: Iterable[Scene]) -> Path:
         row, column = divmod(number, _COLUMNS)
         top, left = _GAP + row * (height + _GAP), _GAP + column * (width + _GAP)
         sheet[top : top + height, left : left + width] = tile
-    with replacing(path) as part:
-        # of 2 to the power `bits` colours at most: the sheet has no more, so none changes
-        part.write_bytes(iio.imwrite("<bytes>", reduced(sheet), extension=".png", optimize=True, bits=8))
-    return path
+    # of 2 to the power `bits` colours at most: the sheet has no more, so none changes
+    return iio.imwrite("<bytes>", reduced(sheet), extension=".png", optimize=True, bits=8)
 
 
 def reduced(picture: Bytes) -> Bytes:
@@ -99,14 +111,28 @@ def reduced(picture: Bytes) -> Bytes:
     return nearest[which.reshape(-1)].reshape(picture.shape)
 
 
-def _recorded(into: Path, name: str, progress: Progress | None) -> Recording:
+def _gif(name: str) -> str:
+    return f"{name}.gif"
+
+
+def _kept(files: FileSet, name: str, progress: Progress | None) -> Recording:
+    """Record a scene and have it take its name in the gallery; its tape lies there."""
+    with replacing(files, [_gif(name)], others_go=False) as new:
+        try:
+            made = _recorded(files.folder, new / _gif(name), name, progress)
+        except RecordingFailed as error:  # by the name that it was to take
+            raise RecordingFailed(str(error).replace(str(new), str(files.folder))) from error
+    return replace(made, path=files.folder / made.path.name)
+
+
+def _recorded(into: Path, target: Path, name: str, progress: Progress | None) -> Recording:
     """Record a scene at the highest of the rates that keep it small; at the lowest where none does.
 
     One that is too large even so is recorded at a smaller size.
     """
     for share in SHARES:
         for fps in rates(load(name)):
-            made = _recorded_at(fps, share, into, name, progress)
+            made = _recorded_at(fps, share, into / f"{name}{TAPE}", target, name, progress)
             if made.file_bytes <= LARGEST:
                 break
         if made.file_bytes <= MOST:
@@ -114,8 +140,9 @@ def _recorded(into: Path, name: str, progress: Progress | None) -> Recording:
     return made
 
 
-def _recorded_at(fps: float, share: float, into: Path, name: str, progress: Progress | None) -> Recording:
-    target, tape = into / f"{name}.gif", into / f"{name}{TAPE}"
+def _recorded_at(
+    fps: float, share: float, tape: Path, target: Path, name: str, progress: Progress | None
+) -> Recording:
     size = round(share * SIZE[0]), round(share * SIZE[1])
     if tape.is_file():
         return record_tape(tape, target, size=size, fps=fps, progress=progress)

@@ -16,6 +16,7 @@ from linkanim.bench.cases import FOUR_BAR, MECHANISMS, CaseSet
 from linkanim.bench.entries import Entry, Timed
 from linkanim.bench.ours import batch
 from linkanim.bench.result import Target, run, targets
+from linkanim.errors import BadInput
 
 
 def test_the_table_has_a_line_for_each_method_of_each_mechanism_and_for_each_target() -> None:
@@ -154,4 +155,8 @@ def test_the_picture_is_written_whole(tmp_path: Path) -> None:
     path = drawing.draw(result(), tmp_path / "chart.png")
     with Image.open(path) as picture:
         assert picture.size == drawing.SIZE
-    assert [file.name for file in tmp_path.iterdir()] == ["chart.png"]
+    assert {file.name for file in tmp_path.iterdir()} == {"chart.png", ".linkanim-chart.png.json"}
+    path.write_bytes(b"mine")
+    with pytest.raises(BadInput, match="was changed after linkanim wrote it"):
+        drawing.draw(result(), path)
+    assert path.read_bytes() == b"mine"

@@ -28,6 +28,7 @@ FOREIGN = {
     "IMG-20240101.png": b"mine",
     "IMG-99999.png": b"mine",
     "into/thesis.docx": b"mine",
+    "into/press.gif": b"mine",
     "kite.toml": b"mine",
     "press-1.svg": b"mine",
 }
@@ -101,8 +102,8 @@ def is_scene(path: Path) -> bool:
 CASES = {
     "gif": Case(("-m", "linkanim", "record", "kite", *SMALL, "-o", "kite.gif"), "kite.gif", is_picture),
     "png": Case(("-m", "linkanim", "record", "kite", *SMALL, "-o", "IMG.png"), "IMG-0*.png", is_picture),
-    "report": Case(("-m", "linkanim", "report", "scotch-yoke", "-o", "into"), "into/[!t.]*", is_page),
-    "gallery": Case(("-c", GALLERY), "into/*.[gp]*", is_picture),
+    "report": Case(("-m", "linkanim", "report", "scotch-yoke", "-o", "into"), "into/[!tp.]*", is_page),
+    "gallery": Case(("-c", GALLERY), "into/[!p]*.[gp]*", is_picture),
     "Ctrl+S": Case(("-c", SAVED), "kite-*.toml", is_scene),
 }
 

@@ -220,7 +220,8 @@ def test_a_gallery_is_a_gif_for_each_scene_and_a_sheet(
     printed = capsys.readouterr()
     assert printed.out.splitlines() == ["shown/parallelogram.gif", "shown/contact-sheet.png"]
     assert printed.err.startswith("shown/speed-vs-error.png is left as it is: bench compares with others")
-    assert files(tmp_path / "shown") == ["contact-sheet.png", "parallelogram.gif"]
+    made = [".linkanim-gallery.json", "contact-sheet.png", "parallelogram.gif"]
+    assert files(tmp_path / "shown") == made
 
 
 def test_a_gallery_has_the_chart_of_speed_and_error_where_it_can_be_measured(
@@ -236,7 +237,18 @@ def test_a_gallery_has_the_chart_of_speed_and_error_where_it_can_be_measured(
     assert main(["gallery", "--into", "shown"]) == 0
     printed = capsys.readouterr()
     assert printed.out.splitlines()[-1] == "shown/speed-vs-error.png"
-    assert files(tmp_path / "shown") == ["contact-sheet.png", "parallelogram.gif", "speed-vs-error.png"]
+    made = [".linkanim-gallery.json", "contact-sheet.png", "parallelogram.gif", "speed-vs-error.png"]
+    assert files(tmp_path / "shown") == made
+
+
+def test_a_gallery_leaves_a_foreign_picture_under_the_chart_s_name(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    Path("speed-vs-error.png").write_bytes(b"mine")
+    monkeypatch.setattr("linkanim.cli.gallery.require_extra", lambda: None)
+    monkeypatch.setattr("linkanim.cli.gallery.make_gallery", pytest.fail)
+    assert main(["gallery", "--into", "."]) == 2
+    assert "speed-vs-error.png is not known to be linkanim's" in capsys.readouterr().err
 
 
 # Ctrl-C and SIGTERM in the middle of the work: what was there stays, and nothing else is there

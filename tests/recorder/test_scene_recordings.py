@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -12,7 +13,9 @@ import pytest
 from PIL import Image
 from reading import durations, frames_of, loops_for_ever
 
-from linkanim.errors import BadInput
+from linkanim.bench.command import CHART
+from linkanim.errors import BadInput, RecordingFailed
+from linkanim.manifest import single
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.offscreen import offscreen, pixel_bytes
@@ -224,7 +227,7 @@ def test_the_gallery_is_small_whole_and_the_same_every_time(
     chosen = ("kite", "press")
     one, two = (make_gallery(tmp_path / name, chosen) for name in ("one", "two"))
     files = {path.name: path.read_bytes() for path in (tmp_path / "one").iterdir()}
-    assert set(files) == {"kite.gif", "press.gif", gallery.SHEET}
+    assert set(files) == {"kite.gif", "press.gif", gallery.SHEET, ".linkanim-gallery.json"}
     assert files == {path.name: path.read_bytes() for path in (tmp_path / "two").iterdir()}
     assert [made.path.name for made in one.recordings] == ["kite.gif", "press.gif"]
     assert {made.size for made in one.recordings} == {(192, 108)}
@@ -291,6 +294,56 @@ def test_the_gallery_takes_a_tape_where_there_is_one(tmp_path: Path, monkeypatch
     tape_file.write(tape((3, Action("theme")), frames=30, name="press"), tmp_path / "press.tape.json")
     (made,) = make_gallery(tmp_path, ["press"]).recordings
     assert made.seconds == pytest.approx(0.5, abs=0.05)
+
+
+@pytest.mark.parametrize("name", ["kite.gif", "press.gif", gallery.SHEET])
+def test_a_gallery_leaves_files_that_are_not_its_own_and_draws_nothing_then(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / name).write_bytes(b"mine")
+    monkeypatch.setattr(gallery, "load", pytest.fail)
+    with pytest.raises(BadInput, match=f"{name} is not known .*move it away"):
+        make_gallery(tmp_path, ["kite", "press"])
+    assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [(name, b"mine")]
+
+
+def test_a_gallery_that_fails_on_the_way_keeps_what_it_finished_and_goes_on_the_next_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gallery, "SIZE", SIZE)
+    make_gallery(tmp_path, ["kite", "press"])
+    press = (tmp_path / "press.gif").read_bytes()
+    monkeypatch.setattr(gallery, "SIZE", (80, 45))
+    with monkeypatch.context() as meanwhile:
+        meanwhile.setattr(gallery, "rates", lambda scene: (10.0,) if scene.name == "kite" else (1e-9,))
+        with pytest.raises(BadInput):
+            make_gallery(tmp_path, ["kite", "press"])
+    with Image.open(tmp_path / "kite.gif") as image:
+        assert image.size == (80, 45)
+    assert (tmp_path / "press.gif").read_bytes() == press
+    assert make_gallery(tmp_path, ["kite", "press"]).recordings[1].size == (80, 45)
+
+
+def test_a_gallery_s_failure_is_named_by_the_file_that_was_to_be(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped(*_: object) -> int:
+        return 0
+
+    monkeypatch.setattr(gallery, "SIZE", SIZE)
+    monkeypatch.setattr("linkanim.recorder.recording.count_frames", stopped)
+    with pytest.raises(RecordingFailed, match=rf"^{re.escape(str(tmp_path / 'kite.gif'))} was not recorded"):
+        make_gallery(tmp_path, ["kite"])
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_repository_s_gallery_is_known_as_ours() -> None:
+    """So that `linkanim gallery` in a checkout may make it anew: its list goes with it."""
+    recordings = Path(__file__).parents[2] / "recordings"
+    made = [*(f"{name}.gif" for name in names()), gallery.SHEET]
+    gallery.gallery_files(recordings).refuse_foreign(made)
+    assert set(gallery.gallery_files(recordings).sums()) == set(made)
+    single(recordings / CHART).refuse_foreign([CHART])
 
 
 def test_a_gallery_in_a_file_is_refused(tmp_path: Path) -> None:
