@@ -28,7 +28,9 @@ _TEXTS = re.compile(
 # Before its fifth patch Python 3.11 errs about groups that are repeated without going back and may match
 # in several ways: there are none here.
 _DOTTED = re.compile(rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{DEEPEST}}}")
-_LONG_NUMBER = re.compile(rf"(?<![0-9_.])[0-9_.]{{{MOST_DIGITS + 1}}}")
+_LONG_NUMBER = re.compile(
+    rf"(?<![0-9_.])(?:[0-9_.]{{{MOST_DIGITS + 1}}}|0x[0-9a-fA-F_]{{{MOST_DIGITS + 1}}})"
+)
 _CONTROLS = re.compile(
     r"[\0-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
 )

@@ -302,6 +302,7 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("a key twice", FOUR_BAR + "crank = 30\n", "is not TOML", "line 6"),
     ("deep brackets", "x = " + "[" * 5000, "nested deeper than 16 levels", ""),
     ("endless integer", FOUR_BAR.replace("30", "3" * 5000), "more than 1,000 digits", "line 3"),
+    ("endless by sixteens", FOUR_BAR.replace("30", "0x" + "f" * 5000), "more than 1,000 digits", "line 3"),
     ("endless decimal", FOUR_BAR.replace("30", "0." + "3" * 5000), "more than 1,000 digits", "line 3"),
     ("endless length", FOUR_BAR.replace("30", f'"{"3" * 5000} mm"'), "more than 1,000 digits", "line 3"),
     # What no digits and no pixels show together, or at all.
