@@ -36,6 +36,15 @@ KEYS = "abcdehiklnoprtv0123456789+-=.?sg"
 MODS = (0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL)
 MOVES = (pygame.K_LEFT, pygame.K_RIGHT, pygame.K_UP, pygame.K_DOWN, pygame.K_RETURN, pygame.K_TAB)
 FAR = (-1e100, -1e9, 0.0, 1.0, 1e9, 1e16, 1e100)
+EVERYTHING = ("--names", "--names", "--vectors", "v,a", "--polygons")
+WAYS: tuple[tuple[str, ...], ...] = (
+    (),
+    ("--names",),
+    EVERYTHING,
+    ("--poses", "3", "--vectors", "v,a"),
+    ("--polygons", "--instant-centres"),
+    ("--theme", "dark", "--transparent"),
+)
 
 
 class Failure(Exception):
@@ -48,6 +57,7 @@ class Case:
 
     path: Path
     rng: Random
+    ways: tuple[tuple[str, ...], ...] = WAYS
 
     @property
     def folder(self) -> Path:
@@ -108,30 +118,31 @@ def swept(case: Case) -> None:
         assert len({len(row) for row in csv.reader(file)}) == 1
 
 
-EVERYTHING = ("--names", "--names", "--vectors", "v,a", "--polygons")
+def _figure(case: Case, name: str) -> Path:
+    """Draw a pose in one of the case's ways, small, and return the file's path."""
+    size, phase = case.rng.choice(("64x36", "160x90", "36x64")), f"{case.rng.uniform(-9, 9)} rad"
+    path = case.made(name)
+    more = case.rng.choice(case.ways)
+    case.command("draw", str(case.path), "--size", size, "--phase", phase, *more, "-o", str(path))
+    return path
 
 
 def drawn(case: Case) -> None:
-    size, phase = case.rng.choice(("64x36", "160x90", "36x64")), f"{case.rng.uniform(-9, 9)} rad"
-    more = case.rng.choice(
-        ((), ("--poses", "3"), ("--instant-centres",), ("--theme", "dark", "--transparent"))
-    )
-    words = (str(case.path), "--size", size, "--phase", phase, *EVERYTHING, *more)
-    svg = case.made("out.svg")
-    case.command("draw", *words, "-o", str(svg))
-    well_formed(svg.read_text(encoding="utf-8"))
+    well_formed(_figure(case, "out.svg").read_text(encoding="utf-8"))
+
+
+def printed(case: Case) -> None:
+    assert _figure(case, "out.pdf").read_bytes().startswith(b"%PDF")
 
 
 def painted(case: Case) -> None:
-    phase = f"{case.rng.uniform(-9, 9)} rad"
-    words = (str(case.path), "--size", "96x54", "--phase", phase, *EVERYTHING)
-    case.command("draw", *words, "-o", str(case.made("out.png")))
+    _figure(case, "out.png")
 
 
 def charted(case: Case) -> None:
     scene = load(case.path)
     tokens = case.rng.sample(sorted(quantities(scene)), 1)
-    suffix = case.rng.choice((".svg", ".png", ".csv"))
+    suffix = case.rng.choice((".svg", ".png", ".csv", ".pdf"))
     target = case.made(f"chart{suffix}")
     over = case.rng.choice(("time", "phase"))
     words = ("--quantity", ",".join(tokens), "--over", over, "--size", "200x120", "-o", str(target))
@@ -148,10 +159,20 @@ def well_formed(text: str) -> None:
         assert "inf" not in numbers, numbers
 
 
+def _clip(case: Case, name: str, frames: int) -> None:
+    more = case.rng.choice(((), EVERYTHING))
+    words = ("--size", "64x36", "--seconds", f"{frames / 25}", "-o", str(case.made(name)))
+    case.command("record", str(case.path), *words, *more)
+
+
 def recorded(case: Case) -> None:
-    suffix, frames = case.rng.choice((("gif", 2), ("png", 2), ("gif", 3))), case.rng.choice(((), EVERYTHING))
-    words = ("--size", "64x36", "--seconds", f"{suffix[1] / 25}", "-o", str(case.made(f"clip.{suffix[0]}")))
-    case.command("record", str(case.path), *words, *frames)
+    _clip(case, "clip.gif", 2)
+
+
+def framed(case: Case) -> None:
+    """Record pictures, numbered."""
+    _clip(case, "clip.png", 2)
+    assert len(list(case.folder.glob("clip-*.png"))) == 2
 
 
 def reported(case: Case) -> None:
@@ -168,7 +189,7 @@ def taped(case: Case) -> None:
         Action("vectors", "a"),
         Action("chart", 1),
     ]
-    tape = Tape(begin(load(case.path)), 5, tuple((1, action) for action in actions), (64, 36))
+    tape = Tape(begin(load(case.path)), 3, tuple((1, action) for action in actions), (64, 36))
     path = case.made("my.tape.json")
     path.unlink(missing_ok=True)
     write(tape, path)
@@ -217,5 +238,18 @@ def _press(rng: Random) -> None:
 Output = Callable[[Case], None]
 OUTPUTS: Mapping[str, Output] = {
     output.__name__: output
-    for output in (checked, solved, swept, drawn, painted, charted, recorded, reported, taped, played)
+    for output in (
+        checked,
+        solved,
+        swept,
+        charted,
+        drawn,
+        printed,
+        painted,
+        framed,
+        recorded,
+        reported,
+        taped,
+        played,
+    )
 }

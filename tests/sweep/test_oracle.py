@@ -6,36 +6,39 @@ the number of its scene: `made(seed, number)` makes it again.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import count, cycle, islice
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from itertools import count, islice
 from pathlib import Path
 from random import Random
 
 import pytest
 from limits import Limits
-from outputs import MEGABYTES, OUTPUTS, SECONDS, is_good, written
+from outputs import EVERYTHING, MEGABYTES, OUTPUTS, SECONDS, Case, Failure, Output, is_good, written
 from random_scenes import scene
 from typed_linkages import Document
 
+from linkanim.cli.exits import guarded
 from linkanim.player import rendering
 
 SEED = 20
-PARTS = 4
+PARTS = 10
 """Tests that many scenes are shared among, so that they run side by side."""
-ROTATION = tuple(name for name in OUTPUTS if name != "checked")
-FEW = (
-    "solved",
-    "drawn",
-    "charted",
-    "swept",
-    "painted",
-    "charted",
-    "recorded",
-    "solved",
-    "played",
-    "swept",
-    "taped",
-)
+ALWAYS = ("checked", "solved", "swept")
+SHARES = {
+    "charted": 10,
+    "drawn": 4,
+    "painted": 3,
+    "printed": 1,
+    "framed": 1,
+    "recorded": 1,
+    "reported": 1,
+    "taped": 1,
+    "played": 1,
+}
+"""How many of 23 scenes are made into each of the outputs: more into what takes little time."""
+ROTATION = tuple(name for name, share in SHARES.items() for _ in range(share))
 
 
 class _Done:
@@ -54,50 +57,93 @@ def made(seed: int, number: int) -> Document:
     return scene(seed, number)[1]
 
 
-def good_scenes(seed: int, part: int, parts: int) -> Iterator[tuple[int, str, Document]]:
-    """Yield the scenes that the reader takes, with their numbers, and how they were made."""
-    for number in count(part, parts):
-        words, document = scene(seed, number)
-        if is_good(document):
-            yield number, words, document
+def good_scenes(seed: int, part: int = 0, parts: int = 1) -> Iterator[int]:
+    """Yield the numbers of the scenes that the reader takes."""
+    return (number for number in count(part, parts) if is_good(made(seed, number)))
 
 
-def failures(
-    drawn: Iterator[tuple[int, str, Document]], rotation: tuple[str, ...], each: int, folder: Path
-) -> list[str]:
+def output_of(number: int) -> str:
+    return ROTATION[number % len(ROTATION)]
+
+
+def failures(seed: int, numbers: Iterable[int], folder: Path) -> list[str]:
     """Return a line for every output that could not be made, with the seed and number of its scene.
 
-    Each scene is checked and made into the next few outputs of the rotation.
+    Each scene is checked, solved and swept, and made into the one output that its number chooses.
     """
-    found, limits, turn = [], Limits(SECONDS, MEGABYTES), cycle(rotation)
-    for number, words, document in drawn:
-        case = written(document, folder / str(number), Random(f"{SEED}:{number}"))
-        for name in ("checked", *islice(turn, each)):
-            try:
-                with limits.held():
-                    OUTPUTS[name](case)
-            except Exception as error:
-                found.append(f"made({SEED}, {number}), {words}: {name}: {type(error).__name__}: {error}")
+    limits = Limits(SECONDS, MEGABYTES)
+    found = []
+    for number in numbers:
+        words, document = scene(seed, number)
+        case = written(document, folder / str(number), Random(f"{seed}:{number}"))
+        for name in (*ALWAYS, output_of(number)):
+            if said := fault(OUTPUTS[name], case, limits):
+                found.append(f"made({seed}, {number}), {words}: {name}: {said}")
         case.clear()
     return found
 
 
+def fault(output: Output, case: Case, limits: Limits) -> str | None:
+    """Return why an output cannot be made of a scene within the limits; None where it can."""
+    try:
+        with limits.held():
+            output(case)
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+    return None
+
+
 def test_a_few_good_scenes_are_made_into_everything(tmp_path: Path) -> None:
-    assert failures(islice(good_scenes(SEED, 0, 1), 22), FEW, 1, tmp_path) == []
+    numbers = [next(good_scenes(SEED, turn, len(ROTATION))) for turn in map(ROTATION.index, SHARES)]
+    assert {output_of(number) for number in numbers} == SHARES.keys()
+    assert failures(SEED, numbers, tmp_path) == []
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("part", range(PARTS))
 def test_five_hundred_good_scenes_are_made_into_everything(part: int, tmp_path: Path) -> None:
-    drawn = islice(good_scenes(SEED, part, PARTS), 500 // PARTS)
-    assert failures(drawn, ROTATION, 2, tmp_path) == []
+    numbers = islice(good_scenes(SEED, part, PARTS), 500 // PARTS)
+    assert failures(SEED, numbers, tmp_path) == []
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("part", range(PARTS))
 def test_twenty_thousand_good_scenes_are_made_into_everything(part: int, tmp_path: Path) -> None:
-    drawn = islice(good_scenes(SEED + 1, part, PARTS), 20_000 // PARTS)
-    assert failures(drawn, ROTATION, 2, tmp_path) == []
+    numbers = islice(good_scenes(SEED + 1, part, PARTS), 20_000 // PARTS)
+    assert failures(SEED + 1, numbers, tmp_path) == []
+
+
+def _endless(case: Case) -> None:
+    while True:
+        OUTPUTS["solved"](case)
+
+
+def _endless_command(case: Case) -> None:
+    """Take for ever inside of a command, which makes a line and an exit code of whatever ends it."""
+    if guarded(lambda: _endless(case)):
+        raise Failure("the command failed")
+
+
+def _greedy(case: Case) -> None:
+    kept = bytearray(2 * MEGABYTES * 1_000_000)
+    OUTPUTS["solved"](case)
+    assert kept
+
+
+LIMITED: dict[str, tuple[Output, str]] = {
+    "an output that never ends": (_endless, r"TooLongError: more than 0\.2 s|Failure: .*TooLongError"),
+    "a command that never ends": (_endless_command, "Failure|TooLongError"),
+    "an output that takes all the memory": (_greedy, "MemoryError|Failure: .*memory"),
+}
+
+
+@pytest.mark.parametrize("name", LIMITED)
+def test_what_takes_more_than_it_may_is_a_fault(name: str, tmp_path: Path) -> None:
+    output, said = LIMITED[name]
+    case = written(FOUR_BAR, tmp_path / "case", Random(1))
+    found = fault(output, case, Limits(0.2, MEGABYTES))
+    assert found is not None
+    assert re.match(said, found), found
 
 
 FOUR_BAR: Document = {"four-bar": {"ground": 100, "crank": 30, "coupler": 90, "rocker": 80}}
@@ -152,6 +198,6 @@ FOUND: dict[str, tuple[Document, str]] = {
 @pytest.mark.parametrize("name", FOUND)
 def test_what_could_once_not_be_made(name: str, tmp_path: Path) -> None:
     document, outputs = FOUND[name]
-    case = written(document, tmp_path / "case", Random(1))
+    case = replace(written(document, tmp_path / "case", Random(1)), ways=(EVERYTHING,))
     for output in outputs.split():
         OUTPUTS[output](case)
