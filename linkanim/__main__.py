@@ -6,9 +6,10 @@ import sys
 def main() -> int:
     """Run the command line and return its exit code; 130 and one line where Ctrl-C came during the start."""
     try:
-        from linkanim.child import shut_out_current_folder
+        from linkanim.child import shut_out_current_folder, stay_on_one_core
 
         shut_out_current_folder()
+        stay_on_one_core()
         from linkanim.cli import main as run
 
         return run()

@@ -7,6 +7,9 @@ current folder looked at first. Before `shut_out` has run nothing but `os` and `
 import os
 import sys
 
+ONE_CORE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+"""For numpy, before it is loaded: none of our products is large, and a thread takes 8 to 30 MB."""
+
 _HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120
 
 
@@ -15,6 +18,18 @@ def shut_out_current_folder() -> None:
     sys.path[:] = _places()
     # Windows looks for a program in the current folder first
     os.environ.setdefault("NoDefaultCurrentDirectoryInExePath", "1")
+
+
+def stay_on_one_core() -> None:
+    """Have numpy's products start no threads, where the user has not said how many."""
+    for name, number in ONE_CORE.items():
+        os.environ.setdefault(name, number)
+
+
+def path_of_programs() -> str:
+    """Return where programs are looked for: PATH without the current folder and others that move with it."""
+    places = os.environ.get("PATH", os.defpath).split(os.pathsep)
+    return os.pathsep.join(place for place in places if os.path.isabs(place) and not _is_here(place))  # noqa: PTH117
 
 
 def python(*words: str) -> list[str]:

@@ -10,10 +10,11 @@ import os
 import re
 import stat
 from dataclasses import dataclass
+from errno import EMFILE, ENFILE, ENOMEM
 from pathlib import Path
 
 from linkanim.bounds import MOST_DIGITS
-from linkanim.errors import BadInput
+from linkanim.errors import BadInput, WorkFailed
 
 DEEPEST = 16
 """Keys within keys, or brackets within brackets; a scene needs four."""
@@ -36,6 +37,8 @@ _CONTROLS = re.compile(
 )
 _BRACKETS = re.compile(r"[\[\]{}]")
 _MARKS = "=,:[{"
+_OUR_TROUBLE = (EMFILE, ENFILE, ENOMEM)
+"""Why the system refuses any file, not this one."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +60,8 @@ class Intake:
         except FileNotFoundError:
             raise self.refusal(f"{where}: no such file{missing}") from None
         except (OSError, ValueError) as error:
+            if isinstance(error, OSError) and error.errno in _OUR_TROUBLE:
+                raise WorkFailed(f"{where}: cannot be read: {os.strerror(error.errno).lower()}") from None
             reason = (error.strerror or "") if isinstance(error, OSError) else str(error)
             raise self.refusal(f"{where}: cannot be read: {reason.lower() or 'the system refuses'}") from None
         try:

@@ -10,6 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from linkanim.errors import RecordingFailed
+from linkanim.recorder import encode
+
 THIRD_PARTIES = (
     *("tqdm", "numpy", "pygame", "PIL", "imageio", "imageio_ffmpeg", "orjson", "tomli_w", "fpdf"),
     *("font_source_sans_pro", "IPython", "mpmath", "scipy", "matplotlib", "psutil"),
@@ -117,3 +120,29 @@ def test_the_window_s_recordings_do_not_execute_it(here: Path) -> None:
     (here.parent / "played.py").write_text(PLAYED)
     run(here, [str(here.parent / "played.py")])
     assert (here / "recordings" / "my-1.gif").read_bytes().startswith(b"GIF89a")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="PATH as POSIX reads it")
+@pytest.mark.parametrize("places", ["", ".", "sub", "HERE"])
+def test_no_ffmpeg_in_the_current_folder_is_executed(
+    places: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def by_its_name() -> str:
+        subprocess.run(["ffmpeg"], check=False)
+        return "ffmpeg"
+
+    for program in (tmp_path / "ffmpeg", tmp_path / "sub" / "ffmpeg"):
+        program.parent.mkdir(exist_ok=True)
+        program.write_text(f"#!/bin/sh\ntouch {tmp_path / 'executed'}\n")
+        program.chmod(0o755)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PATH", places.replace("HERE", str(tmp_path)) + os.pathsep + str(tmp_path / "none"))
+    path = os.environ["PATH"]
+    monkeypatch.setattr(encode, "get_ffmpeg_exe", lambda: "ffmpeg")
+    with pytest.raises(RecordingFailed, match="has no ffmpeg"):
+        encode.ffmpeg()
+    monkeypatch.setattr(encode, "get_ffmpeg_exe", by_its_name)
+    with pytest.raises(FileNotFoundError):
+        encode.ffmpeg()
+    assert not (tmp_path / "executed").exists()
+    assert os.environ["PATH"] == path

@@ -10,6 +10,8 @@ import unicodedata
 import warnings
 from collections.abc import Iterator
 from importlib.resources import files
+from io import BytesIO
+from pathlib import Path
 
 import pygame
 
@@ -34,6 +36,7 @@ class Fonts:
     def __init__(self) -> None:
         pygame.font.init()
         self._opened: dict[tuple[str, int], pygame.font.Font] = {}
+        self._faces: dict[str, bytes] = {}
         self._spelt: dict[str, tuple[str, str]] = {}
 
     def ascent(self, em: int) -> int:
@@ -72,8 +75,16 @@ class Fonts:
 
     def _font(self, path: str, em: int) -> pygame.font.Font:
         if (path, em) not in self._opened:
-            self._opened[path, em] = pygame.font.Font(file_of(path), em)
+            self._opened[path, em] = pygame.font.Font(self._source(path), em)
         return self._opened[path, em]
+
+    def _source(self, path: str) -> str | BytesIO:
+        """Return what a font is read from: the bundled face, in many sizes, keeps no file open for each."""
+        if path not in (REGULAR, SEMIBOLD):
+            return path
+        if path not in self._faces:
+            self._faces[path] = Path(file_of(path)).read_bytes()
+        return BytesIO(self._faces[path])
 
     def _spelling(self, char: str) -> tuple[str, str]:
         """Return the font file (REGULAR: the bundled face) and the text that a character is drawn with."""

@@ -8,7 +8,9 @@ colours tagged bt709 so that they come back as they were.
 from __future__ import annotations
 
 import json
+import os
 import re
+import shutil
 import subprocess
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
@@ -78,11 +80,22 @@ def count_frames(part: Path, form: Format) -> int:
 
 
 def ffmpeg() -> str:
-    """Return the path of the encoder; `RecordingFailed` where there is none."""
+    """Return the encoder's path, none in the current folder; `RecordingFailed` where there is none."""
+    places, usual = child.path_of_programs(), os.environ.get("PATH", os.defpath)
+    os.environ["PATH"] = places  # imageio-ffmpeg runs one from there to see whether it can
     try:
-        return str(get_ffmpeg_exe())
-    except RuntimeError as error:
-        raise RecordingFailed("imageio-ffmpeg has no ffmpeg here; set IMAGEIO_FFMPEG_EXE to one") from error
+        found = str(get_ffmpeg_exe())
+        if not os.path.dirname(found):  # noqa: PTH120 -- a name that is looked for, no path
+            found = shutil.which(found, path=places) or ""
+    except RuntimeError:  # also where it could not try the one it carries
+        for end in (*os.pipe(), *os.pipe()):
+            os.close(end)
+        found = ""
+    finally:
+        os.environ["PATH"] = usual
+    if not found:
+        raise RecordingFailed("imageio-ffmpeg has no ffmpeg here; set IMAGEIO_FFMPEG_EXE to one")
+    return found
 
 
 @contextmanager
@@ -90,7 +103,7 @@ def _gif(
     stream: Stream, part: Path, palette: Callable[[], Sequence[Colour]]
 ) -> Iterator[Callable[[Frame], None]]:
     width, height = stream.size
-    one_core = child.surroundings(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    one_core = child.surroundings(**child.ONE_CORE)
     with running(child.python("-m", "linkanim.recorder.gif"), surroundings=one_core) as write:
         colours = tuple(palette()) or ((0, 0, 0),)
         job = Job(str(part), width, height, round(100 / stream.rate), colours, stream.alpha)
