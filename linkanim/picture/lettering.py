@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import ceil
 
 import numpy as np
@@ -22,13 +23,18 @@ class Lettering:
     def __init__(self, text: str, kind: Type, size: int, colours: tuple[Colour, Colour], halo: float) -> None:
         ink, back = colours
         self.text, self.line_height, self.ink, self.halo = text, size, ink, (back, halo)
-        cover, above = _letters(text, kind, size)
-        self._large = _haloed(cover, round(_FINE * halo), ink, back)
-        self.drop = (above + cover.shape[0] / 2) / _FINE
+        self._cover, above = _letters(text, kind, size)
+        high, wide = self._cover.shape
+        self.drop = (above + high / 2) / _FINE
         """How far the middle lies below the line's top."""
         self._drawn: dict[tuple[int, int], pygame.Surface] = {}
-        high, wide = self._large.shape[:2]
-        self.size: tuple[float, float] = (wide / _FINE, high / _FINE)
+        around = 2 * (round(_FINE * halo) + 1)
+        self.size: tuple[float, float] = ((wide + around) / _FINE, (high + around) / _FINE)
+
+    @cached_property
+    def _large(self) -> NDArray[np.float32]:
+        """The words in their halo: many are measured and find no room."""
+        return _haloed(self._cover, round(_FINE * self.halo[1]), self.ink, self.halo[0])
 
     def draw(self, surface: pygame.Surface, middle: complex, shown: float = 1.0) -> None:
         """Draw the words about a place in pixels, as strongly as 0 (not at all) to 1 says."""

@@ -38,6 +38,8 @@ _SOFT = 1.5
 """The smoothing's standard deviation, in moments."""
 _GONE = 4
 """How many moments before it would lie on something a label is gone."""
+_TELLING = 2 * _GONE
+"""Every such moment without room hides a label until the next of them."""
 _REACH = 6
 """How many moments either way the smoothing looks."""
 
@@ -122,6 +124,12 @@ class Clutter:
         return Extent(*(np.concatenate(sides, axis=1) for sides in zip(*each, strict=True)))
 
     @cached_property
+    def telling(self) -> Clutter:
+        """What must not be touched, at the few moments that tell whether there is room."""
+        solids = tuple(solid._replace(corners=solid.corners[::_TELLING]) for solid in self.solids)
+        return replace(self, discs=self.discs[::_TELLING], solids=solids)
+
+    @cached_property
     def between(self) -> Clutter:
         """What must not be touched, half a moment later; the cycle is closed."""
         return replace(self, discs=_between(self.discs))
@@ -142,6 +150,11 @@ class _Taken:
     def reach(self) -> Extent:
         """How far they reach."""
         return Extent.of(self.tracks[:, :, None], self.sizes[:, 0] / 2, self.sizes[:, 1] / 2)
+
+    @cached_property
+    def telling(self) -> _Taken:
+        """Return them at the few moments that tell whether there is room."""
+        return _Taken(self.tracks[::_TELLING], self.sizes)
 
     @cached_property
     def between(self) -> _Taken:
@@ -186,15 +199,24 @@ class Drift(NamedTuple):
 
 
 def place(wishes: Sequence[Wish], clutter: Clutter) -> list[Drift]:
-    """Return a path for each label; the first have the first choice."""
+    """Return a path for each label; the first have the first choice. One without room shows nowhere."""
     paths: list[Drift] = []
-    taken = _Taken(np.zeros((len(clutter.discs), 0), np.complex128), np.zeros((0, 2)))
+    count = len(clutter.discs)
+    taken = _Taken(np.zeros((count, 0), np.complex128), np.zeros((0, 2)))
+    hidden = Drift(np.zeros(count, np.complex128), np.zeros(count))
     for wish in wishes:
-        path = _placed(wish, clutter, taken)
+        path = _placed(wish, clutter, taken) if _has_room(wish, clutter.telling, taken.telling) else hidden
         if path.shown.any():
             taken = taken.with_label(_track(path, wish), wish.size)
         paths.append(path)
     return paths
+
+
+def _has_room(wish: Wish, clutter: Clutter, taken: _Taken) -> bool:
+    """Return whether there is a place to stand at one of the few moments that tell."""
+    places = wish.places[::_TELLING]
+    blocked = _blocked(places, wish, clutter, taken)
+    return not blocked.all() and not (blocked | _mistaken(places, wish, clutter)).all()
 
 
 def _placed(wish: Wish, clutter: Clutter, taken: _Taken) -> Drift:
