@@ -68,6 +68,7 @@ COMMANDS = [
 
 @pytest.mark.parametrize("start", ["a script", "-m"])
 @pytest.mark.parametrize("words", COMMANDS)
+@pytest.mark.slow
 def test_no_command_executes_what_lies_in_the_current_folder(
     here: Path, start: str, words: list[str]
 ) -> None:
@@ -82,6 +83,7 @@ def test_no_command_executes_what_lies_in_the_current_folder(
 
 # An empty entry of PYTHONPATH is the current folder, and so is what -c begins with.
 @pytest.mark.parametrize("path", [os.pathsep, ".", "HERE"])
+@pytest.mark.slow
 def test_no_encoder_executes_it_however_python_was_started(here: Path, path: str) -> None:
     words = [*["record", "my.toml", "--size", "64x36", "--seconds", "0.1"], "-o", "a.gif"]
     code = f"import sys\nsys.argv[1:] = {words!r}\n{START}"
@@ -116,6 +118,7 @@ sys.exit(code)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="waits for what was started")
+@pytest.mark.slow
 def test_the_window_s_recordings_do_not_execute_it(here: Path) -> None:
     (here.parent / "played.py").write_text(PLAYED)
     run(here, [str(here.parent / "played.py")])

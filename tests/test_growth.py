@@ -60,6 +60,7 @@ def test_what_is_said_of_a_linkage_takes_as_many_more_calls_as_it_has_more_joint
     assert many <= LINEAR * few
 
 
+@pytest.mark.slow
 def test_placing_names_takes_as_many_more_calls_as_there_are_more_joints() -> None:
     few, many = (calls(partial(named, scene_of(series(dyads)))) for dyads in (FEW // 2, MANY // 2))
     assert many <= LINEAR * few

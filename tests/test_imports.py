@@ -183,6 +183,7 @@ main(["play", "press"])
 """
 
 
+@pytest.mark.slow
 def test_the_first_frame_loads_nothing_that_it_does_not_need() -> None:
     prologue = "import sys, numpy, pygame\nbefore = set(sys.modules)\nfrom linkanim.cli import main\n"
     done = subprocess.run(

@@ -142,6 +142,7 @@ print(json.dumps(seen))
 """
 
 
+@pytest.mark.slow
 def test_nothing_opens_the_network_or_a_shell(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-c", WATCHED], check=True, capture_output=True, text=True, cwd=tmp_path

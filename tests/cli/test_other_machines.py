@@ -45,6 +45,7 @@ MACHINES: dict[str, dict[str, str | None]] = {
 
 
 @pytest.mark.parametrize("machine", MACHINES.values(), ids=MACHINES)
+@pytest.mark.slow
 def test_it_tells_and_records(tmp_path: Path, machine: dict[str, str | None]) -> None:
     done = linkanim(*RECORD, folder=tmp_path, **machine)
     assert (done.returncode, done.stdout) == (0, "kite.gif\n")
@@ -75,6 +76,7 @@ def test_a_folder_that_cannot_be_written_is_one_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/version").exists(), reason="needs a folder that nobody may write to")
+@pytest.mark.slow
 def test_where_nothing_can_be_written_it_still_tells(tmp_path: Path) -> None:
     assert linkanim("info", "kite", folder=Path("/proc")).returncode == 0
     done = linkanim(*RECORD, folder=Path("/proc"))
@@ -96,6 +98,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 def test_a_process_that_was_spawned_records(tmp_path: Path) -> None:
     (tmp_path / "spawned.py").write_text(SPAWNED)
     words = [sys.executable, "spawned.py"]
@@ -124,5 +127,6 @@ def lacking(path: Path) -> Iterator[str]:
                 yield from {name.name for name in names} & {"multiprocessing", "pwd", "grp", "resource"}
 
 
+@pytest.mark.slow
 def test_nothing_is_asked_of_the_system_that_windows_lacks() -> None:
     assert [(path, call) for path in sorted(PACKAGE.rglob("*.py")) for call in lacking(path)] == []

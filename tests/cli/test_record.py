@@ -253,6 +253,7 @@ def test_a_gallery_leaves_a_foreign_picture_under_the_chart_s_name(
 
 # Ctrl-C and SIGTERM in the middle of the work: what was there stays, and nothing else is there
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.slow
 def test_stopped_in_the_middle_it_leaves_the_old_file_alone(
     number: signal.Signals, code: int, tmp_path: Path
 ) -> None:

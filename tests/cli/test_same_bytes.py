@@ -25,6 +25,7 @@ SMALL = ["--size", "160x90", "--seconds", "0.2"]
     ],
     ids=lambda words: f"{words[0]} {' '.join(word for word in words if 'out.' in word)} {len(words)}",
 )
+@pytest.mark.slow
 def test_the_same_command_writes_the_same_bytes(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

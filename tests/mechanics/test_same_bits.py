@@ -70,6 +70,7 @@ def test_the_bits_are_those_that_were_kept() -> None:
     assert hashes() == json.loads(KEPT.read_text())
 
 
+@pytest.mark.slow
 def test_numpys_vector_units_change_no_bit() -> None:
     found = np.show_config(mode="dicts")["SIMD Extensions"].get("found", [])
     environment = {**os.environ, "NPY_DISABLE_CPU_FEATURES": " ".join(found)}

@@ -236,7 +236,7 @@ def test_an_angle_out_of_range_is_refused_with_the_range(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["report", "double-rocker", "-o", str(tmp_path / "out"), "--angles", "200 deg"]) == 2
-    assert "the crank angle goes from" in capsys.readouterr().err
+    assert "the input rocker angle goes from" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 

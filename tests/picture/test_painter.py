@@ -105,6 +105,7 @@ def test_what_stands_still_is_drawn_once(monkeypatch: pytest.MonkeyPatch) -> Non
     assert calls == dict.fromkeys((*of_painter, *of_drawing), 1)
 
 
+@pytest.mark.slow
 def test_nothing_grows_with_the_number_of_frames() -> None:
     scene, surface = load("press"), offscreen((640, 360))
     painter = Painter(scene, (640, 360), FULL)

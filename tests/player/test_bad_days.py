@@ -139,6 +139,7 @@ def test_a_window_may_have_a_thousand_sizes(here: Path) -> None:
 
 @fault
 @pytest.mark.parametrize("size", [(1, 1), (2000, 1), (33, 400)])
+@pytest.mark.slow
 def test_a_window_too_small_to_show_anything_takes_keys_and_mouse(here: Path, size: tuple[int, int]) -> None:
     with display.opened(SIZE):
         player = Player(begin(load("press")))
@@ -335,6 +336,7 @@ def played(step: int) -> tuple[State, bytes]:
         return player.state, player.pixels
 
 
+@pytest.mark.slow
 def test_state_and_picture_are_the_same_whatever_the_rate_of_frames() -> None:
     state, pixels = played(1)
     assert state.editing.open is False

@@ -292,6 +292,7 @@ def test_a_click_beside_the_pictures_closes_the_shelf(player: Player) -> None:
     assert (player.state.browsing, player.state.scene.name) == (None, "crank-rocker")
 
 
+@pytest.mark.slow
 def test_the_shelf_is_alive_and_still_while_paused(player: Player) -> None:
     player.type("o")
     for _ in range(len(names()) + 12):

@@ -128,6 +128,7 @@ def test_a_mechanism_stays_paused(rocker: State) -> None:
     assert after(rocker, "pause", Action("mechanism", 1)).clock.paused
 
 
+@pytest.mark.slow
 def test_the_shelf_goes_round(rocker: State) -> None:
     there = after(rocker, *[Action("mechanism", 1)] * len(names()))
     assert there.scene == rocker.scene

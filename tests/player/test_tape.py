@@ -235,6 +235,7 @@ def test_what_a_tape_may_not_hold_is_refused_as_it_is_read(
         read(tmp_path / "my.tape.json")
 
 
+@pytest.mark.slow
 def test_a_tape_of_too_many_actions_is_refused(tape: Tape) -> None:
     document = json.loads(json.dumps(to_document(replace(tape, actions=()))))
     document["actions"] = [[1, "trace"]] * (MOST_ACTIONS + 1)

@@ -452,6 +452,7 @@ JUNK: st.SearchStrategy[object] = st.recursive(
 
 @settings(max_examples=300)
 @given(st.data())
+@pytest.mark.slow
 def test_a_scene_spoilt_anywhere_is_refused_or_read_but_never_fails(data: st.DataObject) -> None:
     document = load(data.draw(st.sampled_from(["press", "crank-rocker", "slider-crank", "six-bar"]))).document
     path = data.draw(st.sampled_from([path for path in nodes(document) if path]))

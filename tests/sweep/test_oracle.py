@@ -93,6 +93,7 @@ def fault(output: Output, case: Case, limits: Limits) -> str | None:
     return None
 
 
+@pytest.mark.slow
 def test_a_few_good_scenes_are_made_into_everything(tmp_path: Path) -> None:
     numbers = [next(good_scenes(SEED, turn, len(ROTATION))) for turn in map(ROTATION.index, SHARES)]
     assert {output_of(number) for number in numbers} == SHARES.keys()
@@ -196,6 +197,7 @@ FOUND: dict[str, tuple[Document, str]] = {
 
 
 @pytest.mark.parametrize("name", FOUND)
+@pytest.mark.slow
 def test_what_could_once_not_be_made(name: str, tmp_path: Path) -> None:
     document, outputs = FOUND[name]
     case = replace(written(document, tmp_path / "case", Random(1)), ways=(EVERYTHING,))
