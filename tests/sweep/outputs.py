@@ -106,8 +106,13 @@ def checked(case: Case) -> None:
 
 
 def solved(case: Case) -> None:
-    for words in (("info",), ("solve", "--phase", f"{case.rng.uniform(-9, 9)} rad")):
-        json.loads(case.command(words[0], str(case.path), "--json", *words[1:]))
+    phase = f"{case.rng.uniform(-9, 9)} rad"
+    json.loads(case.command("solve", str(case.path), "--phase", phase, "--json"))
+
+
+def classified(case: Case) -> None:
+    json.loads(case.command("info", str(case.path), "--json"))
+    case.command("info", str(case.path))
 
 
 def swept(case: Case) -> None:
@@ -242,6 +247,7 @@ OUTPUTS: Mapping[str, Output] = {
         checked,
         solved,
         swept,
+        classified,
         charted,
         drawn,
         printed,
