@@ -110,8 +110,10 @@ def _paths(
     if arcs is None:
         yield Turn(linkage.drive.start, turns_to_return(linkage, loops))
         return
-    for arc in sorted(arcs, key=lambda arc: _rank(arc, linkage.drive.start, loops)):
-        yield Swing(arc.low, arc.high, arc.ends, rounds=_rounds(linkage, loops, arc))
+    start = linkage.drive.stated_start
+    for arc in sorted(arcs, key=lambda arc: _rank(arc, linkage, loops)):
+        around = arc if start is None else arc.shifted(arc.turns_to(start))
+        yield Swing(around.low, around.high, arc.ends, rounds=_rounds(linkage, loops, arc))
 
 
 def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Arc) -> int:
@@ -133,7 +135,8 @@ def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Arc) -> int:
 def _driven(path: CylinderStroke, arcs: list[Arc] | None) -> CylinderStroke:
     """Return the path that a cylinder drives; AssemblyError where a loop on the crank leaves it no room."""
     low, high = path.input_range
-    if arcs is None or any(float(arc.low) < low and high < float(arc.high) for arc in _around(arcs)):
+    around = [arc.shifted(arc.turns_to(path.middle)) for arc in arcs or ()]
+    if arcs is None or any(float(arc.low) < low and high < float(arc.high) for arc in around):
         return path
     within = " or ".join(f"{degrees(float(arc.low))}…{degrees(float(arc.high))}" for arc in arcs)
     raise AssemblyError(
@@ -142,16 +145,20 @@ def _driven(path: CylinderStroke, arcs: list[Arc] | None) -> CylinderStroke:
     )
 
 
-def _around(arcs: list[Arc]) -> Iterator[Arc]:
-    return (arc.shifted(turns) for arc in arcs for turns in (-1, 0, 1))
+def _rank(arc: Arc, linkage: Linkage, loops: Mapping[str, Loop]) -> tuple[bool, bool]:
+    """Order ranges: the one that contains a stated start, then the one above the ground line."""
+    start, loop = linkage.drive.stated_start, loops[arc.ends[0]]
+    half, middle = float(arc.high - arc.low) / 2, arc.middle
+    contained = start is not None and abs(math.remainder(start - middle, 2 * math.pi)) <= half
+    left = math.sin(middle - float(loop.root.reference)) > 0
+    return not contained, left == _runs_back(linkage, arc.ends[0], loop)
 
 
-def _rank(arc: Arc, start: float, loops: Mapping[str, Loop]) -> tuple[bool, bool]:
-    """Order ranges: the one that contains the start, then the one above the ground line."""
-    middle, half = float(arc.low + arc.high) / 2, float(arc.high - arc.low) / 2
-    apart = abs(math.remainder(start - middle, 2 * math.pi))
-    above = math.sin(middle - float(loops[arc.ends[0]].root.reference)) > 0
-    return not apart <= half, not above
+def _runs_back(linkage: Linkage, name: str, loop: Loop) -> bool:
+    """Tell whether a loop's ground runs from the pin that is stated later, so that right of it is above."""
+    ends = {loop.crank.pivot, *linkage.joint(name).pins}
+    first = next(pin.name for pin in linkage.pins if pin.name in ends)
+    return loop.ground is not None and first != loop.crank.pivot
 
 
 def turns_to_return(linkage: Linkage, loops: Mapping[str, Loop]) -> int:

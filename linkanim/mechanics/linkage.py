@@ -114,7 +114,7 @@ class Drive:
     """What moves the linkage: the input crank, its speed (rad/s, negative clockwise) and start (rad).
 
     Where a cylinder turns the crank, or the joint is a slider that has a `travel`, `speed` is that of the
-    phase, one there-and-back being 2π.
+    phase, one there-and-back being 2π. `at_zero` says that a start of 0 was stated, and is not the default.
     """
 
     joint: str
@@ -122,6 +122,12 @@ class Drive:
     start: float = 0.0
     cylinder: Cylinder | None = None
     travel: Travel | None = None
+    at_zero: bool = False
+
+    @property
+    def stated_start(self) -> float | None:
+        """The start; None where none was stated."""
+        return self.start if self.start or self.at_zero else None
 
     def scaled(self, factor: float) -> Drive:
         """Return the drive with the lengths of its cylinder, or its slider's travel, times a factor."""

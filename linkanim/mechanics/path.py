@@ -236,6 +236,15 @@ class Arc:
     high: Sum
     ends: tuple[str, str]
 
+    @property
+    def middle(self) -> float:
+        """The angle in the middle of the range."""
+        return float(self.low + self.high) / 2
+
+    def turns_to(self, angle: float) -> int:
+        """Return by how many turns the range is to be shifted to lie around an angle, or nearest to it."""
+        return round((angle - self.middle) / (2 * math.pi))
+
     def shifted(self, turns: int) -> Arc:
         """Return the same range that many turns on."""
         way = FULL_TURN.times(float(turns))

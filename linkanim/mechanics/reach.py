@@ -12,6 +12,9 @@ from .exact import FULL_TURN, Sum, two_product, two_sum
 
 Array = NDArray[np.float64]
 
+NEARLY_ZERO = 1e-8
+"""Half a last digit of this is more than a limit is off by."""
+
 
 @dataclass(frozen=True)
 class WaysLeft:
@@ -39,7 +42,8 @@ def reach(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> WaysLeft:
     """Return how far angles are from a swing's low end, middle and high end, whole turns aside.
 
     After `repeats` turns of the input the linkage is the same; they are taken off without rounding.
-    The float nearest a limit is the limit as well as a float can say it: it is never outside.
+    The float nearest a limit is the limit as well as a float can say it: it is never outside, nor is 0 where
+    a limit is what its own last digits leave of 0.
     """
     low_end, middle, high_end = swing
     turns = repeats * np.rint((angle - float(middle)) / (2 * math.pi * repeats))
@@ -47,7 +51,7 @@ def reach(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> WaysLeft:
     high, error = two_sum(angle, whole)
     low = error + lost - turns * FULL_TURN.low
     v, u = _way(high, low, low_end, 1.0), _way(high, low, high_end, -1.0)
-    nearest = np.spacing(np.maximum(np.abs(angle), 0.25)) / 2
+    nearest = np.spacing(np.maximum(np.abs(angle), NEARLY_ZERO)) / 2
     at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
     outside = ~((np.minimum(u, v) >= 0) | at_limit)
     return WaysLeft(

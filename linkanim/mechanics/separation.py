@@ -253,7 +253,8 @@ def _near(left: Sampled, right: Sampled, fastest: Array | float = 0.0) -> Bools:
     """Tell where a margin could be nothing between neighbours (D, N), changing so fast at least."""
     before, after = left.rows[2], right.rows[2]
     speed = np.maximum(np.maximum(_speed(left), _speed(right)), fastest)
-    clear = np.minimum(np.abs(before), np.abs(after)) > 2 * (right.phases - left.phases) * speed
+    least = np.maximum(2 * (right.phases - left.phases) * speed, TOUCHING)
+    clear = np.minimum(np.abs(before), np.abs(after)) > least
     return np.asarray(np.isfinite(before + after) & ~(clear & (before * after > 0)))
 
 

@@ -17,7 +17,7 @@ motion runs on through it to the other closure.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import ClassVar, NoReturn
 
@@ -26,14 +26,14 @@ import numpy as np
 from linkanim.errors import AssemblyError, BadInput
 
 from .circular import Half, direction, half_of, sharp_half_angle
-from .exact import Sum, exact_angle
+from .exact import FULL_TURN, Sum, exact_angle
 from .expression import Graph, Value, arctan2, sqrt
 from .input_path import ThereAndBack, Unlimited, half_squares, nearer_way
-from .input_state import HalfForm, InputState, TravelState
+from .input_state import HalfForm, InputState, TravelState, turn
 from .linkage import Cylinder, Linkage, Travel
 from .loop import ground_between
 from .planar import Moving, Slope, Vec
-from .reach import Array, WaysLeft
+from .reach import Array, WaysLeft, reach
 
 NO_ANGLE = "the input is a slider, which has no angle; take the phase (--phase, or phase=)"
 
@@ -127,10 +127,20 @@ class CylinderStroke(Stroke):
         sine, cosine = (length - g + r) * (length + g - r), (g + r - length) * (g + r + length)
         return float(self.base) + self.side * 2 * math.atan2(math.sqrt(sine), math.sqrt(cosine))
 
+    @property
+    def middle(self) -> float:
+        """The angle in the middle of the crank's range."""
+        return sum(self.input_range) / 2
+
     def holds(self, angle: float, turns: int = 1) -> bool:
         """Tell whether the crank comes to an angle, or to one that many turns away, or twice as many …"""
         low, high = self.input_range
-        return abs(math.remainder(angle - (low + high) / 2, 2 * math.pi * turns)) <= (high - low) / 2
+        return abs(math.remainder(angle - self.middle, 2 * math.pi * turns)) <= (high - low) / 2
+
+    def around(self, angle: float) -> CylinderStroke:
+        """Return the path with its range, by whole turns, around an angle, or nearest to it."""
+        turns = round((angle - self.middle) / (2 * math.pi))
+        return replace(self, base=self.base + FULL_TURN.times(float(turns)))
 
     def phase_of(self, angle: float, near: float) -> float:
         """Return the phase nearest to `near` at which the crank stands at an angle, or at its end."""
@@ -150,8 +160,11 @@ class CylinderStroke(Stroke):
     def phases(self, angles: Array, reached: WaysLeft | None) -> Array:
         """Return the phase at angles of the crank on the cylinder's way to `last`; NaN out of reach."""
         assert reached is not None
-        flat = [self.phase_of(angle, 0.0) for angle in angles.reshape(-1).tolist()]
-        return np.where(reached.outside, np.nan, np.abs(flat)).reshape(angles.shape)
+        g, r = self.sides
+        lengths = np.sqrt(g * g + r * r - 2 * g * r * np.cos(angles - float(self.base)))
+        middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
+        phases = np.arccos(np.clip((middle - lengths) / half, -1.0, 1.0))
+        return np.where(reached.outside.reshape(angles.shape), np.nan, phases)
 
     def place(self, phase: Sum) -> Sum:
         """Return the angle at a phase: a place that is passed there and back."""
@@ -203,11 +216,15 @@ class CylinderStroke(Stroke):
         short = math.fsum((g, self.lost, r, -most))
         return from_least * abs(way) + beyond, to_most * abs(way) + short
 
+    def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
+        """Return the names of the graph's inputs, and the input's state at its angle from the middle."""
+        return ("x",), turn(graph.input("x"), pace, Sum(self.middle))
+
     def reach(self, angle: Array) -> WaysLeft | None:
-        """Return which angles the crank comes to."""
-        outside = np.array([not self.holds(float(x)) for x in angle.tolist()], dtype=np.bool_)
-        ways = np.ones_like(angle)
-        return WaysLeft(angle, ways, ways, outside, np.zeros_like(outside))
+        """Return which angles the crank comes to; at both ends it merely turns back."""
+        low, high = self.input_range
+        found = reach(angle, (Sum(low), Sum(self.middle), Sum(high)), 1)
+        return replace(found, at_limit=np.zeros_like(found.outside))
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,7 +294,7 @@ def slider_stroke(travel: Travel, unscale: float) -> SliderStroke:
 def cylinder_stroke(linkage: Linkage, unscale: float) -> CylinderStroke:
     """Return the path of a linkage that a cylinder drives; AssemblyError where its triangle does not close.
 
-    Of the two triangles it is the one whose range contains the drive's start, or else the one in which the
+    Of the two triangles it is the one whose range contains the stated start, or else the one in which the
     cylinder's joint lies left of the line from the crank's pivot to the fixed pin.
     """
     drive = linkage.drive
@@ -295,7 +312,9 @@ def cylinder_stroke(linkage: Linkage, unscale: float) -> CylinderStroke:
     base = ground.angle - own
     ends = cylinder.first, cylinder.last
     paths = [CylinderStroke(*ends, sides, base, side, ground.rest, unscale=unscale) for side in (1, -1)]
-    return next((path for path in paths if path.holds(drive.start)), paths[0])
+    start = drive.stated_start
+    held = (path for path in paths if start is not None and path.holds(start))
+    return next(held, paths[0]).around(drive.start)
 
 
 def _check(cylinder: Cylinder, sides: tuple[float, float]) -> None:

@@ -35,7 +35,8 @@ def read_drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Driv
         way_out = f"gear it: gear = {{ with = {units.shown(name)}, ratio = -1 }}"
         raise top.table("joints").wrong(f"{other} is a second input beside {name}; {way_out}")
     speed, start = table.speed("speed", DEFAULT_SPEED), table.angle("start", "0 deg")
-    return Drive(name, speed, start, _cylinder(cylinder, joints, name) if "cylinder" in table else None)
+    driven = _cylinder(cylinder, joints, name) if "cylinder" in table else None
+    return Drive(name, speed, start, driven, at_zero=start == 0 and "start" in table)
 
 
 def _slider_drive(top: Table, table: Table, joints: tuple[Joint, ...]) -> Drive:

@@ -7,7 +7,8 @@ import random
 
 import numpy as np
 import pytest
-from near_misses import is_right, near_miss, rows
+from near_misses import BESIDE, is_right, near_miss, rows
+from whole_rows import whole_rows
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin
@@ -59,6 +60,11 @@ def close(number: int) -> None:
         return
     assert isinstance(solved.assembly.path, Swing) == (case.gap > 0), number
     assert finite(solved, case.angle), number
+    path = solved.assembly.path
+    beside = [end + way * BESIDE for end in (case.angle, *path.input_range) for way in (-1, 1)]
+    reached = whole_rows(solved, np.concatenate([path.input_range, *beside]))
+    assert reached[:2].all(), number
+    assert reached.all() == path.full_turn, number
     if number % 10 == 0:
         assert is_right(case, solved), number
 
