@@ -191,7 +191,9 @@ def test_a_replaced_file_keeps_its_mode(target: Path, mode: int) -> None:
     assert stat.S_IMODE(target.stat().st_mode) == mode
 
 
-@pytest.mark.parametrize("links", [True, False], ids=["links", "no links"])
+@pytest.mark.parametrize(
+    "links", [pytest.param(True, id="links"), pytest.param(False, id="no links", marks=pytest.mark.quick)]
+)
 def test_an_added_file_takes_the_first_free_name(
     target: Path, links: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
