@@ -100,7 +100,7 @@ def test_every_joint_and_link_is_named_for_most_of_the_cycle(name: str) -> None:
     shown = {label.lettering.text: label.path.shown.mean() for label in labels}
     joints = {joint.replace("2", "₂").replace("4", "₄") for joint in ("O2", "A", "B")}
     assert joints <= shown.keys()
-    assert {body.name for body in scene.linkage.bodies} <= shown.keys()
+    assert {scene.info.link_names.get(body.name, body.name) for body in scene.linkage.bodies} <= shown.keys()
     assert np.mean(list(shown.values())) > 0.8
 
 
