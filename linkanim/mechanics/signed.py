@@ -76,19 +76,21 @@ class Reduced(NamedTuple):
 class SignedRoot:
     """q, the ratio ρ = (L²)'/q, and the signed √U where q is a product of two roots.
 
-    `lift` is what a dyad is closed with whose two ends meet on the way.
+    `lift` is what a dyad is closed with whose two ends meet on the way. `slack` is cot(ψ/2) - 2 q'/q by
+    the angle of a crank that W limits: q, which would be sin(ψ/2) for equal bars on pins that meet at ψ = 0.
     """
 
     q: Value
     ratio: Slope
     root_u: Value = 0.0
     lift: Reduced | None = None
+    slack: Value | None = None
 
     def times(self, sign: int) -> SignedRoot:
         """Return the root of the closure on the other side where `sign` is -1."""
         factor = float(sign)
         lift = self.lift and Reduced(self.lift.across, self.lift.q * factor)
-        return SignedRoot(self.q * factor, self.ratio.scaled(factor), self.root_u * factor, lift)
+        return SignedRoot(self.q * factor, self.ratio.scaled(factor), self.root_u * factor, lift, self.slack)
 
     def with_lift(self, lift: Reduced) -> SignedRoot:
         """Return the root of a dyad whose ends meet on the way."""
@@ -260,12 +262,16 @@ def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Swinging) -> 
     ratio = share * part_u.left * part_w.left
     bend = (part_w.bend * part_u.left - part_u.bend * part_w.left) * share * 0.5
     rates = Slope(ratio * pace.value, ratio * pace.rate + bend * (pace.value * pace.value))
-    return SignedRoot(part_u.whole * part_w.whole, rates, part_u.whole)
+    slack = None
+    if root.w.kind is Kind.LIMIT and root.u.kind is not Kind.CHANGE_POINT:
+        slack = part_w.bend / half.sine + half.sine * half.cosine * root.spread / part_u.value
+    return SignedRoot(part_u.whole * part_w.whole, rates, part_u.whole, slack=slack)
 
 
 class _PartByAngle(NamedTuple):
-    """One signed root: whole, its regular part, what is left of sin or cos(ψ/2), and c/F of the other."""
+    """One signed root: F, whole, its regular part, what is left of sin or cos(ψ/2), and c/F of the other."""
 
+    value: Value
     whole: Value
     regular: Value
     left: Value
@@ -278,10 +284,10 @@ def _part_by_angle(
     """Return the root of a factor F; `sides` are what vanishes with it, if it does, and the other one."""
     touching, other = sides
     if factor.kind is Kind.CHANGE_POINT:
-        return _PartByAngle(touching * scale, scale, 1.0, 0.0)
+        return _PartByAngle(value, touching * scale, scale, 1.0, 0.0)
     value = value if ways is None else ways.sines * (scale * scale)
     whole = sqrt(value) * (1.0 if ways is None else ways.sign_of_root)
-    return _PartByAngle(whole, whole, touching, other * factor.least / value)
+    return _PartByAngle(value, whole, whole, touching, other * factor.least / value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,13 @@ shares of ρ = (L²)'/q.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from .circular import Half
 from .exact import Sum
-from .expression import Value, sqrt
+from .expression import Value, select, sqrt
+from .kite import Closure, Links, turning
 from .planar import Moving, MovingPoint, Slope, Vec
 from .signed import Reduced, SignedRoot
 
@@ -22,7 +23,8 @@ class Triangle:
     """P, Q and the third corner: D, shares of it, and what its rates need.
 
     `near` = p/(2L²) and `far` = 1 - near are the shares of D under each bar; `lift` runs from D to
-    the corner, i D q/(2L²); `turn` is e and, as its rate, e' + ρ near'.
+    the corner, i D q/(2L²); `turn` is e and, as its rate, e' + ρ near'. `longer` is how the longer bar turns,
+    where e and ρ's share would cancel.
     """
 
     across: Vec
@@ -31,6 +33,14 @@ class Triangle:
     lift: Vec
     turn: Slope
     ratio: Slope
+    longer: Slope | None = None
+
+    def turn_of_longer(self, second: bool) -> Slope:
+        """Return how the longer bar turns, the second one or the first."""
+        if self.longer is not None:
+            return self.longer
+        share = self.near if second else -self.far
+        return self.turn.plus(self.ratio.value * share, self.ratio.rate * share)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,13 +86,33 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
     excess, outer = 2.0 * (b - a) * (b + a) / unit, 2.0 * short * total / unit
     turn = Slope(*(_turn(loop, square, share, rate) for rate in (w, wd)))
     across = loop.across()
-    return Triangle(
+    triangle = Triangle(
         across=across,
         near=(square + _near_constant(short, a, b) / unit) * share,
         far=(square + _near_constant(short, b, a) / unit) * share,
         lift=across.left().scaled(root.q * share),
         turn=turn.plus(0.0, change * (root.ratio.value * excess + w * outer)),
         ratio=root.ratio,
+    )
+    links = Links(loop.ground.high, loop.crank, a, b, (loop.ground.high, loop.ground.low, -loop.crank))
+    if root.slack is None or not links.kite:
+        return triangle
+    return replace(triangle, longer=_longer(loop, links, root, triangle.turn_of_longer(a < b)))
+
+
+def _longer(loop: PinLoop, links: Links, root: SignedRoot, turn: Slope) -> Slope:
+    """Return how the longer bar turns next to a kite; it is `turn` where the pins are far apart."""
+    assert root.slack is not None
+    closing = Closure(loop.half, root.q, root.slack, loop.unit)
+    if links.coupler < links.rocker:
+        rate, bend = turning(links, closing)
+    else:
+        rate, bend = turning(links.inverted(), closing)
+        rate, bend = 1.0 - rate, -bend
+    square, (w, wd) = loop.half.sine * loop.half.sine, (loop.pace.value, loop.pace.rate)
+    return Slope(
+        select(square, 0.5, rate * w, turn.value),
+        select(square, 0.5, bend * (w * w) + rate * wd, turn.rate),
     )
 
 

@@ -67,13 +67,15 @@ class Error(NamedTuple):
 def near_a_toggle(rng: Random) -> Bars:
     """Return bars that a swing, or what it lacks of a turn, of 1e-6 or more is left to.
 
-    Left out are bars of a thousandth of the others, and pins that nearly meet just there: what turns a
-    hundred times as fast as the crank cancels.
+    Of every fourth the ground is nearly as long as the crank, so that the pins of both bars nearly meet.
+    Left out are bars of a thousandth of the others.
     """
     g, r, a = (rng.uniform(1, 10) for _ in range(3))
+    if rng.random() < 0.25:
+        r = g * (1 + rng.choice((-1, 1)) * 10 ** rng.uniform(-3, -1))
     gap = rng.choice((-1, 1)) * 10 ** rng.uniform(-11, 0)
     rocker = abs(rng.choice((g + r - a, abs(g - r) + a, g + r + a)) + gap)
-    if abs(g - r) < 0.1 * g or rocker < 1:
+    if rocker < 1:
         return near_a_toggle(rng)
     return _bars(rng, (g, "0"), r, a, rocker)
 

@@ -160,11 +160,11 @@ def _meet(p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle
     if lengths[0] < lengths[1]:
         arm_a = d.scaled(t.near) + t.lift
         arm_b = arm_a - d
-        turning_b = t.turn.plus(rho.value * t.near, rho.rate * t.near)
+        turning_b = t.turn_of_longer(True)
         turning_a = turning_b.plus(-rho.value, -rho.rate)
         return _Meeting(arm_a, arm_b, turning_a, turning_b, p + carried(arm_a, turning_a))
     arm_b = t.lift - d.scaled(t.far)
     arm_a = arm_b + d
-    turning_a = t.turn.plus(-(rho.value * t.far), -(rho.rate * t.far))
+    turning_a = t.turn_of_longer(False)
     turning_b = turning_a.plus(rho.value, rho.rate)
     return _Meeting(arm_a, arm_b, turning_a, turning_b, q + carried(arm_b, turning_b))
