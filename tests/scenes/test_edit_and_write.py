@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError, WorkFailed
+from linkanim.intake import control_in
 from linkanim.mechanics.kinds import Crank
 from linkanim.scenes import load, names
 from linkanim.scenes.edit import dimensions, with_dimensions
@@ -265,7 +266,7 @@ ANGLES = st.floats(-1e3, 1e3).map(lambda value: f"{value!r} deg") | st.floats(-9
     lambda value: f"{value!r} rad"
 )
 OFFSETS = st.floats(-1e9, 1e9)
-TITLES = st.text(st.characters(codec="utf-8"), max_size=20)
+TITLES = st.text(st.characters(codec="utf-8"), max_size=20).filter(lambda title: not control_in(title))
 
 
 @given(
