@@ -122,7 +122,7 @@ class Drive:
     start: float = 0.0
     cylinder: Cylinder | None = None
     travel: Travel | None = None
-    at_zero: bool = field(default=False, compare=False)
+    at_zero: bool = False
 
     @property
     def stated_start(self) -> float | None:

@@ -70,6 +70,7 @@ def test_a_wrong_folder_is_refused(measured: None, tmp_path: Path, into: str, sa
 def test_it_prints_the_table_and_writes_the_chart(
     measured: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    pytest.importorskip("matplotlib")
     assert main(["bench", "--into", str(tmp_path / "new")]) == 0
     told = capsys.readouterr()
     assert told.out.startswith("A processor")
@@ -80,6 +81,7 @@ def test_it_prints_the_table_and_writes_the_chart(
 def test_json_is_all_that_is_on_stdout(
     measured: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    pytest.importorskip("matplotlib")
     command.run(options("--json", "--into", str(tmp_path)))
     assert set(json.loads(capsys.readouterr().out)) == {"machine", "rows", "targets"}
 

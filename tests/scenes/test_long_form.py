@@ -54,7 +54,7 @@ def test_the_press_is_read_as_it_is_described() -> None:
     assert scene.linkage.bodies[3] == Body("5", slider="C")
     assert scene.linkage.springs == (Spring("return", ("C", "G"), 4000.0, 280.0),)
     assert scene.linkage.dampers == (Damper("cushion", ("H", "S"), 200.0),)
-    assert scene.linkage.drive == Drive("A", 2 * math.pi / 3, 0.0)
+    assert scene.linkage.drive == Drive("A", 2 * math.pi / 3, 0.0, at_zero=True)
 
 
 def test_a_slotted_bar_turns_about_a_fixed_pin() -> None:
