@@ -46,7 +46,7 @@ def _png(result: Result) -> bytes:
     names = list(dict.fromkeys(row.mechanism for row in rows))
     styles = {key: n for n, key in enumerate(dict.fromkeys(row.key for row in rows))}
     figure = Figure(figsize=(SIZE[0] / 100, SIZE[1] / 100), dpi=100, layout="constrained")
-    canvas = FigureCanvasAgg(figure)
+    canvas: Any = FigureCanvasAgg(figure)
     panels = figure.subplots(2, len(names), sharex=True, sharey=True, squeeze=False)
     for column, name in enumerate(names):
         panels[1, column].set_xlabel("ns a pose; of rates with derivatives")
@@ -58,7 +58,7 @@ def _png(result: Result) -> bytes:
     figure.supylabel("worst error in longest links")
     _key(figure, rows, styles)
     buffer = BytesIO()
-    canvas.print_png(buffer)  # type: ignore[no-untyped-call]
+    canvas.print_png(buffer)
     return buffer.getvalue()
 
 

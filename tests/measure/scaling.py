@@ -220,7 +220,8 @@ def draw(found: Growth, path: Path) -> Path:
         panel.grid(visible=True, color="#dddddd")
         panel.legend(frameon=False)
     with replacing(target) as part, part.open("wb") as file:
-        FigureCanvasAgg(figure).print_png(file)  # type: ignore[no-untyped-call]
+        canvas: Any = FigureCanvasAgg(figure)
+        canvas.print_png(file)
     return target
 
 
