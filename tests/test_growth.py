@@ -12,13 +12,13 @@ import pytest
 from generated import SHAPES, geared, series
 
 from linkanim.errors import AssemblyError
+from linkanim.picture.labels.placing import MOMENTS, Clutter, Obstacles, Wish, place
 from linkanim.picture.look import Look
 from linkanim.picture.painter import Painter
-from linkanim.picture.placing import MOMENTS, Clutter, Obstacles, Wish, place
 from linkanim.picture.view import Rect
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.scenes.toml import parse
 
 FEW, MANY = 8, 32
 LINEAR = 1.3 * MANY / FEW

@@ -148,7 +148,7 @@ NO_WINDOW = ("pygame", "PIL", "imageio", "imageio_ffmpeg")
         pytest.param("main(['info', 'press'])", NO_WINDOW, id="info"),
         pytest.param("from linkanim import record", ("linkanim.player", "linkanim.cli"), id="record"),
         pytest.param("main(['solve', 'press', '--angle', '87 deg'])", NO_WINDOW, id="solve"),
-        pytest.param("import linkanim.cli.draw", ("orjson", "tqdm", "PIL", "imageio"), id="draw"),
+        pytest.param("import linkanim.cli.commands.draw", ("orjson", "tqdm", "PIL", "imageio"), id="draw"),
         pytest.param("import linkanim.paper.write", ("linkanim.player", "linkanim.recorder"), id="paper"),
     ],
 )

@@ -14,8 +14,8 @@ import pytest
 
 from linkanim.notebook import register
 from linkanim.scenes import load, names
-from linkanim.scenes.read import scene_from
-from linkanim.scenes.toml import parse
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.read import scene_from
 
 SVG = "{http://www.w3.org/2000/svg}"
 Shown = dict[tuple[str, str], Callable[[Any], str]]

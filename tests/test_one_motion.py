@@ -21,18 +21,18 @@ from linkanim.cli import main
 from linkanim.cli.strict import json_text
 from linkanim.cli.tree import leaves, tree
 from linkanim.cli.tree import rows as rows_of_tree
-from linkanim.mechanics.motion import Pose
-from linkanim.mechanics.register import Quantity, register
-from linkanim.picture.chart import pen_for
+from linkanim.mechanics.facts.register import Quantity, register
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.diagrams.chart import pen_for
+from linkanim.picture.diagrams.quantities import quantities, series_of, telling
+from linkanim.picture.diagrams.strip import Strip, strip
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.layout import layout
-from linkanim.picture.quantities import quantities, series_of, telling
-from linkanim.picture.readings import rows
-from linkanim.picture.strip import Strip, strip
-from linkanim.picture.text import Type
+from linkanim.picture.panels.readings import rows
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 SPEEDS = (0.3, 1.0, 2 * math.pi / 3, 4 * math.pi / 3, 11.0)

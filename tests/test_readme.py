@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import linkanim
-from linkanim.cli.commands import COMMANDS, parse
-from linkanim.player.keys import as_markdown
+from linkanim.cli.command_table import COMMANDS, parse
+from linkanim.player.input.keys import as_markdown
 from linkanim.scenes import chapters
 
 ROOT = Path(__file__).parent.parent

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 import linkanim
-from linkanim.mechanics import program
-from linkanim.scenes.read import scene_from
-from linkanim.scenes.toml import parse
+from linkanim.mechanics.formulas import program
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.read import scene_from
 
 PACKAGE = Path(linkanim.__file__).parent
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from linkanim.bench.chain import TURN, Floats
-from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin, Polar, Rigid
-from linkanim.mechanics.linkage import Drive, Linkage
+from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.kinds import RRP, RRR, Crank, Pin, Rigid
-from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Pin, Rigid
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.scenes.scene import Scene
 
 Floats = NDArray[np.float64]

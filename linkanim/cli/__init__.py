@@ -18,6 +18,6 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str] | None) -> None:
     # Imported here so that Ctrl-C during start-up is answered like any other.
-    from linkanim.cli import commands
+    from linkanim.cli import command_table as commands
 
     commands.run(commands.parse(argv))

@@ -6,7 +6,7 @@ from argparse import Namespace
 from pathlib import Path
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.derived import coupler_body
+from linkanim.mechanics.motion.derived import coupler_body
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene

@@ -13,8 +13,8 @@ import numpy as np
 from linkanim import units
 from linkanim.cli.tree import Leaf, Tree, input_key, mapped, tree
 from linkanim.cli.values import SweepSteps
-from linkanim.mechanics.exact import two_product
-from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.formulas.exact import two_product
+from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes.scene import Scene
 
 BLOCK = 4096

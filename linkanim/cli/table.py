@@ -8,9 +8,11 @@ from typing import Any
 
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
-from linkanim.mechanics.kinds import Pin
-from linkanim.mechanics.linkage import Linkage
-from linkanim.mechanics.measures import (
+from linkanim.mechanics.closing.kinds import Pin
+from linkanim.mechanics.facts.register import recorded
+from linkanim.mechanics.facts.symbols import plain_unit
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.motion.measures import (
     DAMPER,
     POINT,
     SPRING,
@@ -19,8 +21,6 @@ from linkanim.mechanics.measures import (
     Measure,
     coefficients_of,
 )
-from linkanim.mechanics.register import recorded
-from linkanim.mechanics.symbols import plain_unit
 from linkanim.scenes.scene import Scene
 
 

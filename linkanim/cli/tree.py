@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.register import Path, recorded
+from linkanim.mechanics.facts.register import Path, recorded
+from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes.scene import Scene
 
 Leaf = NDArray[np.float64]

@@ -9,20 +9,20 @@ from typing import Any
 import numpy as np
 
 from linkanim.digits import significant, typeset
-from linkanim.mechanics.derived import output_body
-from linkanim.mechanics.mechanism import mechanism
-from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.naming import link_names, turning_links
-from linkanim.mechanics.register import Quantity, register
+from linkanim.mechanics.facts.naming import link_names, turning_links
+from linkanim.mechanics.facts.register import Quantity, register
+from linkanim.mechanics.motion.derived import output_body
+from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.motion.motion import Motion
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import symbol
 from linkanim.paper.svg import svg
-from linkanim.picture.axis import around
-from linkanim.picture.chart import Plot, axes, curve_layer, pen_for, plot_area, x_title
+from linkanim.picture.diagrams.axis import around
+from linkanim.picture.diagrams.chart import Plot, axes, curve_layer, pen_for, plot_area, x_title
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.text import Type
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene

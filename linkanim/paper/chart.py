@@ -14,8 +14,8 @@ import pygame
 from linkanim.digits import stepped
 from linkanim.paper.curves import Curve, Curves, Peak, extremes
 from linkanim.paper.measured import MeasuredCurve
-from linkanim.picture.axis import Axis, linear, range_around, zeros_level
-from linkanim.picture.chart import (
+from linkanim.picture.diagrams.axis import Axis, linear, range_around, zeros_level
+from linkanim.picture.diagrams.chart import (
     Pen,
     Plot,
     axes,
@@ -26,15 +26,15 @@ from linkanim.picture.chart import (
     right_axis,
     x_title,
 )
-from linkanim.picture.driven import driven_words
 from linkanim.picture.items import Caption, Item, draw
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import box as rounded_box
-from linkanim.picture.shapes import disc, segments
-from linkanim.picture.text import Type
+from linkanim.picture.parts.driven import driven_words
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster.raster import Colour, Layer
+from linkanim.picture.raster.shapes import box as rounded_box
+from linkanim.picture.raster.shapes import disc, segments
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 

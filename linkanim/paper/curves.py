@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.register import Quantity
-from linkanim.mechanics.search import highest
-from linkanim.picture.axis import Axis, linear
-from linkanim.picture.course import Course, Floats, Over, course, gain_of, input_title
-from linkanim.picture.quantities import quantity, series_of
+from linkanim.mechanics.closing.search import highest
+from linkanim.mechanics.facts.register import Quantity
+from linkanim.mechanics.motion.motion import Motion
+from linkanim.picture.diagrams.axis import Axis, linear
+from linkanim.picture.diagrams.course import Course, Floats, Over, course, gain_of, input_title
+from linkanim.picture.diagrams.quantities import quantity, series_of
 from linkanim.scenes.scene import Scene
 
 SAMPLES = 720

@@ -10,23 +10,23 @@ from pathlib import Path
 import numpy as np
 import pygame
 
-from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.motion.motion import Pose
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
-from linkanim.picture.chart import pen_for
+from linkanim.picture.arrangement.staging import Staging, staged, wanted_of
+from linkanim.picture.diagrams.chart import pen_for
+from linkanim.picture.diagrams.strip import strip
 from linkanim.picture.drawing import Drawing
-from linkanim.picture.hud import Hud
 from linkanim.picture.items import Group, draw, flat, grouped, worded
-from linkanim.picture.legend import legend_for
+from linkanim.picture.labels.names import Names
 from linkanim.picture.look import Look
-from linkanim.picture.names import Names
-from linkanim.picture.offscreen import offscreen, png_bytes
-from linkanim.picture.raster import Layer, paint
-from linkanim.picture.staging import Staging, staged, wanted_of
-from linkanim.picture.strip import strip
-from linkanim.picture.text import Type
+from linkanim.picture.panels.hud import Hud
+from linkanim.picture.panels.legend import legend_for
+from linkanim.picture.raster.offscreen import offscreen, png_bytes
+from linkanim.picture.raster.raster import Layer, paint
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
-from linkanim.scenes.closure import ghost_of
+from linkanim.scenes.reading.closure import ghost_of
 from linkanim.scenes.scene import Scene
 from linkanim.whole import replacing
 

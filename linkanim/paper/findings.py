@@ -11,10 +11,10 @@ import numpy as np
 
 from linkanim.digits import significant, stepped, typeset
 from linkanim.errors import BadInput, OutOfRange
-from linkanim.mechanics.derived import output_body, output_slider
-from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.register import Quantity
-from linkanim.mechanics.symbols import input_symbol
+from linkanim.mechanics.facts.register import Quantity
+from linkanim.mechanics.facts.symbols import input_symbol
+from linkanim.mechanics.motion.derived import output_body, output_slider
+from linkanim.mechanics.motion.motion import Motion
 from linkanim.paper.curves import ChartRequest, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
 

@@ -15,7 +15,7 @@ from linkanim.paper.figure import Figured
 from linkanim.paper.findings import Instant, charted, paces_of, sheet, table
 from linkanim.paper.svg import svg
 from linkanim.picture.look import Look
-from linkanim.scenes.edit import dimensions
+from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.scene import Scene
 
 _CHART = (900, 360)

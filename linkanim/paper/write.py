@@ -9,7 +9,7 @@ from linkanim.paper.chart import Page
 from linkanim.paper.curves import table
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
-from linkanim.picture.offscreen import png_bytes
+from linkanim.picture.raster.offscreen import png_bytes
 from linkanim.whole import replacing
 
 SUFFIXES = (".svg", ".png", ".pdf", ".csv")

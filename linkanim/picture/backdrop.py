@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import pygame
 
-from linkanim.picture.blend import Mix
-from linkanim.picture.raster import is_clear
+from linkanim.picture.raster.blend import Mix
+from linkanim.picture.raster.raster import is_clear
 
 
 class Backdrop(NamedTuple):

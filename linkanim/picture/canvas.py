@@ -6,11 +6,11 @@ from functools import cached_property
 
 import pygame
 
-from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
-from linkanim.scenes.closure import ghost_of
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.scenes.reading.closure import ghost_of
 from linkanim.scenes.scene import Scene
 
 

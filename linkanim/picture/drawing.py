@@ -9,31 +9,31 @@ from itertools import zip_longest
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from linkanim.mechanics.motion import Pose
-from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
-from linkanim.picture.chart import pen_for
-from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.figure import Figure
-from linkanim.picture.gears import turning_apart, wheel_layers, wheel_parts
-from linkanim.picture.ground import ground_layers, ground_line
 from linkanim.picture.items import Group
+from linkanim.picture.labels.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
-from linkanim.picture.parts import Part, Places, Stamp, by_depth, placed
-from linkanim.picture.raster import Layer
-from linkanim.picture.struts import Coil, Cushion, coils, cushions
-from linkanim.picture.text import Type
+from linkanim.picture.parts.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
+from linkanim.picture.parts.gears import turning_apart, wheel_layers, wheel_parts
+from linkanim.picture.parts.ground import ground_layers, ground_line
+from linkanim.picture.parts.struts import Coil, Cushion, coils, cushions
+from linkanim.picture.parts.trace import Trace, traces
+from linkanim.picture.parts.turning import Sliding, Turning, motion_of, turning_of
+from linkanim.picture.parts.vectors import Arrows, arrow_layers, arrows_of
+from linkanim.picture.raster.parts import Part, Places, Stamp, by_depth, placed
+from linkanim.picture.raster.raster import Layer
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme, mixed
-from linkanim.picture.trace import Trace, traces
-from linkanim.picture.turning import Sliding, Turning, motion_of, turning_of
-from linkanim.picture.vectors import Arrows, arrow_layers, arrows_of
 from linkanim.picture.view import View
 
 if TYPE_CHECKING:
-    from linkanim.picture.centres import Centres
-    from linkanim.picture.dead_centres import DeadCentres
-    from linkanim.picture.names import Names
-    from linkanim.picture.polygons import Polygon
+    from linkanim.picture.diagrams.centres import Centres
+    from linkanim.picture.diagrams.polygons import Polygon
+    from linkanim.picture.labels.dead_centres import DeadCentres
+    from linkanim.picture.labels.names import Names
 
 # What only some looks ask for is imported where they do: the first frame does not wait for it.
 
@@ -101,7 +101,7 @@ class Drawing:
         look = self.scenery.look
         if not look.names:
             return None
-        from linkanim.picture.dead_centres import DeadCentres
+        from linkanim.picture.labels.dead_centres import DeadCentres
 
         return DeadCentres(*self.scenery.known, self.scenery.layout, sized=look.names > 1)
 
@@ -116,7 +116,7 @@ class Drawing:
             return None
         if kept and before and self._names_as(before.scenery):
             return kept
-        from linkanim.picture.names import Hand, names_of
+        from linkanim.picture.labels.names import Hand, names_of
 
         words = (*set_.layout.words, *(self.dead_centres.rects(type_) if self.dead_centres else ()))
         hand = Hand(type_, replace(set_.layout, words=words), set_.theme, set_.gauge)
@@ -216,7 +216,7 @@ class Drawing:
         set_, place = self.scenery, self.scenery.layout.polygons
         if not place:
             return ()
-        from linkanim.picture.polygons import polygons_of
+        from linkanim.picture.diagrams.polygons import polygons_of
 
         return polygons_of(set_.figure, place, pen_for(set_.layout, type_, set_.theme))
 
@@ -270,7 +270,7 @@ def _cast(scenery: Scenery, known: Symbols | None) -> Cast:
 
 
 def _centres(scenery: Scenery) -> Centres:
-    from linkanim.picture.centres import Centres
+    from linkanim.picture.diagrams.centres import Centres
 
     return Centres(*scenery.known, scenery.layout, rolling=scenery.look.centres > 1)
 

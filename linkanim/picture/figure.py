@@ -8,10 +8,10 @@ from math import tau
 
 import numpy as np
 
-from linkanim.mechanics.kinds import Brace
-from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
-from linkanim.mechanics.motion import Motion
-from linkanim.picture.raster import Loop
+from linkanim.mechanics.closing.kinds import Brace
+from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.motion.motion import Motion
+from linkanim.picture.raster.raster import Loop
 from linkanim.picture.view import Box, View
 from linkanim.scenes.scene import Scene
 

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import pygame
 
-from linkanim.picture.lettering import Lettering
-from linkanim.picture.raster import Colour, Layer, paint
-from linkanim.picture.text import Anchor, Type
+from linkanim.picture.raster.raster import Colour, Layer, paint
+from linkanim.picture.text.lettering import Lettering
+from linkanim.picture.text.text import Anchor, Type
 
 
 class Halo(NamedTuple):

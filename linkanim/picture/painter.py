@@ -8,31 +8,31 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.arrangement.staging import Staging, staged, wanted_of
 from linkanim.picture.backdrop import Backdrop, wipe
-from linkanim.picture.blend import Mix, mix
-from linkanim.picture.chart import pen_for
+from linkanim.picture.diagrams.chart import pen_for
+from linkanim.picture.diagrams.strip import Strip, strip
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.hud import Hud
 from linkanim.picture.items import Scribe, flat, worded
 from linkanim.picture.layout import Layout
-from linkanim.picture.legend import legend_for
 from linkanim.picture.look import Look
-from linkanim.picture.marks import draw_measure, glow, grip
-from linkanim.picture.overlay import DimensionLine, Overlay
-from linkanim.picture.panels import Panels
-from linkanim.picture.raster import Layer, is_clear, keep_memory, paint, paints, pixels_of, stencil
-from linkanim.picture.staging import Staging, staged, wanted_of
-from linkanim.picture.strip import Strip, strip
-from linkanim.picture.text import Type
+from linkanim.picture.panels.hud import Hud
+from linkanim.picture.panels.legend import legend_for
+from linkanim.picture.panels.marks import draw_measure, glow, grip
+from linkanim.picture.panels.overlay import DimensionLine, Overlay
+from linkanim.picture.panels.panels import Panels
+from linkanim.picture.raster.blend import Mix, mix
+from linkanim.picture.raster.raster import Layer, is_clear, keep_memory, paint, paints, pixels_of, stencil
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.turned import Turned
 from linkanim.picture.view import View
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
-    from linkanim.picture.names import Names
+    from linkanim.picture.labels.names import Names
 
 
 class Painter:

@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 import pygame
 
-from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Shelf
 from linkanim.picture.painter import Painter
-from linkanim.picture.raster import Layer, Loop, paint
-from linkanim.picture.shapes import box
-from linkanim.picture.text import Type, hyphened
+from linkanim.picture.panels.board import Board
+from linkanim.picture.panels.overlay import Shelf
+from linkanim.picture.raster.raster import Layer, Loop, paint
+from linkanim.picture.raster.shapes import box
+from linkanim.picture.text.text import Type, hyphened
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import chapter_of, load

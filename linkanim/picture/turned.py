@@ -9,10 +9,10 @@ from typing import NamedTuple
 import pygame
 
 from linkanim.picture.backdrop import Backdrop
-from linkanim.picture.blend import Mix, Words, mix
-from linkanim.picture.cells import Ints
-from linkanim.picture.parts import Part, Places, placed
-from linkanim.picture.raster import Layer, is_clear, paint_noting, pixels_of
+from linkanim.picture.raster.blend import Mix, Words, mix
+from linkanim.picture.raster.cells import Ints
+from linkanim.picture.raster.parts import Part, Places, placed
+from linkanim.picture.raster.raster import Layer, is_clear, paint_noting, pixels_of
 
 _MOST_PICTURES = 4.0
 """No more is kept than so many pictures take; where nothing comes again, that is thrown away in time."""

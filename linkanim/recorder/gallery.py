@@ -15,7 +15,7 @@ from linkanim.errors import RecordingFailed
 from linkanim.manifest import FileSet, replacing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.picture.wheels import teeth_a_second
+from linkanim.picture.parts.wheels import teeth_a_second
 from linkanim.recorder.palette import Bytes, make_palette
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.recording import Progress, Recording

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from linkanim.picture.canvas import Canvas
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen, pixel_view
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.theme import theme_of
 from linkanim.recorder.plan import Clip, Plan, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write

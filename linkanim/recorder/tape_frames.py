@@ -11,16 +11,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkanim.picture.canvas import Canvas
-from linkanim.picture.offscreen import offscreen, pixel_view
-from linkanim.picture.overlay import Overlay
-from linkanim.player import tape_file
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.raster.offscreen import offscreen, pixel_view
+from linkanim.player.tape import tape_file
 from linkanim.recorder.plan import Clip, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write
 from linkanim.recorder.scene_frames import record, theme_colours
 
 if TYPE_CHECKING:
-    from linkanim.player.state import State
-    from linkanim.player.tape import Tape
+    from linkanim.player.state.state import State
+    from linkanim.player.tape.tape import Tape
     from linkanim.recorder.process import Frame
 
 _WHOLE_VIEW = frozenset(("closure", "ghost", "zoom", "pan"))

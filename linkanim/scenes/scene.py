@@ -13,11 +13,11 @@ from linkanim.errors import BadInput
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from linkanim.mechanics.classify import Info
-    from linkanim.mechanics.linkage import Linkage
-    from linkanim.mechanics.mechanism import Mechanism
-    from linkanim.mechanics.motion import Motion, Pose
-    from linkanim.mechanics.register import Quantity
+    from linkanim.mechanics.facts.classify import Info
+    from linkanim.mechanics.facts.register import Quantity
+    from linkanim.mechanics.linkage.linkage import Linkage
+    from linkanim.mechanics.motion.mechanism import Mechanism
+    from linkanim.mechanics.motion.motion import Motion, Pose
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Scene:
     @cached_property
     def mechanism(self) -> Mechanism:
         """The linkage put together; AssemblyError where it cannot be."""
-        from linkanim.mechanics.mechanism import mechanism, passing
+        from linkanim.mechanics.motion.mechanism import mechanism, passing
 
         free = self.towards is not None and not self.towards.mechanism.hindered
         return passing(self.linkage) if free else mechanism(self.linkage)
@@ -55,7 +55,7 @@ class Scene:
     @cached_property
     def info(self) -> Info:
         """The linkage's class, input range, toggles, change points and what else is told of it."""
-        from linkanim.mechanics.classify import classify
+        from linkanim.mechanics.facts.classify import classify
 
         if self.towards is not None:
             return self.towards.info
@@ -64,7 +64,7 @@ class Scene:
     @cached_property
     def quantities(self) -> Mapping[str, Quantity]:
         """All quantities by their tokens, bodies called by what they do."""
-        from linkanim.mechanics.register import register
+        from linkanim.mechanics.facts.register import register
 
         return register(self.linkage, self.info.link_names)
 
@@ -104,7 +104,7 @@ class Scene:
         if (angle is None) == (phase is None):
             raise BadInput("give either angle= or phase=, in radians")
         if angle is not None and self.linkage.slides:
-            from linkanim.mechanics.stroke import NO_ANGLE
+            from linkanim.mechanics.drive.stroke import NO_ANGLE
 
             raise BadInput(f"{self.name}: {NO_ANGLE}")
         _check_derivatives(derivatives)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import hypot
 
-from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import Rigid
-from linkanim.mechanics.linkage import Linkage
-from linkanim.scenes.check import Table
-from linkanim.scenes.shorthand import SHORTHANDS
+from linkanim.mechanics.closing.kinds import Rigid
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.scenes.reading.check import Table
+from linkanim.scenes.reading.shorthand import SHORTHANDS
 
 MOST_APART = 1e9
 """How many times as long as its shortest bar anything in a scene may be."""

@@ -10,7 +10,7 @@ import pytest
 
 import linkanim
 from linkanim.cli import main
-from linkanim.cli.commands import parse
+from linkanim.cli.command_table import parse
 
 # What is on, or has a value, in a command line that says only what it must.
 UNSAID: list[tuple[list[str], dict[str, Any]]] = [

@@ -12,7 +12,7 @@ import pytest
 import linkanim
 from linkanim.cli import main
 from linkanim.scenes import chapter_of, chapters
-from linkanim.scenes.write import save
+from linkanim.scenes.editing.write import save
 
 KEYS = {
     "class",
@@ -127,7 +127,7 @@ def test_scenes_stand_under_their_chapters(capsys: pytest.CaptureFixture[str]) -
 def test_listing_all_scenes_solves_none(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.delattr("linkanim.cli.scenes.load")
+    monkeypatch.delattr("linkanim.cli.commands.scenes.load")
     assert len(listed(capsys)) == len(linkanim.names()) + len(chapters())
 
 

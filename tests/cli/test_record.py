@@ -15,13 +15,13 @@ from tqdm import tqdm
 
 import linkanim
 from linkanim.cli import main
-from linkanim.cli.commands import parse
-from linkanim.cli.record import advance, bar, look_of
+from linkanim.cli.command_table import parse
+from linkanim.cli.commands.record import advance, bar, look_of
 from linkanim.errors import BadInput
-from linkanim.player import tape_file
-from linkanim.player.action import Action
-from linkanim.player.state import begin
-from linkanim.player.tape import Tape
+from linkanim.player.state.action import Action
+from linkanim.player.state.state import begin
+from linkanim.player.tape import tape_file
+from linkanim.player.tape.tape import Tape
 
 SMALL = ["--size", "96x54", "--fps", "10"]
 
@@ -214,8 +214,8 @@ def test_a_gallery_is_a_gif_for_each_scene_and_a_sheet(
     def not_installed() -> None:
         raise BadInput("bench compares with others, which are not installed")
 
-    monkeypatch.setattr("linkanim.cli.gallery.names", lambda: ("parallelogram",))
-    monkeypatch.setattr("linkanim.cli.gallery.require_extra", not_installed)
+    monkeypatch.setattr("linkanim.cli.commands.gallery.names", lambda: ("parallelogram",))
+    monkeypatch.setattr("linkanim.cli.commands.gallery.require_extra", not_installed)
     assert main(["gallery", "--into", "shown"]) == 0
     printed = capsys.readouterr()
     assert printed.out.splitlines() == ["shown/parallelogram.gif", "shown/contact-sheet.png"]
@@ -231,9 +231,9 @@ def test_a_gallery_has_the_chart_of_speed_and_error_where_it_can_be_measured(
         path.touch()
         return path
 
-    monkeypatch.setattr("linkanim.cli.gallery.names", lambda: ("parallelogram",))
-    monkeypatch.setattr("linkanim.cli.gallery.require_extra", lambda: None)
-    monkeypatch.setattr("linkanim.cli.gallery._charted", charted)
+    monkeypatch.setattr("linkanim.cli.commands.gallery.names", lambda: ("parallelogram",))
+    monkeypatch.setattr("linkanim.cli.commands.gallery.require_extra", lambda: None)
+    monkeypatch.setattr("linkanim.cli.commands.gallery._charted", charted)
     assert main(["gallery", "--into", "shown"]) == 0
     printed = capsys.readouterr()
     assert printed.out.splitlines()[-1] == "shown/speed-vs-error.png"
@@ -245,8 +245,8 @@ def test_a_gallery_leaves_a_foreign_picture_under_the_chart_s_name(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     Path("speed-vs-error.png").write_bytes(b"mine")
-    monkeypatch.setattr("linkanim.cli.gallery.require_extra", lambda: None)
-    monkeypatch.setattr("linkanim.cli.gallery.make_gallery", pytest.fail)
+    monkeypatch.setattr("linkanim.cli.commands.gallery.require_extra", lambda: None)
+    monkeypatch.setattr("linkanim.cli.commands.gallery.make_gallery", pytest.fail)
     assert main(["gallery", "--into", "."]) == 2
     assert "speed-vs-error.png is not known to be linkanim's" in capsys.readouterr().err
 

@@ -8,12 +8,12 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen, pixel_bytes
 from linkanim.picture.painter import Painter
-from linkanim.picture.raster import Layer, paint
-from linkanim.picture.shapes import rounded
+from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
+from linkanim.picture.raster.raster import Layer, paint
+from linkanim.picture.raster.shapes import rounded
 from linkanim.scenes.scene import Scene
 
 Pixels = NDArray[np.float64]

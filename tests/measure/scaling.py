@@ -17,10 +17,10 @@ from linkanim.bench.entries import ONE_BY_ONE, Timed
 from linkanim.bench.machine import Machine, this_machine
 from linkanim.bench.report import columns
 from linkanim.bench.timing import nanoseconds
-from linkanim.mechanics.kinds import RPP, RRP, RRR, Crank, Pin
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.mechanics.rail import Line
+from linkanim.mechanics.closing.kinds import RPP, RRP, RRR, Crank, Pin
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.rail import Line
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.whole import checked_target, replacing
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000)

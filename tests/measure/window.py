@@ -18,12 +18,12 @@ from linkanim.bench.machine import Machine, this_machine
 from linkanim.bench.report import columns
 from linkanim.errors import WorkFailed
 from linkanim.picture.look import Look
-from linkanim.player import display
-from linkanim.player.advance import advance
-from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.easel import Easel
-from linkanim.player.show import overlay
-from linkanim.player.state import begin
+from linkanim.player.state.advance import advance
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.state import begin
+from linkanim.player.window import display
+from linkanim.player.window.easel import Easel
+from linkanim.player.window.show import overlay
 from linkanim.scenes import load
 
 SCENE = "press"

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from linkanim.mechanics.joint import Joint, Point
-from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Line, Pin, Polar, Rigid
-from linkanim.mechanics.linkage import Body, Drive, Linkage
+from linkanim.mechanics.closing.kinds import RPR, RRP, RRR, Crank, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage.joint import Joint, Point
+from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage
 
 BARS = (Body("crank", ("O2", "A")), Body("coupler", ("A", "B")), Body("rocker", ("O4", "B")))
 

@@ -12,9 +12,9 @@ from mpmath import mp, mpf
 from reference import on_line, unit
 
 from linkanim.bench.reference import crossing
-from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Line, Pin, Rigid
-from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.closing.kinds import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Line, Pin, Rigid
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.linkage import Linkage
 
 Places = dict[str, Any]
 

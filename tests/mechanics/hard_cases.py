@@ -21,9 +21,9 @@ from reference import derivatives, sign_of, unit
 
 from linkanim.bench.reference import crossing
 from linkanim.errors import BadInput
-from linkanim.mechanics.mechanism import Mechanism
-from linkanim.mechanics.path import Swing
-from linkanim.scenes.read import scene_from
+from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.motion.mechanism import Mechanism
+from linkanim.scenes.reading.read import scene_from
 
 Random = random.Random
 DIGITS = 110

@@ -19,10 +19,10 @@ from chain_reference import places
 from mpmath import mp, mpf
 from numpy.typing import NDArray
 
-from linkanim.mechanics.kinds import RRR, Crank, Gear, Pin, Rigid
-from linkanim.mechanics.linkage import Linkage
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.mechanics.path import Swing
+from linkanim.mechanics.closing.kinds import RRR, Crank, Gear, Pin, Rigid
+from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 
 Random = random.Random
 Array = NDArray[np.float64]

@@ -24,13 +24,13 @@ from mpmath import mp, mpf
 from reference import DIGITS, NUDGE, derivatives, sign_of
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.chain import Touch
-from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Gear, Line, Pin, Rigid
-from linkanim.mechanics.linkage import Cylinder, Drive, Linkage, Travel
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.mechanics.path import Swing, Turn
-from linkanim.mechanics.stroke import CylinderStroke
+from linkanim.mechanics.closing.chain import Touch
+from linkanim.mechanics.closing.kinds import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Gear, Line, Pin, Rigid
+from linkanim.mechanics.drive.path import Swing, Turn
+from linkanim.mechanics.drive.stroke import CylinderStroke
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.linkage import Cylinder, Drive, Linkage, Travel
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 
 Random = random.Random
 Make = Callable[[Random], Linkage]

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, on_line, sign_of, unit
 
 from linkanim.bench.reference import crossing
-from linkanim.mechanics.chain import Touch
-from linkanim.mechanics.kinds import Crank, Gear, Pin
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.path import Swing
+from linkanim.mechanics.closing.chain import Touch
+from linkanim.mechanics.closing.kinds import Crank, Gear, Pin
+from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes import load
 
 EPS = 2.0**-52

@@ -12,9 +12,9 @@ import pytest
 from build import four_bar, rocker_driven, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.mechanics.mechanism import Mechanism, mechanism
+from linkanim.mechanics.closing.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 
 Lengths = tuple[float, float, float, float]
 Point = tuple[float, float]

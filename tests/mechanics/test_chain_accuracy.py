@@ -15,11 +15,11 @@ from mpmath import mp, mpf
 from reference import DIGITS, NUDGE, Points, Pose, derivatives, sign_of, unit
 
 from linkanim.bench.reference import crossing
-from linkanim.mechanics.chain import Touch
-from linkanim.mechanics.kinds import RRR, Crank, Gear, Pin
-from linkanim.mechanics.linkage import Body, Drive, Linkage
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.mechanics.path import Swing
+from linkanim.mechanics.closing.chain import Touch
+from linkanim.mechanics.closing.kinds import RRR, Crank, Gear, Pin
+from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 
 EPS = 2.0**-52
 Lengths = tuple[float, float, float, float]

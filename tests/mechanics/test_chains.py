@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from build import four_bar, six_bar
 
-from linkanim.mechanics.chain import Touch
-from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.mechanics.path import Swing
+from linkanim.mechanics.closing.chain import Touch
+from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Line, Pin
+from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.scenes import load
-from linkanim.scenes.edit import with_dimensions
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.editing.edit import with_dimensions
+from linkanim.scenes.reading.read import scene_from
 
 Lengths = tuple[float, float, float, float]
 Key = tuple[str | int, ...]

@@ -11,13 +11,13 @@ import pytest
 from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.classify import classify
-from linkanim.mechanics.kinds import RPR, RRR, Crank, Gear, Pin, Polar, Rigid
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.closing.kinds import RPR, RRR, Crank, Gear, Pin, Polar, Rigid
+from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.scenes import load
-from linkanim.scenes.read import scene_from
-from linkanim.scenes.toml import parse
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.read import scene_from
 
 # Ground, crank, coupler, rocker -> class, whether the crank turns, circuits.
 CLASSES = [

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from build import four_bar, slider_crank, slotted
 
-from linkanim.mechanics.classify import classify
-from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.motion.mechanism import mechanism
 
 TURN = np.linspace(-7.0, 7.0, 201)
 

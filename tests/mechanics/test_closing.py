@@ -11,10 +11,10 @@ from near_misses import BESIDE, is_right, near_miss, rows
 from whole_rows import whole_rows
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.mechanics.path import Swing
+from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Line, Pin
+from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 
 
 def knee(second: float, start_deg: float) -> Linkage:

@@ -15,13 +15,13 @@ from mpmath import mp, mpf
 from reference import DIGITS, derivatives
 
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import RRP, RRR, Crank, Gear, Line, Pin, Rigid
-from linkanim.mechanics.linkage import Body, Cylinder, Drive, Linkage
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.scenes.read import scene_from
-from linkanim.scenes.toml import parse
-from linkanim.scenes.write import text
+from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Gear, Line, Pin, Rigid
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.linkage import Body, Cylinder, Drive, Linkage
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.editing.write import text
+from linkanim.scenes.reading.read import scene_from
 
 PHASES = np.array([0.0, 0.4, 1.9, math.pi, 4.0, 5.5])
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.derived import dyads_of
-from linkanim.mechanics.linkage import Damper, Linkage, Spring
-from linkanim.mechanics.mechanism import mechanism
-from linkanim.mechanics.register import register
-from linkanim.mechanics.telling import telling
+from linkanim.mechanics.facts.register import register
+from linkanim.mechanics.facts.telling import telling
+from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
+from linkanim.mechanics.motion.derived import dyads_of
+from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 

@@ -13,17 +13,17 @@ from mpmath import mp, mpf
 from reference import DIGITS, NUDGE, derivatives
 
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.mechanics.effort import input_effort
-from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import RPR, RRP, RRR, DrivenSlider, Line, Pin, Rigid
-from linkanim.mechanics.linkage import Body, Drive, Linkage, Travel
-from linkanim.mechanics.mechanism import mechanism
-from linkanim.mechanics.register import register
+from linkanim.mechanics.closing.kinds import RPR, RRP, RRR, DrivenSlider, Line, Pin, Rigid
+from linkanim.mechanics.facts.effort import input_effort
+from linkanim.mechanics.facts.register import register
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage, Travel
+from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.scenes import load
-from linkanim.scenes.edit import dimensions, with_dimensions
-from linkanim.scenes.read import scene_from
-from linkanim.scenes.toml import parse
-from linkanim.scenes.write import text
+from linkanim.scenes.editing.edit import dimensions, with_dimensions
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.editing.write import text
+from linkanim.scenes.reading.read import scene_from
 
 EPS = 2.0**-52
 PHASES = np.array([0.0, 0.3, 1.9, math.pi, 4.0, 5.9])

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from bits import rows
 
-from linkanim.mechanics.measures import FAMILIES
-from linkanim.mechanics.request import CRANK
+from linkanim.mechanics.motion.measures import FAMILIES
+from linkanim.mechanics.motion.request import CRANK
 from linkanim.scenes import load
 
 KINDS = tuple(kind for family in FAMILIES for kind in family)

@@ -21,10 +21,10 @@ from random_joints import (
 from whole_rows import whole_rows
 
 from linkanim.cli import main
-from linkanim.mechanics.mechanism import Mechanism, mechanism
-from linkanim.mechanics.stroke import CylinderStroke, SliderStroke
+from linkanim.mechanics.drive.stroke import CylinderStroke, SliderStroke
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.scenes import load, names
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 DOUBLE_ROCKER = {"ground": 100, "crank": 80, "coupler": 40, "rocker": 90}

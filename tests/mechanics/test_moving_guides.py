@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from build import four_bar, with_joints
 
-from linkanim.mechanics.derived import transmission_angle
-from linkanim.mechanics.kinds import RPR, RRP, Crank, Gear, Line, Pin, Rigid
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.closing.kinds import RPR, RRP, Crank, Gear, Line, Pin, Rigid
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.motion.derived import transmission_angle
+from linkanim.mechanics.motion.mechanism import mechanism
 
 DRIVE = Drive("A", 1.0)
 

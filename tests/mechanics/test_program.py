@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from scaling import chain
 
-from linkanim.mechanics.expression import Expr, Graph, Value, maximum, minimum, rint, select, sqrt
-from linkanim.mechanics.mechanism import mechanism
-from linkanim.mechanics.program import BLOCK, CACHE_LINE, aligned_rows, batch, needed, scalar
-from linkanim.mechanics.request import Variant
+from linkanim.mechanics.formulas.expression import Expr, Graph, Value, maximum, minimum, rint, select, sqrt
+from linkanim.mechanics.formulas.program import BLOCK, CACHE_LINE, aligned_rows, batch, needed, scalar
+from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.motion.request import Variant
 
 
 def formulas(x: Value, w: Value) -> list[Value]:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from build import BARS, four_bar, slider_crank
 
-from linkanim.mechanics.kinds import RRR, Crank, Pin
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.closing.kinds import RRR, Crank, Pin
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.scenes import load
 
 # Term report on a punch press (Matlab, checked with RecurDyn), tables 3.1 and 3.2: crank at 87 degrees

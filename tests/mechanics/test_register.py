@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.linkage import Body, Drive, Linkage
-from linkanim.mechanics.register import look_up, register
-from linkanim.mechanics.symbols import link_labels
+from linkanim.mechanics.facts.register import look_up, register
+from linkanim.mechanics.facts.symbols import link_labels
+from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage
 from linkanim.scenes import load, names
 
 # token, symbol, words, unit

@@ -11,13 +11,13 @@ import pytest
 from build import four_bar, rocker_driven, six_bar, slider_crank, slotted, with_joints
 from numpy.typing import NDArray
 
-from linkanim.mechanics.derived import transmission_angle
-from linkanim.mechanics.joint import Joint
-from linkanim.mechanics.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin
-from linkanim.mechanics.linkage import Linkage
-from linkanim.mechanics.mechanism import mechanism
-from linkanim.mechanics.motion import Motion
-from linkanim.mechanics.transmission import transmission
+from linkanim.mechanics.closing.kinds import RPR, RRP, RRR, Crank, Gear, Line, Pin
+from linkanim.mechanics.facts.transmission import transmission
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.motion.derived import transmission_angle
+from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.motion.motion import Motion
 
 Array = NDArray[np.float64]
 EXACT = 1e-9

@@ -11,10 +11,10 @@ from build import slider_crank, with_joints
 from chain_reference import places
 from mpmath import mp, mpf
 
-from linkanim.mechanics.kinds import RRR, Pin
-from linkanim.mechanics.linkage import Linkage
-from linkanim.mechanics.mechanism import mechanism
-from linkanim.mechanics.path import Swing
+from linkanim.mechanics.closing.kinds import RRR, Pin
+from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.motion.mechanism import mechanism
 
 SMALL = mpf(10) ** -10
 RIGHT = 1e-9

@@ -11,10 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from linkanim.mechanics.classify import classify
-from linkanim.mechanics.kinds import RPP, RRP, Crank, Line, Pin
-from linkanim.mechanics.linkage import Body, Drive, Linkage
-from linkanim.mechanics.mechanism import mechanism
+from linkanim.mechanics.closing.kinds import RPP, RRP, Crank, Line, Pin
+from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage
+from linkanim.mechanics.motion.mechanism import mechanism
 
 EPS = 2.0**-52
 ANGLES = np.concatenate([np.linspace(-7.0, 7.0, 141), np.arange(5) * (math.pi / 2), [1e6, -1e9]])

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.register import register
+from linkanim.mechanics.facts.register import register
 from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of, extremes, table
-from linkanim.picture.course import Over
+from linkanim.picture.diagrams.course import Over
 from linkanim.scenes import load
 
 FIVE, TEN = Pace(5.0, "5 rad/s"), Pace(-10.0, "-10 rad/s")

@@ -14,11 +14,11 @@ from fidelity import psnr
 
 from linkanim.paper.figure import Figured
 from linkanim.picture.canvas import Canvas
+from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
-from linkanim.picture.quantities import quantity
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.raster.offscreen import offscreen
 from linkanim.scenes import load
 
 SIZE = (800, 450)

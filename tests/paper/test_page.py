@@ -15,11 +15,11 @@ from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Pace, curves_of
 from linkanim.paper.measured import beside
 from linkanim.paper.svg import svg
+from linkanim.picture.diagrams.quantities import telling
 from linkanim.picture.items import Caption, Group, Halo, draw
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.quantities import telling
-from linkanim.picture.raster import Layer
-from linkanim.picture.text import typesetting
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster.raster import Layer
+from linkanim.picture.text.text import typesetting
 from linkanim.scenes import load, names
 
 SIZE = (800, 450)

@@ -15,7 +15,7 @@ import pytest
 
 from linkanim.cli import main
 from linkanim.digits import significant, typeset
-from linkanim.mechanics.register import register
+from linkanim.mechanics.facts.register import register
 from linkanim.paper.curves import Pace
 from linkanim.paper.findings import Instant, charted, instants_at, paces_of, sheet, usual_instants
 from linkanim.scenes import load, names

@@ -11,21 +11,21 @@ import pygame
 import pytest
 from pictures import pixels
 
-from linkanim.picture.arrange import arranged
+from linkanim.picture.arrangement.arrange import arranged
+from linkanim.picture.arrangement.staging import Staged, staged
+from linkanim.picture.arrangement.sweep import Sweep
+from linkanim.picture.diagrams.quantities import quantities
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.overlay import EditRow, Overlay, Panel
 from linkanim.picture.painter import Painter
-from linkanim.picture.quantities import quantities
-from linkanim.picture.staging import Staged, staged
-from linkanim.picture.sweep import Sweep
-from linkanim.picture.text import Type
+from linkanim.picture.panels.overlay import EditRow, Overlay, Panel
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
-from linkanim.scenes.closure import ghost_of
 from linkanim.scenes.own_title import unsaid
+from linkanim.scenes.reading.closure import ghost_of
 
 FORMATS = ((1280, 720), (1024, 768), (720, 1280), (320, 180))
 BACKGROUND = theme_of("light").background

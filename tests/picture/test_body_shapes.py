@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 
 from linkanim.errors import SceneError
-from linkanim.picture.bodies import body_parts, colours_of
-from linkanim.picture.body_shapes import SHAPES, wheel_radius
+from linkanim.picture.arrangement.sweep import sweep_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import Gauge
-from linkanim.picture.sweep import sweep_of
+from linkanim.picture.parts.bodies import body_parts, colours_of
+from linkanim.picture.parts.body_shapes import SHAPES, wheel_radius
 from linkanim.picture.theme import DARK, LIGHT
 from linkanim.picture.view import View
 from linkanim.scenes import load
-from linkanim.scenes.joints import LOOKS
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.reading.joints import LOOKS
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 GAUGE = Gauge(8.0, 1.0, 1.0, 3.0)

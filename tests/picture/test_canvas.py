@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 from pictures import BARE, SMALL, pixels
 
+from linkanim.picture.arrangement.staging import staged, wanted_of
 from linkanim.picture.canvas import Canvas
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
-from linkanim.picture.staging import staged, wanted_of
-from linkanim.picture.text import Type
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load
-from linkanim.scenes.closure import ghost_of
-from linkanim.scenes.edit import passing
+from linkanim.scenes.editing.edit import passing
+from linkanim.scenes.reading.closure import ghost_of
 from linkanim.scenes.scene import Scene
 
 HAUNTED = replace(BARE, ghost=True)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkanim.picture.centres import Centres, clipped
+from linkanim.picture.arrangement.staging import staged, wanted_of
+from linkanim.picture.diagrams.centres import Centres, clipped
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.picture.staging import staged, wanted_of
-from linkanim.picture.text import Type
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names

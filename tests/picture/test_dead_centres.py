@@ -8,11 +8,11 @@ from math import radians
 import numpy as np
 import pytest
 
-from linkanim.picture.dead_centres import DeadCentres
+from linkanim.picture.arrangement.staging import staged, wanted_of
 from linkanim.picture.drawing import Drawing
+from linkanim.picture.labels.dead_centres import DeadCentres
 from linkanim.picture.look import Look
-from linkanim.picture.staging import staged, wanted_of
-from linkanim.picture.text import Type
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
 

@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from linkanim.mechanics.kinds import RPP, RPR, RRP, Crank, Line, Pin
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.picture.bodies import body_parts, colours_of
+from linkanim.mechanics.closing.kinds import RPP, RPR, RRP, Crank, Line, Pin
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.picture.arrangement.sweep import sweep_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge
-from linkanim.picture.raster import Loop
-from linkanim.picture.sweep import sweep_of
+from linkanim.picture.parts.bodies import body_parts, colours_of
+from linkanim.picture.raster.raster import Loop
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import View
 from linkanim.scenes import load

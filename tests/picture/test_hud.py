@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 from pictures import inked, place_of
 
-from linkanim.mechanics.effort import input_effort
-from linkanim.picture.hud import Hud
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.readings import Reading, note, rows
-from linkanim.picture.staging import Staged, staged
-from linkanim.picture.text import Type
+from linkanim.mechanics.facts.effort import input_effort
+from linkanim.picture.arrangement.staging import Staged, staged
+from linkanim.picture.panels.hud import Hud
+from linkanim.picture.panels.readings import Reading, note, rows
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 

@@ -10,16 +10,16 @@ import pytest
 from pictures import inked
 
 from linkanim.bench.cases import four_bar
+from linkanim.picture.arrangement.staging import Staged, staged
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
-from linkanim.picture.legend import Legend, legend_for
 from linkanim.picture.look import ACCELERATION, VELOCITY
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.raster import Layer
-from linkanim.picture.staging import Staged, staged
-from linkanim.picture.text import Type
+from linkanim.picture.panels.legend import Legend, legend_for
+from linkanim.picture.parts.vectors import arrows_of
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster.raster import Layer
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
-from linkanim.picture.vectors import arrows_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
 

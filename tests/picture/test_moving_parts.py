@@ -12,25 +12,25 @@ import numpy as np
 import pytest
 from pictures import contrast, pixels
 
-from linkanim.mechanics.kinds import Crank, Gear, Pin
-from linkanim.mechanics.linkage import Damper, Drive, Linkage
+from linkanim.mechanics.closing.kinds import Crank, Gear, Pin
+from linkanim.mechanics.linkage.linkage import Damper, Drive, Linkage
+from linkanim.picture.arrangement.sweep import sweep_of
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.fittings import Bench, fittings
-from linkanim.picture.gears import wheel_layers, wheel_parts
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
-from linkanim.picture.raster import Layer, Loop
-from linkanim.picture.struts import Coil, Cushion, coils, cushions
-from linkanim.picture.sweep import sweep_of
+from linkanim.picture.parts.fittings import Bench, fittings
+from linkanim.picture.parts.gears import wheel_layers, wheel_parts
+from linkanim.picture.parts.struts import Coil, Cushion, coils, cushions
+from linkanim.picture.parts.trace import Trace, traces
+from linkanim.picture.parts.vectors import LONGEST, arrow_layers, arrows_of
+from linkanim.picture.parts.wheels import WheelPair, pairs, wheels
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster.raster import Layer, Loop
 from linkanim.picture.theme import DARK, LIGHT, Theme
-from linkanim.picture.trace import Trace, traces
-from linkanim.picture.vectors import LONGEST, arrow_layers, arrows_of
 from linkanim.picture.view import View
-from linkanim.picture.wheels import WheelPair, pairs, wheels
 from linkanim.scenes import load
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 VIEW = View(1.0, 0.0, 0.0)

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 from pictures import BARE, labelled, painted, pixels, standing
 
-from linkanim.picture.dimensions import leg_part, numbered, symbols, written
 from linkanim.picture.figure import figure
+from linkanim.picture.labels.dimensions import leg_part, numbered, symbols, written
 from linkanim.picture.layout import Gauge
-from linkanim.picture.lettering import Lettering
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
-from linkanim.picture.text import Type
-from linkanim.picture.turning import Sliding, Turning
+from linkanim.picture.parts.turning import Sliding, Turning
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.text.lettering import Lettering
+from linkanim.picture.text.text import Type
 from linkanim.picture.view import Rect, View
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
@@ -260,7 +260,7 @@ def test_zooming_panning_and_gliding_place_no_name_anew_and_a_theme_does(
     first = Painter(scene, size, look)
     dark = Painter(scene, size, replace(look, theme="dark"), before=first)
     assert dark.names is not first.names
-    monkeypatch.setattr("linkanim.picture.names.place", lambda *_: pytest.fail("placed again"))
+    monkeypatch.setattr("linkanim.picture.labels.names.place", lambda *_: pytest.fail("placed again"))
     near = Painter(scene, size, replace(look, zoom=2.0, pan=(0.1, 0.2)), before=first)
     assert near.names is first.names
     on_its_way = Painter(replace(scene, towards=scene), size, look, before=near)

@@ -16,16 +16,17 @@ from fidelity import frame_decibels
 from pictures import BARE, SMALL, alphas, painted, pixels
 
 from linkanim.errors import BadInput
-from linkanim.picture import drawing, staging
+from linkanim.picture import drawing
 from linkanim.picture import painter as painting
-from linkanim.picture.bodies import colours_of
+from linkanim.picture.arrangement import staging
 from linkanim.picture.figure import figure
-from linkanim.picture.fonts import Fonts
 from linkanim.picture.look import Look, ThemeName
-from linkanim.picture.offscreen import offscreen, pixel_bytes
-from linkanim.picture.overlay import EditRow, Overlay, Panel, Quantities
 from linkanim.picture.painter import Painter
-from linkanim.picture.shapes import hull
+from linkanim.picture.panels.overlay import EditRow, Overlay, Panel, Quantities
+from linkanim.picture.parts.bodies import colours_of
+from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
+from linkanim.picture.raster.shapes import hull
+from linkanim.picture.text.fonts import Fonts
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
@@ -405,7 +406,9 @@ def test_a_painter_for_a_pose_or_two_prepares_nothing_for_more(monkeypatch: pyte
 
 
 def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("linkanim.picture.staging.said_of", lambda *_: pytest.fail("no HUD is shown"))
+    monkeypatch.setattr(
+        "linkanim.picture.arrangement.staging.said_of", lambda *_: pytest.fail("no HUD is shown")
+    )
     Painter(load("press"), (640, 360), Look(), listed=True)
 
 

@@ -11,14 +11,14 @@ import pygame
 import pytest
 from pictures import inked, pixels
 
-from linkanim.picture.board import Board
-from linkanim.picture.edit_list import edit_list
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.overlay import EditRow, Fading, Overlay, Panel
 from linkanim.picture.painter import Painter
-from linkanim.picture.text import Type
+from linkanim.picture.panels.board import Board
+from linkanim.picture.panels.edit_list import edit_list
+from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load

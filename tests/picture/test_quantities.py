@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.picture.quantities import quantities, series
+from linkanim.picture.diagrams.quantities import quantities, series
 from linkanim.scenes import load, names
 
 

@@ -10,10 +10,10 @@ import pytest
 from fidelity import Pixels, averaged, centre, jitter, psnr
 from pictures import alphas, coverage, filled, pixels
 
-from linkanim.picture.blend import mix
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.raster import Layer, Loop, paint, paints, pixels_of, stencil
-from linkanim.picture.shapes import box, disc, rounded
+from linkanim.picture.raster.blend import mix
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster.raster import Layer, Loop, paint, paints, pixels_of, stencil
+from linkanim.picture.raster.shapes import box, disc, rounded
 
 WHITE = (255, 255, 255)
 

@@ -8,12 +8,12 @@ import pygame
 import pytest
 from pictures import pixels
 
-from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
-from linkanim.picture.overlay import Shelf
 from linkanim.picture.painter import Painter
+from linkanim.picture.panels.board import Board
+from linkanim.picture.panels.overlay import Shelf
 from linkanim.picture.shelf import ShelfPainter, grid, titled
-from linkanim.picture.text import Type
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 

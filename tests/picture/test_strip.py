@@ -14,17 +14,17 @@ import pytest
 from fidelity import Pixels
 from pictures import pixels
 
-from linkanim.mechanics.motion import Pose
-from linkanim.mechanics.symbols import input_symbol
-from linkanim.picture.chart import pen_for
+from linkanim.mechanics.facts.symbols import input_symbol
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.diagrams.chart import pen_for
+from linkanim.picture.diagrams.strip import Strip, strip
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
-from linkanim.picture.strip import Strip, strip
-from linkanim.picture.text import Type
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
@@ -174,7 +174,7 @@ def test_another_speed_costs_no_solving(name: str, monkeypatch: pytest.MonkeyPat
     chart = _strip(name, f"{load(name).linkage.drive.joint}.acceleration")
     before = chart.curves[1]
     monkeypatch.setattr(
-        "linkanim.mechanics.mechanism.Mechanism.solve", lambda *_, **__: pytest.fail("solved")
+        "linkanim.mechanics.motion.mechanism.Mechanism.solve", lambda *_, **__: pytest.fail("solved")
     )
     after = chart.at(-2 * chart.speed).curves[1]
     assert np.nanmax(after) == pytest.approx(4 * np.nanmax(before), rel=1e-9)

@@ -11,10 +11,10 @@ import pytest
 from fidelity import Pixels
 from pictures import pixels
 
-from linkanim.picture import fonts
-from linkanim.picture.offscreen import offscreen
-from linkanim.picture.staging import Staged, staged
-from linkanim.picture.text import Type, runs, subscripted, typesetting
+from linkanim.picture.arrangement.staging import Staged, staged
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.text import fonts
+from linkanim.picture.text.text import Type, runs, subscripted, typesetting
 from linkanim.scenes import load
 
 SIZE = 21

@@ -13,22 +13,23 @@ from fidelity import Pixels
 from pictures import BARE, painted, pixels
 from test_moving_parts import GAUGE, VIEW, geared, planetary
 
-from linkanim.mechanics.kinds import Crank, Gear, Pin
-from linkanim.mechanics.linkage import Drive, Linkage
-from linkanim.picture import raster, turned
+from linkanim.mechanics.closing.kinds import Crank, Gear, Pin
+from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.picture import turned
 from linkanim.picture.backdrop import Backdrop
-from linkanim.picture.blend import mix
-from linkanim.picture.directions import directions, folded
 from linkanim.picture.figure import figure
-from linkanim.picture.gears import turning_apart, wheel_parts
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
 from linkanim.picture.painter import Painter
-from linkanim.picture.parts import Part, placed
-from linkanim.picture.raster import Layer
+from linkanim.picture.parts.gears import turning_apart, wheel_parts
+from linkanim.picture.raster import raster
+from linkanim.picture.raster.blend import mix
+from linkanim.picture.raster.directions import directions, folded
+from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster.parts import Part, placed
+from linkanim.picture.raster.raster import Layer
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load
-from linkanim.scenes.closure import ghost_of
+from linkanim.scenes.reading.closure import ghost_of
 from linkanim.scenes.scene import Scene
 
 SIZE = (320, 180)

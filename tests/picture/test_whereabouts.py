@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from pictures import standing
 
-from linkanim.mechanics.motion import Pose
-from linkanim.picture.dimensions import numbered
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.labels.dimensions import numbered
+from linkanim.picture.labels.placing import Clutter, Obstacles, Solid, Wish, place
+from linkanim.picture.labels.whereabouts import Whereabouts
 from linkanim.picture.look import Look
 from linkanim.picture.painter import Painter
-from linkanim.picture.placing import Clutter, Obstacles, Solid, Wish, place
-from linkanim.picture.shapes import hull
-from linkanim.picture.turning import Turning
+from linkanim.picture.parts.turning import Turning
+from linkanim.picture.raster.shapes import hull
 from linkanim.picture.view import Rect
-from linkanim.picture.whereabouts import Whereabouts
 from linkanim.scenes import load
 
 COUNT = 72

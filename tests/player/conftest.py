@@ -9,8 +9,8 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.player import display
-from linkanim.player.state import begin
+from linkanim.player.state.state import begin
+from linkanim.player.window import display
 from linkanim.scenes import load
 
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import pygame
 
-from linkanim.player import display
-from linkanim.player.scene_file import SceneFile
-from linkanim.player.state import CHIP_FRAMES, State
-from linkanim.player.window import Window
+from linkanim.player.state.state import CHIP_FRAMES, State
+from linkanim.player.window import display
+from linkanim.player.window.scene_file import SceneFile
+from linkanim.player.window.window import Window
 
 SIZE = (320, 180)
 SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL

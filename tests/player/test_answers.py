@@ -10,16 +10,16 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.picture.overlay import Overlay
-from linkanim.player import display
-from linkanim.player.action import Action
-from linkanim.player.advance import advance
-from linkanim.player.fade import Fade
-from linkanim.player.show import kept, overlay
-from linkanim.player.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
-from linkanim.player.window import Window
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance
+from linkanim.player.state.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
+from linkanim.player.window import display
+from linkanim.player.window.fade import Fade
+from linkanim.player.window.show import kept, overlay
+from linkanim.player.window.window import Window
 from linkanim.scenes import load, names
-from linkanim.scenes.closure import closure_name
+from linkanim.scenes.reading.closure import closure_name
 
 
 def after(state: State, *asked: Action | str) -> State:

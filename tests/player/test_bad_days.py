@@ -13,12 +13,12 @@ import pygame
 import pytest
 from playing import SIZE, Player, fake_start
 
-from linkanim.player import display, rendering
-from linkanim.player.scene_file import SceneFile
-from linkanim.player.state import State, begin
-from linkanim.player.tape_file import read
+from linkanim.player.state.state import State, begin
+from linkanim.player.tape.tape_file import read
+from linkanim.player.window import display, rendering
+from linkanim.player.window.scene_file import SceneFile
 from linkanim.scenes import load
-from linkanim.scenes.write import save
+from linkanim.scenes.editing.write import save
 
 fault = pytest.mark.withstands("faults survived")
 
@@ -262,7 +262,7 @@ def test_a_changed_file_at_which_the_solver_fails_is_refused_with_a_report(
 
     good = opened.state.scene
     written(here, "crank = 50", "crank = 45")
-    monkeypatch.setattr("linkanim.player.window.renewed", failing)
+    monkeypatch.setattr("linkanim.player.window.window.renewed", failing)
     opened.press(pygame.K_F5)
     assert said(opened).startswith("recordings/my-fault-1.json holds what a report".replace("/", os.sep))
     assert opened.state.scene is good

@@ -9,14 +9,14 @@ import pygame
 import pytest
 from playing import SIZE, Player, fake_start
 
-from linkanim.picture.quantities import quantities, quantity, telling
+from linkanim.picture.diagrams.quantities import quantities, quantity, telling
 from linkanim.picture.shelf import Grid, grid
-from linkanim.player.action import Action
-from linkanim.player.advance import advance
-from linkanim.player.browsing import listed
-from linkanim.player.show import overlay
-from linkanim.player.state import State, begin
-from linkanim.player.tape_file import read
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance
+from linkanim.player.state.browsing import listed
+from linkanim.player.state.state import State, begin
+from linkanim.player.tape.tape_file import read
+from linkanim.player.window.show import overlay
 from linkanim.scenes import Scene, chapters, load, names
 
 
@@ -310,7 +310,7 @@ def test_the_shelf_is_alive_and_still_while_paused(player: Player) -> None:
 def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("linkanim.player.rendering._start", fake_start([]))
+    monkeypatch.setattr("linkanim.player.window.rendering._start", fake_start([]))
     player.type("g")
     player.type("k")
     player.type("rocker vel")

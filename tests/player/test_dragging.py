@@ -6,15 +6,15 @@ import pygame
 import pytest
 from playing import Player
 
-from linkanim.player.action import Action
-from linkanim.player.advance import advance
-from linkanim.player.state import State, begin
-from linkanim.player.tape import Tape, starting
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance
+from linkanim.player.state.state import State, begin
+from linkanim.player.tape.tape import Tape, starting
 from linkanim.scenes import load, names
-from linkanim.scenes.edit import dimensions
-from linkanim.scenes.handles import handles, span
-from linkanim.scenes.read import scene_from
-from linkanim.scenes.toml import parse
+from linkanim.scenes.editing.edit import dimensions
+from linkanim.scenes.editing.handles import handles, span
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.read import scene_from
 
 
 def after(state: State, *asked: Action | str) -> State:

@@ -7,15 +7,15 @@ from typing import Any
 
 import pytest
 
-from linkanim.player.action import Action
-from linkanim.player.advance import advance
-from linkanim.player.editing import chosen
-from linkanim.player.glide import EVERY, FRAMES, closes
-from linkanim.player.show import overlay
-from linkanim.player.state import FLASH_FRAMES, State, begin
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance
+from linkanim.player.state.editing import chosen
+from linkanim.player.state.state import FLASH_FRAMES, State, begin
+from linkanim.player.window.glide import EVERY, FRAMES, closes
+from linkanim.player.window.show import overlay
 from linkanim.scenes import load
-from linkanim.scenes.edit import dimensions, passing
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.editing.edit import dimensions, passing
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 
@@ -352,8 +352,8 @@ def test_nothing_is_classified_on_the_way(monkeypatch: pytest.MonkeyPatch) -> No
     def never(*_: object) -> None:
         raise AssertionError("classified on the way")
 
-    monkeypatch.setattr("linkanim.mechanics.mechanism.restricted", never)
-    monkeypatch.setattr("linkanim.mechanics.classify.classify", never)
+    monkeypatch.setattr("linkanim.mechanics.motion.mechanism.restricted", never)
+    monkeypatch.setattr("linkanim.mechanics.facts.classify.classify", never)
     seen = set()
     while state.glide:
         seen.add(state.shown.linkage)
@@ -374,7 +374,7 @@ def test_a_scene_on_the_way_is_worked_out_in_the_frame_before_it_is_drawn(
         worked.append(state.frame)
         return passing(*given)
 
-    monkeypatch.setattr("linkanim.player.glide.passing", noted)
+    monkeypatch.setattr("linkanim.player.window.glide.passing", noted)
     while state.glide:
         before, state = state.shown, advance(state)
         drawn += [state.frame] if state.shown is not before else []

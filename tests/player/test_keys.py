@@ -7,15 +7,12 @@ import sys
 
 import pytest
 
-from linkanim.picture.board import Board
-from linkanim.picture.help_sheet import help_sheet
 from linkanim.picture.layout import layout
-from linkanim.picture.text import Type
+from linkanim.picture.panels.board import Board
+from linkanim.picture.panels.help_sheet import help_sheet
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
-from linkanim.player.action import Action
-from linkanim.player.actions import is_known
-from linkanim.player.browsing import RESOLVED
-from linkanim.player.keys import (
+from linkanim.player.input.keys import (
     EDIT_KEYS,
     KEYS,
     LIST_KEYS,
@@ -30,6 +27,9 @@ from linkanim.player.keys import (
     help_groups,
     key_names,
 )
+from linkanim.player.state.action import Action
+from linkanim.player.state.actions import is_known
+from linkanim.player.state.browsing import RESOLVED
 
 TABLES = {"playing": KEYS, "editing": EDIT_KEYS, "listing": LIST_KEYS, "browsing": SHELF_KEYS}
 BINDS = [bind for table in TABLES.values() for row in table for bind in row.binds]
@@ -220,7 +220,7 @@ def test_key_names_are_pygame_constants() -> None:
 
 
 def test_the_table_is_read_without_pygame() -> None:
-    code = "import sys, linkanim.player.keys as k; k.as_text(); print('pygame' in sys.modules)"
+    code = "import sys, linkanim.player.input.keys as k; k.as_text(); print('pygame' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

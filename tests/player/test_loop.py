@@ -14,17 +14,17 @@ import pygame
 import pytest
 
 from linkanim.errors import BadInput, NoDisplay
-from linkanim.player import display
-from linkanim.player.action import Action
-from linkanim.player.advance import advance
-from linkanim.player.connection import Connection
-from linkanim.player.loop import frames, run
-from linkanim.player.state import begin
-from linkanim.player.tape import Tape, starting
-from linkanim.player.tape_file import write
-from linkanim.player.window import Window
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance
+from linkanim.player.state.state import begin
+from linkanim.player.tape.tape import Tape, starting
+from linkanim.player.tape.tape_file import write
+from linkanim.player.window import display
+from linkanim.player.window.connection import Connection
+from linkanim.player.window.loop import frames, run
+from linkanim.player.window.window import Window
 from linkanim.scenes import Scene, load
-from linkanim.scenes.write import save
+from linkanim.scenes.editing.write import save
 
 
 class Time:

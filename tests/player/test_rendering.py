@@ -12,9 +12,9 @@ import pytest
 from linkanim.cli import tapes
 from linkanim.cli.exits import TERMINATED
 from linkanim.errors import WorkFailed
-from linkanim.player import rendering
-from linkanim.player.state import begin
-from linkanim.player.tape import Tape
+from linkanim.player.state.state import begin
+from linkanim.player.tape.tape import Tape
+from linkanim.player.window import rendering
 from linkanim.scenes import load
 
 

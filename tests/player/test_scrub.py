@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from linkanim.player.scrub import phase_towards
+from linkanim.player.input.scrub import phase_towards
 from linkanim.scenes import load, names
-from linkanim.scenes.edit import with_dimensions
+from linkanim.scenes.editing.edit import with_dimensions
 
 
 @pytest.mark.parametrize("name", names())

@@ -15,11 +15,11 @@ import pytest
 from PIL import Image
 from playing import Player
 
-from linkanim.player import display
-from linkanim.player.action import Action
-from linkanim.player.advance import carried
-from linkanim.player.approach import APPROACH_FRAMES
-from linkanim.player.state import begin
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import carried
+from linkanim.player.state.state import begin
+from linkanim.player.window import display
+from linkanim.player.window.approach import APPROACH_FRAMES
 from linkanim.scenes import load
 
 FOLDER = Path(__file__).parents[2] / "recordings"

@@ -20,11 +20,11 @@ import pygame
 import pytest
 from playing import SIZE, Player, fake_start
 
-from linkanim.mechanics.mechanism import mechanism
-from linkanim.player import display, rendering
-from linkanim.player.action import Action
-from linkanim.player.advance import advance
-from linkanim.player.state import State, begin
+from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance
+from linkanim.player.state.state import State, begin
+from linkanim.player.window import display, rendering
 from linkanim.scenes import load, names
 
 SEED = 20261121

@@ -9,9 +9,9 @@ from dataclasses import replace
 import pytest
 
 from linkanim.picture.look import Look
-from linkanim.player.action import Action
-from linkanim.player.advance import ATTRACT_AFTER, advance
-from linkanim.player.state import State, begin
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import ATTRACT_AFTER, advance
+from linkanim.player.state.state import State, begin
 from linkanim.scenes import load, names
 
 

@@ -15,15 +15,15 @@ import pygame
 import pytest
 from playing import CTRL, SHIFT, SIZE, Player, fake_start
 
-from linkanim.player import display
-from linkanim.player.action import Action
-from linkanim.player.advance import carried
-from linkanim.player.clock import STEP
-from linkanim.player.glide import FRAMES
-from linkanim.player.state import TOAST_FRAMES, State, begin
-from linkanim.player.tape_file import read
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import carried
+from linkanim.player.state.clock import STEP
+from linkanim.player.state.state import TOAST_FRAMES, State, begin
+from linkanim.player.tape.tape_file import read
+from linkanim.player.window import display
+from linkanim.player.window.glide import FRAMES
 from linkanim.scenes import load, names
-from linkanim.scenes.edit import dimensions
+from linkanim.scenes.editing.edit import dimensions
 
 Key = tuple[int, int, str]
 
@@ -254,7 +254,7 @@ def test_a_key_is_carried_out_once(player: Player, monkeypatch: pytest.MonkeyPat
         asked.append(action)
         return carried(state, action)
 
-    monkeypatch.setattr("linkanim.player.window.carried", counted)
+    monkeypatch.setattr("linkanim.player.window.window.carried", counted)
     player.press(*plain("e"))
     player.press(*bare(pygame.K_RIGHT))
     assert asked == [Action("edit"), Action("nudge", 1)]
@@ -431,7 +431,7 @@ def test_a_recording_is_taped_and_rendered_beside(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr("linkanim.player.rendering._start", fake_start(started))
+    monkeypatch.setattr("linkanim.player.window.rendering._start", fake_start(started))
     player.press(*plain("g"))
     player.tick(10)
     player.press(*plain("t"))
@@ -452,7 +452,7 @@ def test_closing_the_window_finishes_a_recording(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr("linkanim.player.rendering._start", fake_start(started))
+    monkeypatch.setattr("linkanim.player.window.rendering._start", fake_start(started))
     player.press(*plain("m"))
     player.tick(10)
     assert not player.press(*plain("q"))

@@ -15,9 +15,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from linkanim.picture.look import Look
-from linkanim.player.action import Action
-from linkanim.player.state import begin
-from linkanim.player.tape import Tape
+from linkanim.player.state.action import Action
+from linkanim.player.state.state import begin
+from linkanim.player.tape.tape import Tape
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.scene_frames import SceneFrames, record
 from linkanim.recorder.tape_frames import TapeFrames

@@ -18,15 +18,15 @@ from linkanim.errors import BadInput, RecordingFailed
 from linkanim.manifest import single
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen, pixel_bytes
-from linkanim.picture.overlay import Overlay
 from linkanim.picture.painter import Painter
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.parts.wheels import teeth_a_second
+from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
 from linkanim.picture.theme import theme_of
-from linkanim.picture.wheels import teeth_a_second
-from linkanim.player import tape_file
-from linkanim.player.action import Action
-from linkanim.player.state import begin
-from linkanim.player.tape import Tape
+from linkanim.player.state.action import Action
+from linkanim.player.state.state import begin
+from linkanim.player.tape import tape_file
+from linkanim.player.tape.tape import Tape
 from linkanim.recorder import gallery, scene_frames
 from linkanim.recorder.gallery import make_gallery, reduced
 from linkanim.recorder.plan import Clip, make_plan

@@ -14,14 +14,14 @@ from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError, WorkFailed
 from linkanim.intake import control_in
-from linkanim.mechanics.kinds import Crank
+from linkanim.mechanics.closing.kinds import Crank
 from linkanim.scenes import load, names
-from linkanim.scenes.edit import dimensions, with_dimensions
-from linkanim.scenes.joints import Key
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.editing.edit import dimensions, with_dimensions
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.editing.write import save, text
+from linkanim.scenes.reading.joints import Key
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.scenes.toml import parse
-from linkanim.scenes.write import save, text
 
 COUPLER: Key = ("four-bar", "coupler")
 

@@ -11,13 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.mechanics.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
-from linkanim.mechanics.linkage import Body, Damper, Drive, Spring
+from linkanim.mechanics.closing.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage.linkage import Body, Damper, Drive, Spring
 from linkanim.scenes import load
-from linkanim.scenes.closure import closure_name
-from linkanim.scenes.edit import dimensions, with_dimensions
-from linkanim.scenes.handles import handles, span
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.editing.edit import dimensions, with_dimensions
+from linkanim.scenes.editing.handles import handles, span
+from linkanim.scenes.reading.closure import closure_name
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 PINS = "[ground]\nO2 = [0, 0]\nO4 = [100, 0]\n"

@@ -13,12 +13,12 @@ from test_refusals import FOUR_BAR, GEARED, LONG, REFUSED
 
 from linkanim.errors import BadInput
 from linkanim.scenes import load, names
-from linkanim.scenes.lines import lines_of
-from linkanim.scenes.problems import Problem, problems
-from linkanim.scenes.read import scene_from
-from linkanim.scenes.schema import JOINTS, SCHEMA
-from linkanim.scenes.shorthand import SHORTHANDS
-from linkanim.scenes.toml import parse
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.lines import lines_of
+from linkanim.scenes.reading.problems import Problem, problems
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading.schema import JOINTS, SCHEMA
+from linkanim.scenes.reading.shorthand import SHORTHANDS
 
 MANY = """\
 title = "x"

@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 import linkanim.scenes
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.scenes import load
-from linkanim.scenes.read import scene_from
-from linkanim.scenes.toml import parse
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.read import scene_from
 
 FOUR_BAR = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
 CATALOGUE = Path(linkanim.scenes.__file__).with_name("catalogue")

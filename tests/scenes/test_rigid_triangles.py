@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.mechanics.frames import holding
+from linkanim.mechanics.linkage.frames import holding
 from linkanim.picture.figure import figure
 from linkanim.scenes import load
-from linkanim.scenes.edit import dimensions, with_dimensions
-from linkanim.scenes.handles import handles
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.editing.edit import dimensions, with_dimensions
+from linkanim.scenes.editing.handles import handles
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 FOUR_BAR: dict[str, Any] = {
@@ -139,7 +139,7 @@ def test_each_bar_of_a_triangle_keeps_its_own_angle() -> None:
 
 
 def test_the_telling_quantities_name_a_body_once() -> None:
-    from linkanim.picture.quantities import telling
+    from linkanim.picture.diagrams.quantities import telling
 
     rates = [token for token in telling(load("jansen")) if token.endswith("angular_velocity")]
     assert not {"d.angular_velocity", "e.angular_velocity"} & set(rates) or "b.angular_velocity" not in rates

@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from linkanim.cli import main
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.derived import transmission_angle
-from linkanim.mechanics.naming import GRASHOF, TRIPLE_ROCKERS
+from linkanim.mechanics.facts.naming import GRASHOF, TRIPLE_ROCKERS
+from linkanim.mechanics.motion.derived import transmission_angle
+from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.figure import figure
-from linkanim.picture.quantities import quantity
-from linkanim.player.editing import loss_of_turning
+from linkanim.player.state.editing import loss_of_turning
 from linkanim.scenes import load, names
-from linkanim.scenes.closure import other_closure
-from linkanim.scenes.edit import dimensions, with_dimensions
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.editing.edit import dimensions, with_dimensions
+from linkanim.scenes.reading.closure import other_closure
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 SAMPLES = 7200

@@ -7,10 +7,10 @@ import tomllib
 
 import pytest
 
-from linkanim.mechanics.joint import Joint, Point
-from linkanim.mechanics.kinds import RRP, RRR, Crank, Line, Pin, Polar, Rigid
-from linkanim.mechanics.linkage import Body, Drive
-from linkanim.scenes.read import scene_from
+from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage.joint import Joint, Point
+from linkanim.mechanics.linkage.linkage import Body, Drive
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 

@@ -20,15 +20,15 @@ from typed_linkages import Document
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
-from linkanim.picture.quantities import quantities
-from linkanim.player import display
-from linkanim.player.action import Action
-from linkanim.player.state import begin
-from linkanim.player.tape import Tape
-from linkanim.player.tape_file import write
-from linkanim.player.window import Window
+from linkanim.picture.diagrams.quantities import quantities
+from linkanim.player.state.action import Action
+from linkanim.player.state.state import begin
+from linkanim.player.tape.tape import Tape
+from linkanim.player.tape.tape_file import write
+from linkanim.player.window import display
+from linkanim.player.window.window import Window
 from linkanim.scenes import load
-from linkanim.scenes.read import scene_from
+from linkanim.scenes.reading.read import scene_from
 
 SECONDS, MEGABYTES = 10.0, 400
 """What each output of a scene may take: processor time, and memory beside what was there before."""

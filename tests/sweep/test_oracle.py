@@ -20,7 +20,7 @@ from random_scenes import scene
 from typed_linkages import Document
 
 from linkanim.cli.exits import guarded
-from linkanim.player import rendering
+from linkanim.player.window import rendering
 
 SEED = 20
 PARTS = 10

@@ -1,0 +1,182 @@
+"""Every command: what it does, what it takes, and which module does its work."""
+
+from __future__ import annotations
+
+import sys
+from argparse import Namespace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from typing import cast
+
+from linkanim import __version__
+from linkanim.bench.command import add_arguments
+from linkanim.cli import options
+from linkanim.cli.parser import Parser, join_negative
+from linkanim.cli.pygame_installed import refuse_mixed_pygame
+from linkanim.errors import BadInput
+from linkanim.intake import control_in
+from linkanim.units import shown
+
+_WITHOUT_PYGAME = ("solve", "info", "scenes", "check")
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command: what it does in a line, its options, and examples of its use."""
+
+    summary: str
+    options: Callable[[Parser], None]
+    examples: tuple[str, ...]
+
+
+def parse(argv: Sequence[str] | None = None) -> Namespace:
+    """Read a command line (default: the process's own); `BadInput` in one sentence where it is wrong."""
+    words = join_negative(sys.argv[1:] if argv is None else argv)
+    for word in words:
+        if found := control_in(word):
+            raise BadInput(f"{shown(word)} has {found} in it; write plain text, and rename such a file")
+    return build().parse_args(_with_command(words))
+
+
+def run(chosen: Namespace) -> None:
+    """Import the module of the chosen command, and only that, and let it do its work."""
+    if chosen.command not in _WITHOUT_PYGAME:
+        refuse_mixed_pygame()
+    work = cast(Callable[[Namespace], None], import_module(f"linkanim.cli.commands.{chosen.command}").run)
+    work(chosen)
+
+
+def build() -> Parser:
+    """Build the parser with every command in it; imports nothing that draws, solves or encodes."""
+    parser = Parser(
+        prog="linkanim",
+        usage="linkanim [SCENE | FILE.toml | FILE.tape.json]\n       linkanim COMMAND ...",
+        description="Play planar linkages: see them run, solve them exactly, record loops without a seam.",
+        before=_keys,
+        examples=(
+            "linkanim                                  open the window",
+            "linkanim press                            open it on the press",
+            "linkanim record press -o press.gif        one period as a GIF, no display needed",
+            'linkanim solve press --angle "87 deg"',
+        ),
+    )
+    parser.add_argument("--version", action="version", version=f"linkanim {__version__}")
+    add = parser.add_subparsers(
+        dest="command", metavar="COMMAND", prog="linkanim", parser_class=Parser, title="commands"
+    )
+    for name, command in COMMANDS.items():
+        about = command.summary
+        text = f"{about[0].upper()}{about[1:]}."
+        command.options(add.add_parser(name, help=about, description=text, examples=command.examples))
+    return parser
+
+
+def _keys() -> str:
+    from linkanim.player.input.keys import as_text
+
+    return f"keys in the window:\n{as_text()}\n"
+
+
+def _with_command(words: list[str]) -> list[str]:
+    """Put `play` in front where no command was named."""
+    if not words:
+        return ["play"]
+    first = words[0]
+    if first in COMMANDS or first in ("-h", "--help", "--version"):
+        return words
+    if not first.startswith("-"):
+        _refuse_misspelt(first)
+    return ["play", *words]
+
+
+def _refuse_misspelt(word: str) -> None:
+    """Raise `BadInput` for a first word that is neither a command, a scene nor a path."""
+    from linkanim.document import meant
+    from linkanim.scenes import names
+
+    known = (*COMMANDS, *names())
+    if word in known or any(mark in word for mark in "./\\"):
+        return
+    raise BadInput(
+        f"{shown(word)} is neither a command ({', '.join(COMMANDS)}), a scene (`linkanim scenes` lists them) "
+        f"nor a file{meant(word, known)}"
+    )
+
+
+COMMANDS = {
+    "play": Command(
+        "open the window (the default command)",
+        options.play,
+        ("linkanim play press", "linkanim play my-linkage.toml --theme dark"),
+    ),
+    "record": Command(
+        "write a scene's true period as GIF, MP4 or numbered PNG",
+        options.record,
+        (
+            "linkanim record press",
+            'linkanim record crank-rocker -o rocker.mp4 --speed "30 rpm" --chart rocker.angle',
+            "linkanim record press --for beamer",
+        ),
+    ),
+    "solve": Command(
+        "print positions, velocities and accelerations at an angle, or over a sweep",
+        options.solve,
+        (
+            'linkanim solve press --angle "87 deg" --speed "10 rad/s" --json',
+            "linkanim solve slider-crank --sweep 0:360:1 --csv slider.csv",
+            "linkanim solve double-rocker --sweep 0:360:5 --phase",
+        ),
+    ),
+    "chart": Command(
+        "draw quantities over one true period as PNG, SVG or PDF, or write them as CSV",
+        options.chart,
+        (
+            "linkanim chart press --quantity 5.travel_velocity -o ram.svg",
+            'linkanim chart press --quantity 3.angular_velocity --speeds "5 rad/s,10 rad/s,20 rad/s"',
+            "linkanim chart double-rocker --quantity rocker.angle --over angle -o rocker.csv",
+        ),
+    ),
+    "report": Command(
+        "write a page with a scene's figure, facts, tables and charts, and their SVG and CSV",
+        options.report,
+        (
+            "linkanim report press -o press-report",
+            'linkanim report press -o press-report --angles "87 deg,306 deg" --speeds "5 rad/s,10 rad/s"',
+        ),
+    ),
+    "info": Command(
+        "print class, input range, toggles, change points, transmission angle, stroke",
+        options.info,
+        ("linkanim info crank-rocker", "linkanim info my-linkage.toml --json"),
+    ),
+    "check": Command(
+        "name every problem of scene files at once, with their lines",
+        options.check,
+        ("linkanim check my-linkage.toml", "linkanim check *.toml --json", "linkanim check --schema"),
+    ),
+    "scenes": Command(
+        "list the built-in scenes by chapter, name first",
+        options.scenes,
+        ("linkanim scenes", "linkanim scenes slider", 'linkanim scenes "six-bars and more"'),
+    ),
+    "draw": Command(
+        "draw one pose as a figure, SVG, PNG or PDF",
+        options.draw,
+        (
+            "linkanim draw crank-rocker --names --names",
+            'linkanim draw press -o press.png --angle "87 deg" --vectors v --instant-centres',
+            "linkanim draw kite -o kite.svg --poses 12 --no-trace",
+        ),
+    ),
+    "gallery": Command(
+        "record every built-in scene as a small GIF, and draw the chart of bench",
+        options.gallery,
+        ("linkanim gallery", "linkanim gallery --into slides/linkages"),
+    ),
+    "bench": Command(
+        "measure speed against error, beside the usual ways to solve a linkage",
+        add_arguments,
+        ("linkanim bench", "linkanim bench --json"),
+    ),
+}

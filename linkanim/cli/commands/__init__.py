@@ -1,0 +1,1 @@
+"""A command a file: what it does once its options are read."""

@@ -1,0 +1,14 @@
+"""`linkanim bench`: speed against error, and what drawing and recording cost."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from linkanim.bench import command
+from linkanim.cli.commands.record import bar
+
+
+def run(options: Namespace) -> None:
+    """Measure what was asked, and print it."""
+    with bar(unit=" rounds") as progress:
+        command.run(options, progress)

@@ -1,0 +1,74 @@
+"""`linkanim check`: every problem of scene files at once, each with its line."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from linkanim import intake
+from linkanim.cli.strict import json_text
+from linkanim.errors import BadInput
+from linkanim.scenes import load
+from linkanim.scenes.editing.toml import SCENE_FILE
+from linkanim.scenes.reading.problems import Problem, problems
+from linkanim.scenes.reading.schema import SCHEMA
+from linkanim.scenes.scene import Scene
+
+
+class Checked(NamedTuple):
+    """A file, its problems, and its scene where it has none."""
+
+    file: str
+    problems: list[Problem]
+    scene: Scene | None
+
+
+def run(options: Namespace) -> None:
+    """Print what is wrong in each file, or what it is; `BadInput` where anything is wrong."""
+    if options.schema:
+        print(json_text(SCHEMA, indent=2))
+        return
+    if not options.files:
+        raise BadInput("name the scene files to check, such as `linkanim check my-linkage.toml`")
+    found = [_checked(Path(file)) for file in options.files]
+    print(json_text([_object(one) for one in found], indent=2) if options.json else _words(found))
+    wrong = [one for one in found if one.problems]
+    if wrong:
+        count = sum(len(one.problems) for one in wrong)
+        raise BadInput(f"{_count(count, 'problem')} in {len(wrong)} of {_count(len(found), 'file')}")
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'s' * (number != 1)}"
+
+
+def _checked(path: Path) -> Checked:
+    where = intake.named(path)
+    try:
+        text = SCENE_FILE.read(path, where)
+    except BadInput as error:
+        return Checked(where, [Problem(str(error))], None)
+    found = problems(text, name=path.stem, where=where)
+    return Checked(where, found, None if found else load(path))
+
+
+def _words(found: Iterable[Checked]) -> str:
+    lines = []
+    for file, wrong, scene in found:
+        if scene is not None:
+            lines.append(f"{file}: good: {scene.title}: {scene.info.class_name}")
+        for problem in wrong:
+            at = "" if problem.line is None else f":{problem.line}"
+            lines.append(f"{file}{at}: {problem.message.removeprefix(f'{file}: ')}")
+    return "\n".join(lines)
+
+
+def _object(one: Checked) -> dict[str, object]:
+    told = [
+        {"line": problem.line, "message": problem.message.removeprefix(f"{one.file}: ")}
+        for problem in one.problems
+    ]
+    scene = one.scene and {"title": one.scene.title, "class": one.scene.info.class_name}
+    return {"file": one.file, "good": not told, "problems": told, "scene": scene or None}

@@ -1,0 +1,13 @@
+"""`linkanim play`: the window."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from linkanim.picture.look import Look
+from linkanim.player.window.loop import run as play
+
+
+def run(options: Namespace) -> None:
+    """Open the window on a scene, a scene file or a tape, and return when it is closed."""
+    play(options.scene, look=Look(theme=options.theme), attract=options.attract, size=options.size)

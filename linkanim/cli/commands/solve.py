@@ -1,0 +1,151 @@
+"""`linkanim solve`: the motion at an angle or a phase, or over a sweep of them."""
+
+from __future__ import annotations
+
+import math
+import sys
+from argparse import Namespace
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+import numpy as np
+
+from linkanim.cells import csv_head, csv_rows, lines
+from linkanim.cli import table
+from linkanim.cli.options import EVERY_ANGLE
+from linkanim.cli.strict import json_text
+from linkanim.cli.sweeping import RowBlock, Steps, blocks
+from linkanim.cli.tree import Leaf, Tree, input_key, leaves, mapped, rows, tree
+from linkanim.digits import significant
+from linkanim.errors import BadInput, OutOfRange
+from linkanim.mechanics.motion.motion import Motion
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+from linkanim.whole import checked_target, replacing
+
+_NUMBER = "\0"
+"""Stands for a number in the text that the rows share: no name holds it."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Where to solve: `by` is "angle" (of the crank) or "phase"; one value in radians, or a sweep's steps."""
+
+    by: str
+    value: float = 0.0
+    steps: Steps | None = None
+
+
+def run(options: Namespace) -> None:
+    """Solve what was asked and print it as words, JSON or CSV.
+
+    `BadInput` for options that do not go together; `OutOfRange` for one angle that cannot be reached.
+    In a sweep such an angle has a row of nulls.
+    """
+    asked = _asked(options)
+    target = _target(options.csv)
+    scene = load(options.scene)
+    speed = scene.linkage.drive.speed if options.speed is None else options.speed
+    found = _blocks(scene, asked, speed, options.acceleration)
+    if options.csv:
+        _write_csv(target, asked.by, found)
+        return
+    head: Tree = {"scene": scene.name, input_key(scene): None, "phase": None}
+    head |= {"time": None} if asked.steps else {}
+    head |= {"speed": speed, "acceleration": options.acceleration, "length_unit": scene.length_unit}
+    trees = ({**head, **block.found} for block in found)
+    if options.json:
+        _print_json(trees, asked.steps is not None)
+    else:
+        words = table.of_sweep if asked.steps else table.of_pose
+        print(words(scene, (row for block in trees for row in rows(block))))
+
+
+def _asked(options: Namespace) -> Asked:
+    sweep, angle, phase = options.sweep, options.angle, options.phase
+    if sweep is None:
+        return _one(angle, phase, options.csv)
+    if angle is not None or phase not in (None, EVERY_ANGLE):
+        raise BadInput("--sweep goes with no other angle; write --phase alone to sweep the phase")
+    return Asked("phase" if phase is EVERY_ANGLE else "angle", steps=Steps.of(sweep))
+
+
+def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Asked:
+    if csv_name:
+        raise BadInput("--csv is for a sweep; add --sweep 0:360:1, or take --json")
+    if phase is EVERY_ANGLE:
+        raise BadInput('--phase has no value; write it with its unit, such as --phase "87 deg"')
+    given = [(by, value) for by, value in (("angle", angle), ("phase", phase)) if value is not None]
+    if len(given) != 1:
+        raise BadInput('say where to solve: one of --angle "87 deg", --phase "87 deg" and --sweep 0:360:1')
+    return Asked(*given[0])
+
+
+def _blocks(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Iterator[RowBlock]:
+    """Yield what was asked for, row by row in blocks; `OutOfRange` where one angle cannot be reached."""
+
+    def solve(inputs: Leaf) -> Motion:
+        return scene.solve(**{asked.by: inputs}, speed=speed, acceleration=acceleration)  # type: ignore[arg-type]
+
+    if asked.steps is not None:
+        yield from blocks(scene, asked.steps, asked.by, speed, solve)
+        return
+    motion = solve(np.array([asked.value]))
+    if any(np.isnan(points).any() for points in motion.position.values()):
+        raise out_of_range(scene, asked.value)
+    where = {input_key(scene): motion.crank_angle, "phase": motion.phase, asked.by: np.array([asked.value])}
+    yield RowBlock(np.degrees([asked.value]), {**where, **tree(scene, motion)})
+
+
+def out_of_range(scene: Scene, angle: float) -> OutOfRange:
+    """Return the refusal of an angle (rad) that the input does not reach."""
+    low, high = (f"{significant(math.degrees(limit), 6)} deg" for limit in scene.info.input_range)
+    return OutOfRange(
+        f"{scene.name}: --angle {significant(math.degrees(angle), 6)} deg cannot be reached; "
+        f"the {scene.info.input_name} angle goes from {low} to {high} (--phase runs through both limits)"
+    )
+
+
+def _print_json(trees: Iterator[Tree], sweep: bool) -> None:
+    """Print one object, or a list of them with a line for each."""
+    objects = (text for block in trees for text in _objects(block))
+    if not sweep:
+        print(next(objects))
+        return
+    separator = "["
+    for text in objects:
+        print(separator, text, sep="", end="")
+        separator = ",\n "
+    print("]")
+
+
+def _objects(block: Tree) -> Iterator[str]:
+    """Yield each row's tree as JSON: the text that all rows share, and their own numbers in it."""
+    marked = json_text(mapped(lambda leaf: _NUMBER if isinstance(leaf, np.ndarray) else leaf, block))
+    form = marked.replace("%", "%%").replace(json_text(_NUMBER), "%s")
+    columns = [leaf for _, leaf in leaves(block) if isinstance(leaf, np.ndarray)]
+    return (form % tuple(line.split(",")) for line in lines(columns))
+
+
+def _target(name: str | None) -> Path | None:
+    """Return the CSV file to write, None for stdout; `BadInput` where it could not be written."""
+    return None if name in (None, "-") else checked_target(str(name), (".csv",))
+
+
+def _write_csv(target: Path | None, by: str, found: Iterator[RowBlock]) -> None:
+    if target is None:
+        _csv_rows(sys.stdout, by, found)
+        return
+    with replacing(target) as part, part.open("w", encoding="utf-8", newline="") as file:
+        _csv_rows(file, by, found)
+
+
+def _csv_rows(file: TextIO, by: str, found: Iterator[RowBlock]) -> None:
+    """Write the input in degrees and then every quantity; what is not known is an empty cell."""
+    for number, block in enumerate(found):
+        names, columns = zip(*leaves(block.found), strict=True)
+        if number == 0:
+            file.write(csv_head([f"{by}_deg", *names]))
+        file.write(csv_rows([block.degrees, *columns]))

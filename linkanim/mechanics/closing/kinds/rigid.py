@@ -1,0 +1,105 @@
+"""Points of a body, beside its pins: coupler points, third pins of a plate, corners of a rigid triangle."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from linkanim.mechanics.closing.kinds.rrr import RRR
+from linkanim.mechanics.linkage.frames import coincide, holding, share_of
+from linkanim.mechanics.linkage.joint import Frame, Joint, Need, Point
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.closing.walk import Walk
+
+
+@dataclass(frozen=True, slots=True)
+class Rigid(Joint):
+    """A point of a body: `at` = (along `on[0]` -> `on[1]`, to the left of it) from `on[0]`."""
+
+    on: tuple[str, str]
+    at: Point
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """The two joints that its body is known by."""
+        return Need("on", self.on[0]), Need("on", self.on[1])
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The two joints that its body is known by."""
+        return self.on
+
+    @property
+    def spans(self) -> tuple[tuple[str, ...], ...]:
+        """The plate of the three joints."""
+        return ((*self.on, self.name),)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Its place on the body."""
+        return self.at
+
+    def scaled(self, factor: float) -> Rigid:
+        """Return the point with its place times a factor."""
+        return replace(self, at=(self.at[0] * factor, self.at[1] * factor))
+
+    def close(self, walk: Walk) -> None:
+        """Carry the point with its body."""
+        walk.points[self.name] = walk.attached(self.on, self.at, self.name)
+
+    def placed(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
+        """Return the frames with the point on its body; as they are where the two joints show none."""
+        n = holding(frames, self.on)
+        if n is None or coincide(frames[n], *self.on):
+            return frames
+        start, end = (frames[n][name] for name in self.on)
+        place = start + (end - start) * share_of(frames[n], self.on, self.at)
+        return (*frames[:n], {**frames[n], self.name: place}, *frames[n + 1 :])
+
+
+@dataclass(frozen=True, slots=True)
+class Brace(Rigid):
+    """A point of a body stated by its distances from two joints of it: a corner of a rigid triangle."""
+
+    reach: tuple[float, float]
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """The far ends of its two bars."""
+        return Need("from", self.on[0]), Need("from", self.on[1])
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """Its two bars."""
+        return (self.on[0], self.reach[0]), (self.on[1], self.reach[1])
+
+    @property
+    def spans(self) -> tuple[tuple[str, ...], ...]:
+        """Its two bars; the body may show them otherwise."""
+        return tuple((start, self.name) for start in self.on)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The corners of the triangle."""
+        return *self.on, self.name
+
+    def scaled(self, factor: float) -> Brace:
+        """Return the point with its place and its bars times a factor."""
+        reach = self.reach[0] * factor, self.reach[1] * factor
+        return replace(self, at=(self.at[0] * factor, self.at[1] * factor), reach=reach)
+
+
+def brace(dyad: RRR, frame: Frame) -> Brace:
+    """Return two bars that stand on one body as the corner of a rigid triangle.
+
+    With c from the first end to the second, the corner lies (c² + a² - b²)/(2c) along it and
+    √(((a + b)² - c²)(c² - (a - b)²))/(2c) beside it, each rounded once; bars in one line have no height.
+    """
+    a, b, c = map(Fraction, (*dyad.lengths, abs(frame[dyad.ends[1]] - frame[dyad.ends[0]])))
+    along = (c * c + a * a - b * b) / (2 * c)
+    height = ((a + b) ** 2 - c * c) * (c * c - (a - b) ** 2) / (4 * c**4)
+    beside = math.copysign(math.sqrt(max(height, Fraction(0))) * float(c), dyad.side)
+    return Brace(dyad.name, dyad.ends, (float(along), beside), dyad.lengths)

@@ -1,0 +1,176 @@
+"""Limits that a dyad further down the chain puts on the input, found on the cycle.
+
+Both ends of such a dyad move, so there is no closed form: where it closes is told by its separation's
+extremes (`separation`). The zero of its margin U·W next to the start is bracketed and bisected, and the input
+then swings between the limits like any other. Next to a limit U·W itself has only half a float's digits
+left; there its quotient by the way to the limit, which is smooth, is taken from a polynomial (`fitting`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.closing.assembly import Assembly, resigned
+from linkanim.mechanics.closing.chain import ChainRoot, End
+from linkanim.mechanics.closing.fitting import fitted, refined
+from linkanim.mechanics.closing.search import ends_of
+from linkanim.mechanics.closing.separation import Separations, separations
+from linkanim.mechanics.closing.touching import through_change_points
+from linkanim.mechanics.drive.path import ONE_PLACE, Swing
+from linkanim.mechanics.formulas.exact import Sum
+from linkanim.mechanics.formulas.expression import Graph
+from linkanim.mechanics.formulas.planar import Slope
+from linkanim.mechanics.formulas.program import batch
+from linkanim.mechanics.linkage.linkage import Linkage
+
+USED_UP = 1e-10
+"""A margin below this share of its greatest value is one at its limit."""
+NO_WAY = 1e-5
+"""A swing of less than this is what rounding leaves of one place."""
+NO_RANGE = "the input has no range on which every dyad can be closed"
+STOPPED_SHORT = 1 / 64
+"""Share of its range by which a swing stops short of a limit that it cannot pass."""
+CUTS = 8
+"""A dyad may show where it does not close only when the one before it no longer leaves its own range."""
+
+Array = NDArray[np.float64]
+Limit = tuple[Sum, str | None]
+"""The phase of a limit, and the dyad that sets it; None where the path itself ends."""
+
+
+def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
+    """Return the assembly with its input's path cut back to what every dyad allows.
+
+    `linkage` is the one asked for, with its own lengths, to be named in an AssemblyError.
+    """
+    found = separations(assembly)
+    if not found.names:
+        return assembly
+    closes = found.closes
+    whole, on_whole = through_change_points(assembly, found)
+    if closes and (whole is assembly or _runs_through(whole, on_whole)):
+        return fitted(whole)
+    if closes:
+        # It is on the closures behind a change point that a dyad cannot be closed.
+        assembly, found = whole, on_whole
+    swing, limited, on_limited = _cut(assembly, linkage, found)
+    for path in _smooth_paths(swing):
+        if path is not swing:
+            limited, on_limited = _limited(assembly, path)
+        limited, on_limited = through_change_points(limited, on_limited)
+        if _runs_through(limited, on_limited):
+            return fitted(limited)
+    raise AssemblyError(NO_RANGE)
+
+
+def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
+    """Return the swing around the start on which every dyad closes on the way up, and how they fare on it."""
+    first = found.shut.argmax(axis=0)
+    if found.shut.any(axis=0).all():
+        name = found.names[int(first.max())]
+        raise AssemblyError(
+            f"joint {name}: {linkage.joint(name).why_apart(*_most(assembly, name, found.phases))}"
+        )
+    on_swing, limited = found, assembly
+    for _ in range(CUTS):
+        swing = limited.path.cut(*_open_interval(limited, on_swing))
+        if swing.amplitude < NO_WAY:
+            raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
+        limited, on_swing = _limited(assembly, swing)
+        up = (on_swing.phases >= 0) & (on_swing.phases <= math.pi)
+        if not on_swing.shut[:, up].any():
+            break
+    return swing, limited, on_swing
+
+
+def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
+    """Return the assembly on another path, its closures named anew, and how its dyads fare there."""
+    dyads = [name for name in dict.fromkeys(path.ends) if name and name not in assembly.loops]
+    chain = {name: ChainRoot(_ends(path, name), 0.0) for name in dyads}
+    limited = replace(resigned(replace(assembly, path=path, chain={})), chain=chain)
+    return limited, separations(limited)
+
+
+def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
+    """Return the greatest that the factors U and W of a dyad come to, in squares of the scene's unit."""
+    closing = assembly.walk_at(Graph().input("x"), Slope(0.0)).closings[name]
+    with np.errstate(all="ignore"):
+        u, w = (float(np.nanmax(values)) for values in batch({"x": True}, [closing.u, closing.w])(phases))
+    return u * assembly.unscale**2, w * assembly.unscale**2
+
+
+def _ends(path: Swing, name: str) -> tuple[End, ...]:
+    """Return at which ends of a swing a dyad on moving points limits it."""
+    return tuple(End(upper) for upper in (False, True) if path.ends[upper] == name)
+
+
+def _smooth_paths(swing: Swing) -> Iterator[Swing]:
+    """Yield the swing, then the same stopped short of one limit or both.
+
+    Where one dyad stands on another, its range changes when the first passes its limit: the input
+    then has to turn back before that, on the closure that was named.
+    """
+    yield swing
+    short = (swing.high - swing.low).times(STOPPED_SHORT)
+    for low, high in ((True, False), (False, True), (True, True)):
+        yield Swing(
+            swing.low + short if low else swing.low,
+            swing.high - short if high else swing.high,
+            ("" if low else swing.ends[0], "" if high else swing.ends[1]),
+            swing.repeats,
+        )
+
+
+def _runs_through(assembly: Assembly, found: Separations) -> bool:
+    """Tell whether every dyad closes all the way, and those that limit the input do so at each visit."""
+    path = assembly.path
+    visits = np.arange(path.periods, dtype=np.float64) * (2 * math.pi)
+    return found.closes and all(
+        bool((np.abs(found.margins(places)[found.names.index(name)]) <= USED_UP).all())
+        for name, places in zip(path.ends, (visits, visits + math.pi), strict=False)
+        if name in found.names
+    )
+
+
+def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit]:
+    """Return the ends of the interval around the start, or of the widest one where the start is shut."""
+    phases, shut, home = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
+    is_open = np.asarray(~shut.any(axis=0))
+    if not is_open.any():  # cut back for one dyad, nothing is left to another
+        raise AssemblyError(NO_RANGE)
+    first, last = _run_around(is_open, home, phases)
+    below, above = (
+        _limit(assembly, found, (phases[inside], phases[outside]), shut[:, outside])
+        if 0 <= outside < len(phases)
+        else (Sum(float(phases[inside])), None)
+        for inside, outside in ((first, first - 1), (last, last + 1))
+    )
+    return below, above
+
+
+def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[int, int]:
+    """Return the first and last place of the open run at `home`, or of the widest run."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], is_open.astype(np.int8), [0]])))
+    runs = list(zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True))
+    for first, last in runs:
+        if first <= home <= last:
+            return first, last
+    return max(runs, key=lambda run: float(phases[run[1]] - phases[run[0]]))
+
+
+def _limit(
+    assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_]
+) -> tuple[Sum, str]:
+    """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
+    row = int(shut.argmax())
+    start = found.beside(bracket[1], row, 1 if bracket[0] > bracket[1] else -1)
+    if start is None:
+        inside, outside = (np.array([phase]) for phase in bracket)
+        start = Sum(float(ends_of(lambda phase: found.margins(phase)[row] >= 0, inside, outside)[0]))
+    return refined(assembly, found.names[row], start), found.names[row]

@@ -1,0 +1,324 @@
+"""How far every dyad on moving points is from its limits along the input's path, and where that is extreme.
+
+A dyad closes while its separation s (L² between its ends, or how far one lies beside its line) keeps its
+factors U and W from going below zero. Both change with s alone. So between two neighbouring extremes of s,
+which are zeros of its rate, each factor has one zero at most, and what the dyad does at the extremes decides
+whether it closes: no sample does. The extremes are bracketed by samples, which are halved wherever the
+margin U·W could come to zero between them, until rate and slope leave no room for another extreme.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.closing.assembly import Assembly
+from linkanim.mechanics.closing.chain import Closing
+from linkanim.mechanics.closing.fitting import extreme
+from linkanim.mechanics.closing.search import around, ends_of
+from linkanim.mechanics.closing.walk import AT_ITS_LIMIT
+from linkanim.mechanics.drive.path import Path
+from linkanim.mechanics.formulas.exact import FULL_TURN, Sum
+from linkanim.mechanics.formulas.expression import Graph, Value
+from linkanim.mechanics.formulas.planar import Slope
+from linkanim.mechanics.formulas.program import batch
+
+SAMPLES_A_TURN = 1440
+SAMPLES_A_GEARED_TURN = 96
+"""Of the crank that turns most while the input turns once."""
+TOUCHING = 1e-12
+"""Share of a margin's scale within which floats cannot tell its sign."""
+ROUNDING = 2.0**-48
+"""Share of the longest bar that rounded lengths make: within it bars just fall into line."""
+UNEVEN = 0.1
+"""How far the change of a rate may be off the one that its slopes make, where it has no sharper bend."""
+FLAT = 2.0**-52
+"""Share of a margin's scale by which it changes between samples that need no others between them."""
+FINEST = 2.0**-40
+HALVINGS = 32
+AT_END = 1e-6
+"""At its own limit, where the input turns back, a separation is extreme by phase: that is no touching."""
+
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+
+class Sampled(NamedTuple):
+    """Phases (N,), and there for every dyad (4, D, N): s', s'', and over their scale U·W and U - W."""
+
+    phases: Array
+    rows: Array
+
+    def at(self, index: NDArray[np.intp] | slice) -> Sampled:
+        """Return some of them."""
+        return Sampled(self.phases[index], self.rows[..., index])
+
+    def followed(self, other: Sampled) -> Sampled:
+        """Return these, then the others."""
+        return Sampled(
+            np.concatenate([self.phases, other.phases]), np.concatenate([self.rows, other.rows], axis=-1)
+        )
+
+    @property
+    def ordered(self) -> Sampled:
+        """The samples in the order of their phases, each phase once."""
+        order = np.argsort(self.phases, kind="stable")
+        return self.at(order[np.diff(self.phases[order], prepend=-math.inf) > 0])
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A place where a dyad's separation is extreme and its margin next to nothing, settled in many digits.
+
+    `closes` is +1 where the dyad closes there, -1 where it does not, 0 where its bars just fall into line.
+    """
+
+    phase: float
+    place: Sum
+    closes: int
+    reach: float
+    """How far to both sides it does not close."""
+
+
+@dataclass(frozen=True)
+class Separations:
+    """The margins of the dyads on moving points along a path, at samples among which are all that decide."""
+
+    names: tuple[str, ...]
+    scales: Array
+    """What each margin is beside (D,)."""
+    phases: Array
+    shut: Bools
+    """Of every dyad at every phase, whether it does not close there (D, N)."""
+    settled: tuple[tuple[Extreme, ...], ...]
+    """Of every dyad, the extremes at which floats cannot tell its margin from nothing."""
+    margins: Callable[[Array], Array]
+    """Returns the margins over their scale at phases (D, N)."""
+
+    @property
+    def closes(self) -> bool:
+        """Whether every dyad closes all along."""
+        return not self.shut.any()
+
+    def beside(self, phase: float, row: int, way: int) -> Sum | None:
+        """Return where a stretch about an extreme ends, on that side, in which floats see the dyad close."""
+        for found in self.settled[row]:
+            turns = round((phase - found.phase) / (2 * math.pi))
+            if found.closes < 0 and abs(phase - found.phase - turns * 2 * math.pi) <= found.reach:
+                return found.place + FULL_TURN.times(float(turns)) + Sum(way * found.reach)
+        return None
+
+    def scale(self, name: str) -> float:
+        """Return what a dyad's margin is beside."""
+        return float(self.scales[self.names.index(name)])
+
+    def touches(self, name: str) -> tuple[Sum, ...]:
+        """Return the phases at which a dyad's bars just fall into line."""
+        return tuple(found.place for found in self.settled[self.names.index(name)] if found.closes == 0)
+
+
+def separations(assembly: Assembly) -> Separations:
+    """Return how the dyads that come near their limits fare along the path, over its true period.
+
+    AssemblyError where one is at its limit all along.
+    """
+    phases = _phases(assembly)
+    scales = _scales(assembly, phases)
+    if not scales:
+        nothing = np.zeros((0, len(phases)))
+        return Separations(
+            (), nothing[:, 0], phases, nothing > 0, (), lambda places: nothing[:, : len(places)]
+        )
+    scale = np.array([*scales.values()])
+    found = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
+    closings = {name: found[name] for name in scales}
+    run = _program(closings)
+
+    def sampled(phases: Array) -> Sampled:
+        return _over(scale, phases, run(phases))
+
+    samples = _halved(sampled, sampled(phases))
+    extremes = _places(sampled, samples, _turning(samples), 0)
+    peaks = _places(sampled, samples, _passing(samples), 3)
+    samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
+    settled = tuple(
+        tuple(_settled(assembly, name, places, sampled(places).rows[2, row]))
+        for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
+    )
+    return Separations(
+        tuple(closings),
+        scale,
+        samples.phases,
+        _shut(samples, settled),
+        settled,
+        lambda phases: np.asarray(sampled(phases).rows[2]),
+    )
+
+
+def _program(closings: Mapping[str, Closing]) -> Callable[[Array], Array]:
+    """Return the function of phases (N,) that gives s', s'', U·W and U - W (4, D, N)."""
+    found = closings.values()
+    return _compiled(
+        [
+            [closing.separation.rate for closing in found],
+            [closing.separation.second for closing in found],
+            [closing.u * closing.w for closing in found],
+            [closing.half_difference * 2.0 for closing in found],
+        ]
+    )
+
+
+def _compiled(rows: Sequence[Sequence[Value]]) -> Callable[[Array], Array]:
+    """Return the function of phases (N,) that gives the values of rows of dyads (rows, D, N)."""
+    program = batch({"x": True}, [value for row in rows for value in row])
+
+    def run(phases: Array) -> Array:
+        with np.errstate(all="ignore"):
+            return np.asarray(program(phases), np.float64).reshape(len(rows), len(rows[0]), len(phases))
+
+    return run
+
+
+def _phases(assembly: Assembly) -> Array:
+    """Return phases over the true period, as near to each other as what turns fastest needs.
+
+    The start is among them, and the ends of a way there and back.
+    """
+    fastest = max((abs(gearing.ratio) for gearing in assembly.gears.values()), default=1)
+    count = max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * fastest))
+    marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
+    return np.sort(np.concatenate([around(assembly.path.periods, count), marks]))
+
+
+def _scales(assembly: Assembly, phases: Array) -> Mapping[str, float]:
+    """Return what the margin of each dyad that comes near its limits is beside: its greatest, or its bars'.
+
+    One that all along is more than it changes between three samples at the most keeps away from them.
+    """
+    closings = assembly.walk_at(Graph().input("x"), Slope(0.0)).closings
+    if not closings:
+        return {}
+    found = closings.values()
+    margins, sizes = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)
+    most, size = (np.nanmax(np.abs(rows), axis=1, initial=0.0) for rows in (margins, sizes))
+    nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * _longest(assembly)) ** 2)
+    for name in (name for name, flat in zip(closings, nothing, strict=True) if flat):
+        raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
+    clear = margins.min(axis=1) > 3 * np.abs(np.diff(margins, axis=1)).max(axis=1)
+    scales = np.minimum(most, size).tolist()
+    return {name: scale for name, scale, away in zip(closings, scales, clear, strict=True) if not away}
+
+
+def _longest(assembly: Assembly) -> float:
+    return max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
+
+
+def _over(scale: Array, phases: Array, rows: Array) -> Sampled:
+    """Return the rates, and margins and differences over their scale."""
+    with np.errstate(all="ignore"):
+        return Sampled(phases, np.concatenate([rows[:2], rows[2:] / scale[:, None]]))
+
+
+def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
+    """Return the samples with others between them wherever a second extreme could lie there."""
+    left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
+    fastest = np.nanmax(_speed(samples), axis=1, initial=0.0, keepdims=True) / 4
+    for _ in range(HALVINGS):
+        # At first a margin may change faster than at both neighbours; the nearer they are, the less.
+        with np.errstate(all="ignore"):
+            index = np.flatnonzero(_unclear(left, right, fastest).any(axis=0))
+        if not len(index):
+            break
+        left, right = left.at(index), right.at(index)
+        middle = sampled((left.phases + right.phases) / 2)
+        found = found.followed(middle)
+        left, right, fastest = left.followed(middle), middle.followed(right), fastest / 2
+    return found.ordered
+
+
+def _speed(samples: Sampled) -> Array:
+    """Return how fast the margins change: by s' (U - W), since U' = -s' and W' = s'."""
+    rates, _, _, differences = samples.rows
+    return np.asarray(np.abs(rates * differences))
+
+
+def _near(left: Sampled, right: Sampled, fastest: Array | float = 0.0) -> Bools:
+    """Tell where a margin could be nothing between neighbours (D, N), changing so fast at least."""
+    before, after = left.rows[2], right.rows[2]
+    speed = np.maximum(np.maximum(_speed(left), _speed(right)), fastest)
+    least = np.maximum(2 * (right.phases - left.phases) * speed, TOUCHING)
+    clear = np.minimum(np.abs(before), np.abs(after)) > least
+    return np.asarray(np.isfinite(before + after) & ~(clear & (before * after > 0)))
+
+
+def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
+    """Tell between which neighbours a margin near nothing could have two extremes (D, N)."""
+    step = right.phases - left.phases
+    (r, b, _, d), (s, c, _, e) = left.rows, right.rows
+    size = np.max(np.abs([r, s, step * b, step * c]), axis=0)
+    even = np.abs((s - r) - step / 2 * (b + c)) <= UNEVEN * size
+    none = (r * s > 0) & (r * (r + step * b) > 0) & (s * (s - step * c) > 0)
+    one = (r * s <= 0) & (b * c > 0)
+    flat = size * step * np.maximum(np.abs(d), np.abs(e)) <= FLAT
+    return np.asarray(_near(left, right, fastest) & ~(even & (none | one)) & ~flat)
+
+
+def _turning(samples: Sampled) -> Bools:
+    """Tell between which neighbours a separation near a limit has its extreme (D, N - 1)."""
+    positive = samples.rows[0] > 0
+    return np.asarray(_near(*_neighbours(samples)) & (positive[:, 1:] != positive[:, :-1]))
+
+
+def _passing(samples: Sampled) -> Bools:
+    """Tell between which neighbours a separation passes from one limit to the other (D, N - 1)."""
+    before, after = (one.rows for one in _neighbours(samples))
+    return np.asarray((before[2] < 0) & (after[2] < 0) & ((before[3] > 0) != (after[3] > 0)))
+
+
+def _neighbours(samples: Sampled) -> tuple[Sampled, Sampled]:
+    return samples.at(slice(None, -1)), samples.at(slice(1, None))
+
+
+def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools, row: int) -> list[Array]:
+    """Return for every dyad where that row of its samples changes its sign in the cells."""
+    dyads, index = np.nonzero(cells)
+    if not len(index):
+        return [np.empty(0) for _ in cells]
+    start = samples.rows[row, dyads, index] > 0
+    each = np.arange(len(dyads))
+
+    def alike(phases: Array) -> Bools:
+        return np.asarray((sampled(phases).rows[row, dyads, each] > 0) == start)
+
+    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST)
+    return [found[dyads == dyad] for dyad in range(len(cells))]
+
+
+def _settled(assembly: Assembly, name: str, phases: Array, margins: Array) -> Iterator[Extreme]:
+    """Yield the extremes at which floats cannot tell a dyad's margin from nothing."""
+    longest = _longest(assembly)
+    for phase in phases[np.abs(margins) <= TOUCHING].tolist():
+        if not _at_own_end(assembly.path, name, phase):
+            place, gap, reach = extreme(assembly, name, phase)
+            closes = 0 if abs(gap) <= ROUNDING * longest else 1 if gap > 0 else -1
+            yield Extreme(phase, place, closes, reach)
+
+
+def _at_own_end(path: Path, name: str, phase: float) -> bool:
+    ends = zip(path.ends, (0.0, math.pi), strict=False)
+    return any(end == name and abs(math.remainder(phase - at, 2 * math.pi)) <= AT_END for end, at in ends)
+
+
+def _shut(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
+    """Tell of every dyad at every sample whether it does not close there (D, N)."""
+    shut = ~(samples.rows[2] >= -TOUCHING)
+    for row, extremes in enumerate(settled):
+        for found in extremes:
+            shut[row, np.searchsorted(samples.phases, found.phase)] = found.closes < 0
+    return np.asarray(shut)

@@ -1,0 +1,184 @@
+"""One walk over a linkage: every joint, body and centre of mass, with first and second derivatives.
+
+Each joint adds itself, closed from the joints before it. What turns as one piece is kept beside its
+frame: a bar, the arms along which its joints are carried, and how fast it turns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.closing.chain import Closing
+from linkanim.mechanics.formulas.circular import Half
+from linkanim.mechanics.formulas.expression import sqrt
+from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec, carried
+from linkanim.mechanics.linkage.frames import holding, share_of
+from linkanim.mechanics.linkage.joint import Point
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.loops.input_state import InputState
+from linkanim.mechanics.loops.loop import Gearing, Loop
+from linkanim.mechanics.loops.signed import SignedRoot, plain_root
+from linkanim.mechanics.loops.triangle import PinLoop, moving_factors, moving_square
+
+AT_ITS_LIMIT = (
+    "it is at its limit at every angle of the input, where rounding alone would move it; "
+    "make one length longer or shorter"
+)
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.closing.assembly import Assembly
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """How one rigid body turns, and the arms between its joints that are known as they were closed."""
+
+    turning: Slope = field(default_factory=lambda: Slope(0.0))
+    arms: dict[tuple[str, str], Vec] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """What the walk finds; positions in the scene's unit."""
+
+    points: Mapping[str, MovingPoint]
+    centres: Mapping[str, MovingPoint]
+    bodies: Mapping[str, Slope]
+    travels: Mapping[str, Moving]
+    closings: Mapping[str, Closing]
+    """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
+
+
+@dataclass
+class Walk:
+    """What has been found so far; joints add themselves to it in their order.
+
+    `pieces` stand in the order of the linkage's frames.
+    """
+
+    assembly: Assembly
+    state: InputState
+    points: dict[str, MovingPoint] = field(default_factory=dict)
+    pieces: list[Piece] = field(default_factory=lambda: [Piece()])
+    travels: dict[str, Moving] = field(default_factory=dict)
+    closings: dict[str, Closing] = field(default_factory=dict)
+
+    @property
+    def linkage(self) -> Linkage:
+        """What is walked over."""
+        return self.assembly.linkage
+
+    def pace(self, gearing: Gearing) -> Slope:
+        """Return how fast a geared crank turns, with its derivative."""
+        ratio = float(gearing.ratio)
+        return Slope(self.state.rate * ratio, self.state.second * ratio)
+
+    def add_piece(self, turning: Slope, ends: tuple[str, str], arm: Vec) -> None:
+        """Add the bar between two joints, the vector from the first to the second known as `arm`."""
+        self.pieces.append(Piece(turning, {ends: arm}))
+
+    def loop_root(self, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
+        """Return the root of a loop on a crank pin, ψ/2, and ψ' with its derivative."""
+        pace = self.pace(loop.gearing)
+        root, half = loop.closed(self.state, self.assembly.path, pace)
+        return root.times(sign), half, pace
+
+    def pin_loop(self, loop: Loop, sign: int) -> tuple[SignedRoot, PinLoop]:
+        """Return the root of a loop between a crank pin and a fixed pin, and where the two are."""
+        assert loop.ground is not None
+        root, half, pace = self.loop_root(loop, sign)
+        ground, units = loop.ground, (loop.root.spread, loop.root.unit)
+        return root, PinLoop(ground.exact, ground.direction, loop.crank.length, half, pace, *units)
+
+    def span_root(self, name: str, across: MovingPoint, lengths: tuple[float, float]) -> SignedRoot:
+        """Return the root of two bars on points that both move, D apart."""
+        square = moving_square(across)
+        u, w = moving_factors(square.value, lengths)
+        return self.chain_root(
+            name, Closing(u, w, square, False, across if lengths[0] == lengths[1] else None)
+        )
+
+    def slot_root(self, name: str, across: MovingPoint, offset: float) -> SignedRoot:
+        """Return the root √(L² - o²) of a slot whose pin is carried by a moving point, D from the pivot."""
+        square = moving_square(across)
+        distance = sqrt(square.value)
+        margin = (distance - offset) * (distance + offset)
+        return self.chain_root(name, Closing(1.0, margin, square, True, None if offset else across))
+
+    def chain_root(self, name: str, closing: Closing) -> SignedRoot:
+        """Return the root of a dyad on moving points, and keep what closes it."""
+        margin = closing.u * closing.w
+        if isinstance(margin, float) and margin <= 0:
+            # Its end keeps its distance from the line: what does not change is no formula, but a number.
+            raise AssemblyError(f"joint {name}: {self._why_shut(name, closing)}")
+        self.closings[name] = closing
+        root = self.assembly.chain.get(name)
+        if root is not None:
+            return root.root(closing, self.state)
+        return plain_root(closing.u, closing.w, closing.separation, closing.half_difference)
+
+    def _why_shut(self, name: str, closing: Closing) -> str:
+        """Say why a dyad whose factors do not change has no two closures."""
+        u, w = closing.u, closing.w
+        if not (isinstance(u, float) and isinstance(w, float) and u * w < 0):
+            return AT_ITS_LIMIT
+        return self.linkage.joint(name).why_apart(u, w)
+
+    def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
+        """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""
+        n = self._body_of(on, f"joint {name}" if name else "centre of mass")
+        piece, share = self.pieces[n], share_of(self.linkage.frames[n], on, at)
+        arm = self._arm(piece, *on).times(Vec(share.real, share.imag))
+        if name is not None:
+            piece.arms[on[0], name] = arm
+        return self.points[on[0]] + carried(arm, piece.turning)
+
+    def axis(self, on: tuple[str, str]) -> tuple[Vec, Slope]:
+        """Return the direction from one joint of a body to another, of length 1, and how the body turns."""
+        n = self._body_of(on, "line of travel")
+        start, end = (self.linkage.frames[n][name] for name in on)
+        return self._arm(self.pieces[n], *on).scaled(1.0 / abs(end - start)), self.pieces[n].turning
+
+    def _arm(self, piece: Piece, start: str, end: str) -> Vec:
+        """Return the vector from one joint of a rigid body to another."""
+        if (start, end) in piece.arms:
+            return piece.arms[start, end]
+        if (end, start) in piece.arms:
+            return -piece.arms[end, start]
+        return self.points[end].position - self.points[start].position
+
+    def _body_of(self, names: tuple[str, ...], owner: str) -> int:
+        n = holding(self.linkage.frames, names)
+        if n is None:
+            raise AssemblyError(f"{owner}: {' and '.join(names)} are not joints of one rigid body")
+        return n
+
+    def kinematics(self) -> Kinematics:
+        """Return what was found, with the named bodies and their centres of mass."""
+        bodies = {body.name: body for body in self.linkage.bodies}
+        turning = {name: body for name, body in bodies.items() if body.slider is None}
+        return Kinematics(
+            self.points,
+            {
+                name: self.attached((body.joints[0], body.joints[1]), body.com)
+                for name, body in turning.items()
+                if body.com is not None
+            },
+            {
+                name: self.pieces[self._body_of(body.joints, f"body {name}")].turning
+                for name, body in turning.items()
+            },
+            {name: self.travels[body.slider] for name, body in bodies.items() if body.slider is not None},
+            self.closings,
+        )
+
+
+def walked(assembly: Assembly, state: InputState) -> Kinematics:
+    """Return the motion of everything in the linkage at the state's instant."""
+    walk = Walk(assembly, state)
+    for joint in assembly.linkage.joints:
+        joint.close(walk)
+    return walk.kinematics()

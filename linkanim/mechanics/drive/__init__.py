@@ -1,0 +1,1 @@
+"""The input: its path over the phase, its range, its stroke."""

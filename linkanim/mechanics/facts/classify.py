@@ -1,0 +1,358 @@
+"""What kind of linkage it is, how far its input goes, and what a lecturer tells of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.digits import degrees, short, significant
+from linkanim.mechanics.closing.chain import Touch
+from linkanim.mechanics.closing.search import around, sign_changes
+from linkanim.mechanics.drive.path import Path
+from linkanim.mechanics.facts.effort import Demand, demand, effort_token, usual_effort
+from linkanim.mechanics.facts.naming import (
+    SAMPLES,
+    FourBar,
+    class_name,
+    four_bar_of,
+    link_names,
+    turning_links,
+)
+from linkanim.mechanics.facts.symbols import driven_body, input_symbol
+from linkanim.mechanics.facts.transmission import Transmission, transmission
+from linkanim.mechanics.formulas.exact import HALF_TURN, Sum
+from linkanim.mechanics.loops.loop import Gearing
+from linkanim.mechanics.loops.roots import Kind
+from linkanim.mechanics.motion.derived import output_slider
+from linkanim.mechanics.motion.mechanism import Mechanism
+from linkanim.mechanics.motion.motion import Array, Motion
+
+SAME_ANGLE = 1e-9
+
+
+@dataclass(frozen=True)
+class Info:
+    """What is told of a linkage; angles in radians, lengths in the scene's unit.
+
+    Where a slider drives, its travel stands for the input's angle.
+
+    Each fact is worked out when it is first asked for: those of a length that is being changed sixty times
+    a second are few.
+    """
+
+    mechanism: Mechanism
+    length_unit: str
+
+    @cached_property
+    def class_name(self) -> str:
+        """The class, in words."""
+        return class_name(self.mechanism, self._four_bar)
+
+    @cached_property
+    def grashof(self) -> str | None:
+        """Grashof's rule with the four-bar's numbers; None for other linkages."""
+        return _grashof(self._four_bar) if self._four_bar else None
+
+    @property
+    def why_swinging(self) -> str | None:
+        """What keeps the input from turning fully, lengths or joints; None where nothing does."""
+        stops = tuple(dict.fromkeys(filter(None, getattr(self.mechanism.assembly.path, "ends", ()))))
+        if not stops:
+            return None
+        if self._four_bar is None or stops != (self._four_bar.joint,):
+            return f"{' and '.join(stops)} cannot close all the way round"
+        if self._four_bar.margin < 0:
+            return self.grashof
+        return f"{self.grashof}, but the shortest is the {self._four_bar.shortest}"
+
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the driven angle, or the travel of a slider that drives, goes."""
+        return self.mechanism.assembly.path.input_range
+
+    @cached_property
+    def ends(self) -> tuple[float, float]:
+        """Where an input that does not turn fully turns back: at phase 0, and half a period on."""
+        first, last = self.mechanism.assembly.path.angles(np.array([0.0, math.pi])).tolist()
+        return first, last
+
+    @property
+    def full_turn(self) -> bool:
+        """Whether the input turns fully."""
+        return self.mechanism.assembly.path.full_turn
+
+    @property
+    def toggles(self) -> tuple[float, ...]:
+        """The input's limits; an end at which it merely turns back is none."""
+        if self.mechanism.linkage.slides:
+            return tuple(end for end in self.input_range if self._at_end(end))
+        return self.mechanism.assembly.path.limits
+
+    @cached_property
+    def change_points(self) -> tuple[float, ...]:
+        """The input's angles at its change points within one turn, each once, the least first."""
+        if self.mechanism.linkage.slides:
+            return tuple(sorted({place for place in _touched(self.mechanism) if not self._is_end(place)}))
+        return _change_points(self.mechanism)
+
+    def _at_end(self, end: float) -> bool:
+        """Whether a dyad is at its limit at an end of a slider's travel."""
+        return any(self._is_end(place) and self._same(place, end) for place in _touched(self.mechanism))
+
+    def _is_end(self, place: float) -> bool:
+        return any(self._same(place, end) for end in self.input_range)
+
+    def _same(self, place: float, other: float) -> bool:
+        low, high = self.input_range
+        return abs(place - other) <= SAME_ANGLE * (high - low)
+
+    @property
+    def circuits(self) -> int | None:
+        """How many separate motions the lengths allow; None for other linkages than a single four-bar."""
+        bar = self._four_bar
+        return _circuits(bar) if bar and len(self.mechanism.assembly.loops) == 1 else None
+
+    @property
+    def true_period(self) -> int:
+        """The drive periods after which every joint is back."""
+        return self.mechanism.periods
+
+    @property
+    def period_seconds(self) -> float:
+        """The true period at the drive's speed, s."""
+        return 2 * math.pi * self.mechanism.periods / abs(self.mechanism.linkage.drive.speed)
+
+    @cached_property
+    def transmission(self) -> Transmission | None:
+        """The worst transmission angle, where it is, and the best; None where there is none."""
+        return transmission(self.mechanism)
+
+    @property
+    def transmission_angle(self) -> tuple[float, float] | None:
+        """The least and the greatest transmission angle, 90° at the most; None where there is none."""
+        return self.transmission and self.transmission[:2]
+
+    @property
+    def stroke(self) -> float | None:
+        """The output slider's stroke; None without a slider."""
+        return self._slider.stroke if self._slider else None
+
+    @property
+    def time_ratio(self) -> float | None:
+        """The output slider's slow way's time over its quick way's; None without a slider."""
+        return self._slider.time_ratio if self._slider else None
+
+    @property
+    def dead_centres(self) -> tuple[float, float] | None:
+        """Phases of the output slider's dead centres, back and then forward; None where it rests."""
+        return self._slider.dead_centres if self._slider else None
+
+    @cached_property
+    def demand(self) -> Demand | None:
+        """What a true period at the drive's speed asks of the input; None where nothing has force or mass."""
+        if not self.mechanism.linkage.forceful:
+            return None
+        return demand(
+            self._driven,
+            self.mechanism.periods,
+            quickest=self.mechanism.setting.quickest,
+            limited=bool(self.toggles),
+        )
+
+    @cached_property
+    def usual_effort(self) -> float | None:
+        """The size that the effort at the input has half of the time; None where `demand` is."""
+        if not self.mechanism.linkage.forceful:
+            return None
+        return usual_effort(self._driven, self.mechanism.periods)
+
+    def _driven(self, phases: Array) -> Motion:
+        """Return the motion at the drive's speed."""
+        return self.mechanism.solve(phase=phases, speed=self.mechanism.linkage.drive.speed)
+
+    @property
+    def effort(self) -> tuple[str, str]:
+        """What the input delivers, torque or force, and its unit."""
+        name = effort_token(self.mechanism.linkage).partition(".")[2]
+        return name, {"torque": "N m", "force": "N"}[name]
+
+    @cached_property
+    def turning_links(self) -> tuple[str, ...]:
+        """The bodies that turn fully over one true period."""
+        return tuple(turning_links(self.mechanism))
+
+    @cached_property
+    def link_names(self) -> Mapping[str, str]:
+        """What each body is called by what it does, by the name that it has in the scene."""
+        return link_names(self.mechanism, self.turning_links)
+
+    @cached_property
+    def input_name(self) -> str:
+        """What the driven bar is called: "crank" if it turns, the slider where one drives.
+
+        One that swings goes by its name in the scene; named crank it is the rocker, or the input rocker.
+        """
+        body = driven_body(self.mechanism.linkage)
+        if self.mechanism.linkage.slides:
+            return "slider"
+        if self.full_turn:
+            return "crank"
+        return self.link_names[body.name] if body and not body.name.isdecimal() else "rocker"
+
+    @cached_property
+    def lines(self) -> tuple[tuple[str, str], ...]:
+        """Label and value of each fact, in words."""
+        return tuple(_lines(self, self.length_unit))
+
+    @cached_property
+    def _four_bar(self) -> FourBar | None:
+        return four_bar_of(self.mechanism)
+
+    @cached_property
+    def _slider(self) -> _Slider | None:
+        return _stroke(self.mechanism)
+
+
+def classify(mechanism: Mechanism, length_unit: str) -> Info:
+    """Return what is told of a linkage."""
+    return Info(mechanism, length_unit)
+
+
+def _grashof(bar: FourBar) -> str:
+    s, p, q, longest = sorted(bar.links.values())
+    relation = "=" if bar.change_points else "<" if bar.margin > 0 else ">"
+    outer, inner = significant(s + longest, 6), significant(p + q, 6)
+    return f"s + l = {outer} {relation} p + q = {inner}"
+
+
+def _circuits(bar: FourBar) -> int:
+    """Return how many separate motions the lengths allow: two for Grashof, else one."""
+    return 2 if bar.margin > 0 else 1
+
+
+def _change_points(mechanism: Mechanism) -> tuple[float, ...]:
+    """Return the input's angles at its change points within one turn, each once, the least first."""
+    found: list[float] = []
+    for angle in sorted(math.remainder(angle, 2 * math.pi) % (2 * math.pi) for angle in _touched(mechanism)):
+        known = (math.remainder(angle - other, 2 * math.pi) for other in found)
+        if all(abs(way) > SAME_ANGLE for way in known):
+            found.append(angle)
+    return tuple(found)
+
+
+def _touched(mechanism: Mechanism) -> Iterator[float]:
+    """Yield the input's angles at which a root changes its sign, of loops and of dyads down the chain."""
+    path = mechanism.assembly.path
+    for loop in mechanism.assembly.loops.values():
+        for factor, extra in ((loop.root.u, HALF_TURN), (loop.root.w, Sum(0.0))):
+            if factor.kind is Kind.CHANGE_POINT:
+                yield from _reached(path, loop.gearing, loop.root.reference + extra)
+    for root in mechanism.assembly.chain.values():
+        places = np.array([float(zero.place) for zero in root.zeros if isinstance(zero, Touch)])
+        yield from (places if path.full_turn else path.angles(places)).tolist()
+
+
+def _reached(path: Path, gearing: Gearing, angle: Sum) -> Iterator[float]:
+    """Yield the input's angles, as far as it reaches them, at which a crank stands at an angle."""
+    p, q = gearing.ratio.as_integer_ratio()
+    first, step = float((angle - gearing.offset) * (1 / gearing.ratio)), 2 * math.pi * q / abs(p)
+    return (here for turn in range(abs(p)) if path.holds(here := first + turn * step, q))
+
+
+class _Slider(NamedTuple):
+    """How a slider goes to and fro: the phases of its dead centres are None where it rests."""
+
+    stroke: float
+    time_ratio: float
+    dead_centres: tuple[float, float] | None
+
+
+def _stroke(mechanism: Mechanism) -> _Slider | None:
+    """Return how the output slider goes to and fro; its time ratio is the slow way's over the quick way's.
+
+    In a longer true period it goes so more than once: each way ends at the next dead centre.
+    """
+    slider = output_slider(mechanism.linkage)
+    if slider is None:
+        return None
+    name, whole = slider.name, 2 * math.pi * mechanism.periods
+    reversals = sign_changes(
+        lambda phase: mechanism.solve(phase=phase, speed=1.0, derivatives=1).travel_velocity[name],
+        around(mechanism.periods, SAMPLES),
+    )
+    travel = mechanism.solve(phase=reversals, speed=1.0, derivatives=0).travel[name]
+    span = float(np.ptp(travel)) if len(travel) else 0.0
+    if span == 0:
+        return _Slider(0.0, 1.0, None)
+    near = SAME_ANGLE * span
+    backs, forwards = (reversals[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
+    forth = (forwards - backs[:, None]) % whole
+    row, column = np.unravel_index(int(forth.argmin()), forth.shape)
+    ways = float(forth.min()), float(((backs - forwards[:, None]) % whole).min())
+    return _Slider(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
+
+
+def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
+    yield "class", info.class_name
+    if info.grashof:
+        yield "Grashof", info.grashof
+    slides = info.mechanism.linkage.slides
+    across = _places(info, info.input_range, "…")
+    yield "input", "turns fully" if info.full_turn else f"{'slides' if slides else 'swings'} {across}"
+    if info.turning_links:
+        yield "turns fully", ", ".join(info.link_names[name] for name in info.turning_links)
+    if info.toggles:
+        yield "toggles at", _places(info, info.toggles)
+    if info.change_points:
+        yield "change points", _places(info, info.change_points)
+    if info.circuits:
+        yield "circuits", str(info.circuits)
+    if info.transmission:
+        yield "transmission angle", _worst(info, info.transmission)
+    if info.stroke is not None:
+        yield "stroke", f"{significant(info.stroke, 6)} {unit}"
+    if info.time_ratio is not None:
+        yield "time ratio", f"{info.time_ratio:.4f}"
+    if info.demand is not None:
+        yield from _demand_lines(info, info.demand)
+    turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
+    yield "true period", f"{turns}, {short(info.period_seconds)} s"
+
+
+def _demand_lines(info: Info, asked: Demand) -> Iterator[tuple[str, str]]:
+    name, unit = info.effort
+    yield "work per period", f"{significant(asked.work, 6)} J"
+    for label, value in ((f"peak {name}", asked.peak), (f"mean {name}", asked.mean)):
+        yield label, "unbounded" if value is None else f"{significant(value, 6)} {unit}"
+
+
+def _worst(info: Info, found: Transmission) -> str:
+    """Return the least transmission angle in words, its dyad and where the input is then."""
+    least = f"{significant(math.degrees(found.least), 3)}° at {found.dyad}"
+    if found.greatest - found.least <= SAME_ANGLE:
+        return f"μ = {least}, all the way"
+    place = float(info.mechanism.solve(phase=found.phase, speed=1.0, derivatives=0).crank_angle)
+    linkage = info.mechanism.linkage
+    if linkage.slides:
+        where = f"{significant(place, 4)} {info.length_unit}"
+    else:
+        turned = round(math.degrees(place), 1) % 360 if info.full_turn else math.degrees(place)
+        where = f"{significant(turned, 3)}°"
+    symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
+    return f"μ ≥ {least}, {symbol} = {where}"
+
+
+def _places(info: Info, places: tuple[float, ...], between: str = ", ") -> str:
+    """Return places of the input in words: its angles, or how far a slider has travelled."""
+    if not info.mechanism.linkage.slides:
+        return _degrees(places, between)
+    return f"{between.join(significant(place, 6) for place in places)} {info.length_unit}"
+
+
+def _degrees(angles: tuple[float, ...], between: str = ", ") -> str:
+    return between.join(map(degrees, angles))

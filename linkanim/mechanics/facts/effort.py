@@ -1,0 +1,231 @@
+"""What the input has to deliver: its torque, or the force of a cylinder or a slider that drives.
+
+By the balance of power over all that the scene gives a force or a mass (the principle of virtual power;
+Uicker, Pennock and Shigley, Theory of Machines and Mechanisms), tension F positive and y up,
+
+    Q q' = Σ (m a·v + I α ω) + Σ m g v_y + Σ F dL/dt
+
+where q is the crank's angle, the cylinder's length or the slider's travel, and Q its torque or its push.
+Where everything rests for an instant all velocities are in proportion to q', and accelerations stand for
+them: v/q' = a/q".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.closing.search import highest
+from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
+from linkanim.mechanics.motion.derived import as_complex, between, growth, over, size
+
+Array = NDArray[np.float64]
+
+_SAMPLES = 1440
+"""For each period of the drive."""
+_FINE = 24.0
+"""Up to that gear ratio so many are enough."""
+_ROUNDING = 1e-13
+"""A mean below this share of what it is the mean of is rounding."""
+_BOUNDED = 1e-9
+"""A limit of the input asks for no more than a bounded torque where power there is below this share."""
+_TURNING, _IDLE = 1e-10, 1e-9
+"""Within that phase of where the input turns back, power below that share of its terms is rounding."""
+_ASIDE = 1e-4
+"""So far to either side, in radians of phase, a torque is read that is rounding over rounding."""
+_TOPS = 8
+"""So many of the highest samples may stand beside the highest peak."""
+
+
+class _Way(NamedTuple):
+    """Under which names a motion holds how everything moves."""
+
+    points: str
+    centres: str
+    turning: str
+    crank: str
+
+
+_MOVING = _Way("velocity", "com_velocity", "angular_velocity", "crank_rate")
+_STARTING = _Way("acceleration", "com_acceleration", "angular_acceleration", "crank_second")
+
+
+def effort_token(linkage: Linkage) -> str:
+    """Return the token of the effort at the input: a force of a cylinder or slider, a torque of a crank."""
+    return "input.force" if linkage.drive.cylinder or linkage.slides else "input.torque"
+
+
+def input_power(motion: Any) -> Any:
+    """Return the power (W) that the input delivers; needs second derivatives where anything has a mass."""
+    return _power(motion, _MOVING).total
+
+
+def input_effort(motion: Any) -> Any:
+    """Return the torque (N m) at the input, or the force (N) of a cylinder or a slider that drives.
+
+    Positive where it turns the input on counter-clockwise, lengthens the cylinder or pushes the slider
+    forward. Unbounded at a limit of the input that takes power; NaN where the input stands still and does not
+    start to move either.
+    """
+    pace, power = _pace(motion, _MOVING), _power(motion, _MOVING)
+    found = over(power.total, pace)
+    if not motion.acceleration:
+        return found
+    second = _pace(motion, _STARTING)
+    turns = np.abs(pace * motion.input_speed) <= _TURNING * np.abs(second)
+    if not np.any(turns):
+        return found
+    rests = (np.asarray(pace) == 0) & _rests(motion)
+    found = np.where(rests, over(_power(motion, _STARTING).total, second), found)
+    idle = turns & ~rests & (np.abs(power.total) <= _IDLE * power.weight)
+    return (_beside(motion, found, idle) if np.any(idle) else found)[()]
+
+
+def _beside(motion: Any, effort: Array, idle: NDArray[np.bool_]) -> Array:
+    """Return efforts with those of `idle` instants, nothing over nothing, read from either side of them."""
+    phase, speed, second = (
+        np.broadcast_to(value, effort.shape)[idle]
+        for value in (motion.phase, motion.input_speed, motion.input_acceleration)
+    )
+    sides = [
+        input_effort(motion.setting.solver.solve(phase=phase + way, speed=speed, acceleration=second))
+        for way in (-_ASIDE, _ASIDE)
+    ]
+    effort[idle] = (sides[0] + sides[1]) / 2
+    return effort
+
+
+class _Power(NamedTuple):
+    """The power of all forces and inertia, in W, and how much there is of which it is a sum."""
+
+    total: Any
+    weight: Any
+
+
+def _power(motion: Any, way: _Way) -> _Power:
+    """Return what forces and inertia take, in W; of what starts from rest per second."""
+    linkage = motion.setting.linkage
+    struts = _strut_power(motion, way, linkage.springs + linkage.dampers)
+    parts = [(0.0 * motion.phase, 0.0), *struts, *_body_power(motion, way)]
+    return _Power(sum(power for power, _ in parts), sum(weight for _, weight in parts))
+
+
+def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> Iterator[tuple[Any, Any]]:
+    """Yield what each spring and damper takes, and its weight."""
+    for strut in struts:
+        if strut.forceful:
+            kind = motion.damper if isinstance(strut, Damper) else motion.spring
+            force = kind[strut.name].force * motion.setting.linkage.metre
+            moving = between(getattr(motion, way.points), strut.between)
+            yield force * growth(between(motion.position, strut.between), moving), abs(force) * size(moving)
+
+
+def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any]]:
+    """Yield what each mass and each inertia takes, and its weight."""
+    linkage = motion.setting.linkage
+    for body in linkage.bodies:
+        prefix, centre = ("com_", body.name) if body.slider is None else ("", body.slider)
+        if body.mass is not None:
+            velocity = as_complex(getattr(motion, way.centres if prefix else way.points)[centre])
+            pull = as_complex(getattr(motion, f"{prefix}acceleration")[centre]) * linkage.metre
+            lift, scale = (pull.conjugate() * velocity).real, body.mass * linkage.metre
+            weight = abs(velocity) * (abs(pull) + abs(linkage.gravity))
+            yield scale * (lift + linkage.gravity * velocity.imag), scale * weight
+        if body.inertia is not None:
+            turning = getattr(motion, way.turning)[body.name]
+            power = body.inertia * motion.angular_acceleration[body.name] * turning
+            yield power, abs(power)
+
+
+def _pace(motion: Any, way: _Way) -> Any:
+    """Return how fast the input moves, in rad/s; a cylinder's length, or a slider, in m/s."""
+    linkage = motion.setting.linkage
+    if linkage.slides:
+        return getattr(motion, way.crank) * linkage.metre
+    if linkage.drive.cylinder is None:
+        return getattr(motion, way.crank)
+    ends = linkage.drive.cylinder.between
+    moving = between(getattr(motion, way.points), ends)
+    return growth(between(motion.position, ends), moving) * linkage.metre
+
+
+def _rests(motion: Any) -> NDArray[np.bool_]:
+    """Return at which instants no joint moves."""
+    still = [np.asarray(as_complex(velocity) == 0) for velocity in motion.velocity.values()]
+    return np.asarray(np.all(still, axis=0))
+
+
+class Demand(NamedTuple):
+    """What one true period asks of the input: work (J), and its effort (N m, or N).
+
+    The work is what dampers use up: springs and masses give back what they took.
+    `peak` is the effort of the greatest size, `mean` that over time, both None where it is not bounded.
+    """
+
+    work: float
+    peak: float | None
+    mean: float | None
+
+
+def usual_effort(solved: Callable[[Array], Any], periods: int) -> float:
+    """Return the size that the effort has half of a true period of so many drive periods; NaN without one.
+
+    `solved` gives the motion at phases; where the effort is not bounded it does not count.
+    """
+    effort = np.asarray(input_effort(solved(_phases(periods))))
+    sizes = np.sort(np.abs(effort[np.isfinite(effort)]))
+    # the median; numpy's own loads masked arrays at its first call
+    return 0.5 * float(sizes[(sizes.size - 1) // 2] + sizes[sizes.size // 2]) if sizes.size else math.nan
+
+
+def demand(solved: Callable[[Array], Any], periods: int, *, quickest: float, limited: bool) -> Demand:
+    """Return what a true period of so many drive periods asks; `solved` gives the motion at phases.
+
+    `quickest` is how many times as fast as the input the quickest crank turns.
+    Where the input is `limited` its ends are limits. The means are those of equal weights on a closed curve,
+    which lose nothing of a smooth one.
+    """
+    fine = math.ceil(quickest / _FINE)
+    phases = _phases(periods * fine) / fine
+    cycle = solved(phases)
+    power, effort = np.asarray(input_power(cycle)), np.asarray(input_effort(cycle))
+    dampers = _strut_power(cycle, _MOVING, cycle.setting.linkage.dampers)
+    used = sum((part for part, _ in dampers), 0.0 * phases)
+    work = float(np.mean(used)) * math.tau * periods / abs(float(cycle.input_speed))
+    idle = np.abs(power) <= _BOUNDED * np.abs(power).max()
+    if (limited and not idle[:: len(idle) // (2 * periods)].all()) or not np.isfinite(effort).all():
+        return Demand(work, None, None)
+    peak = _peak(lambda near: np.asarray(input_effort(solved(near))), phases, effort)
+    steady = np.ndim(cycle.crank_rate) == 0
+    return Demand(work, peak, float(np.mean(used) / cycle.crank_rate) if steady else _mean(effort))
+
+
+def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> float:
+    """Return the effort of the greatest size: of the highest samples each is followed to its own peak."""
+    sizes = np.abs(known)
+    tops = np.flatnonzero((sizes >= np.roll(sizes, 1)) & (sizes >= np.roll(sizes, -1)))
+    tops = tops[np.argsort(-sizes[tops])][:_TOPS]
+    ends = (-math.inf, math.inf)
+    places = [
+        highest(lambda near: np.abs(effort(near)), phase, float(phases[1]), ends)
+        for phase in phases[tops].tolist()
+    ]
+    peaks = effort(np.array(places))
+    return float(peaks[np.abs(peaks).argmax()])
+
+
+def _phases(periods: int) -> Array:
+    """Return phases at which a true period is looked at."""
+    count = _SAMPLES * periods
+    phases: Array = np.arange(count, dtype=np.float64) * (math.tau * periods / count)
+    return phases
+
+
+def _mean(values: Array) -> float:
+    """Return the mean, 0 where it is nothing but rounding errors."""
+    mean = float(values.mean())
+    return 0.0 if abs(mean) <= _ROUNDING * float(np.abs(values).mean()) else mean

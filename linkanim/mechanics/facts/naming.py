@@ -1,0 +1,270 @@
+"""What a linkage is called: by the lengths of its four-bars, its dyads, its gears and what drives it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkanim.mechanics.closing.kinds import RRR
+from linkanim.mechanics.linkage.frames import holding
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.linkage import Body, Linkage
+from linkanim.mechanics.loops.roots import Kind
+from linkanim.mechanics.motion.derived import pivots_of
+from linkanim.mechanics.motion.mechanism import Mechanism
+from linkanim.mechanics.motion.motion import Motion
+
+SAMPLES = 1440
+_TOLD = 4
+"""Of so many four-bars in a row each is named; of more only the first."""
+TRIPLE_ROCKERS = {
+    "ground": "outward/outward",
+    "input": "outward/inward",
+    "output": "inward/outward",
+    "coupler": "inward/inward",
+}
+GRASHOF = {
+    "ground": "drag-link (double crank)",
+    "input": "crank-rocker",
+    "output": "crank-rocker driven at its rocker",
+    "coupler": "double-rocker",
+}
+
+_PARTS = re.compile(r"(crank|rocker|coupler)\d*")
+"""The names of bodies that say what they do."""
+_ORDINALS = {2: "second", 3: "third"}
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """The four lengths of a four-bar seen from its input, and which of the two closures it has.
+
+    `joint` is the one in which coupler and output meet.
+    """
+
+    joint: str
+    ground: float
+    input: float
+    coupler: float
+    output: float
+    sign: int
+    change_points: int
+
+    @property
+    def links(self) -> dict[str, float]:
+        """The links by their part."""
+        return {
+            "ground": self.ground,
+            "input": self.input,
+            "coupler": self.coupler,
+            "output": self.output,
+        }
+
+    @property
+    def shortest(self) -> str:
+        """The part of the shortest link, the output as the link that it drives."""
+        part = _part(self, min)
+        return "driven link" if part == "output" else part
+
+    @property
+    def margin(self) -> float:
+        """p + q - s - l: positive for Grashof linkages, zero at a change point."""
+        s, p, q, longest = sorted(self.links.values())
+        return 0.0 if self.change_points else math.fsum((p, q, -s, -longest))
+
+
+def four_bar_of(mechanism: Mechanism) -> FourBar | None:
+    """Return the four-bar loop that the input drives directly, where there is one."""
+    for name, loop in mechanism.assembly.loops.items():
+        joint = mechanism.linkage.joint(name)
+        if isinstance(joint, RRR) and loop.pin == mechanism.linkage.drive.joint and loop.ground:
+            a, b = joint.lengths[::-1] if loop.swapped else joint.lengths
+            sign = mechanism.assembly.signs[name] * (-1 if loop.swapped else 1)
+            scale = mechanism.assembly.unscale
+            touching = (loop.root.u.kind, loop.root.w.kind).count(Kind.CHANGE_POINT)
+            return FourBar(name, loop.ground.length * scale, loop.crank.length * scale, a, b, sign, touching)
+    return None
+
+
+def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
+    """Return the class of a linkage, `four_bar` being the loop that its input drives directly."""
+    linkage = mechanism.linkage
+    dyads = [joint for joint in linkage.joints if joint.dyad]
+    geared = any(crank.gear for crank in linkage.cranks)
+    slider = " with slider" if any(joint.travels for joint in dyads) else ""
+    if geared and any(isinstance(joint, RRR) for joint in dyads):
+        return f"geared five-bar{slider}"
+    if four_bar is not None:
+        name = _four_bar_name(four_bar)
+        return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"
+    if not dyads:
+        return _cranks_name(linkage)
+    if linkage.slides:
+        return _slider_driven_name(linkage, dyads)
+    own = dyads[0].linkage_name(mechanism.assembly) if len(dyads) == 1 else None
+    return own or f"{_bars(len(dyads))} linkage{slider}"
+
+
+def _slider_driven_name(linkage: Linkage, dyads: list[Joint]) -> str:
+    """Name a linkage that a slider drives."""
+    first = dyads[0]
+    ends = set(first.ends) if isinstance(first, RRR) else set()
+    cranked = linkage.drive.joint in ends and any(pin.name in ends for pin in linkage.pins)
+    if cranked and len(dyads) == 1:
+        return "slider-crank driven at its slider"
+    return f"{_bars(len(dyads))} linkage driven by a slider"
+
+
+def _cranks_name(linkage: Linkage) -> str:
+    """Name a linkage without dyads by how its cranks turn."""
+    if linkage.slides:
+        return "slider"
+    if linkage.drive.cylinder is not None:
+        return "crank driven by a cylinder"
+    geared = [crank for crank in linkage.cranks if crank.gear]
+    if any(not linkage.joint(crank.pivot).fixed for crank in geared):
+        return "epicyclic gear train"
+    return "geared cranks" if geared else "crank"
+
+
+def _bars(dyads: int) -> str:
+    """Name the linkage by its links: ground, crank and two for each dyad."""
+    return {1: "four-bar", 2: "six-bar", 3: "eight-bar"}.get(dyads, f"{2 * dyads + 2}-bar")
+
+
+def _rest(mechanism: Mechanism, dyads: int) -> str:
+    """Name the loops after the first, as far as they are four-bars; else say how many dyads follow."""
+    if dyads <= _TOLD:
+        further = [_four_bar_name(bar) for bar in _further_loops(mechanism)]
+        if len(further) == dyads - 1:
+            return "".join(f", then {name}" for name in further)
+    return " and a second dyad" if dyads == 2 else f" and {dyads - 1} further dyads"
+
+
+def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
+    """Yield the four-bars down the chain: dyads between a fixed pin and one that turns about a fixed pin.
+
+    Their sign tells a parallelogram, whose coupler keeps along the ground, from an antiparallelogram.
+    """
+    linkage, cycle = mechanism.linkage, one_cycle(mechanism, 0)
+    pins = {pin.name: complex(*pin.position) for pin in linkage.pins}
+    for joint in linkage.joints:
+        if not isinstance(joint, RRR) or joint.name in mechanism.assembly.loops:
+            continue
+        for (moving, fixed), (a, b) in ((joint.ends, joint.lengths), (joint.ends[::-1], joint.lengths[::-1])):
+            pivot, crank = _turns_about(linkage, moving)
+            if fixed in pins and pivot is not None:
+                ground = abs(pins[fixed] - pins[pivot])
+                along = cycle.position[joint.name] - cycle.position[moving]
+                apart = along - (cycle.position[fixed] - cycle.position[pivot])
+                sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
+                yield FourBar(joint.name, ground, crank, a, b, sign, _change_point_count(ground, crank, a, b))
+                break
+
+
+def _turns_about(linkage: Linkage, moving: str) -> tuple[str | None, float]:
+    """Return the fixed pin that a joint turns about, and how far from it; None where there is none."""
+    for frame in (frame for frame in linkage.frames[1:] if moving in frame):
+        pivot = next((pin.name for pin in linkage.pins if pin.name in frame), None)
+        if pivot is not None and pivot != moving:
+            return pivot, abs(frame[moving] - frame[pivot])
+    return None, 0.0
+
+
+def _change_point_count(g: float, r: float, a: float, b: float) -> int:
+    """Return how many change points the lengths have, each of them rounded: to 1e-12 of the perimeter."""
+    least = 1e-12 * (g + r + a + b)
+    return int(abs(a + b - g - r) <= least) + int(min(abs(g - r - a + b), abs(g - r + a - b)) <= least)
+
+
+def _four_bar_name(bar: FourBar) -> str:
+    if bar.change_points:
+        return _change_point_name(bar)
+    if bar.margin > 0:
+        return "Grashof " + GRASHOF[_part(bar, min)]
+    return f"triple-rocker ({TRIPLE_ROCKERS[_part(bar, max)]})"
+
+
+def _part(bar: FourBar, pick: Callable[..., str]) -> str:
+    """Return the part of the shortest (min) or longest (max) link."""
+    return pick(bar.links, key=lambda part: bar.links[part])
+
+
+def _change_point_name(bar: FourBar) -> str:
+    same = math.isclose
+    if same(bar.ground, bar.coupler, rel_tol=1e-15) and same(bar.input, bar.output, rel_tol=1e-15):
+        return "parallelogram" if bar.sign > 0 else "antiparallelogram"
+    g, r, a, b = bar.ground, bar.input, bar.coupler, bar.output
+    pairs = (g, r, a, b), (g, b, a, r)
+    if any(same(a, b, rel_tol=1e-15) and same(c, d, rel_tol=1e-15) for a, b, c, d in pairs):
+        return "kite (change point)"
+    return "change-point " + GRASHOF[_part(bar, min)]
+
+
+def one_cycle(mechanism: Mechanism, derivatives: int) -> Motion:
+    """Return the motion over one true period, at equal steps of phase and at one radian a second."""
+    phases = np.linspace(0.0, 2 * math.pi * mechanism.periods, SAMPLES, endpoint=False)
+    return mechanism.solve(phase=phases, speed=1.0, derivatives=derivatives)
+
+
+def turning_links(mechanism: Mechanism) -> Iterator[str]:
+    """Yield the bodies that turn fully over one true period: cranks with the input, others as they wind."""
+    linkage, cycle = mechanism.linkage, one_cycle(mechanism, 0)
+    for body in linkage.bodies:
+        if body.slider is not None:
+            continue
+        if cycle.setting.crank_of(body):
+            turns = mechanism.assembly.path.full_turn
+        else:
+            first, second = (cycle.position[joint] @ np.array([1, 1j]) for joint in body.joints[:2])
+            way = second - first
+            turns = abs(float(np.angle(np.roll(way, -1) / way).sum())) > math.pi
+        if turns:
+            yield body.name
+
+
+def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:
+    """Return what each body is called: one that a scene names crank, rocker or coupler by what it does.
+
+    A crank turns fully about a fixed pin, a rocker swings about one, a coupler has none. Of cranks the
+    input is the crank, others are driven cranks; of rockers the input is the input rocker. Further ones of
+    a sort are counted: second coupler. Every other name stays.
+    """
+    parts = {body.name: _part_of(mechanism, body, turning) for body in mechanism.linkage.bodies}
+    driven = [name for name, (_, drives) in parts.items() if not drives]
+    first = next((noun for noun, drives in parts.values() if drives and noun), None)
+    count: dict[str, int] = {}
+    names = {}
+    for name, (noun, drives) in parts.items():
+        words = noun or name
+        if noun == "crank" and not drives and first != "rocker" and mechanism.assembly.path.full_turn:
+            words = "driven crank"
+        elif noun == "rocker" and drives and any(parts[other][0] == "rocker" for other in driven):
+            words = "input rocker"
+        count[words] = count.get(words, 0) + 1
+        names[name] = _counted(words, count[words]) if noun else name
+    return names
+
+
+def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tuple[str | None, bool]:
+    """Return crank, rocker or coupler, None for a body with another name; and whether it is the input."""
+    linkage = mechanism.linkage
+    own = _PARTS.fullmatch(body.name)
+    if own is None or body.slider is not None:
+        return None, False
+    pivoted = bool(pivots_of(linkage, body))
+    if pivoted == (own[1] == "coupler"):
+        return None, False
+    drives = linkage.drive.joint in linkage.frames[holding(linkage.frames, body.joints) or 0]
+    turns = mechanism.assembly.path.full_turn if drives and pivoted else body.name in turning
+    return ("crank" if turns else "rocker") if pivoted else "coupler", drives and pivoted
+
+
+def _counted(words: str, number: int) -> str:
+    if number == 1:
+        return words
+    return f"{_ORDINALS.get(number, f'{number}th')} {words}"

@@ -1,0 +1,285 @@
+"""The register of quantities: what is known of a linkage, in which symbol, words and unit, under which key.
+
+It puts the measures of each part together with what is known of the linkage as a whole; JSON, CSV, tables,
+charts, their lists and refusals, the HUD and notebooks read from here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.closing.kinds import Pin
+from linkanim.mechanics.facts.effort import effort_token, input_effort
+from linkanim.mechanics.facts.symbols import called, indexed, link_labels
+from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.motion.columns import components
+from linkanim.mechanics.motion.derived import (
+    between,
+    dyads_of,
+    input_rate,
+    mechanical_advantage,
+    output_body,
+    pole,
+    size,
+    transmission_angle,
+    worst_transmission,
+)
+from linkanim.mechanics.motion.measures import (
+    CENTRE,
+    CENTRE_PATH,
+    DAMPER,
+    DIRECTIONS,
+    PATH,
+    POINT,
+    SPRING,
+    Measure,
+    measures_of,
+)
+
+NO_NAMES: Mapping[str, str] = MappingProxyType({})
+"""Every body by its own name."""
+_NEAREST = 3
+_ROUNDING = 1e-13
+"""Of what is as large as the extent, moved at the input's speed."""
+
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
+
+    `read` takes a Motion (arrays) or a Pose (floats) and gives radians and the scene's unit of length:
+    one value an instant, or one in each of `columns`. `unit` and `order` are as in `Measure`. `path` is where
+    it stands in JSON, numbers being places in a list; what follows from others there has none.
+    """
+
+    token: str
+    symbol: str
+    words: str
+    unit: str
+    order: int
+    read: Callable[[Any], Any]
+    columns: tuple[str, ...] = ("",)
+    path: Path = ()
+
+    def shown(self, motion: Any) -> Any:
+        """Return the values as people read them: angles in degrees."""
+        found = self.read(motion)
+        return np.degrees(found) if self.unit == "rad" else found
+
+    def rounding(self, cycle: Any) -> float:
+        """Return how large rounding errors may be over a cycle, from its extent and the input's speed."""
+        extent = max(float(np.abs(places).max()) for places in cycle.position.values())
+        size = extent if "{}" in self.unit else 1.0
+        return _ROUNDING * size * abs(float(cycle.input_speed)) ** self.order
+
+    def shown_unit(self, length_unit: str) -> str:
+        """Return the unit that goes with `shown`."""
+        return "°" if self.unit == "rad" else self.unit.format(length_unit)
+
+    def title(self, length_unit: str) -> str:
+        """Return what an axis is titled: "Rocker: angular velocity ω₄ (rad/s)"."""
+        unit = self.shown_unit(length_unit)
+        return f"{self.words} {self.symbol}" + (f" ({unit})" if unit else "")
+
+
+def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> Mapping[str, Quantity]:
+    """Return all quantities of a linkage by their tokens: bodies, joints, centres of mass, struts.
+
+    Tokens go by the bodies' own names; words by what `names` has for them.
+    """
+    return _registered(linkage, tuple(names.items()))
+
+
+@lru_cache(maxsize=16)
+def _registered(linkage: Linkage, names: tuple[tuple[str, str], ...]) -> Mapping[str, Quantity]:
+    found = _quantities(linkage, dict(names), still=False)
+    return MappingProxyType({quantity.token: quantity for quantity in found})
+
+
+def recorded(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield what JSON and CSV hold: fixed pins and forces that are not known as well."""
+    return (quantity for quantity in _quantities(linkage, NO_NAMES, still=True) if quantity.path)
+
+
+def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
+    """Return the quantity of that token; BadInput with the nearest ones and the list where there is none.
+
+    `of` says whose quantities they are.
+    """
+    if token in known:
+        return known[token]
+    from difflib import get_close_matches
+
+    near = get_close_matches(token, list(known), n=_NEAREST)
+    meant = f" (did you mean {' or '.join(near)}?)" if near else ""
+    raise BadInput(f"quantity {token!r}: {of} has none of this name{meant}; it has {', '.join(known)}")
+
+
+def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> Iterator[Quantity]:
+    """Yield all quantities, those of fixed pins and unknown forces where `still`."""
+    labels = link_labels(linkage)
+    for body in linkage.bodies:
+        yield from _of_body(linkage, body, labels[body.name], called(body, names))
+    for joint in linkage.joints:
+        moves, path = not isinstance(joint, Pin), ("joints", joint.name)
+        for measure in POINT if moves or still else ():
+            yield from _of_point(measure, joint.name, joint.name, joint.name, path)
+        for measure in PATH if moves else ():
+            symbol = indexed(measure.symbol, joint.name)
+            yield _bound(measure, joint.name, symbol, joint.name, (*path, measure.key))
+    for body in linkage.bodies:
+        if body.com is not None:
+            label, words = f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
+            centre = ("bodies", body.name, "com")
+            for measure in CENTRE:
+                yield from _of_point(measure, body.name, label, words, centre)
+            for measure in CENTRE_PATH:
+                symbol = indexed(measure.symbol, label)
+                yield _bound(measure, body.name, symbol, words, (*centre, measure.key))
+    for strut in linkage.springs + linkage.dampers:
+        shared = strut.name in labels
+        yield from _of_strut(strut, linkage.strut_word(strut), shared=shared, every=still)
+    for body in linkage.bodies:
+        if body.slider is None:
+            yield from _of_pole(body, labels[body.name], called(body, names))
+    yield from _of_whole(linkage)
+
+
+def _of_pole(body: Body, label: str, words: str) -> Iterator[Quantity]:
+    """Yield where a body's instant centre to the ground lies, and each coordinate."""
+    token, said, index = f"{body.name}.pole", f"{words}: instant centre to the ground", f"P1{label}"
+
+    def whole(motion: Any) -> Any:
+        found = pole(motion, body)
+        return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
+
+    yield Quantity(token, indexed("r", index), said, "{}", 0, whole, ("x", "y"))
+    for place, axis in enumerate("xy"):
+        symbol = indexed(axis, index)
+        path = ("bodies", body.name, "pole", place)
+        words, read = f"{said}, {axis}", _component(whole, place)
+        yield Quantity(f"{token}.{axis}", symbol, words, "{}", 0, read, path=path)
+
+
+def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield what is told of the linkage as a whole: its input, transmission and advantage."""
+    yield from map(_keyed, _of_input(linkage))
+    dyads = dyads_of(linkage)
+    if dyads:
+        read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
+        yield _keyed(Quantity("transmission_angle", "μ", "Transmission angle", "rad", 0, read))
+    for dyad in dyads if len(dyads) > 1 else ():
+        read, said = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
+        token, path = f"{dyad}.transmission_angle", ("joints", dyad, "transmission_angle")
+        yield Quantity(token, indexed("μ", dyad), said, "rad", 0, read, path=path)
+    output = output_body(linkage)
+    if output is not None and (output.slider or not linkage.slides):
+        read = mechanical_advantage(linkage)
+        yield _keyed(Quantity("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read))
+
+
+def _of_input(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield how fast the input moves, how long its cylinder is, and what it delivers."""
+    if linkage.slides:
+        yield Quantity("input.velocity", "v_{in}", "Input: velocity", "{}/s", 1, input_rate)
+    else:
+        yield Quantity("input.angular_velocity", "ω_{in}", "Input: angular velocity", "rad/s", 1, input_rate)
+    if linkage.drive.cylinder is not None:
+        ends = linkage.drive.cylinder.between
+
+        def length(motion: Any) -> Any:
+            return size(between(motion.position, ends))
+
+        yield Quantity("input.length", "L_{in}", "Input: length of the cylinder", "{}", 0, length)
+    if linkage.forceful:
+        yield _effort(linkage)
+
+
+def _keyed(quantity: Quantity) -> Quantity:
+    """Return a quantity that stands in JSON under its own token."""
+    return replace(quantity, path=tuple(quantity.token.split(".")))
+
+
+def _effort(linkage: Linkage) -> Quantity:
+    """Return the torque at the input, or the force of what drives in a straight line."""
+    damped = any(damper.forceful for damper in linkage.dampers)
+    order = 2 if any(body.forceful for body in linkage.bodies) else int(damped)
+    token = effort_token(linkage)
+    if token == "input.force":
+        return Quantity(token, "F_{in}", "Input: force", "N", order, input_effort)
+    return Quantity(token, "T_{in}", "Input: torque", "N m", order, input_effort)
+
+
+def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:
+    own, slopes = measures_of(linkage, body)
+    path = ("bodies", body.name)
+    for measure in own:
+        yield _bound(measure, body.name, indexed(measure.symbol, label), words, (*path, measure.key))
+    for place, measure in enumerate(slopes):
+        symbol = indexed(measure.symbol, label)
+        yield _bound(measure, body.name, symbol, words, (*path, "coefficients", place))
+
+
+def _bound(measure: Measure, part: str, symbol: str, words: str, path: Path) -> Quantity:
+    """Return the quantity that a measure is of one part."""
+    token, said = f"{part}.{measure.name}", f"{words}: {measure.words}"
+    known = (token, symbol, said, measure.unit, measure.order)
+    return Quantity(*known, lambda motion: measure.read(motion, part), path=path)
+
+
+def _of_point(measure: Measure, part: str, label: str, words: str, path: Path) -> Iterator[Quantity]:
+    """Yield a vector, a position as its two components and else its magnitude, and each component."""
+    token, said = f"{part}.{measure.name}", f"{words}: {measure.words}"
+
+    def vector(motion: Any) -> Any:
+        return measure.read(motion, part)
+
+    whole = (indexed(measure.symbol, label), said, measure.unit, measure.order)
+    if measure.order:
+        yield Quantity(token, *whole, lambda motion: _size(vector(motion)))
+    else:
+        yield Quantity(token, *whole, vector, ("x", "y"))
+    for index, axis in enumerate("xy"):
+        symbol = indexed(measure.symbol, f"{label}{axis}") if measure.order else indexed(axis, label)
+        yield Quantity(
+            f"{token}.{axis}",
+            symbol,
+            f"{said}, {axis}",
+            measure.unit,
+            measure.order,
+            _component(vector, index),
+            path=(*path, measure.key, index),
+        )
+
+
+def _component(vector: Callable[[Any], Any], index: int) -> Callable[[Any], Any]:
+    return lambda motion: components(vector(motion))[index]
+
+
+def _size(vector: Any) -> Any:
+    x, y = components(vector)
+    return math.hypot(x, y) if isinstance(vector, tuple) else np.hypot(x, y)
+
+
+def _of_strut(strut: Spring | Damper, word: str, *, shared: bool, every: bool) -> Iterator[Quantity]:
+    """Yield a strut's quantities, a force that is not known where `every` is meant.
+
+    In symbols `word` tells it from a body of the same name.
+    """
+    kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
+    for measure in (*measures, *DIRECTIONS[kind]):
+        if measure.name != "force" or strut.forceful or every:
+            symbol = indexed(measure.symbol, f"{word} {strut.name}" if shared else strut.name)
+            path = (f"{kind}s", strut.name, measure.key)
+            yield _bound(measure, strut.name, symbol, f"{word.capitalize()} {strut.name}", path)

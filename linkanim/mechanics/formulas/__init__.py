@@ -1,0 +1,1 @@
+"""Arithmetic that knows no linkage: expressions and programs, circular functions, exact sums."""

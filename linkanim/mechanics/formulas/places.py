@@ -1,0 +1,112 @@
+"""Where the values of a block live while its passes run: in result rows, and in buffers beside them.
+
+A pass costs what it fetches and stores. So what is in use at once has to stay in the cache, and a result is
+written over one of its arguments wherever one ends there.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from linkanim.mechanics.formulas.expression import Expr, Value
+
+
+@dataclass(frozen=True)
+class Places:
+    """The variable that holds each node's values, what is left to be copied into rows, how many buffers."""
+
+    held: Mapping[int, str]
+    copies: tuple[tuple[int, Value], ...]
+    buffers: int
+
+
+def places(nodes: Sequence[Expr], outputs: Sequence[Value]) -> Places:
+    """Return where the values of nodes live, which stand in the order in which they are worked out.
+
+    Outputs live in their own rows, `o0` on; the others in rows that are not filled yet and in buffers, `b0`
+    on. An output that is no node, or one of an earlier row, is to be copied.
+    """
+    held, copies = _rows({node.index for node in nodes}, outputs)
+    last = {arg.index: at for at, node in enumerate(nodes) for arg in node.args if isinstance(arg, Expr)}
+    inner = [node.index for node in nodes if node.index not in held]
+    heirs = _heirs(nodes, held, last)
+    ending: dict[int, list[int]] = {}
+    for index in inner:
+        ending.setdefault(last[index], []).append(index)
+    free = _Free({held[node.index]: at for at, node in enumerate(nodes) if node.index in held})
+    for at, node in enumerate(nodes):
+        free.places += [held[index] for index in ending.get(at, ())]
+        if node.index in heirs:
+            held[node.index] = free.take(at, last[node.index], heirs[node.index])
+    return Places(held, tuple(copies), free.buffers)
+
+
+def _rows(computed: set[int], outputs: Sequence[Value]) -> tuple[dict[int, str], list[tuple[int, Value]]]:
+    """Return the row of each node that is an output, and the outputs that have to be copied into theirs."""
+    held: dict[int, str] = {}
+    copies: list[tuple[int, Value]] = []
+    for row, value in enumerate(outputs):
+        if isinstance(value, Expr) and value.index in computed and value.index not in held:
+            held[value.index] = f"o{row}"
+        else:
+            copies.append((row, value))
+    return held, copies
+
+
+def _heirs(
+    nodes: Sequence[Expr], held: Mapping[int, str], last: Mapping[int, int]
+) -> dict[int, tuple[int, str]]:
+    """Return of each inner value until when its place can be handed on, and the row in which that ends."""
+    heirs: dict[int, tuple[int, str]] = {}
+    for node in reversed(nodes):
+        if node.index not in held:
+            user = nodes[last[node.index]].index
+            heirs[node.index] = heirs.get(user) or (last[node.index], held[user])
+    return heirs
+
+
+@dataclass
+class _Free:
+    """The places that are free; `filled` says at which pass each row gets its own values."""
+
+    filled: Mapping[str, int]
+    rows: list[tuple[int, str]] = field(init=False)
+    """Those never used, with when they are filled: the first one to be filled first."""
+    places: list[str] = field(default_factory=list)
+    """Those given back, the last one last."""
+    buffers: int = 0
+
+    def __post_init__(self) -> None:
+        self.rows = sorted((at, row) for row, at in self.filled.items())
+
+    def take(self, at: int, last: int, heir: tuple[int, str]) -> str:
+        """Take the row to which a value is handed down, one free that long, or one free while used."""
+        until, row = heir
+        return self._row(row) or self._until(at, until) or self._until(at, last) or self._new()
+
+    def _row(self, row: str) -> str | None:
+        """Take that row, if it is free."""
+        at = bisect_left(self.rows, (self.filled[row], row))
+        if at < len(self.rows) and self.rows[at][1] == row:
+            return self.rows.pop(at)[1]
+        if row not in self.places:
+            return None
+        self.places.remove(row)
+        return row
+
+    def _until(self, at: int, until: int) -> str | None:
+        """Take the place freed last of those that stay free from one pass to another, if there is any."""
+        for n in range(len(self.places) - 1, -1, -1):
+            end = self.filled.get(self.places[n], until)
+            if end >= until:
+                return self.places.pop(n)
+            if end < at:
+                del self.places[n]
+        first = bisect_left(self.rows, (until, ""))
+        return self.rows.pop(first)[1] if first < len(self.rows) else None
+
+    def _new(self) -> str:
+        self.buffers += 1
+        return f"b{self.buffers - 1}"

@@ -1,0 +1,293 @@
+"""Compile noted expressions into a function of floats and into passes over blocks of arrays.
+
+`scalar` writes straight-line Python on floats, which is how one frame is solved. `Batch` writes the
+same operations as numpy calls into reused buffers, a block of the array at a time, so that the
+buffers stay in the cache and memory is taken for the results only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from ctypes import addressof, c_char
+from dataclasses import dataclass, field
+from decimal import Decimal
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.formulas.expression import WHOLE, Expr, Value
+from linkanim.mechanics.formulas.places import places
+from linkanim.mechanics.formulas.precise import cosine, sine, square_root
+
+Array = NDArray[np.floating[Any]]
+
+BLOCK = 16384
+CACHE_LINE = 64
+"""Bytes."""
+
+INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
+FLOAT_CALLS = {
+    "sqrt": "sqrt({})",
+    "rint": f"(({{0}} + {WHOLE!r}) - {WHOLE!r} or {{0}} * 0.0)",
+    "arctan2": "atan2({}, {})",
+    "minimum": "min({}, {})",
+    "maximum": "max({}, {})",
+    "select": "({2} if {0} < {1} else {3})",
+}
+UFUNCS: Mapping[str, Callable[..., Any]] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "neg": np.negative,
+    "sqrt": np.sqrt,
+    "rint": np.rint,
+    "arctan2": np.arctan2,
+    "minimum": np.minimum,
+    "maximum": np.maximum,
+}
+
+
+def needed(outputs: Sequence[Value]) -> list[Expr]:
+    """Return the nodes that the outputs depend on, arguments before their users.
+
+    They stand as they were noted, joint by joint: few values wait long for their use, so that what is in
+    use stays in the cache.
+    """
+    found: dict[int, Expr] = {}
+    stack: list[Expr | float | str] = list(outputs)
+    while stack:
+        node = stack.pop()
+        if isinstance(node, Expr) and node.index not in found:
+            found[node.index] = node
+            stack.extend(node.args)
+    return [found[index] for index in sorted(found)]
+
+
+def _formula(node: Expr) -> str:
+    template = INFIX.get(node.op) or FLOAT_CALLS[node.op]
+    return template.format(*(_name(argument) for argument in node.args))
+
+
+def _name(value: Value | str) -> str:
+    if not isinstance(value, Expr):
+        return f"({value!r})" if math.isfinite(float(value)) else f"float('{value}')"
+    return str(value.args[0]) if value.op == "input" else f"v{value.index}"
+
+
+def _define(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
+    """Return the function of that name from source text that this module wrote."""
+    space = dict(names)
+    exec(compile(source, f"<linkanim {name}>", "exec"), space)
+    function: Callable[..., Any] = space[name]
+    return function
+
+
+FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": math.atan2}
+NO_NAMES: Mapping[str, Any] = MappingProxyType({})
+DEEPEST = 40
+"""Brackets in brackets; Python reads 200."""
+
+
+def scalar(
+    inputs: Sequence[str], outputs: Sequence[Value], layout: str, names: Mapping[str, Any] = NO_NAMES
+) -> Callable[..., Any]:
+    """Return a function of float inputs that gives the outputs in `layout`.
+
+    `layout` is a Python expression with one `{}` for each output, which may use the `names`. Raises what
+    `math` raises (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
+    """
+    lines, texts = _inlined(needed(outputs), outputs)
+    result = layout.format(*(texts.get(_name(value), _name(value)) for value in outputs))
+    source = "\n".join([f"def pose({', '.join(inputs)}):", *lines, f"    return {result}"])
+    return _define(source, "pose", {**FLOAT_NAMES, **names})
+
+
+def _inlined(nodes: Sequence[Expr], outputs: Sequence[Value]) -> tuple[list[str], dict[str, str]]:
+    """Return assignments to variables, and by their names, in brackets, those that need none: used once."""
+    uses = Counter(value.index for value in outputs if isinstance(value, Expr))
+    for node in nodes:
+        times = 1 if node.op in INFIX or node.op == "sqrt" else 2
+        uses.update(argument.index for argument in node.args * times if isinstance(argument, Expr))
+    lines, texts, depths = [], dict[str, str](), dict[str, int]()
+    for node in (node for node in nodes if node.op != "input"):
+        names = [_name(argument) for argument in node.args]
+        template = INFIX.get(node.op) or FLOAT_CALLS[node.op]
+        text = template.format(*(texts.get(name, name) for name in names))
+        depth = 1 + max((depths.get(name, 0) for name in names), default=0)
+        if uses[node.index] == 1 and depth < DEEPEST:
+            texts[_name(node)], depths[_name(node)] = f"({text})", depth
+        else:
+            lines.append(f"    {_name(node)} = {text}")
+    return lines, texts
+
+
+DECIMAL_NAMES = {"sqrt": square_root, "sin": sine, "cos": cosine}
+DECIMAL_CALLS = {**FLOAT_CALLS, "sin": "sin({})", "cos": "cos({})"}
+"""Only graphs that are `exact` have sines and cosines."""
+
+
+def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., tuple[Decimal, ...]]:
+    """Return a function of Decimals that gives the outputs; call it in a `precise.context`."""
+    constants: dict[str, Decimal] = {}
+
+    def name(value: Value | str) -> str:
+        if isinstance(value, (Expr, str)):
+            return _name(value)
+        key = f"k{len(constants)}"
+        constants[key] = Decimal(value)
+        return key
+
+    lines = [
+        f"    {_name(node)} = {(INFIX.get(node.op) or DECIMAL_CALLS[node.op]).format(*map(name, node.args))}"
+        for node in needed(outputs)
+        if node.op != "input"
+    ]
+    result = "".join(f"{name(value)}, " for value in outputs)
+    source = "\n".join([f"def exact({', '.join(inputs)}):", *lines, f"    return ({result})"])
+    return _define(source, "exact", {**DECIMAL_NAMES, **constants})
+
+
+@dataclass(frozen=True)
+class Batch:
+    """A compiled pass over arrays: call it with one value or array (N,) for each input."""
+
+    arrays: tuple[str, ...]
+    outputs: tuple[Value, ...]
+    block: Callable[..., Any]
+    prelude: Callable[..., tuple[float, ...]]
+    constants: tuple[Array, ...]
+    buffers: int
+    spare: list[list[Array]] = field(default_factory=list, compare=False, repr=False)
+    """Buffers of calls that are over; a call takes its own, so that threads do not share any."""
+
+    def __call__(self, *values: Array | float) -> Array:
+        """Return the outputs as rows (outputs, N)."""
+        several = len(self.arrays)
+        arrays: Sequence[Any] = values[:several]
+        numbers = self._numbers(values[several:])
+        count = arrays[0].shape[0]
+        results = aligned_rows(len(self.outputs), count)
+        size = _block_size(count)
+        work = self._buffers(size)
+        if count == size:
+            self.block(arrays, numbers, list(results), work)
+        else:
+            for part in (slice(first, min(first + size, count)) for first in range(0, count, size)):
+                inside = [row[: part.stop - part.start] for row in work]
+                self.block([array[part] for array in arrays], numbers, list(results[:, part]), inside)
+        self.spare.append(work)
+        return results
+
+    def _numbers(self, values: Sequence[Any]) -> list[Array]:
+        """Return what is the same along the array, without a dimension."""
+        return [*(np.array(value, np.float64) for value in self.prelude(*values)), *self.constants]
+
+    def _buffers(self, size: int) -> list[Array]:
+        """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
+        work = self.spare.pop() if self.spare else []
+        if work and len(work[0]) == size:
+            return work
+        return list(aligned_rows(self.buffers, size))
+
+
+def aligned_rows(rows: int, count: int) -> Array:
+    """Return an array (rows, count) to be filled, each row from a cache line's begin on.
+
+    Vector units take whole cache lines; a row that begins elsewhere costs them two for each.
+    """
+    line = CACHE_LINE // np.dtype(np.float64).itemsize
+    width = -(-count // line) * line
+    memory = np.empty(rows * width + line)
+    skipped = -addressof(c_char.from_buffer(memory.data)) % CACHE_LINE
+    strides = (width * memory.itemsize, memory.itemsize)
+    return np.ndarray((rows, count), np.float64, memory, skipped, strides)
+
+
+def _block_size(count: int) -> int:
+    """Return the size of equal blocks, whole cache lines of them; all where one is enough."""
+    if count <= BLOCK:
+        return count
+    return -(-count // (-(-count // BLOCK) * CACHE_LINE)) * CACHE_LINE
+
+
+def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
+    """Compile the outputs; `inputs` says of each name whether it is an array, those first, or uniform."""
+    nodes = needed(outputs)
+    fixed = [node for node in nodes if node.uniform and node.op != "input"]
+    block = _Block([node for node in nodes if not node.uniform], outputs)
+    arrays = tuple(name for name, array in inputs.items() if array)
+    uniform = [name for name, array in inputs.items() if not array]
+    asked = {_name(node) for node in nodes} & set(uniform)
+    told = [*sorted(asked), *map(_name, fixed)]
+    return Batch(
+        arrays,
+        tuple(outputs),
+        block.function(arrays, told),
+        _prelude(uniform, fixed, told),
+        tuple(np.array(float.fromhex(digits)) for digits in block.constants),
+        block.places.buffers,
+    )
+
+
+def _prelude(
+    names: Sequence[str], fixed: Sequence[Expr], told: Sequence[str]
+) -> Callable[..., tuple[float, ...]]:
+    """Return the function that computes from the uniform inputs what is the same along the array."""
+    lines = [f"    {_name(node)} = {_formula(node)}" for node in fixed]
+    result = "".join(f"{name}, " for name in told)
+    source = "\n".join([f"def prelude({', '.join(names)}):", *lines, f"    return ({result})"])
+    return _define(source, "prelude", FLOAT_NAMES)
+
+
+class _Block:
+    """The passes over one block of arrays, as text."""
+
+    def __init__(self, nodes: Sequence[Expr], outputs: Sequence[Value]) -> None:
+        self.nodes = [node for node in nodes if node.op != "input"]
+        self.rows = [f"o{row}" for row in range(len(outputs))]
+        self.places = places(self.nodes, outputs)
+        self.constants: dict[str, str] = {}
+
+    def function(self, arrays: Sequence[str], uniform: Sequence[str]) -> Callable[..., Any]:
+        """Return the function that runs one block: (arrays, numbers, result rows, buffers)."""
+        calls = list(self._calls())
+        unpack = [
+            _unpacking(arrays, "arrays"),
+            _unpacking([*uniform, *self.constants.values()], "numbers"),
+            _unpacking(self.rows, "rows"),
+            _unpacking([f"b{index}" for index in range(self.places.buffers)], "buffers"),
+        ]
+        body = [line for line in (*unpack, *calls) if line]
+        source = "\n    ".join(["def block(arrays, numbers, rows, buffers):", *(body or ["pass"])])
+        return _define(source, "block", {**UFUNCS, "where": np.where})
+
+    def _calls(self) -> Iterator[str]:
+        """Yield the numpy calls in order."""
+        for node in self.nodes:
+            *arguments, place = [self._variable(argument) for argument in (*node.args, node)]
+            if node.op == "select":
+                a, b, below, otherwise = arguments
+                yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
+            else:
+                # By keyword costs time at every call; numpy asks it only of these two.
+                target = f"out={place}" if node.op in ("minimum", "maximum") else place
+                yield f"{node.op}({', '.join(arguments)}, {target})"
+        for row, value in self.places.copies:
+            yield f"{self.rows[row]}[...] = {self._variable(value)}"
+
+    def _variable(self, value: Value | str) -> str:
+        """Return the variable that holds the value inside the function."""
+        if isinstance(value, Expr):
+            return self.places.held.get(value.index) or _name(value)
+        # An array of no dimension: numpy would make one of a plain number at every call.
+        # Known by its digits: as keys, 0.0 and -0.0 would be one.
+        return self.constants.setdefault(float(value).hex(), f"k{len(self.constants)}")
+
+
+def _unpacking(names: Sequence[str], source: str) -> str:
+    return f"{', '.join(names)}, = {source}" if names else ""

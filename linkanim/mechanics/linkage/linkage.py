@@ -1,0 +1,213 @@
+"""What a linkage is: frozen values, lengths in the scene's unit, angles in radians, y up.
+
+Joints stand in the order in which they can be solved: each one names only joints before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Literal
+
+from linkanim.mechanics.closing.kinds import Crank, Pin
+from linkanim.mechanics.linkage.frames import frames_of
+from linkanim.mechanics.linkage.joint import Frame, Joint, Point
+
+Outline = Literal["bar", "plate", "wheel", "slot", "hook", "none"]
+"""How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, a bar
+with a slot from its first to its second, one that ends in a hook, not at all."""
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A named body: its angle is that of first -> second joint; `com` is its centre of mass.
+
+    `com` is (along first -> second joint, to the left of it) from the first joint. A body with
+    `slider` instead of joints is the block that travels with that joint along its line. `mass` is in kg,
+    `inertia` in kg·m² about the centre of mass; what is None is left out of all forces. `look` and `colour`
+    (red, green, blue) are how it is drawn where the scene says so.
+    """
+
+    name: str
+    joints: tuple[str, ...] = ()
+    com: Point | None = None
+    slider: str | None = None
+    mass: float | None = None
+    inertia: float | None = None
+    look: Outline | None = None
+    colour: tuple[int, int, int] | None = None
+
+    @property
+    def forceful(self) -> bool:
+        """Whether it takes a force to move it."""
+        return self.mass is not None or self.inertia is not None
+
+    def scaled(self, factor: float) -> Body:
+        """Return the body with the place of its centre of mass times a factor."""
+        com = self.com and (self.com[0] * factor, self.com[1] * factor)
+        return replace(self, com=com)
+
+
+@dataclass(frozen=True, slots=True)
+class Spring:
+    """A spring between two joints; `stiffness` in N/m, `free_length` in the scene's unit.
+
+    Both are None where the force is not known.
+    """
+
+    name: str
+    between: tuple[str, str]
+    stiffness: float | None = None
+    free_length: float | None = None
+
+    @property
+    def forceful(self) -> bool:
+        """Whether its force is known."""
+        return self.stiffness is not None and self.free_length is not None
+
+
+@dataclass(frozen=True, slots=True)
+class Damper:
+    """A damper between two joints; `coefficient` in N·s/m, None where the force is not known."""
+
+    name: str
+    between: tuple[str, str]
+    coefficient: float | None = None
+
+    @property
+    def forceful(self) -> bool:
+        """Whether its force is known."""
+        return self.coefficient is not None
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder:
+    """A cylinder that drives the linkage: its length runs from `first` to `last` and back.
+
+    `between` is a fixed pin and a joint of the driven crank's body.
+    """
+
+    between: tuple[str, str]
+    first: float
+    last: float
+
+    def scaled(self, factor: float) -> Cylinder:
+        """Return the cylinder with its lengths times a factor."""
+        return replace(self, first=self.first * factor, last=self.last * factor)
+
+
+@dataclass(frozen=True, slots=True)
+class Travel:
+    """How far the slider that drives the linkage travels along its line: from `first` to `last` and back."""
+
+    first: float
+    last: float
+
+    def scaled(self, factor: float) -> Travel:
+        """Return the travel with its ends times a factor."""
+        return Travel(self.first * factor, self.last * factor)
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """What moves the linkage: the input crank, its speed (rad/s, negative clockwise) and start (rad).
+
+    Where a cylinder turns the crank, or the joint is a slider that has a `travel`, `speed` is that of the
+    phase, one there-and-back being 2π. `at_zero` says that a start of 0 was stated, and is not the default.
+    """
+
+    joint: str
+    speed: float
+    start: float = 0.0
+    cylinder: Cylinder | None = None
+    travel: Travel | None = None
+    at_zero: bool = False
+
+    @property
+    def stated_start(self) -> float | None:
+        """The start; None where none was stated."""
+        return self.start if self.start or self.at_zero else None
+
+    def scaled(self, factor: float) -> Drive:
+        """Return the drive with the lengths of its cylinder, or its slider's travel, times a factor."""
+        return replace(
+            self,
+            cylinder=self.cylinder and self.cylinder.scaled(factor),
+            travel=self.travel and self.travel.scaled(factor),
+        )
+
+
+@dataclass(frozen=True)
+class Linkage:
+    """A planar linkage with one input."""
+
+    joints: tuple[Joint, ...]
+    drive: Drive
+    bodies: tuple[Body, ...] = ()
+    springs: tuple[Spring, ...] = ()
+    dampers: tuple[Damper, ...] = ()
+    metre: float = field(default=1.0)
+    """One unit of length in metres (0.001 for mm); forces need it."""
+    gravity: float = 0.0
+    """How fast masses fall, in m/s², down; 0 where nothing is said of it."""
+
+    @property
+    def slides(self) -> bool:
+        """Whether the input is a slider, whose travel is told where that of others is an angle."""
+        return self.drive.travel is not None
+
+    @property
+    def forceful(self) -> bool:
+        """Whether the input has to drive anything: a spring or damper of known force, or a mass."""
+        struts = self.springs + self.dampers
+        return any(strut.forceful for strut in struts) or any(body.forceful for body in self.bodies)
+
+    @staticmethod
+    def strut_word(strut: Spring | Damper) -> str:
+        """Return what a strut is called: a damper of which no force is known is a cylinder."""
+        if isinstance(strut, Spring):
+            return "spring"
+        return "damper" if strut.forceful else "cylinder"
+
+    def joint(self, name: str) -> Joint:
+        """Return the joint of that name; KeyError where there is none."""
+        return self.by_name[name]
+
+    def pin(self, name: str) -> Pin:
+        """Return the fixed pin of that name, which must be one."""
+        joint = self.by_name[name]
+        assert isinstance(joint, Pin)
+        return joint
+
+    def crank(self, name: str) -> Crank:
+        """Return the crank whose pin has that name, which must be one."""
+        joint = self.by_name[name]
+        assert isinstance(joint, Crank)
+        return joint
+
+    @cached_property
+    def by_name(self) -> dict[str, Joint]:
+        """Map each joint's name to the joint."""
+        return {joint.name: joint for joint in self.joints}
+
+    @cached_property
+    def frames(self) -> tuple[Frame, ...]:
+        """The rigid bodies, the ground first: where each one's joints lie in its own frame."""
+        return frames_of(self.joints)
+
+    @property
+    def cranks(self) -> Iterator[Crank]:
+        """The cranks in the order of the joints, the input among them."""
+        return (joint for joint in self.joints if isinstance(joint, Crank))
+
+    @property
+    def pins(self) -> Iterator[Pin]:
+        """The fixed pins in the order of the joints."""
+        return (joint for joint in self.joints if isinstance(joint, Pin))
+
+    def scaled(self, factor: float) -> Linkage:
+        """Return the linkage with the lengths of its joints and bodies times a factor."""
+        joints = tuple(joint.scaled(factor) for joint in self.joints)
+        bodies = tuple(body.scaled(factor) for body in self.bodies)
+        return replace(self, joints=joints, bodies=bodies, drive=self.drive.scaled(factor))

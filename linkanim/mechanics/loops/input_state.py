@@ -1,0 +1,196 @@
+"""The input of a linkage, noted: its angle, rates, and the ends of its swing.
+
+A turning input has θ = start + φ. A swinging one has θ = mid - amp·cos φ; with
+u = amp cos²(φ/2) and v = amp sin²(φ/2), half the ways left to its upper and lower limit, the roots
+√u and √v keep their signs, so the motion runs through both limits and back on the other closure.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from linkanim.mechanics.formulas.circular import Half, cosine_of, half_angle, sharp_half_angle
+from linkanim.mechanics.formulas.exact import Sum, quarter_turns, two_product, two_sum
+from linkanim.mechanics.formulas.expression import Value, sqrt
+from linkanim.mechanics.formulas.planar import Moving, Slope
+
+HalfForm = Callable[..., Half]
+"""Returns half of an angle that is the sum of two numbers; `quarters=` are half turns beside it."""
+NOTHING = 2.0**-100
+"""What is less is left of equal sums of two floats."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """The two limits of a swing: half the way left to each, and its root, which may be `signed`."""
+
+    u: Slope
+    v: Slope
+    root_u: Moving
+    root_v: Moving
+    by_phase: bool
+    signed: bool = True
+
+    def share_of_rate(self, rate: Slope, upper: bool, lower: bool) -> Slope:
+        """Return θ' divided by √u where `upper` and by √v where `lower`: regular by phase."""
+        if not self.by_phase:
+            share = rate / self.root_u.slope if upper else rate
+            return share / self.root_v.slope if lower else share
+        share = rate.scaled(2.0)
+        share = share if upper else share * self.root_u.slope
+        return share if lower else share * self.root_v.slope
+
+
+@dataclass(frozen=True, slots=True)
+class InputState:
+    """What the input does at one instant.
+
+    `angle` is θ without `origin`; `rate` and `second` are its derivatives in time; `pace` is the
+    derivative of what drives it (φ' or θ') with its own derivative; `phase` is φ where a swing is
+    driven by it. `within` is how far from zero `angle` comes, where that is known.
+    """
+
+    angle: Value
+    origin: Sum
+    rate: Value
+    second: Value
+    pace: Slope
+    ends: Ends | None = None
+    phase: Value | None = None
+    within: float = math.inf
+
+    def shown(self, unscale: float) -> tuple[Value, Value, Value]:
+        """Return what is told of the input, with its rates: its angle; of a slider its travel, `unscale`d."""
+        return self.angle + float(self.origin), self.rate, self.second
+
+    @property
+    def phase_pace(self) -> Slope:
+        """φ' with its derivative, of a swing."""
+        if self.ends is None or self.ends.by_phase:
+            return self.pace
+        return self.pace / (self.ends.root_u.slope * self.ends.root_v.slope).scaled(2.0)
+
+    def half(self, reference: Sum, ratio: Fraction = Fraction(1), *, form: HalfForm = half_angle) -> Half:
+        """Return half of ratio × θ - reference, to the last digit at any number of turns."""
+        return self.half_shifted(ratio, self.origin * ratio - reference, form)
+
+    def half_shifted(self, ratio: Fraction, shift: Sum, form: HalfForm) -> Half:
+        """Return half of ratio × angle + shift.
+
+        Half turns of the shift are kept apart where the angle stays near: a small way from where a sine or
+        cosine vanishes has more digits than the angle there.
+        """
+        scaled, low = _scaled(self.angle, ratio)
+        quarters, rest = _half_turns(shift)
+        if abs(ratio) * self.within + abs(rest.high) <= _reach(form):
+            return form(*_summed(scaled, low, rest), quarters=quarters)
+        return form(*_summed(scaled, low, shift))
+
+
+def _reach(form: HalfForm) -> float:
+    """Return how far from whole half turns a form may be used without reduction."""
+    return 0.75 * math.pi if form is sharp_half_angle else math.pi
+
+
+def _half_turns(angle: Sum) -> tuple[int, Sum]:
+    """Return the whole number of half turns nearest an angle, and what is left of it."""
+    count = round(float(angle) / math.pi)
+    left = angle - quarter_turns(2 * count)
+    return count, left if abs(left.high) > NOTHING else Sum(0.0)
+
+
+def _summed(angle: Value, low: Value, shift: Sum) -> tuple[Value, Value]:
+    """Return the sum of an angle in two parts and a shift, in two parts."""
+    if shift.high == 0 and shift.low == 0:
+        return angle, low
+    total, error = two_sum(angle, shift.high)
+    return total, error + low + shift.low
+
+
+@dataclass(frozen=True, slots=True)
+class TravelState(InputState):
+    """The state where a slider drives: `angle` is the phase that runs its travel, `half` is that of it."""
+
+    travel: Moving = field(default_factory=lambda: Moving(0.0, 0.0, 0.0))
+
+    def shown(self, unscale: float) -> tuple[Value, Value, Value]:
+        """Return the slider's travel, with its rates, `unscale`d."""
+        return self.travel.value * unscale, self.travel.rate * unscale, self.travel.second * unscale
+
+
+def _scaled(x: Value, ratio: Fraction) -> tuple[Value, Value]:
+    """Return ratio × x rounded, and what rounding lost."""
+    p, q = float(ratio.numerator), float(ratio.denominator)
+    product, lost = two_product(x, p) if abs(p) != 1 else (x * p, 0.0)
+    if q == 1:
+        return product, lost
+    quotient = product / q
+    if math.frexp(q)[0] == 0.5:
+        return quotient, lost / q
+    back, error = two_product(quotient, q)
+    return quotient, ((product - back) - error + lost) / q
+
+
+def turn(x: Value, pace: Slope, origin: Sum) -> InputState:
+    """Return the state of an input that turns fully: θ = origin + x."""
+    return InputState(x, origin, pace.value, pace.rate, pace)
+
+
+def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> InputState:
+    """Return the state of a swing driven by its phase."""
+    half = sharp_half_angle(phase)
+    scale = math.sqrt(amplitude)
+    root_u, root_v = half.cosine * scale, half.sine * scale
+    half_rate, bend = pace.value * 0.5, pace.rate * 0.5
+    square = half_rate * half_rate
+    u, v, both = root_u * root_u, root_v * root_v, root_u * root_v
+    ends = Ends(
+        Slope(u, -(both * pace.value)),
+        Slope(v, both * pace.value),
+        Moving(root_u, -(root_v * half_rate), -(root_u * square) - root_v * bend),
+        Moving(root_v, root_u * half_rate, root_u * bend - root_v * square),
+        by_phase=True,
+    )
+    rate = (both + both) * pace.value
+    second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
+    # A cosine of its own, not v - u: near the middle of the swing it keeps all its digits.
+    return InputState(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase, amplitude)
+
+
+def swing_per_input(phase: Value, middle: Sum, amplitude: float) -> InputState:
+    """Return the state of a swing at a phase, its rates those by its own angle: infinite at a limit."""
+    half = sharp_half_angle(phase)
+    scale = math.sqrt(amplitude)
+    roots = half.cosine * scale, half.sine * scale
+    root_u, root_v = (_rated(root, sign, Slope(1.0)) for root, sign in zip(roots, (-1.0, 1.0), strict=True))
+    u, v = roots[0] * roots[0], roots[1] * roots[1]
+    ends = Ends(Slope(u, -0.5), Slope(v, 0.5), root_u, root_v, by_phase=False)
+    return InputState(cosine_of(phase) * -amplitude, middle, 1.0, 0.0, Slope(1.0), ends, phase, amplitude)
+
+
+def swing_by_angle(
+    ways: tuple[Value, Value, Value], pace: Slope, middle: Sum, amplitude: float
+) -> InputState:
+    """Return the state of a swing driven by its angle.
+
+    `ways` are the angle from the middle, and half of what is left to the upper and the lower limit.
+    """
+    angle, u, v = ways
+    root_u, root_v = (_root_of_way(way, sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
+    half_rate = pace.value * 0.5
+    ends = Ends(Slope(u, -half_rate), Slope(v, half_rate), root_u, root_v, by_phase=False, signed=False)
+    return InputState(angle, middle, pace.value, pace.rate, pace, ends, within=amplitude)
+
+
+def _root_of_way(way: Value, sign: float, pace: Slope) -> Moving:
+    """Return the root of half the way to a limit, which the angle's pace changes with that sign."""
+    return _rated(sqrt(way), sign, pace)
+
+
+def _rated(root: Value, sign: float, pace: Slope) -> Moving:
+    """Return a root of half the way to a limit with its rates."""
+    rate = pace.value * (0.25 * sign) / root
+    return Moving(root, rate, (pace.rate * (0.25 * sign) - rate * rate) / root)

@@ -1,0 +1,1 @@
+"""Poses and motions: what is solved, requested, measured and derived."""

@@ -1,0 +1,259 @@
+"""A linkage made ready to be solved: assembled once, its programs compiled when first needed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache, partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkanim.mechanics.closing.assembly import Assembly, assemble
+from linkanim.mechanics.closing.limits import restricted
+from linkanim.mechanics.closing.walk import Kinematics
+from linkanim.mechanics.formulas.expression import Graph, Value
+from linkanim.mechanics.formulas.planar import MovingPoint, Slope
+from linkanim.mechanics.formulas.program import Batch, batch, scalar
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.loops.input_state import InputState
+from linkanim.mechanics.motion.columns import ResultLayout, layout
+from linkanim.mechanics.motion.measures import DERIVATIVE_OF, NUMBERS, VECTORS
+from linkanim.mechanics.motion.motion import Array, Motion, Pose, Setting
+from linkanim.mechanics.motion.request import CRANK, Programs, Request, Variant, shaped
+
+Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
+
+
+class Traced(NamedTuple):
+    """The formulas as traced for one way of asking: the inputs' names, and every quantity."""
+
+    names: tuple[str, ...]
+    rows: Rows
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A linkage with its loops, path and signs, and the programs that solve it.
+
+    One that is `passing` is asked for a few instants only: they come from the program over arrays, which
+    its cycle needs anyway, since a program of their own would cost more than it saves.
+    """
+
+    linkage: Linkage
+    assembly: Assembly
+    passing: bool = False
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as the linkage, which is made ready anew."""
+        return (passing if self.passing else mechanism), (self.linkage,)
+
+    @property
+    def periods(self) -> int:
+        """The number of drive periods after which every joint is back."""
+        return self.assembly.path.periods
+
+    @property
+    def hindered(self) -> bool:
+        """Whether a dyad down the chain limits the input or touches a change point."""
+        return bool(self.assembly.chain)
+
+    @cached_property
+    def setting(self) -> Setting:
+        """What motions and poses share."""
+        return Setting(self.linkage, self.assembly.gears, self)
+
+    @cached_property
+    def _poses(self) -> dict[tuple[int, bool, bool], Callable[..., dict[str, Any]]]:
+        return {}
+
+    @cached_property
+    def _traces(self) -> dict[Variant, Traced]:
+        return {}
+
+    @cached_property
+    def _programs(self) -> dict[Variant, Programs]:
+        return {}
+
+    def pose(
+        self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
+    ) -> Pose:
+        """Return one instant, solved in plain floats; its rates by the input instead of time `per_input`."""
+        key = derivatives, acceleration != 0.0, per_input
+        program = self._poses.get(key) or self._program_of_poses(key)
+        try:
+            return Pose(program(phase, speed, acceleration))
+        except (ZeroDivisionError, ValueError):
+            return Pose(self._from_arrays(key, phase, speed, acceleration))
+
+    def pose_per_input(self, phase: float) -> Pose:
+        """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
+        return self.pose(phase, 1.0, 0.0, 2, not self.assembly.path.full_turn)
+
+    def per_input(self, request: Request) -> Motion:
+        """Return a request's motion, its rates by the input's angle, or travel, instead of those in time."""
+        by_phase = request.programs.variant.by_phase
+        variant = Variant(by_phase, False, per_input=by_phase and not self.assembly.path.full_turn)
+        asked = request._replace(programs=self.programs(variant), rates=(1.0, 0.0))
+        return Motion(self.setting, 1.0, 0.0, asked)
+
+    def _program_of_poses(self, key: tuple[int, bool, bool]) -> Callable[..., dict[str, Any]]:
+        derivatives, accelerates, per_input = key
+        if self.passing:
+            found: Callable[..., dict[str, Any]] = partial(self._from_arrays, key)
+        else:
+            found = self._scalar(self._trace(Variant(True, accelerates, per_input=per_input)), derivatives)
+        self._poses[key] = found
+        return found
+
+    def _trace(self, variant: Variant) -> Traced:
+        """Note the formulas of all quantities, lengths in the scene's unit."""
+        found = self._traces.get(variant)
+        if found is None:
+            graph = Graph()
+            uniform = not variant.varying_rate
+            second = graph.input("a", uniform=uniform) if variant.accelerates else 0.0
+            pace = Slope(graph.input("w", uniform=uniform), second)
+            names, state = self._state(graph, pace, variant)
+            unscale = self.assembly.unscale
+            crank = {kind: {"": (value,)} for kind, value in zip(CRANK, state.shown(unscale), strict=True)}
+            rows = dict(_quantities(self.assembly.walk(state), unscale))
+            found = self._traces[variant] = Traced(names, crank | rows)
+        return found
+
+    def _state(self, graph: Graph, pace: Slope, variant: Variant) -> tuple[tuple[str, ...], InputState]:
+        path = self.assembly.path
+        if variant.per_input:
+            return ("x",), path.state_per_input(graph.input("x"))
+        if variant.by_phase:
+            return ("x",), path.state(graph.input("x"), pace)
+        return path.state_by_angle(graph, pace)
+
+    def _scalar(self, trace: Traced, derivatives: int) -> Callable[..., dict[str, Any]]:
+        outputs: list[Value] = []
+        parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
+        for kind, values in trace.rows.items():
+            if kind in CRANK or (values and DERIVATIVE_OF[kind] <= derivatives):
+                outputs.extend(component for components in values.values() for component in components)
+                parts.append(f"{kind!r}: {'{}' if kind in CRANK else _dict_display(values)}")
+        display = f"{{{{{', '.join(parts)}}}}}"
+        return scalar((*trace.names, "w", "a"), outputs, display, {"setting": self.setting})
+
+    def _from_arrays(
+        self, key: tuple[int, bool, bool], phase: float, speed: float, second: float
+    ) -> dict[str, Any]:
+        """Return what the scalar program gives, NaN and infinities included, where floats raise."""
+        derivatives, _, per_input = key
+        motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
+        motion = motion.per_input if per_input else motion
+        found = {kind: _plain(values) for kind, values in motion.every.items()}
+        inputs = ("phase", "input_speed", "input_acceleration", *CRANK)
+        return found | {name: float(getattr(motion, name)) for name in inputs} | {"setting": self.setting}
+
+    def solve(
+        self,
+        *,
+        angle: ArrayLike | None = None,
+        phase: ArrayLike | None = None,
+        speed: ArrayLike,
+        acceleration: ArrayLike = 0.0,
+        derivatives: int = 2,
+    ) -> Motion:
+        """Return the motion at crank angles, or at phases; scalar or any shape."""
+        given = np.asarray(angle if phase is None else phase, dtype=np.float64)
+        rates, shape = _rates(speed, acceleration, given.shape)
+        varying = isinstance(rates[0], np.ndarray)
+        variant = Variant(phase is not None, varying or rates[1] != 0.0, varying)
+        x = _kept(given, shape)
+        reached = self.assembly.path.reach(x) if phase is None else None
+        request = Request(self.programs(variant), x, reached, rates, shape, derivatives)
+        return Motion(self.setting, shaped(rates[0], shape), shaped(rates[1], shape), request)
+
+    def programs(self, variant: Variant) -> Programs:
+        """Return the programs over arrays for one way of asking."""
+        found = self._programs.get(variant)
+        if found is None:
+            compiled = partial(self._compiled, variant)
+            found = self._programs[variant] = Programs(self.assembly.path, variant, compiled)
+        return found
+
+    def _compiled(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
+        trace = self._trace(variant)
+        rates = ("w", "a") if variant.accelerates else ("w",)
+        varying = {**dict.fromkeys(trace.names, True), **dict.fromkeys(rates, variant.varying_rate)}
+        pins = {joint.name: joint.position for joint in self.linkage.pins}
+        places = layout({kind: trace.rows[kind] for kind in kinds}, pins, VECTORS[:3])
+        return batch(varying, places.outputs), places
+
+
+def _plain(values: Mapping[str, Array]) -> dict[str, Any]:
+    """Return one instant's numbers and vectors as floats and pairs of them."""
+    return {
+        name: (float(value[0]), float(value[1])) if value.ndim else float(value)
+        for name, value in values.items()
+    }
+
+
+def _dict_display(values: Mapping[str, tuple[Value, ...]]) -> str:
+    """Return the layout of a dict of the values' names, for str.format."""
+    items = (
+        repr(name).replace("{", "{{").replace("}", "}}") + (": ({}, {})" if len(components) == 2 else ": {}")
+        for name, components in values.items()
+    )
+    return "{{" + ", ".join(items) + "}}"
+
+
+def _rates(
+    speed: float | ArrayLike, acceleration: float | ArrayLike, shape: tuple[int, ...]
+) -> tuple[tuple[Any, Any], tuple[int, ...]]:
+    """Return one speed and acceleration for all instants, or arrays of them, and the shape of the answer."""
+    if isinstance(speed, float) and isinstance(acceleration, float):
+        return (speed, acceleration), shape
+    w, a = (np.asarray(rate, dtype=np.float64) for rate in (speed, acceleration))
+    if w.ndim or a.ndim:
+        shape = np.broadcast_shapes(shape, w.shape, a.shape)
+        return (_kept(w, shape), _kept(a, shape)), shape
+    return (float(w), float(a)), shape
+
+
+def _kept(values: Array, shape: tuple[int, ...]) -> Array:
+    """Return the values along one axis, repeated to the shape, as nobody can change them any more."""
+    if values.base is not None or values.flags.writeable or values.shape != shape:
+        values = values.copy() if values.shape == shape else np.array(np.broadcast_to(values, shape))
+        values.flags.writeable = False
+    return values if values.ndim == 1 else values.reshape(-1)
+
+
+def _quantities(k: Kinematics, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:
+    for kind in VECTORS:
+        part = ("position", "velocity", "acceleration")[DERIVATIVE_OF[kind]]
+        points = k.centres if kind.startswith("com_") else k.points
+        yield kind, {name: _pair(point, part, unscale) for name, point in points.items()}
+    turnings = {name: (turning.value, turning.rate) for name, turning in k.bodies.items()}
+    travels = {name: (way.value, way.rate, way.second) for name, way in k.travels.items()}
+    for kind in NUMBERS:
+        order = DERIVATIVE_OF[kind]
+        if kind.startswith("angular"):
+            yield kind, {name: (rates[order - 1],) for name, rates in turnings.items()}
+        else:
+            yield kind, {name: (ways[order] * unscale,) for name, ways in travels.items()}
+
+
+def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:
+    vector = getattr(point, part).scaled(unscale)
+    return vector.x, vector.y
+
+
+@lru_cache(maxsize=64)
+def mechanism(linkage: Linkage) -> Mechanism:
+    """Return the linkage made ready; AssemblyError where it cannot be put together."""
+    return Mechanism(linkage, restricted(assemble(linkage), linkage))
+
+
+def passing(linkage: Linkage) -> Mechanism:
+    """Return a linkage on the way between two whose dyads down the chain close all along.
+
+    They are not looked at: where one does not close after all, its joints are NaN.
+    """
+    return Mechanism(linkage, assemble(linkage), passing=True)

@@ -1,0 +1,336 @@
+"""What solving gives: the motion of every joint, body, centre of mass, spring and damper.
+
+`Motion` holds arrays, `Pose` the same quantities of one instant as plain floats. Lengths are in the
+scene's unit, angles in radians, time in seconds, forces in newtons (tension positive).
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import FrozenInstanceError, dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.loops.loop import Gearing
+from linkanim.mechanics.motion.columns import read_only
+from linkanim.mechanics.motion.derived import between, cross, direction, growth, over, size
+from linkanim.mechanics.motion.request import ORDER, Paced, Request
+
+Array = NDArray[np.float64]
+Pair = tuple[float, float]
+
+NOTHING: Mapping[str, Any] = MappingProxyType({})
+
+
+class Strut(NamedTuple):
+    """Length, its rate, and the force (None where it is not known) of a spring or damper; its direction.
+
+    The direction is that of its first joint to its second, the rate of it in rad/s; where they meet both are
+    NaN, and the rate of the length is that with which it is about to grow.
+    """
+
+    length: Any
+    rate: Any
+    force: Any
+    direction: Any
+    direction_rate: Any
+
+
+class Solver(Protocol):
+    """What solves the linkage of a motion at other instants and rates."""
+
+    def solve(
+        self, *, phase: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = ..., derivatives: int = ...
+    ) -> Motion:
+        """Return the motion at phases."""
+
+    def per_input(self, request: Request) -> Motion:
+        """Return a request's motion, its rates by the input's angle or travel."""
+
+    def pose_per_input(self, phase: float) -> Pose:
+        """Return one instant, its rates by the input's angle or travel."""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """What a motion needs of its linkage to tell angles, coefficients and forces."""
+
+    linkage: Linkage
+    gears: Mapping[str, Gearing]
+    solver: Solver = field(repr=False, compare=False)
+
+    @property
+    def quickest(self) -> float:
+        """How many times as fast as the input the quickest crank turns, at least once."""
+        return max([1.0, *(abs(float(gearing.ratio)) for gearing in self.gears.values())])
+
+    def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
+        """Return how a crank's body turns with the input, and whether it is named from its pin."""
+        for crank in self.linkage.cranks:
+            if crank.name in self.gears and body.joints[:2] in (
+                (crank.pivot, crank.name),
+                (crank.name, crank.pivot),
+            ):
+                return self.gears[crank.name], body.joints[0] == crank.name
+        return None
+
+    def body(self, name: str) -> Body:
+        """Return the body of that name; KeyError where there is none."""
+        return next(body for body in self.linkage.bodies if body.name == name)
+
+
+class Lazy(Mapping[str, Any]):
+    """A mapping whose values are worked out when they are first asked for."""
+
+    def __init__(self, names: tuple[str, ...], find: Callable[[str], Any]) -> None:
+        self._names, self._find = names, find
+        self._found: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._found:
+            if name not in self._names:
+                raise KeyError(name)
+            self._found[name] = read_only(self._find(name))
+        return self._found[name]
+
+    def __iter__(self) -> Any:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+class Derived(ABC):
+    """What a motion and a pose tell besides what is solved; vectors are (x, y) or (..., 2)."""
+
+    setting: Setting
+    position: Mapping[str, Any]
+    velocity: Mapping[str, Any]
+    angular_velocity: Mapping[str, Any]
+    angular_acceleration: Mapping[str, Any]
+    travel_velocity: Mapping[str, Any]
+    travel_acceleration: Mapping[str, Any]
+    phase: Any
+    crank_angle: Any
+    crank_rate: Any
+    crank_second: Any
+
+    @cached_property
+    def angle(self) -> Mapping[str, Any]:
+        """Each body's angle, first -> second joint.
+
+        A crank's own angle counts its turns. The others' are in one turn at one instant, and of many
+        instants without jumps along the first axis.
+        """
+        bodies = tuple(body.name for body in self.setting.linkage.bodies if body.slider is None)
+        return Lazy(bodies, self._angle)
+
+    def _angle(self, name: str) -> Any:
+        body = self.setting.body(name)
+        crank = self.setting.crank_of(body)
+        if crank is not None:
+            return _crank_angle(self.crank_angle, *crank) + 0.0 * self.phase  # where there is no phase, NaN
+        return self._continuous((body.joints[0], body.joints[1]))
+
+    @abstractmethod
+    def _continuous(self, ends: tuple[str, str]) -> Any:
+        """Return the angle of the way from one joint to another; NaN where they meet."""
+
+    @cached_property
+    def coefficient(self) -> Mapping[str, tuple[Any, Any]]:
+        """Each body's kinematic coefficients, (dq/dθ, d²q/dθ²) with q its angle or travel.
+
+        They are the rates by the input's angle, or a driving slider's travel: at any speed the same. Infinite
+        where a limit of the input leaves them unbounded.
+        """
+        known = self.per_input
+        return Lazy((*known.angular_acceleration, *known.travel_acceleration), self._coefficient)
+
+    def _coefficient(self, name: str) -> tuple[Any, Any]:
+        known = self.per_input
+        if name in known.angular_velocity:
+            rates = known.angular_velocity[name], known.angular_acceleration[name]
+        else:
+            rates = known.travel_velocity[name], known.travel_acceleration[name]
+        return unbounded(rates[0], self.phase), unbounded(rates[1], self.phase)
+
+    @property
+    @abstractmethod
+    def per_input(self) -> Derived:
+        """The same instants, with rates by the input's angle, or travel, instead of those in time."""
+
+    @cached_property
+    def spring(self) -> Mapping[str, Strut]:
+        """Each spring's length, rate and force."""
+        return self._struts(self.setting.linkage.springs)
+
+    @cached_property
+    def damper(self) -> Mapping[str, Strut]:
+        """Each damper's length, rate and force."""
+        return self._struts(self.setting.linkage.dampers)
+
+    def _struts(self, items: tuple[Spring, ...] | tuple[Damper, ...]) -> Mapping[str, Strut]:
+        by_name = {item.name: item for item in items}
+        return Lazy(tuple(by_name), lambda name: self._strut(by_name[name]))
+
+    def _strut(self, item: Spring | Damper) -> Strut:
+        apart = between(self.position, item.between)
+        length, rate, turning = size(apart), None, None
+        if self.velocity:
+            moving = between(self.velocity, item.between)
+            rate, turning = growth(apart, moving), over(cross(apart, moving), length * length)
+        force = _force(item, self.setting.linkage.metre, length, rate)
+        return Strut(length, rate, force, self._continuous(item.between), turning)
+
+
+def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
+    if isinstance(item, Damper):
+        known = item.coefficient is not None and rate is not None
+        return item.coefficient * rate * metre if known else None
+    if item.stiffness is None or item.free_length is None:
+        return None
+    return item.stiffness * (length - item.free_length) * metre
+
+
+class Motion(Derived):
+    """The motion at many instants: vectors are arrays (..., 2), numbers (...).
+
+    Rows outside the input's range are NaN, their phase too. Rates that are truly unbounded (at a
+    limit, per unit of input speed) are infinite. Each quantity is worked out when it is first read.
+    """
+
+    def __init__(
+        self, setting: Setting, input_speed: Any, input_acceleration: Any, request: Request | Paced
+    ) -> None:
+        vars(self).update(
+            setting=setting, input_speed=input_speed, input_acceleration=input_acceleration, request=request
+        )
+
+    request: Request | Paced
+    input_speed: Any
+    input_acceleration: Any
+    phase: Array
+    crank_angle: Array
+    position: Mapping[str, Array]
+    velocity: Mapping[str, Array]
+    acceleration: Mapping[str, Array]
+    com_position: Mapping[str, Array]
+    com_velocity: Mapping[str, Array]
+    com_acceleration: Mapping[str, Array]
+    angular_velocity: Mapping[str, Array]
+    angular_acceleration: Mapping[str, Array]
+    travel: Mapping[str, Array]
+    travel_velocity: Mapping[str, Array]
+    travel_acceleration: Mapping[str, Array]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as what was asked for, which is worked out anew."""
+        return Motion, (self.setting, self.input_speed, self.input_acceleration, self.request)
+
+    def __getattr__(self, name: str) -> Any:
+        """Work a quantity out, with those that come out of the same pass."""
+        if name not in ORDER:
+            raise AttributeError(f"a motion has no {name!r}")
+        vars(self).update(self.request.read(name, vars(self)))
+        return vars(self)[name]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
+
+    @cached_property
+    def per_input(self) -> Motion:
+        """The same instants, with rates by the input's angle, or travel, instead of those in time."""
+        if isinstance(self.request, Paced):
+            return self.request.motion.per_input
+        return self.setting.solver.per_input(self.request)
+
+    @property
+    def every(self) -> Mapping[str, Mapping[str, Array]]:
+        """All quantities by kind and name, from one pass."""
+        assert isinstance(self.request, Request)
+        return self.request.every()
+
+    def paced(self, factor: float) -> Motion:
+        """Return the same motion run so many times as fast; backwards where the factor is negative.
+
+        Nothing is solved: first derivatives in time grow with the factor, second ones with its square.
+        """
+        speed, acceleration = self.input_speed * factor, self.input_acceleration * factor**2
+        return Motion(self.setting, speed, acceleration, Paced(self, factor))
+
+    def _continuous(self, ends: tuple[str, str]) -> Array:
+        principal: Array = np.asarray(direction(between(self.position, ends)))
+        return principal if principal.ndim == 0 else self._unwrapped(principal, ends)
+
+    def _unwrapped(self, principal: Array, ends: tuple[str, str]) -> Array:
+        """Add whole turns, as a direction has turned between neighbours."""
+        steps = np.diff(principal, axis=0)
+        turns = np.rint((self.request.turned(principal, ends, self.setting.quickest) - steps) / math.tau)
+        whole = np.zeros_like(principal)
+        np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
+        return principal + math.tau * (whole - _before_stretch(whole, np.isnan(principal)))
+
+
+def unbounded(rate: Any, phase: Any) -> Any:
+    """Return a rate, infinite where it is NaN at a phase that is known: there it is not bounded."""
+    if isinstance(rate, float):
+        return math.inf if math.isnan(rate) and not math.isnan(phase) else rate
+    return np.where(np.isnan(rate) & ~np.isnan(phase), np.inf, rate)[()]
+
+
+def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:
+    """Return for each row what stood in the last row of the gap before it, 0 where there is none."""
+    rows = np.arange(len(gap)).reshape(-1, *[1] * (gap.ndim - 1))
+    last = np.maximum.accumulate(np.where(gap, rows, -1), axis=0)
+    return np.where(last < 0, 0.0, np.take_along_axis(whole, np.maximum(last, 0), axis=0))
+
+
+def _crank_angle(input_angle: Any, gearing: Gearing, from_pin: bool) -> Any:
+    angle = input_angle * float(gearing.ratio) + float(gearing.offset)
+    return angle + math.pi if from_pin else angle
+
+
+class Pose(Derived):
+    """The motion at one instant, as plain floats and (x, y) tuples; the attributes are Motion's."""
+
+    def __init__(self, found: dict[str, Any]) -> None:
+        self.__dict__ = found
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as what was solved, without what follows from it."""
+        kinds = (*ORDER, "setting", "input_speed", "input_acceleration")
+        return Pose, ({kind: vars(self)[kind] for kind in kinds if kind in vars(self)},)
+
+    position: Mapping[str, Pair] = NOTHING
+    velocity: Mapping[str, Pair] = NOTHING
+    acceleration: Mapping[str, Pair] = NOTHING
+    com_position: Mapping[str, Pair] = NOTHING
+    com_velocity: Mapping[str, Pair] = NOTHING
+    com_acceleration: Mapping[str, Pair] = NOTHING
+    angular_velocity: Mapping[str, float] = NOTHING
+    angular_acceleration: Mapping[str, float] = NOTHING
+    travel: Mapping[str, float] = NOTHING
+    travel_velocity: Mapping[str, float] = NOTHING
+    travel_acceleration: Mapping[str, float] = NOTHING
+    phase: float
+    input_speed: float
+    input_acceleration: float
+    crank_angle: float
+    crank_rate: float
+    crank_second: float
+
+    @cached_property
+    def per_input(self) -> Pose:
+        """The same instant, with rates by the input's angle, or travel, instead of those in time."""
+        rated = self.angular_acceleration or self.travel_acceleration
+        return self.setting.solver.pose_per_input(self.phase) if rated else self
+
+    def _continuous(self, ends: tuple[str, str]) -> float:
+        return float(direction(between(self.position, ends)))

@@ -1,0 +1,178 @@
+"""What a motion was asked for, and how its quantities are worked out when they are first read.
+
+Quantities stand in families: joints, centres of mass, bodies that turn, bodies that slide. One that is read
+brings those of its family with fewer derivatives along, from one pass over the instants.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.drive.reach import WaysLeft
+from linkanim.mechanics.formulas.winding import turned
+from linkanim.mechanics.motion.columns import Columns, Floats, ResultLayout, Scaled, read_only
+from linkanim.mechanics.motion.derived import between, direction
+from linkanim.mechanics.motion.measures import DERIVATIVE_OF, FAMILIES
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.drive.path import Path
+    from linkanim.mechanics.formulas.program import Batch
+    from linkanim.mechanics.motion.motion import Motion
+
+Array = NDArray[np.float64]
+
+POSITION = ("position",)
+CRANK = ("crank_angle", "crank_rate", "crank_second")
+"""The crank's angle and its rates, which an input that does not turn fully moves in its own way."""
+LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
+"""The quantities of its family with fewer derivatives, of each."""
+ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(CRANK, range(3), strict=True)), "phase": 0}
+
+
+class Variant(NamedTuple):
+    """One way of asking: by phase or by angle, whether the input accelerates, each instant on its own.
+
+    `per_input`: at phases, with rates by the input's angle, or travel, instead of those in time.
+    """
+
+    by_phase: bool
+    accelerates: bool
+    varying_rate: bool = False
+    per_input: bool = False
+
+
+@dataclass(frozen=True)
+class Programs:
+    """The programs over arrays for one way of asking, compiled when first needed."""
+
+    path: Path
+    variant: Variant
+    compiled: Callable[[tuple[str, ...]], tuple[Batch, ResultLayout]]
+    found: dict[tuple[str, ...], tuple[Batch, ResultLayout]] = field(default_factory=dict)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle without what is compiled."""
+        return Programs, (self.path, self.variant, self.compiled)
+
+    def of(self, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
+        """Return the program that works these quantities out, and where its results lie."""
+        found = self.found.get(kinds)
+        if found is None:
+            found = self.found[kinds] = self.compiled(kinds)
+        return found
+
+
+class Request(NamedTuple):
+    """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most.
+
+    `reached` tells of angles of an input that swings how far they are from its limits.
+    """
+
+    programs: Programs
+    x: Array
+    reached: WaysLeft | None
+    rates: tuple[Any, Any]
+    shape: tuple[int, ...]
+    derivatives: int
+
+    def read(self, name: str, known: Collection[str]) -> dict[str, Any]:
+        """Return a quantity with what comes out of the same pass, but for what is known."""
+        if name not in DERIVATIVE_OF:
+            return self._input()
+        if DERIVATIVE_OF[name] > self.derivatives:
+            return {name: {}}
+        return self.worked_out((*[kind for kind in LOWER[name] if kind not in known], name))
+
+    def every(self) -> dict[str, Any]:
+        """Return all quantities from one pass."""
+        kinds = [kind for family in FAMILIES for kind in family]
+        found: dict[str, Any] = {kind: {} for kind in kinds}
+        return found | self.worked_out(
+            tuple(kind for kind in kinds if DERIVATIVE_OF[kind] <= self.derivatives)
+        )
+
+    def worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
+        """Return these quantities."""
+        places, results = self._run(kinds)
+        results.setflags(write=False)
+        return {kind: Columns(names, results, self.shape) for kind, names in places.places.items()}
+
+    def turned(self, angles: Array, ends: tuple[str, str], ratio: float) -> Array:
+        """Return how far the way from one joint to another turns from row to row of its angles."""
+        x = self.x.reshape(self.shape)
+        rows = [(values[:-1].reshape(-1), values[1:].reshape(-1)) for values in (x, angles)]
+        found = turned(rows[0], rows[1], lambda x: self._direction(x, ends), ratio)
+        return found.reshape(angles[1:].shape)
+
+    def _direction(self, x: Array, ends: tuple[str, str]) -> Array:
+        """Return the direction of one joint to another at other instants."""
+        reached = self.reached and self.programs.path.reach(x)
+        w, a = (np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.rates)
+        request = self._replace(x=x, reached=reached, rates=(w, a), shape=x.shape)
+        return np.asarray(direction(between(request.worked_out(POSITION)["position"], ends)))
+
+    def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Floats]:
+        program, places = self.programs.of(kinds)
+        rates = self.rates if self.programs.variant.accelerates else self.rates[:1]
+        ways = self.reached
+        with np.errstate(all="ignore"):
+            if ways is None:
+                return places, program(self.x, *rates)
+            results = program(*self.programs.path.solved_from(ways), *rates)
+            results[:, ways.outside] = np.nan
+            if ways.at_limit.any() and any(map(DERIVATIVE_OF.__getitem__, kinds)):
+                snapped = program(ways.angle, *ways.snapped, *rates)
+                _mark_limits(places, results, snapped, ways.at_limit)
+        return places, results
+
+    def _input(self) -> dict[str, Any]:
+        """Return phase, crank angle and its two rates."""
+        x, path, names = self.x.reshape(self.shape), self.programs.path, ("phase", *CRANK)
+        rates = [shaped(rate, self.shape) for rate in self.rates]
+        if not self.programs.variant.by_phase:
+            with np.errstate(all="ignore"):
+                return dict(zip(names, (read_only(path.phases(x, self.reached)), x, *rates), strict=True))
+        if path.full_turn:
+            return dict(zip(names, (x, read_only(path.angles(x)), *rates), strict=True))
+        places, results = self._run(CRANK)
+        results.setflags(write=False)
+        return {"phase": x} | {
+            kind: row.reshape(self.shape) for kind, row in zip(places.kinds, results, strict=True)
+        }
+
+
+@dataclass(frozen=True)
+class Paced:
+    """A motion run so many times as fast: its quantities, each times its power of the factor."""
+
+    motion: Motion
+    factor: float
+
+    def turned(self, angles: Array, ends: tuple[str, str], ratio: float) -> Array:
+        """Return how far the way from one joint to another turns from row to row of its angles."""
+        return self.motion.request.turned(angles, ends, ratio)
+
+    def read(self, name: str, known: Collection[str]) -> dict[str, Any]:
+        """Return a quantity."""
+        found, power = getattr(self.motion, name), self.factor ** ORDER[name]
+        if not ORDER[name]:
+            return {name: found}
+        return {name: Scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
+
+
+def shaped(rate: Any, shape: tuple[int, ...]) -> Any:
+    """Return a rate in a shape: arrays have it, one number holds for all."""
+    return rate.reshape(shape) if isinstance(rate, np.ndarray) else rate
+
+
+def _mark_limits(places: ResultLayout, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
+    """Give rates the values they have at the limit itself: infinite where they are unbounded."""
+    for row, kind in enumerate(places.kinds):
+        if DERIVATIVE_OF[kind]:
+            values = snapped[row, at_limit]
+            results[row, at_limit] = np.where(np.isnan(values), np.inf, values)

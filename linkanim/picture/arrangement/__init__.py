@@ -1,0 +1,1 @@
+"""Where scene and words stand in a picture of a size."""

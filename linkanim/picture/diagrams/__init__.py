@@ -1,0 +1,1 @@
+"""Charts, polygons and centres: quantities drawn beside the linkage or over it."""

@@ -1,0 +1,151 @@
+"""Instant centres, and the curves that the coupler's runs along: the fixed and the moving centrode."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.motion.derived import centrodes, coupler_body, pole
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.figure import Figure
+from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.labels.dimensions import numbered
+from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.raster.parts import Places
+from linkanim.picture.raster.raster import Colour, Layer, Loop
+from linkanim.picture.raster.shapes import segments, stroke, unit
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import Rect, View
+
+_CLOSE = 3.0
+"""Points of a curve that are nearer to each other, in pixels, are not all needed."""
+_MOST = 4
+"""Of so many moving links all centres are marked, of more those to the ground alone."""
+
+
+class BodyPair(NamedTuple):
+    """A body and another, None for the ground, and what their instant centre is called: P_{24}."""
+
+    body: Body
+    other: Body | None
+    label: str
+
+
+@dataclass(frozen=True)
+class Centres:
+    """The instant centres of a figure in a view; with `rolling` the coupler's centrodes, too."""
+
+    figure: Figure
+    view: View
+    gauge: Gauge
+    theme: Theme
+    layout: Layout
+    rolling: bool
+
+    @cached_property
+    def pairs(self) -> tuple[BodyPair, ...]:
+        """The bodies to the ground, and of few to each other."""
+        links: dict[str, Body] = {}
+        for body, number in numbered(self.figure).items():
+            links.setdefault(number, body)
+        pairs = [BodyPair(body, None, _label("1", number)) for number, body in links.items()]
+        if len(links) <= _MOST:
+            both = combinations(links.items(), 2)
+            pairs += [BodyPair(a, b, _label(m, n)) for (m, a), (n, b) in both]
+        return tuple(pairs)
+
+    def marks(self, pose: Pose, places: Places) -> Group:
+        """Return a cross and its name for each centre that is in sight, but for those that are pins."""
+        layers, captions = [], []
+        reach, size = 0.8 * self.gauge.bar, self.layout.small_size
+        ink, halo = self.theme.warning, Halo(self.theme.background, max(1.4 * self.gauge.line, 1.5))
+        for pair in self.pairs:
+            at = self.view.place(pole(pose, pair.body, pair.other))
+            if not self.layout.reach.holds(at.real, at.imag) or self._pinned(at, places):
+                continue
+            ends = np.array([reach, 1j * reach])
+            layers.append(Layer(ink, segments(at - ends, at + ends, 1.4 * self.gauge.line)))
+            place = (at.real + reach, at.imag - reach - size)
+            captions.append(Caption(pair.label, place, size, ink, strong=True, halo=halo))
+        return Group("instant-centres", layers, captions)
+
+    def _pinned(self, at: complex, places: Places) -> bool:
+        return any(abs(at - places[name]) < 0.8 * self.gauge.bar for name in self.figure.pins)
+
+    def fixed(self) -> Layer:
+        """Return the curve on the ground."""
+        origin = self.view.place((0.0, 0.0))
+        return self._stroked(origin + self.view.scale * self._curves[0].conj(), self.theme.warning)
+
+    def moving(self, places: Places) -> Layer:
+        """Return the curve that moves with the coupler and rolls on the other."""
+        body = coupler_body(self.figure.linkage)
+        if body is None:
+            return Layer(self.theme.velocity, [])
+        first, second = (places[name] for name in body.joints[:2])
+        curve = first + unit(second - first) * self.view.scale * self._curves[1].conj()
+        return self._stroked(curve, self.theme.velocity)
+
+    @cached_property
+    def _curves(self) -> tuple[Loop, Loop]:
+        """Both centrodes, closed, in the scene's unit; empty where no body is a coupler."""
+        body, scene = coupler_body(self.figure.linkage), self.figure.scene
+        if body is None or not self.rolling:
+            return np.zeros(0, complex), np.zeros(0, complex)
+        count = len(self.figure.cycle.phase)
+        phases = np.arange(count + 1) * (scene.period / count)
+        return centrodes(scene.solve(phase=phases, derivatives=1), body)
+
+    def _stroked(self, path: Loop, colour: Colour) -> Layer:
+        width = 1.3 * self.gauge.line
+        runs = clipped(path, self.layout.reach)
+        return Layer(colour, [loop for run in runs for loop in stroke(_thinned(run), width)])
+
+
+def _thinned(run: Loop) -> Loop:
+    """Return a path without those of its points that lie close together."""
+    steps = np.floor(np.cumsum(np.abs(np.diff(run))) / _CLOSE)
+    kept: Loop = run[np.r_[True, np.diff(steps) > 0, True][: len(run)]]
+    return kept
+
+
+def _label(one: str, other: str) -> str:
+    """Return what a centre is called, the lower number first."""
+    first, second = sorted((one, other), key=lambda number: (len(number), number))
+    apart = "," if len(first) + len(second) > 2 else ""
+    return f"P_{{{first}{apart}{second}}}"
+
+
+def clipped(path: Loop, room: Rect) -> Iterator[Loop]:
+    """Yield the parts of a path that lie in a rectangle, cut where it leaves and where it breaks (NaN)."""
+    across = (path.real >= room.x) & (path.real <= room.right)
+    held = np.flatnonzero(across & (path.imag >= room.y) & (path.imag <= room.bottom))
+    for run in np.split(held, np.flatnonzero(np.diff(held) > 1) + 1):
+        if run.size:
+            first, last = int(run[0]), int(run[-1])
+            before = _edge(path[first], path[first - 1], room) if first else []
+            after = _edge(path[last], path[last + 1], room) if last + 1 < len(path) else []
+            yield np.concatenate((before, path[run], after))
+
+
+def _edge(inside: complex, outside: complex, room: Rect) -> list[complex]:
+    """Return where a line leaves a rectangle; nothing where the other end is NaN."""
+    step = outside - inside
+    if not np.isfinite(step):
+        return []
+    shares = [
+        (bound - start) / way
+        for start, way, bounds in (
+            (inside.real, step.real, (room.x, room.right)),
+            (inside.imag, step.imag, (room.y, room.bottom)),
+        )
+        for bound in bounds
+        if way and (bound - start) / way >= 0
+    ]
+    return [inside + step * min(shares, default=0.0)]

@@ -1,0 +1,168 @@
+"""Charts: a frame with axes, curves and points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim.picture.diagrams.axis import Axis
+from linkanim.picture.items import Caption, Item
+from linkanim.picture.layout import Layout
+from linkanim.picture.raster.parts import Stamp
+from linkanim.picture.raster.raster import Colour, Layer, Loop
+from linkanim.picture.raster.shapes import disc, segments, stroke
+from linkanim.picture.text.text import Type
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import Rect
+
+_FOOT = 1.6
+"""From the plot down to the title of the horizontal axis, in heights of small text."""
+
+
+@dataclass(frozen=True)
+class Plot:
+    """Where a chart's curves are drawn, and its axes."""
+
+    area: Rect
+    x: Axis
+    y: Axis
+
+    def place(self, x: ArrayLike, y: ArrayLike) -> Loop:
+        """Return pixels for values; above and below the axis they stay at its edge, NaN stays NaN."""
+        across, up = self.x.share(x), np.minimum(np.maximum(self.y.share(y), -0.0), 1.0)
+        pixels: Loop = (self.area.x + across * self.area.width) + 1j * (
+            self.area.bottom - up * self.area.height
+        )
+        return pixels
+
+
+@dataclass(frozen=True)
+class Pen:
+    """What a chart is drawn with."""
+
+    type: Type
+    theme: Theme
+    small: int
+    text: int
+    line: float
+
+
+def pen_for(layout: Layout, type_: Type, theme: Theme) -> Pen:
+    """Return the pen for a window's size."""
+    return Pen(type_, theme, layout.small_size, layout.text_size, 1.8 * layout.unit)
+
+
+def plot_area(rect: Rect, y: Axis, pen: Pen, *, title: bool = True, foot: bool = False) -> Rect:
+    """Return what of a rectangle is left for curves beside tick labels, a title above and one at the foot."""
+    labels = max((pen.type.width(label, pen.small) for _, label in y.ticks), default=0)
+    left, top = labels + 0.6 * pen.small, (1.5 * pen.text if title else 0.6 * pen.small)
+    right, low = 1.4 * pen.small, (_FOOT + 1.2 if foot else 1.6) * pen.small
+    return Rect(
+        rect.x + left, rect.y + top, max(rect.width - left - right, 1), max(rect.height - top - low, 1)
+    )
+
+
+def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
+    """Yield grid lines and tick labels."""
+    area, theme = plot.area, pen.theme
+    columns = [complex(plot.place(value, plot.y.low)) for value, _ in plot.x.ticks]
+    rows = [complex(plot.place(plot.x.low, value)) for value, _ in plot.y.ticks]
+    grid = [*_lines(np.array(columns), -1j * area.height, pen), *_lines(np.array(rows), area.width, pen)]
+    yield Layer(theme.rule, grid)
+    for foot, (_, label) in zip(columns, plot.x.ticks, strict=True):
+        at = (foot.real, area.bottom + 0.4 * pen.small)
+        yield Caption(label, at, pen.small, theme.dim, "centre")
+    for y, label in _levels(plot, pen):
+        at = (area.x - 0.5 * pen.small, y - 0.5 * pen.small)
+        yield Caption(label, at, pen.small, theme.dim, "right")
+
+
+def right_axis(plot: Plot, pen: Pen) -> Iterator[Item]:
+    """Yield the ticks of a second vertical axis, at the right."""
+    feet = plot.place(plot.x.high, [value for value, _ in plot.y.ticks])
+    yield Layer(pen.theme.dim, _lines(feet - 0.3 * pen.small, 0.3 * pen.small, pen))
+    for y, label in _levels(plot, pen):
+        at = (plot.area.right + 0.4 * pen.small, y - 0.5 * pen.small)
+        yield Caption(label, at, pen.small, pen.theme.dim)
+
+
+def _levels(plot: Plot, pen: Pen) -> Iterator[tuple[float, str]]:
+    """Yield how far down ticks of a vertical axis lie, and their labels, but for those that have no room."""
+    below = np.inf
+    for value, label in plot.y.ticks:
+        y = complex(plot.place(plot.x.low, value)).imag
+        if y <= below - pen.small:
+            below = y
+            yield y, label
+
+
+def x_title(plot: Plot, title: str, pen: Pen, *, foot: bool = True) -> Caption:
+    """Return the horizontal axis' title: below the tick labels on a plot with a `foot`, else beside them."""
+    y = plot.area.bottom + (_FOOT if foot else 0.4) * pen.small
+    return Caption(title, (plot.area.right, y), pen.small, pen.theme.dim, "right")
+
+
+def beside_title(plot: Plot, title: str, pen: Pen) -> Plot:
+    """Return a plot without the labels of the ticks that its title would stand on, which it stands beside."""
+    free = plot.area.right - pen.type.width(title, pen.small) - 0.6 * pen.small
+    ticks = (
+        (value, label if _right_end(plot, value, label, pen) <= free else "") for value, label in plot.x.ticks
+    )
+    return replace(plot, x=replace(plot.x, ticks=tuple(ticks)))
+
+
+def _right_end(plot: Plot, value: float, label: str, pen: Pen) -> float:
+    return complex(plot.place(value, plot.y.low)).real + 0.5 * pen.type.width(label, pen.small)
+
+
+def marked(
+    plot: Plot, marks: Sequence[tuple[float, str]], values: NDArray[np.float64], pen: Pen
+) -> Iterator[Item]:
+    """Yield a dashed line at each mark, its label at the end that is further from the curve's value there."""
+    area = plot.area
+    for (x, label), value in zip(marks, values, strict=True):
+        foot, wide = complex(plot.place(x, plot.y.low)), pen.type.width(label, pen.small)
+        yield Layer(pen.theme.dim, list(_dashes(foot, area.height, pen)))
+        low = float(plot.y.share(value)) > 0.5
+        left = foot.real + 0.3 * pen.small
+        left = left if left + wide <= area.right else foot.real - 0.3 * pen.small - wide
+        at = (left, area.bottom - 1.2 * pen.small if low else area.y + 0.1 * pen.small)
+        yield Caption(label, at, pen.small, pen.theme.dim)
+
+
+def _dashes(foot: complex, height: float, pen: Pen) -> Iterator[Loop]:
+    """Yield a dashed line that rises from a point."""
+    for start in np.arange(0.0, height, 6 * pen.line):
+        top = foot - 1j * min(start + 3 * pen.line, height)
+        yield from segments(foot - 1j * start, top, 0.7 * pen.line)
+
+
+def _lines(feet: Loop, reach: complex, pen: Pen) -> list[Loop]:
+    return segments(feet, feet + reach, 0.6 * pen.line) if feet.size else []
+
+
+def curve_layer(plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, width: float) -> Layer:
+    """Return a curve; it is broken where a value is not finite."""
+    pixels = plot.place(x, np.where(np.isfinite(y), y, np.nan))
+    return Layer(colour, [loop for run in _runs(pixels) for loop in stroke(run, width)])
+
+
+def point_layers(plot: Plot, points: list[tuple[float, float]], colour: Colour, pen: Pen) -> list[Layer]:
+    """Return dots at values, in a ring of the background."""
+    return dot(colour, pen).at([complex(plot.place(*point)) for point in points])
+
+
+def dot(colour: Colour, pen: Pen) -> Stamp:
+    """Return a dot about 0 in a ring of the background."""
+    ring = Layer(pen.theme.background, [disc(3.6 * pen.line)])
+    return Stamp((ring, Layer(colour, [disc(2.7 * pen.line)])))
+
+
+def _runs(pixels: Loop) -> Iterator[Loop]:
+    held = np.flatnonzero(np.isfinite(pixels))
+    for run in np.split(held, np.flatnonzero(np.diff(held) > 1) + 1):
+        if run.size:
+            yield pixels[run]

@@ -1,0 +1,208 @@
+"""The velocity and the acceleration polygon beside the linkage, to scale."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.digits import three_digits
+from linkanim.mechanics.facts.polygon import Order, Side, Sort, chains
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.diagrams.axis import round_step
+from linkanim.picture.diagrams.chart import Pen
+from linkanim.picture.figure import Figure
+from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.raster.raster import Colour, Layer
+from linkanim.picture.raster.shapes import arrows, disc, segments, unit
+from linkanim.picture.view import Box, Rect
+
+_TITLES = {1: ("velocity polygon", "velocities", "/s"), 2: ("acceleration polygon", "accelerations", "/s²")}
+_NOTHING = 1e-9
+"""Of a polygon's greatest extent: what is shorter has no direction."""
+_LABELLED = 1.1
+"""A vector has its symbol where it is as long as this, in heights of the text."""
+_BARS = 5
+"""So many bars of the scale, at the most, go into the panel's width."""
+_ABSOLUTE: frozenset[Sort] = frozenset({"absolute"})
+_GUIDED: frozenset[Sort] = frozenset({"coriolis", "sliding"})
+
+
+class Arrow(NamedTuple):
+    """A side in pixels."""
+
+    side: Side
+    foot: complex
+    reach: complex
+
+    @property
+    def middle(self) -> complex:
+        """The middle of it."""
+        return self.foot + self.reach / 2
+
+    def is_on(self, other: Arrow) -> bool:
+        """Whether it is the same arrow, to a small part of a pixel: all of a vector, or of its only part."""
+        return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
+
+
+@dataclass(frozen=True)
+class Polygon:
+    """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole."""
+
+    figure: Figure
+    order: Order
+    rect: Rect
+    pen: Pen
+
+    def group(self, pose: Pose) -> Group:
+        """Return the polygon of a pose with its title and the bar of its scale."""
+        words, _, per = _TITLES[self.order]
+        scale = self.scale(pose.input_speed)
+        pole = self.pole(pose.input_speed)
+        found = self._arrows(pose, pole, scale)
+        layers, captions = [*self._drawn(found), self._dot(pole)], [self._title, *self._symbols(found)]
+        if scale > 0:
+            layers += self._bar(scale)
+            captions.append(self._told(scale, per))
+        if not found:
+            why = "all at rest" if np.isfinite(self._ends(pose)).all() else "unbounded here"
+            at = (pole.real, pole.imag + 0.6 * self.pen.small)
+            captions.append(Caption(why, at, self.pen.small, self.pen.theme.dim, "centre"))
+        return Group(words.replace(" ", "-"), layers, captions)
+
+    @cached_property
+    def _title(self) -> Caption:
+        """The title, as long and as large as there is room for."""
+        pen, (full, brief, _) = self.pen, _TITLES[self.order]
+        ways = [(words, size) for words in (full, brief) for size in (pen.text, pen.small)]
+        fits = (way for way in ways if pen.type.width(*way) <= self.rect.width)
+        words, size = next(fits, ways[-1])
+        return Caption(words, (self.rect.x, self.rect.y), size, pen.theme.ink)
+
+    def scale(self, speed: float) -> float:
+        """Return pixels for one unit of length and second at this input speed; 0 where nothing moves.
+
+        It changes with the speed and with nothing else, so that a polygon's size tells where it is fast.
+        """
+        faster = abs(speed / self.figure.linkage.drive.speed) ** self.order
+        box, room = self._box, self._room
+        spans = [(room.width, box.right - box.left), (room.height, box.high - box.low)]
+        shares = [have / need for have, need in spans if need > 0]
+        return min(shares) / faster if shares and faster > 0 else 0.0
+
+    def pole(self, speed: float) -> complex:
+        """Return where the pole stands, so that all poses of the cycle have room."""
+        box, room = self._box, self._room
+        backwards = self.order == 1 and speed * self.figure.linkage.drive.speed < 0
+        across, up = box.middle if not backwards else (-box.middle[0], -box.middle[1])
+        scale = self.scale(self.figure.linkage.drive.speed)
+        return complex(room.x + room.width / 2 - scale * across, room.y + room.height / 2 + scale * up)
+
+    @property
+    def _room(self) -> Rect:
+        """What of its place is left for the vectors: beside symbols, under the title, over the scale."""
+        rect, side, top, foot = self.rect, 1.6 * self.pen.small, 2.2 * self.pen.text, 2.8 * self.pen.small
+        width, height = max(rect.width - 2 * side, 1.0), max(rect.height - top - foot, 1.0)
+        return Rect(rect.x + side, rect.y + top, width, height)
+
+    @cached_property
+    def _box(self) -> Box:
+        """What the polygons of the cycle take up about the pole, at the scene's own speed."""
+        ends = np.concatenate([np.atleast_1d(end) for end in self._ends(self.figure.cycle)])
+        ends = np.append(ends[np.isfinite(ends)], 0.0)
+        x, y = ends.real, ends.imag
+        return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+
+    def _ends(self, motion: object) -> list[complex]:
+        found = chains(motion, self.figure.linkage, self.order)
+        return [side.end for chain in found for side in chain.sides]
+
+    def _arrows(self, pose: Pose, pole: complex, scale: float) -> list[Arrow]:
+        """Return what is drawn in pixels: all that has a length; nothing where one is unbounded."""
+        sides = [side for chain in chains(pose, self.figure.linkage, self.order) for side in chain.sides]
+        if not np.isfinite([side.end for side in sides]).all():
+            return []
+        found = [
+            Arrow(side, pole + scale * side.begin.conjugate(), scale * (side.end - side.begin).conjugate())
+            for side in sides
+        ]
+        whole = [arrow for arrow in found if arrow.side.sort in _ABSOLUTE]
+        parts = [arrow for arrow in found if not any(arrow.is_on(other) for other in whole)]
+        return [arrow for arrow in (*whole, *parts) if abs(arrow.reach) > _NOTHING * self._room.width]
+
+    def _drawn(self, found: list[Arrow]) -> Iterator[Layer]:
+        """Yield the arrows, relative ones first."""
+        for arrow in sorted(found, key=lambda arrow: arrow.side.sort in _ABSOLUTE):
+            width = (1.6 if arrow.side.sort in _ABSOLUTE else 1.1) * self.pen.line
+            yield Layer(self._colour(arrow.side.sort), arrows([arrow.foot], [arrow.reach], width))
+
+    def _colour(self, sort: Sort) -> Colour:
+        theme = self.pen.theme
+        if sort in _ABSOLUTE:
+            return theme.velocity if self.order == 1 else theme.acceleration
+        return theme.traces[0] if sort in _GUIDED else theme.dim
+
+    def _symbols(self, found: list[Arrow]) -> Iterator[Caption]:
+        """Yield the vectors' symbols, each beyond its vector as seen from the middle, where there is room."""
+        pen, taken = self.pen, list[Rect]()
+        halo = Halo(pen.theme.background, 0.8 * pen.line)
+        middle = sum((arrow.middle for arrow in found), 0j) / max(len(found), 1)
+        for arrow in sorted(found, key=lambda arrow: arrow.side.sort not in _ABSOLUTE):
+            text, colour = arrow.side.symbol, self._colour(arrow.side.sort)
+            half = complex(0.5 * pen.type.width(text, pen.small), 0.5 * pen.small)
+            for place in _beside(arrow, middle, half):
+                rect = Rect(place.real - half.real, place.imag - half.imag, 2 * half.real, 2 * half.imag)
+                if abs(arrow.reach) < _LABELLED * pen.small or any(rect.meets(other) for other in taken):
+                    continue
+                taken.append(rect)
+                yield Caption(text, (place.real, rect.y), pen.small, colour, "centre", halo=halo)
+                break
+
+    def _dot(self, pole: complex) -> Layer:
+        return Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
+
+    def _step(self, scale: float) -> float:
+        return round_step(self.rect.width / scale, _BARS)
+
+    def _bar(self, scale: float) -> Iterator[Layer]:
+        """Yield the bar of the scale, at the foot."""
+        begin = complex(self.rect.x, self.rect.bottom - 0.5 * self.pen.small)
+        end, tick = begin + self._step(scale) * scale, 0.35j * self.pen.small
+        feet, heads = [begin, begin - tick, end - tick], [end, begin + tick, end + tick]
+        yield Layer(self.pen.theme.ink, segments(feet, heads, 0.8 * self.pen.line))
+
+    def _told(self, scale: float, per: str) -> Caption:
+        """Return what the bar of the scale stands for."""
+        words = f"{_round(self._step(scale))} {self.figure.scene.length_unit}{per}"
+        at = (self.rect.x, self.rect.bottom - 2.0 * self.pen.small)
+        return Caption(words, at, self.pen.small, self.pen.theme.ink)
+
+
+def _round(value: float) -> str:
+    """Return a round number as short as it is."""
+    return f"{value:g}" if 1e-3 <= value < 1e6 else three_digits(value)
+
+
+def _beside(arrow: Arrow, middle: complex, half: complex) -> Iterator[complex]:
+    """Yield places for a symbol beside an arrow, away from the middle of all first."""
+    across = 1j * unit(arrow.reach)
+    if ((arrow.middle - middle) * across.conjugate()).real < 0:
+        across = -across
+    away = abs(across.real) * half.real + abs(across.imag) * half.imag + 0.35 * half.imag
+    for share in (0.5, 0.35, 0.65):
+        for side in (1, -1):
+            yield arrow.foot + share * arrow.reach + side * away * across
+
+
+def polygons_of(figure: Figure, rect: Rect, pen: Pen) -> tuple[Polygon, Polygon]:
+    """Return both polygons in a rectangle: over each other where it is tall, else side by side."""
+    if rect.height >= rect.width:
+        first = rect._replace(height=0.48 * rect.height)
+        second = first._replace(y=rect.bottom - first.height)
+    else:
+        first = rect._replace(width=0.48 * rect.width)
+        second = first._replace(x=rect.right - first.width)
+    return Polygon(figure, 1, first, pen), Polygon(figure, 2, second, pen)

@@ -1,0 +1,70 @@
+"""What a chart shows of a scene: quantities by name, and their values over one true period."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.facts.register import Quantity, look_up
+from linkanim.mechanics.facts.telling import telling as most_telling
+from linkanim.mechanics.motion.motion import Motion
+from linkanim.scenes.scene import Scene
+
+_TRIED = 96
+
+
+class Series(NamedTuple):
+    """A quantity over one true period: phases (n,), values (n, k), and what the k columns are called.
+
+    Angles are in degrees here, for the eye; `unit` says so. A value that is not bounded is infinite, and
+    one that is nothing but rounding errors is 0.
+    """
+
+    phases: NDArray[np.float64]
+    values: NDArray[np.float64]
+    unit: str
+    labels: tuple[str, ...]
+
+
+def quantities(scene: Scene) -> tuple[str, ...]:
+    """Return the tokens of all quantities that a chart can show of this scene."""
+    return tuple(scene.quantities)
+
+
+def telling(scene: Scene) -> tuple[str, ...]:
+    """Return the tokens of the six to ten quantities that say most of a scene, the most telling first."""
+    return most_telling(scene.cycle(_TRIED), scene.trace)
+
+
+def quantity(scene: Scene, token: str) -> Quantity:
+    """Return a scene's quantity, of a body by its name in the scene or by what it is called.
+
+    BadInput with the nearest ones and the list where there is none.
+    """
+    owner, dot, measure = token.partition(".")
+    own = {words: name for name, words in scene.info.link_names.items()}
+    named = token if token in scene.quantities else f"{own.get(owner, owner)}{dot}{measure}"
+    return look_up(scene.quantities, named if named in scene.quantities else token, scene.name)
+
+
+def series(scene: Scene, token: str, n: int) -> Series:
+    """Return a quantity at n phases over one true period, at the scene's own speed.
+
+    BadInput with the list of tokens where there is no such quantity.
+    """
+    return series_of(scene, quantity(scene, token), scene.cycle(n))
+
+
+def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
+    """Return a quantity of a cycle that is already solved."""
+    values = np.asarray(quantity.shown(cycle), float)
+    columns = values if values.ndim == 2 else values[:, None]
+    columns = cleared(columns, quantity.rounding(cycle))
+    return Series(cycle.phase, columns, quantity.shown_unit(scene.length_unit), quantity.columns)
+
+
+def cleared(values: NDArray[np.float64], rounding: float) -> NDArray[np.float64]:
+    """Return values with 0 for what is no larger than rounding errors."""
+    return np.where(np.abs(values) <= rounding, 0.0, values)

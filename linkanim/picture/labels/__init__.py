@@ -1,0 +1,1 @@
+"""Names and dimensions, and where there is room for them."""

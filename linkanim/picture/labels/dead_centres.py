@@ -1,0 +1,158 @@
+"""A slider's two dead centres as ticks on its guide, the input's angle at each; its stroke and time ratio."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from math import degrees
+
+import numpy as np
+
+from linkanim.digits import short, stepped, typeset
+from linkanim.mechanics.facts.symbols import input_symbol
+from linkanim.mechanics.motion.derived import output_slider
+from linkanim.picture.figure import Figure
+from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.parts.driven import driven_words
+from linkanim.picture.parts.fittings import rail_reach
+from linkanim.picture.raster.raster import Layer, Loop
+from linkanim.picture.raster.shapes import arrows, segments
+from linkanim.picture.text.text import Anchor, Type
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import Rect, View
+
+_TICK = 1.6
+"""How far a tick reaches beyond the rail, in half widths of a bar."""
+_VISIBLE = 1e-3
+"""Pixels that a slider travels at the least for its ends to be marked."""
+_NEAR = 0.3
+"""What passes the guide no further off its ends, in strokes, is in the way of the words."""
+_FEW = 1e-6
+_LETTER = 0.56
+"""About how wide a letter is, in heights of its text."""
+_SHARES: Mapping[Anchor, float] = {"left": 0.0, "centre": 0.5, "right": 1.0}
+"""How much of a line stands left of its place."""
+
+
+@dataclass(frozen=True)
+class DeadCentres:
+    """The dead centres of a figure's output slider, if it slides on the ground; `sized` with its stroke."""
+
+    figure: Figure
+    view: View
+    gauge: Gauge
+    theme: Theme
+    layout: Layout
+    sized: bool
+
+    @cached_property
+    def group(self) -> Group:
+        """Ticks and words; an empty group where there is no such slider."""
+        return Group("dead-centres", list(self._layers()), self.captions)
+
+    @cached_property
+    def captions(self) -> list[Caption]:
+        """The input's angle at each dead centre, and between them the stroke and the time ratio.
+
+        What would stand on the words about the scene is left out.
+        """
+        if self._ends is None:
+            return []
+        info, (along, out), size = self.figure.scene.info, self._frame, self.layout.small_size
+        found = [
+            self._caption(self._angle(phase), end + out * self._reach, out + way * along)
+            for phase, end, way in zip(info.dead_centres or (), self._ends, (-1, 1), strict=True)
+        ]
+        if self.sized and info.stroke and info.time_ratio:
+            words = f"stroke {short(info.stroke)} {self.figure.scene.length_unit}, time ratio "
+            middle = sum(self._ends) / 2 + out * (self._reach + 1.3 * size * abs(out.imag))
+            found.append(self._caption(typeset(words + short(info.time_ratio)), middle, out))
+        return [line for line in found if not any(_taken(line).meets(rect) for rect in self.layout.words)]
+
+    def rects(self, type_: Type) -> Iterator[Rect]:
+        """Yield where the words stand."""
+        for line in self.captions:
+            wide = type_.width(line.text, line.size, strong=True)
+            left = line.at[0] - _SHARES[line.anchor] * wide
+            yield Rect(left, line.at[1], wide, line.size)
+
+    @cached_property
+    def _ends(self) -> tuple[complex, complex] | None:
+        """Where the slider is in pixels, furthest back and forward; None where it travels too little."""
+        scene, phases = self.figure.scene, self.figure.scene.info.dead_centres
+        body = output_slider(self.figure.linkage)
+        slider = body.slider if body else None
+        if slider is None or phases is None or self.figure.linkage.joint(slider).slides[0].start is not None:
+            return None
+        back, forward = (self.view.place(scene.pose(phase, 0).position[slider]) for phase in phases)
+        return (back, forward) if abs(forward - back) > _VISIBLE else None
+
+    @cached_property
+    def _frame(self) -> tuple[complex, complex]:
+        """The way of the slider in pixels, and the way out from its guide: where there is more room."""
+        assert self._ends is not None
+        begin, way = self._ends[0], self._ends[1] - self._ends[0]
+        seen = (np.concatenate(list(self._passed())) - begin) / way
+        near = seen[(seen.real > -_NEAR) & (seen.real < 1 + _NEAR)].imag
+        crowded = float(np.sum(np.sign(near) * np.exp(-np.abs(near))))
+        out = 1j * way / abs(way) * (-1 if crowded > _FEW * near.size else 1)
+        return way / abs(way), out if self._fits(out) or not self._fits(-out) else -out
+
+    def _passed(self) -> Iterator[Loop]:
+        """Yield pixels that bars pass through in the cycle, but for the slider's own way."""
+        for body in self.figure.bodies:
+            for one, other in pairwise(body.joints):
+                begin, end = (self.figure.path(name, self.view) for name in (one, other))
+                yield from (begin + share * (end - begin) for share in (0.2, 0.4, 0.6, 0.8))
+
+    def _fits(self, out: complex) -> bool:
+        """Whether the words have room on one side of the guide."""
+        assert self._ends is not None
+        stage, high = self.layout.stage, (self._reach + 2.8 * self.layout.small_size) * out
+        return all(stage.holds((end + high).real, (end + high).imag) for end in self._ends)
+
+    @property
+    def _reach(self) -> float:
+        """How far the ticks reach from the line of travel."""
+        return rail_reach(self.gauge) + _TICK * self.gauge.bar
+
+    def _angle(self, phase: float) -> str:
+        scene = self.figure.scene
+        angle = scene.pose(phase, 0).crank_angle
+        if not scene.info.full_turn:
+            return f"{input_symbol(scene.linkage)} = {driven_words(scene, angle)}"
+        return f"{input_symbol(scene.linkage)} = {stepped(round(degrees(angle), 1) % 360, 0.1)}°"
+
+    def _caption(self, text: str, at: complex, out: complex) -> Caption:
+        """Return a line of text that begins at a place and goes the way out."""
+        size, halo = self.layout.small_size, Halo(self.theme.background, max(1.4 * self.gauge.line, 1.5))
+        anchor: Anchor = "centre" if abs(out.real) < 0.5 else "left" if out.real > 0 else "right"
+        wide, stage = _LETTER * size * len(text), self.layout.stage
+        x = {
+            "left": min(at.real + 0.3 * size, stage.right - wide),
+            "centre": min(max(at.real, stage.x + wide / 2), stage.right - wide / 2),
+            "right": max(at.real - 0.3 * size, stage.x + wide),
+        }[anchor]
+        top = at.imag - 0.5 * size + 0.7 * size * max(min(out.imag, 1.0), -1.0)
+        return Caption(text, (x, top), size, self.theme.dim, anchor, strong=True, halo=halo)
+
+    def _layers(self) -> Iterator[Layer]:
+        if self._ends is None:
+            return
+        _, out = self._frame
+        feet, width = np.array(self._ends), 0.9 * self.gauge.line
+        lines = segments(feet - out * self._reach, feet + out * self._reach, width)
+        if self.sized:
+            level = out * (self._reach - 0.4 * self.gauge.bar)
+            middle = feet.mean() + level
+            lines += arrows([middle, middle], feet + level - middle, 1.6 * width)
+        yield Layer(self.theme.dim, lines)
+
+
+def _taken(line: Caption) -> Rect:
+    """Return about where a line of text stands."""
+    wide = _LETTER * line.size * len(line.text)
+    return Rect(line.at[0] - _SHARES[line.anchor] * wide, line.at[1], wide, line.size)

@@ -1,0 +1,86 @@
+"""What every panel is drawn on: framed sheets, rows of text in columns, a bar behind what is chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import pygame
+
+from linkanim.picture.layout import Layout
+from linkanim.picture.raster.raster import Colour, Layer, paint
+from linkanim.picture.raster.shapes import box
+from linkanim.picture.text.text import Anchor, Type
+from linkanim.picture.theme import Theme
+
+STEP = 1.42
+"""From line to line of a list, in heights of its text."""
+
+
+@dataclass(frozen=True)
+class Board:
+    """The window's layout, type and theme, and how a panel is made of them."""
+
+    layout: Layout
+    type: Type
+    theme: Theme
+
+    @property
+    def margin(self) -> int:
+        """How far a panel stays from the window's edge."""
+        return round(10.8 * self.layout.unit)
+
+    def sheet(self, width: float, height: float) -> pygame.Surface:
+        """Return an empty panel: a framed sheet with round corners on nothing."""
+        sheet = pygame.Surface((round(width), round(height)), pygame.SRCALPHA, 32)
+        middle = complex(sheet.get_width() / 2, sheet.get_height() / 2)
+        line, corner = max(1.5 * self.layout.unit, 1.0), 10 * self.layout.unit
+        outer = middle + box(sheet.get_width(), sheet.get_height(), corner)
+        inner = middle + box(sheet.get_width() - 2 * line, sheet.get_height() - 2 * line, corner - line)
+        paint(sheet, [Layer(self.theme.rule, [outer]), Layer(self.theme.panel, [inner])])
+        return sheet
+
+    def write(
+        self,
+        sheet: pygame.Surface,
+        text: str,
+        at: tuple[float, float],
+        *,
+        size: int,
+        colour: Colour | None = None,
+        anchor: Anchor = "left",
+        strong: bool = False,
+    ) -> None:
+        """Write a line whose top is at `at`, in the theme's ink where no colour is given."""
+        ink = self.theme.ink if colour is None else colour
+        self.type.draw(sheet, text, at, size=size, colour=ink, anchor=anchor, strong=strong)
+
+    def bar(self, sheet: pygame.Surface, y: float, size: int, colour: Colour, *, lines: float = 1.0) -> None:
+        """Draw a bar across a sheet behind so many lines of text, the first with its top at `y`."""
+        middle = complex(sheet.get_width() / 2, y + (0.5 + (lines - 1.0) * STEP / 2) * size)
+        high = (1.36 + (lines - 1.0) * STEP) * size
+        loop = middle + box(sheet.get_width() - 1.2 * size, high, 0.25 * size)
+        paint(sheet, [Layer(colour, [loop])])
+
+    def fitting(self, words: Sequence[str], size: int, room: float) -> str:
+        """Return the first of some words that has room, or as much of the last one's two ends as has."""
+        for text in words:
+            if self.type.width(text, size) <= room:
+                return text
+        name = words[-1]
+        kept = (f"{name[: n - n // 2]}…{name[-(n // 2) :]}" for n in range(len(name) - 1, 1, -1))
+        return next((text for text in kept if self.type.width(text, size) <= room), "")
+
+    def widest(self, lines: Iterable[str], size: int, *, strong: bool = False) -> int:
+        """Return the width of the widest of some lines, 0 where there is none."""
+        return max((self.type.width(line, size, strong=strong) for line in lines), default=0)
+
+
+def around(count: int, chosen: int, room: int) -> range:
+    """Return which of `count` rows to show where there is room for so many, and at least one.
+
+    The chosen one stands in their middle, where it can.
+    """
+    room = max(room, 1)
+    first = min(max(chosen - room // 2, 0), max(count - room, 0))
+    return range(first, min(first + room, count))

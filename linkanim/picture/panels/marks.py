@@ -1,0 +1,87 @@
+"""What only the window shows on the picture: the bar being edited with its dimension line, and handles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+import pygame
+
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.layout import Gauge
+from linkanim.picture.panels.board import Board
+from linkanim.picture.panels.overlay import DimensionLine
+from linkanim.picture.raster.parts import Stamp
+from linkanim.picture.raster.raster import Colour, Layer, paint
+from linkanim.picture.raster.shapes import arrows, box, disc, segments, unit
+from linkanim.picture.theme import ORANGE, Theme
+from linkanim.picture.view import Rect, View
+
+_LIT = 0.45
+"""How strongly the bar being edited is lit."""
+
+
+def draw_measure(
+    surface: pygame.Surface, board: Board, view: View, gauge: Gauge, shown: DimensionLine
+) -> None:
+    """Draw the light on a bar, its dimension line beside it, and the value on the line."""
+    begin, end = (view.place(place) for place in shown.ends)
+    if abs(end - begin) < 1.0:
+        return
+    away = 1j * unit(end - begin)
+    away *= (2.0 * gauge.bar + 14 * board.layout.unit) * (-1 if away.imag > 0 else 1)
+    paint(surface, [*_lit(begin, end, gauge), *_line(begin, end, away, board, gauge)])
+    size = board.layout.small_size
+    wide, high = board.type.width(shown.words, size, strong=True) + 0.7 * size, 1.35 * size
+    middle = _inside(board.layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
+    back = middle + box(wide, high, 0.3 * size)
+    paint(surface, [Layer(board.theme.panel, [back], 0.9)])
+    at = (middle.real, middle.imag - 0.52 * size)
+    board.write(surface, shown.words, at, size=size, anchor="centre", strong=True)
+
+
+def _clear(away: complex, gauge: Gauge, wide: float, high: float) -> complex:
+    """Return how far from a bar's middle that of a label of this size lies, off the bar, by its line."""
+    side = unit(away)
+    reach = abs(side.real) * wide / 2 + abs(side.imag) * high / 2 + 1.7 * gauge.bar
+    return side * max(abs(away), reach)
+
+
+def _inside(stage: Rect, middle: complex, wide: float, high: float) -> complex:
+    """Return the middle of a label of this size, moved onto the stage where it would reach beyond."""
+    x = min(max(middle.real, stage.x + wide / 2), stage.right - wide / 2)
+    return complex(x, min(max(middle.imag, stage.y + high / 2), stage.bottom - high / 2))
+
+
+def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:
+    reach = 1.5 * gauge.bar
+    loops = [*segments(begin, end, 2 * reach), begin + disc(reach), end + disc(reach)]
+    yield Layer(ORANGE, loops, _LIT)
+
+
+def _line(begin: complex, end: complex, away: complex, board: Board, gauge: Gauge) -> Iterator[Layer]:
+    """Yield the line with an arrow at both ends, and those that lead to it from the joints."""
+    middle, width = (begin + end) / 2 + away, 0.9 * gauge.line
+    leads = [one for foot in (begin, end) for one in segments(foot + 0.35 * away, foot + 1.15 * away, width)]
+    ways = arrows([middle, middle], [begin + away - middle, end + away - middle], 1.6 * width)
+    yield Layer(board.theme.ink, [*leads, *ways])
+
+
+def glow(view: View, pose: Pose, joint: str, gauge: Gauge) -> Iterator[Layer]:
+    """Yield the light round a joint that can be dragged."""
+    middle = view.place(pose.position[joint])
+    for reach, alpha in ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4)):
+        yield Layer(ORANGE, [middle + disc(reach * gauge.bar)], alpha)
+
+
+def grip(foot: complex, unit_: float, theme: Theme) -> list[Layer]:
+    """Return the grip at the foot of the chart's cursor, for a layout's unit."""
+    return _grip(unit_, theme.ink, theme.background).at([foot])
+
+
+@lru_cache(maxsize=4)
+def _grip(unit_: float, ink: Colour, back: Colour) -> Stamp:
+    """Return the grip about 0: the same at every frame."""
+    begin, end = ([unit_ * (side + way) for side in (-1.8, 1.8)] for way in (-3.5j, 3.5j))
+    ribs = segments(begin, end, 1.2 * unit_)
+    return Stamp((Layer(ink, [box(11 * unit_, 15 * unit_, 4 * unit_)]), Layer(back, ribs)))

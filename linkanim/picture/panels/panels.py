@@ -1,0 +1,142 @@
+"""What lies over the picture: the help, the edit list, a toast, the marks of pause and recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pygame
+
+from linkanim.picture.layout import Layout
+from linkanim.picture.panels.board import Board
+from linkanim.picture.panels.chips import chip, put, strip
+from linkanim.picture.panels.edit_list import edit_list
+from linkanim.picture.panels.help_sheet import help_sheet
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.panels.quantity_list import quantity_list
+from linkanim.picture.raster.raster import Layer, Loop, paint
+from linkanim.picture.raster.shapes import box, disc
+from linkanim.picture.text.text import Type
+from linkanim.picture.theme import Theme
+
+_VEIL = 170
+_BACKING = 0.7
+"""How little of what lies under a mark shows through its backing."""
+
+
+@dataclass
+class Panels:
+    """Draws overlays; the last panel of each kind is kept, so that an open one costs one blit."""
+
+    layout: Layout
+    type: Type
+    theme: Theme
+    _kept: dict[str, tuple[Any, pygame.Surface]] = field(default_factory=dict)
+
+    @property
+    def board(self) -> Board:
+        """What the panels are drawn on."""
+        return Board(self.layout, self.type, self.theme)
+
+    def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw all that an overlay holds: the help beside the edit list, a toast on the stage's foot."""
+        stage = self.layout.stage
+        self._marks(surface, overlay)
+        if overlay.help:
+            surface.blit(self._keep("veil", None, self._veil), (0, 0))
+        left = 0
+        if overlay.panel:
+            drawn = self._keep("panel", overlay.panel, partial(edit_list, self.board))
+            surface.blit(drawn, self._listed(drawn))
+            left = self.board.margin + drawn.get_width() if self._listed(drawn)[1] <= self.board.margin else 0
+        if overlay.quantities:
+            drawn = self._keep("quantities", overlay.quantities, partial(quantity_list, self.board))
+            surface.blit(drawn, self._listed(drawn))
+        if overlay.help:
+            room = self.layout.size[0] - left
+            drawn = self._keep("help", (overlay.help, room), partial(help_sheet, self.board))
+            at = (left + (room - drawn.get_width()) // 2, (self.layout.size[1] - drawn.get_height()) // 2)
+            surface.blit(drawn, at)
+        self._passing(surface, overlay)
+        if overlay.toast:
+            drawn = self._keep("toast", overlay.toast, self._toast)
+            across = stage.x + (stage.width - drawn.get_width()) / 2
+            surface.blit(drawn, (round(across), round(stage.bottom - drawn.get_height() - self.board.margin)))
+
+    def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
+        """Return where a list stands: at the top of its place, or at the window's foot."""
+        place, margin = self.layout.lists, self.board.margin
+        foot = self.layout.size[1] - margin - drawn.get_height()
+        return round(place.x), max(foot, margin) if place.y > margin else margin
+
+    def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw the chip below the marks, and the strip at the bottom, where the HUD is not."""
+        room, place = self.layout.stage, self.layout.marks
+        if overlay.chip:
+            drawn = self._keep("chip", overlay.chip.text, partial(chip, self.board))
+            marks = 1.5 * self.layout.text_size * (bool(overlay.recording) + overlay.paused)
+            left = place.x if self._marks_lead else place.right - drawn.get_width()
+            put(surface, drawn, (left, place.y + marks), overlay.chip)
+        if overlay.strip:
+            words = self._keep("strip", overlay.strip.text, partial(strip, self.board))
+            at = self.layout.strip or room
+            if words:
+                leads = at.x + at.width / 2 <= room.x + room.width / 2
+                left = at.x if leads else at.right - words.get_width()
+                put(surface, words, (left, at.bottom - words.get_height()), overlay.strip)
+
+    @property
+    def _marks_lead(self) -> bool:
+        """Whether the marks stand at the left of the scene's room."""
+        place, stage = self.layout.marks, self.layout.stage
+        return place.x - stage.x < stage.right - place.right
+
+    def _keep(self, kind: str, value: Any, make: Any) -> pygame.Surface:
+        if kind not in self._kept or self._kept[kind][0] != value:
+            self._kept[kind] = (value, make(value))
+        return self._kept[kind][1]
+
+    def _veil(self, _: None) -> pygame.Surface:
+        """Return what lets the picture recede behind the help."""
+        veil = pygame.Surface(self.layout.size, pygame.SRCALPHA, 32)
+        veil.fill((*self.theme.background, _VEIL))
+        return veil
+
+    def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw the marks of recording and pause, words and signs."""
+        size, place = self.layout.text_size, self.layout.marks
+        leads, top = self._marks_lead, place.y
+        marks = [(overlay.recording, self.theme.warning, _dot)]
+        marks.append(("paused" if overlay.paused else None, self.theme.ink, _bars))
+        for words, colour, sign in marks:
+            if words:
+                width = self.type.width(words, size)
+                left = place.x + 1.2 * size if leads else place.right - width
+                plate = complex(left + width / 2 - 0.6 * size, top + 0.55 * size)
+                back = plate + box(width + 1.6 * size, 1.15 * size, 0.4 * size)
+                paint(surface, [Layer(self.theme.background, [back], _BACKING)])
+                self.type.draw(surface, words, (left, top), size=size, colour=colour)
+                middle = complex(left - 0.8 * size, top + 0.5 * size)
+                paint(surface, [Layer(colour, [middle + loop for loop in sign(size)])])
+                top += 1.5 * size
+
+    def _toast(self, text: str) -> pygame.Surface:
+        size = self.layout.text_size
+        lines = self.type.wrapped(text, size, 0.9 * self.layout.stage.width - 2 * size)
+        wide = max((self.type.width(line, size) for line in lines), default=0)
+        sheet = self.board.sheet(wide + 2 * size, (1.25 * len(lines) + 0.75) * size)
+        for n, line in enumerate(lines):
+            at = (sheet.get_width() / 2, (0.5 + 1.25 * n) * size)
+            self.type.draw(sheet, line, at, size=size, colour=self.theme.ink, anchor="centre")
+        return sheet
+
+
+def _dot(size: float) -> list[Loop]:
+    return [0.36 * size * disc(1.0)]
+
+
+def _bars(size: float) -> list[Loop]:
+    bar = box(0.22 * size, 0.72 * size)
+    return [np.asarray(bar + side * 0.22 * size) for side in (-1, 1)]

@@ -1,0 +1,55 @@
+"""The list of quantities: their words and symbols, what has been typed to sift them, the chosen one."""
+
+from __future__ import annotations
+
+import pygame
+
+from linkanim.picture.panels.board import STEP, Board, around
+from linkanim.picture.panels.overlay import Quantities
+
+_FRAME = 2.6
+"""How many lines high the list is without its rows and hint."""
+_TITLE = "Quantities"
+
+
+def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
+    """Return the list, as many rows around the chosen one as the window has room for."""
+    size = board.layout.small_size
+    wide, high = board.layout.lists.width, board.layout.lists.height
+    hint = board.type.wrapped(shown.hint, size, wide - 2.4 * size, gap="   ")
+    room = int(high / STEP / size - _FRAME)
+    if room - len(hint) < 4:
+        hint = []
+    rows = around(len(shown.rows), shown.chosen, room - len(hint))
+    lines = max(len(rows), 1) + len(hint) + _FRAME
+    sheet = board.sheet(wide, STEP * size * lines)
+    _head(board, sheet, shown, size)
+    for n, row in enumerate(rows):
+        _row(board, sheet, shown, row, size, (0.9 + STEP * (n + 1)) * size)
+    if not shown.rows:
+        at = (1.2 * size, (0.9 + STEP) * size)
+        board.write(sheet, "none has that in its name", at, size=size, colour=board.theme.warning)
+    for n, line in enumerate(hint, start=max(len(rows), 1) + 1):
+        at = (1.2 * size, (1.1 + STEP * n) * size)
+        board.write(sheet, line, at, size=size, colour=board.theme.dim)
+    return sheet
+
+
+def _head(board: Board, sheet: pygame.Surface, shown: Quantities, size: int) -> None:
+    """Draw the title or what has been typed, and where in the list the chosen row is."""
+    at, right = (1.2 * size, 0.7 * size), (sheet.get_width() - 1.2 * size, 0.7 * size)
+    typed = shown.sieve != ""
+    words, colour = (f"{shown.sieve}_", board.theme.velocity) if typed else (_TITLE, board.theme.ink)
+    board.write(sheet, words, at, size=size, colour=colour, strong=True)
+    count = f"{shown.chosen + 1} of {len(shown.rows)}" if shown.rows else "0"
+    board.write(sheet, count, right, size=size, colour=board.theme.dim, anchor="right")
+
+
+def _row(board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size: int, y: float) -> None:
+    if row == shown.chosen:
+        board.bar(sheet, y, size, board.theme.chosen)
+    (words, symbol), room = shown.rows[row], sheet.get_width() - 2.4 * size
+    if board.type.width(words, size) + board.type.width(symbol, size) + size <= room:
+        at = (sheet.get_width() - 1.2 * size, y)
+        board.write(sheet, symbol, at, size=size, colour=board.theme.dim, anchor="right")
+    board.write(sheet, board.fitting((words,), size, room), (1.2 * size, y), size=size)

@@ -1,0 +1,122 @@
+"""Bodies: rounded bars and plates, the pins on top of them, centres of mass."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkanim.mechanics.linkage.frames import holding
+from linkanim.mechanics.linkage.linkage import Body
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts.body_shapes import SHAPES
+from linkanim.picture.parts.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, Bench, fittings
+from linkanim.picture.parts.struts import piston
+from linkanim.picture.raster.directions import directions
+from linkanim.picture.raster.parts import Part, Stamp, glazed, lined, slotted
+from linkanim.picture.raster.raster import Colour, Layer
+from linkanim.picture.raster.shapes import disc, hull, unit
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import View
+
+
+def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
+    """Return every body with its joints' fittings, back to front: plates, then bars, in the scene's order.
+
+    Plates are clear enough to show what lies behind them.
+    """
+    colours = colours_of(figure, theme)
+    placed = {body: _local(body, figure, view) for body in figure.bodies if body.look != "none"}
+    plates = [body for body, points in placed.items() if _is_wide(body, points)]
+    bars = [body for body in placed if body not in plates]
+    bench = Bench(figure, view, gauge, theme)
+    fitted = fittings(bench)
+    behind = [part for fitting in fitted for part in fitting.behind]
+    before = [part for fitting in fitted for part in fitting.before]
+    worked = [fitting.bar for fitting in fitted if fitting.bar]
+    solid = [_body(body, placed[body], worked, bench, colours[body.name]) for body in plates + bars]
+    return (*behind, *solid, *before)
+
+
+def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
+    """Return each body's colour: its own, or the theme's; the driven part's is the first of these.
+
+    One without a name is metal.
+    """
+    drive = figure.linkage.drive.joint
+    named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
+    first = sorted(named, key=lambda body: not _is_crank(body, figure, drive))
+    count, taken = len(theme.bodies), int(figure.linkage.slides)
+    colours = {body.name: body.colour or theme.bodies[n % count] for n, body in enumerate(first, taken)}
+    return {"": theme.metal, **colours}
+
+
+def _is_crank(body: Body, figure: Figure, joint: str) -> bool:
+    crank = figure.linkage.joint(joint)
+    return joint in body.joints and getattr(crank, "pivot", None) in body.joints
+
+
+def _local(body: Body, figure: Figure, view: View) -> list[complex]:
+    """Return the body's joints in pixels, the first at 0 and the second on the positive real axis."""
+    n = holding(figure.linkage.frames, body.joints)
+    assert n is not None
+    places = [view.scale * figure.linkage.frames[n][name].conjugate() for name in body.joints]
+    turn = unit(places[1] - places[0])
+    return [(place - places[0]) / turn for place in places]
+
+
+def _is_wide(body: Body, points: list[complex]) -> bool:
+    """Whether a body may hide others, so that it lies behind them: a plate, or a wheel."""
+    return body.look in ("plate", "wheel") or (body.look is None and len(hull(points)) > 2)
+
+
+def _body(body: Body, points: list[complex], worked: list[Bar], bench: Bench, colour: Colour) -> Part:
+    bar = next((bar for bar in worked if set(bar.ends) <= set(body.joints)), None)
+    plate, gauge, colours = _is_wide(body, points), bench.gauge, (bench.theme.outline, colour)
+    layers: list[Layer] = []
+    if body.look is not None and bar is None:
+        layers += SHAPES[body.look](points, gauge, colours)
+    elif plate or bar is None:
+        layers += (glazed if plate else lined)(points, gauge.bar, gauge.outline, colours)
+    if bar:
+        ends = [points[body.joints.index(name)] for name in bar.ends]
+        layers += _worked(bar, ends if plate else [*ends, *points], bench, colours)
+    first, second = body.joints[:2]
+    pinned = (*body.joints, *bench.figure.riding(body))
+    return Part(first, first, second, tuple(layers), pinned, body.name or "-".join(body.joints))
+
+
+def _worked(bar: Bar, points: list[complex], bench: Bench, colours: tuple[Colour, Colour]) -> list[Layer]:
+    """Return a slotted bar, or a rod with an eye where it begins; its two ends are the first points."""
+    gauge, (begin, end) = bench.gauge, points[:2]
+    along, edge = unit(end - begin), gauge.outline
+    if bar.slot:
+        near, far = (begin + along * place for place in bar.slot)
+        widths = SLOTTED * gauge.bar, SLOT * gauge.bar
+        return slotted([*points, near, far], (near, far), widths, edge, colours)
+    rod = lined(points, ROD * gauge.bar, edge, colours)
+    eye = lined([begin], gauge.bar, edge, colours)
+    layers = [Layer(one.colour, [*one.loops, *other.loops]) for one, other in zip(rod, eye, strict=True)]
+    if bar.piston:
+        head = piston(PISTON * gauge.bar, BARREL * gauge.bar, gauge, bench.theme)
+        layers.append(Layer(head.colour, [end + along * loop for loop in head.loops]))
+    return layers
+
+
+def pin_stamp(gauge: Gauge, theme: Theme) -> Stamp:
+    """Return a pin: a ring around an eye."""
+    outer, inner = disc(gauge.pin + gauge.outline / 2), disc(gauge.pin - gauge.outline / 2)
+    return Stamp((Layer(theme.outline, [outer]), Layer(theme.pin, [inner])))
+
+
+def mass_stamp(gauge: Gauge, theme: Theme) -> Stamp:
+    """Return the sign of a centre of mass: a disc with two of its quarters light."""
+    radius = 0.48 * gauge.bar
+    quarter = np.concatenate(([0j], radius * directions(np.linspace(0, np.pi / 2, 9))))
+    outer = Layer(theme.outline, [disc(radius + gauge.outline)])
+    return Stamp((outer, Layer(theme.pin, [quarter, -quarter])))
+
+
+def mark_stamp(colour: Colour, gauge: Gauge, theme: Theme) -> Stamp:
+    """Return the mark of a joint that is traced, in its curve's colour."""
+    radius = 0.62 * gauge.bar
+    return Stamp((Layer(theme.outline, [disc(radius)]), Layer(colour, [disc(radius - gauge.outline)])))

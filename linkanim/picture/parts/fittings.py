@@ -1,0 +1,256 @@
+"""Fittings: what a joint's kind needs beside bars and pins, such as a slider's block and its guide.
+
+`FITTINGS` is the one table of them, by kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from math import frexp
+
+import numpy as np
+
+from linkanim.mechanics.closing.kinds import RPP, RPR, RRP, DrivenSlider
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.rail import Line
+from linkanim.picture.figure import DOWN, Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts.struts import barrel
+from linkanim.picture.raster.directions import directions, lengths
+from linkanim.picture.raster.parts import Part, lined, slotted
+from linkanim.picture.raster.raster import Layer, Loop
+from linkanim.picture.raster.shapes import box, segments, unit
+from linkanim.picture.theme import LIGHT, Theme
+from linkanim.picture.view import View
+
+_TRIED = 90
+"""Poses of a cycle at which is looked how far a fitting reaches."""
+_LARGE = 20
+"""Powers of two in the size of a scene that is taken as it is; a larger one is scaled down."""
+_BLOCK = (4.6, 3.2)
+"""A slider block's length and height in half widths of a bar."""
+SLOTTED, SLOT = 1.35, 0.5
+"""Half the widths of a slotted bar and of its slot, in those of a bar."""
+ROD, BARREL = 0.6, 1.2
+"""Half the widths of a rod that slides through a swivel, and of the cylinder that it slides in."""
+PISTON = 1.1
+"""The length of the piston at its end, in half widths of a bar."""
+
+
+@dataclass(frozen=True)
+class Bench:
+    """What fittings are made with: the scene with its cycle, its scale, thicknesses and colours."""
+
+    figure: Figure
+    view: View
+    gauge: Gauge
+    theme: Theme
+
+
+@dataclass(frozen=True)
+class Bar:
+    """What a joint makes of the bar from one joint to another: a slotted bar, or a rod with a piston.
+
+    `slot` has the slot's ends in pixels from the first joint, the other on the real axis. Without a
+    slot the bar is a rod, with a `piston` at its end or not.
+    """
+
+    ends: tuple[str, str]
+    slot: tuple[complex, complex] | None = None
+    piston: bool = False
+
+
+@dataclass(frozen=True)
+class Fitting:
+    """What a joint adds to the picture: parts behind the bodies and before them, rails on the ground.
+
+    `rails` has the joint that travels between them and their direction, y down; `bar` is what it makes
+    of its bar.
+    """
+
+    behind: tuple[Part, ...] = ()
+    before: tuple[Part, ...] = ()
+    rails: tuple[str, complex] | None = None
+    bar: Bar | None = None
+
+
+def fittings(bench: Bench) -> tuple[Fitting, ...]:
+    """Return the fittings of all joints that have some, in the joints' order."""
+    joints = bench.figure.linkage.joints
+    return tuple(FITTINGS[type(joint)](joint, bench) for joint in joints if type(joint) in FITTINGS)
+
+
+def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
+    """Yield the outlines of slotted bars and guides, drawn thin, and the places and directions of each.
+
+    x + yi in the scene's unit, y up, at some of the cycle's moments; where a joint is nowhere none.
+    """
+    # A power of two keeps every digit; arcs have as many points as their size in pixels asks for.
+    scale = 2.0 ** -max(frexp(figure.extent)[1] - _LARGE, 0)
+    thin = scale * 1e-6 * max(figure.shortest, 1e-6 * figure.extent)
+    bench = Bench(figure, View(scale, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
+    parts = [part for fitting in fittings(bench) for part in (*fitting.behind, *fitting.before)]
+    step = max(len(figure.cycle.phase) // _TRIED, 1)
+    for part in parts:
+        at, tail, head = (
+            np.atleast_2d(figure.cycle.position[name])[::step] @ DOWN.conj()
+            for name in (part.at, part.tail, part.head)
+        )
+        way = head - tail
+        turn = np.where(way == 0, 1, way / np.where(way == 0, 1, lengths(way)))
+        known = np.isfinite(at + way)
+        for loop in (loop for layer in part.layers for loop in layer.loops):
+            yield loop.conj() / scale, at[known], turn[known]
+
+
+def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[Loop]:
+    """Yield a line and its hatching to one side (+1: where the imaginary part grows for a line along 1)."""
+    along = unit(end - begin)
+    length, step = abs(end - begin), 0.62 * gauge.bar
+    count = max(round(length / step), 1)
+    feet = begin + along * length * (np.arange(count) + 0.75) / count
+    yield from segments(begin, end, 1.4 * gauge.line)
+    yield from segments(feet, feet + along * (-0.5 + 0.62j * side) * gauge.bar, 0.8 * gauge.line)
+
+
+def _slider(joint: RRP, bench: Bench) -> Fitting:
+    """Return a block between rails on the ground, or a small one in the slot of a body that carries it."""
+    along = complex(directions(-joint.line.angle))
+    if joint.line.on is None:
+        block = Part(joint.name, joint.name, joint.name, _block(bench, along), (joint.name,))
+        return Fitting(behind=(block,), rails=(joint.name, along))
+    guide, slot = _carried_slot(joint.name, joint.line, along, bench)
+    block = Part(joint.name, *joint.line.on, _block(bench, along, 0.62), (joint.name,))
+    return Fitting(behind=(guide,), before=(slot, block))
+
+
+def _driven_slider(joint: DrivenSlider, bench: Bench) -> Fitting:
+    """Return a block between rails, in the colour of what drives."""
+    along = complex(directions(-joint.line.angle))
+    rim, metal = _block(bench, along)
+    coloured = Layer(bench.theme.bodies[0], metal.loops)
+    block = Part(joint.name, joint.name, joint.name, (rim, coloured), (joint.name,))
+    return Fitting(behind=(block,), rails=(joint.name, along))
+
+
+def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[Part, Part]:
+    """Return the bar that a body carries along a line, from the joint it runs through, and the slot in it."""
+    assert line.on is not None
+    gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
+    places = bench.figure.cycle.position
+    seen = (places[name] - places[line.through]) @ DOWN * np.conj(_facing(line, bench) * along)
+    foot = -1j * along * line.offset * scale
+    near, far = (foot + along * scale * float(way) for way in (np.nanmin(seen.real), np.nanmax(seen.real)))
+    colours = theme.outline, theme.metal
+    arm = lined([0j, foot], gauge.bar, gauge.outline, colours) if line.offset else []
+    bar = lined([foot, near, far], SLOTTED * gauge.bar, gauge.outline, colours)
+    hollow = lined([near, far], SLOT * gauge.bar, gauge.outline, (theme.outline, theme.background))
+    ways = (line.through, *line.on)
+    return Part(*ways, (*arm, *bar), (line.through,)), Part(*ways, tuple(hollow))
+
+
+def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
+    gauge, theme = bench.gauge, bench.theme
+    length, height = (share * side * gauge.bar for side in _BLOCK)
+    edge, corner = 2 * share * gauge.outline, share * gauge.bar
+    outer, inner = box(length, height, 0.4 * corner), box(length - edge, height - edge, 0.3 * corner)
+    return Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner])
+
+
+def rails(bench: Bench) -> Iterator[Loop]:
+    """Yield the lines of all rails on the ground."""
+    for fitting in fittings(bench):
+        if fitting.rails is not None:
+            yield from _rails(*fitting.rails, bench)
+
+
+def rail_reach(gauge: Gauge) -> float:
+    """Return how far a rail lies from the line of travel."""
+    return (_BLOCK[1] / 2) * gauge.bar + gauge.line
+
+
+def _rails(name: str, along: complex, bench: Bench) -> Iterator[Loop]:
+    """Yield the lines of two rails, as long as the joint's travel needs."""
+    gauge, path = bench.gauge, bench.figure.path(name, bench.view)
+    way = np.real(path * np.conj(along))
+    across = float(np.nanmean(np.imag(path * np.conj(along))))
+    beyond = (_BLOCK[0] / 2 + 0.9) * gauge.bar
+    near, far = float(np.nanmin(way)) - beyond, float(np.nanmax(way)) + beyond
+    for side in (1, -1):
+        level = 1j * (across + side * rail_reach(gauge))
+        yield from hatched(along * (near + level), along * (far + level), gauge, side)
+
+
+def _facing(line: Line, bench: Bench) -> Loop:
+    """Return the direction of a line's axis over the cycle, y down; 1 of one on the ground."""
+    if line.on is None:
+        return np.ones(1, np.complex128)
+    start, end = (bench.figure.cycle.position[name] for name in line.on)
+    way = (end - start) @ DOWN
+    facing: Loop = way / lengths(way)
+    return facing
+
+
+def _slotted(joint: RPR, bench: Bench) -> Fitting:
+    """Return the slot in the bar, and the collar that slides in it and turns with it.
+
+    About a joint of the ground it is the bar that slides: a rod through a swivel.
+    """
+    collar = Part(joint.through, joint.pivot, joint.name, _block(bench, share=0.62), (joint.through,))
+    if bench.figure.linkage.joint(joint.through).fixed:
+        return _swivelled(joint, collar, bench)
+    return Fitting(before=(collar,), bar=Bar((joint.pivot, joint.name), _slot_ends(joint, bench)))
+
+
+def _swivelled(joint: RPR, collar: Part, bench: Bench) -> Fitting:
+    """Return what makes of the bar a rod; in a cylinder, with a piston, where its end is free."""
+    if joint.name in bench.figure.pins:
+        return Fitting(before=(collar,), bar=Bar((joint.pivot, joint.name)))
+    gauge, (near, far) = bench.gauge, _slot_ends(joint, bench)
+    length, room = bench.view.scale * joint.length, 0.8 * gauge.bar
+    ends = min(length - far.real, 0.0) - room, max(length - near.real, 0.0) + room
+    side = complex(0, near.imag)
+    wall = barrel(*ends, BARREL * gauge.bar, gauge, bench.theme)
+    layers = tuple(Layer(layer.colour, [loop - side for loop in layer.loops]) for layer in wall)
+    cylinder = Part(joint.through, joint.pivot, joint.name, layers, (joint.through,))
+    return Fitting(behind=(cylinder,), before=(collar,), bar=Bar((joint.pivot, joint.name), piston=True))
+
+
+def _slot_ends(joint: RPR, bench: Bench) -> tuple[complex, complex]:
+    """Return the ends of a slot in pixels, the pivot at 0 and the bar along the real axis."""
+    places = bench.figure.cycle.position
+    way = np.sum((places[joint.through] - places[joint.pivot]) ** 2, axis=-1)
+    along = np.sqrt(np.maximum(way - joint.offset**2, 0))
+    side = -1j * joint.offset
+    return bench.view.scale * (np.nanmin(along) + side), bench.view.scale * (np.nanmax(along) + side)
+
+
+def _yoke(joint: RPP, bench: Bench) -> Fitting:
+    """Return a block between rails with a slotted bar across it, and the collar that the pin turns in."""
+    gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
+    places = bench.figure.cycle.position
+    along = complex(directions(-joint.line.angle))
+    across = along * complex(directions(-joint.slot))
+    apart = (places[joint.pin] - places[joint.name]) @ DOWN
+    way = np.real(apart * np.conj(across * _facing(joint.line, bench)))
+    ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across
+    colours = theme.outline, theme.metal
+    widths = SLOTTED * gauge.bar, SLOT * gauge.bar
+    bar = slotted([0j, *ends], ends, widths, gauge.outline, colours)
+    ways = joint.line.on or (joint.name, joint.name)
+    yoke = Part(joint.name, *ways, (*_block(bench, along), *bar))
+    collar = Part(joint.pin, *ways, _block(bench, across, 0.62), (joint.pin,))
+    if joint.line.on is None:
+        return Fitting((yoke,), (collar,), (joint.name, along))
+    guide, slot = _carried_slot(joint.name, joint.line, along, bench)
+    return Fitting((guide, slot, yoke), (collar,))
+
+
+FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {
+    RRP: _slider,
+    DrivenSlider: _driven_slider,
+    RPR: _slotted,
+    RPP: _yoke,
+}
+"""How each kind of joint is fitted out; kinds that are bars and pins alone are not in it."""

@@ -1,0 +1,177 @@
+"""How gear pairs are drawn: discs that stay, teeth, outlines and holes that turn, belts between pulleys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import permutations
+from math import cos, pi, radians
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts.wheels import FOOT, TIP, Wheel, WheelPair, pairs, wheels
+from linkanim.picture.raster.directions import directions
+from linkanim.picture.raster.parts import Part, Stamp
+from linkanim.picture.raster.raster import Colour, Layer, Loop
+from linkanim.picture.raster.shapes import disc, segments, stroke
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import View
+
+_PRESSURE = radians(25)
+"""Steep enough for a wheel of the fewest teeth, whose flanks would be undercut at the usual 20 degrees."""
+_SHADED = 0.3
+"""How much of the ground's colour is in the driven wheel's."""
+_HOLES, _HOLED, _HOLE = 5, 0.62, 0.19
+"""How many holes a wheel has, how far from its middle, and how large: shares of what is within its teeth."""
+
+
+def wheel_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return what does not turn: wheels and discs that stay where they are, and the belts between them."""
+    layers = []
+    for pair in pairs(figure):
+        for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel)):
+            still = [Layer(_tone(wheel, pair, theme), [disc(_root(wheel, view, gauge))])]
+            shown = still if wheel.arm else _wheel(wheel, pair, (view, gauge, theme), moving=True)
+            layers += Stamp(tuple(shown)).at([_centre(figure, view, wheel)])
+        if not pair.driven.teeth and not pair.planetary:
+            layers.append(Layer(theme.ground, list(_belt(_pulled(pair, figure, view), gauge))))
+    return layers
+
+
+def _stays(figure: Figure, wheel: Wheel) -> bool:
+    return figure.linkage.joint(wheel.centre).fixed
+
+
+def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
+    """Return what turns or goes round: teeth, outlines, and holes that show how far a wheel has turned."""
+    parts = []
+    for pair in pairs(figure):
+        for wheel in (wheel for wheel in pair.wheels if wheel.arm or not _stays(figure, wheel)):
+            layers = _wheel(wheel, pair, (view, gauge, theme), moving=not _stays(figure, wheel))
+            parts.append(Part(wheel.centre, wheel.centre, wheel.arm or wheel.centre, layers))
+        if pair.planetary and not pair.driven.teeth:
+            far = abs(figure.start(pair.driven.centre) - figure.start(pair.driver.centre)) * view.scale
+            belt = (0j, complex(far), pair.driver.radius * view.scale, pair.driven.radius * view.scale)
+            ends = pair.driver.centre, pair.driver.centre, pair.driven.centre
+            parts.append(Part(*ends, (Layer(theme.ground, list(_belt(belt, gauge))),)))
+    return tuple(parts)
+
+
+def _wheel(
+    wheel: Wheel, pair: WheelPair, drawn: tuple[View, Gauge, Theme], *, moving: bool
+) -> tuple[Layer, ...]:
+    """Return a wheel about the origin; one that only turns without its disc, which is drawn once."""
+    view, gauge, theme = drawn
+    tone, edge = _tone(wheel, pair, theme), _edge(wheel, pair, theme)
+    rim = _rim(wheel, view, gauge, moving=moving)
+    if wheel.ring:
+        lines = [loop for outline in rim for loop in stroke(outline, gauge.outline, closed=True)]
+        return Layer(tone, rim), Layer(edge, lines)
+    root = _root(wheel, view, gauge)
+    ways = directions(2 * pi / _HOLES * np.arange(_HOLES))
+    holes = [way * (_HOLED * root) + disc(_HOLE * root) for way in ways]
+    line = stroke(rim[0], gauge.outline, closed=True)
+    return Layer(tone, rim), Layer(mixed(tone, theme.background, 0.6), holes), Layer(edge, line)
+
+
+def turning_apart(figure: Figure, parts: Sequence[Part]) -> tuple[tuple[Part, ...], ...]:
+    """Return the parts of wheels in sets that never lie over each other: rims with their lines, and holes.
+
+    None where a wheel goes round, or lies before another's holes.
+    """
+    turning = [wheel for wheel in wheels(figure) if wheel.arm or not _stays(figure, wheel)]
+    if not all(_stays(figure, wheel) for wheel in turning) or _overlapping(figure, turning):
+        return ()
+    rims = (replace(part, layers=(part.layers[0], part.layers[2])) for part in parts)
+    # the outline of a pulley has equal sides instead of teeth
+    folds = (wheel.teeth or len(part.layers[0].loops[0]) for part, wheel in zip(parts, turning, strict=True))
+    return (
+        tuple(replace(rim, fold=fold) for rim, fold in zip(rims, folds, strict=True)),
+        tuple(replace(part, layers=part.layers[1:2], fold=_HOLES) for part in parts),
+    )
+
+
+def _overlapping(figure: Figure, turning: Sequence[Wheel]) -> bool:
+    """Return whether one of these wheels reaches to where another has its holes."""
+    holed = _HOLED + _HOLE
+    return any(
+        abs(figure.start(one.centre) - figure.start(other.centre)) < one.reach + holed * other.radius
+        for one, other in permutations(turning, 2)
+    )
+
+
+def _tone(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:
+    return theme.gear if wheel is pair.driver else mixed(theme.gear, theme.ground, _SHADED)
+
+
+def _edge(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:
+    return theme.ground if wheel is pair.driver else mixed(theme.ground, theme.outline, 0.5)
+
+
+def _centre(figure: Figure, view: View, wheel: Wheel) -> complex:
+    place = figure.start(wheel.centre)
+    return view.place((place.real, place.imag))
+
+
+def _module(wheel: Wheel, view: View) -> float:
+    return 2 * wheel.radius * view.scale / wheel.teeth if wheel.teeth else 0.0
+
+
+def _root(wheel: Wheel, view: View, gauge: Gauge) -> float:
+    return max(wheel.radius * view.scale - 1.1 * FOOT * _module(wheel, view) - gauge.line, 1.0)
+
+
+def _rim(wheel: Wheel, view: View, gauge: Gauge, *, moving: bool) -> list[Loop]:
+    """Return the outline; with a hole where the disc shows, and of a ring the outer edge before it."""
+    radius = wheel.radius * view.scale
+    if wheel.ring:
+        return [disc(wheel.reach * view.scale), _toothed(wheel, radius, TIP, FOOT)[::-1]]
+    hole = disc(max(_root(wheel, view, gauge) - gauge.line, 0.5))[::-1]
+    outline = _toothed(wheel, radius, FOOT, TIP) if wheel.teeth else disc(radius)
+    return [outline] if moving else [outline, hole]
+
+
+def _toothed(wheel: Wheel, radius: float, foot: float, tip: float) -> Loop:
+    """Return the outline of teeth `foot` modules below the pitch circle and `tip` beyond it."""
+    radii, half = _flank(wheel.teeth, foot, tip)
+    sides = np.concatenate((-half, half[::-1]))
+    turns = np.arange(wheel.teeth)[:, None] * 2 * pi / wheel.teeth + sides - wheel.tooth
+    outline: Loop = radius * np.concatenate((radii, radii[::-1])) * directions(turns)
+    return outline.ravel()
+
+
+def _flank(teeth: int, foot: float, tip: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return radii from a tooth's foot to its tip in pitch radii, and half its angle there.
+
+    An involute of the base circle, so that two wheels touch without cutting into each other: half the
+    angle is pi / 2z + inv(pressure) - inv(its angle there), with inv a = tan a - a (ISO 21771, tooth
+    thickness at any circle). Below the base circle the flank is a radius. A ring's gaps are such teeth.
+    """
+    base = cos(_PRESSURE)
+    radii = np.linspace(1 - 2 * foot / teeth, 1 + 2 * tip / teeth, 8)
+    there = np.arccos(base / np.maximum(radii, base))
+    return radii, pi / (2 * teeth) + _involute(_PRESSURE) - _involute(there)
+
+
+def _involute(angle: ArrayLike) -> NDArray[np.float64]:
+    flank: NDArray[np.float64] = np.tan(angle) - np.asarray(angle)
+    return flank
+
+
+def _pulled(pair: WheelPair, figure: Figure, view: View) -> tuple[complex, complex, float, float]:
+    """Return the centres of two pulleys in pixels, and their radii."""
+    radii = pair.driver.radius * view.scale, pair.driven.radius * view.scale
+    return _centre(figure, view, pair.driver), _centre(figure, view, pair.driven), *radii
+
+
+def _belt(pulled: tuple[complex, complex, float, float], gauge: Gauge) -> Iterator[Loop]:
+    """Yield the two straight runs of an open belt."""
+    one, other, first, second = pulled
+    along = (other - one) / abs(other - one)
+    lean = np.arccos((first - second) / abs(other - one))
+    for side in (1, -1):
+        normal = along * complex(directions(side * lean))
+        yield from segments(one + first * normal, other + second * normal, 1.5 * gauge.line)

@@ -1,0 +1,67 @@
+"""What stands still: pedestals with their hatching under fixed pins, and the guides of sliders."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.parts.fittings import Bench, hatched, rails
+from linkanim.picture.raster.raster import Layer
+from linkanim.picture.raster.shapes import rounded, segments, unit
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import View
+
+
+def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return pedestals and guides."""
+    lines = list(rails(Bench(figure, view, gauge, theme)))
+    layers = [Layer(theme.ground, lines)]
+    for name in figure.fixed:
+        layers += _pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)
+    return layers
+
+
+def _pixel(figure: Figure, view: View, name: str) -> complex:
+    place = figure.start(name)
+    return view.place((place.real, place.imag))
+
+
+def away(figure: Figure, name: str) -> complex:
+    """Return the way a pedestal points: down; away from its pull where it only holds springs and dampers."""
+    struts = [strut for strut in figure.struts if name in strut.between]
+    jointed = any(name in body.joints for body in figure.bodies)
+    if jointed or not struts:
+        return 1j
+    other = next(end for end in struts[0].between if end != name)
+    x, y = np.nanmean(np.atleast_2d(figure.cycle.position[other]), axis=0)
+    here = figure.start(name)
+    pull = unit(complex(float(x) - here.real, here.imag - float(y)))
+    return -pull
+
+
+def ground_line(names: Sequence[str], figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the line of the ground from pivot to pivot, in dashes and dots."""
+    loops = []
+    for one, other in pairwise(_pixel(figure, view, name) for name in names):
+        marks = np.arange(0, abs(other - one), 9 * gauge.line)
+        along = unit(other - one)
+        dashes, dots = one + along * marks, one + along * (marks + 6.8 * gauge.line)
+        loops += segments(dashes, dashes + 5 * along * gauge.line, 0.8 * gauge.line)
+        loops += segments(dots, dots + 0.9 * along * gauge.line, 0.8 * gauge.line)
+    return [Layer(theme.ground, loops)]
+
+
+def _pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return a foot that widens from the pin to a hatched line."""
+    deep, wide, bar = 2.1 * gauge.bar, 1.75 * gauge.bar, gauge.bar
+    foot = [0j, complex(-0.85 * wide, deep), complex(0.85 * wide, deep)]
+    turn = away / 1j
+    shape = [pin + turn * rounded(foot, 0.35 * bar)]
+    inner = [pin + turn * rounded(foot, max(0.35 * bar - gauge.outline, 0.1))]
+    base = complex(-1.35 * wide, deep + 0.35 * bar), complex(1.35 * wide, deep + 0.35 * bar)
+    lines = [pin + turn * loop for loop in hatched(*base, gauge, 1)]
+    return [Layer(theme.ground, lines), Layer(theme.outline, shape), Layer(theme.gear, inner)]

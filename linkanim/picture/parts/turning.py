@@ -1,0 +1,150 @@
+"""The input's motion: an arrow that bends as the driven bar turns, its angle's arc; or a straight arrow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import pi, remainder, tau
+
+import numpy as np
+
+from linkanim.mechanics.closing.kinds import DrivenSlider
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.raster.directions import directions
+from linkanim.picture.raster.parts import Places
+from linkanim.picture.raster.raster import Colour, Layer, Loop, Outlines, outlines_of
+from linkanim.picture.raster.shapes import arrows, segments, strokes, unit
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import View
+
+_SWEEP = 1.25
+"""How much of a turn the arrow covers where the input is fastest, in radians."""
+_AHEAD = 0.3
+"""How far ahead of the bar it begins, in radians."""
+_CLEAR, _LONGEST = 3.0, 6.0
+"""How far from a slider's middle a straight one begins, and its length at most, in half widths of a bar."""
+
+
+@dataclass(frozen=True)
+class Turning:
+    """What shows how the bar from `pivot` to `pin` turns; radii in pixels, `fastest` in rad/s.
+
+    Its angle is told within half a turn of `middle` (rad), as the HUD tells it.
+    """
+
+    pivot: str
+    pin: str
+    arc: float
+    arrow: float
+    fastest: float
+    colours: tuple[Colour, Colour]
+    gauge: Gauge
+    middle: float = pi
+
+    def turned(self, angle: float) -> float:
+        """Return the bar's angle (rad) as it is told."""
+        return self.middle + remainder(angle - self.middle, tau)
+
+    def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
+        """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
+        turning = -pose.crank_rate * rate / self.fastest if self.fastest > 0 else 0.0
+        sweep = _SWEEP * min(max(turning, -1.0), 1.0)
+        if not abs(sweep) > 0.02:
+            return []
+        centre, way = self._bar(places)
+        ink, back = self.colours
+        return [
+            Layer(colour, outlines.placed(centre, way))
+            for colour, outlines in zip((back, ink), _bent(sweep, self.arrow, self.gauge.line), strict=True)
+        ]
+
+    def angle(self, places: Places) -> list[Layer]:
+        """Return the arc from the horizontal to the bar, and the line it begins at."""
+        centre, way = self._bar(places)
+        turned = self.turned(float(np.angle(way.conjugate())))
+        path = centre + self.arc * directions(np.linspace(0, -turned, max(round(abs(turned) * 12), 2)))
+        dashes = np.arange(0, 1.45 * self.arc, 3.5 * self.gauge.line)
+        ends = centre + dashes, centre + dashes + 2.2 * self.gauge.line
+        ink, back = self.colours
+        halo, line = strokes(path, (2.6 * self.gauge.line, 0.9 * self.gauge.line))
+        return [Layer(back, halo), Layer(ink, [*line, *segments(*ends, 0.8 * self.gauge.line)])]
+
+    def _bar(self, places: Places) -> tuple[complex, complex]:
+        return places[self.pivot], unit(places[self.pin] - places[self.pivot])
+
+
+@lru_cache(maxsize=16)
+def _bent(sweep: float, radius: float, thick: float) -> tuple[Outlines, Outlines]:
+    """Return an arrow about the pivot, the bar along the real axis, in its rim and without.
+
+    It bends by `sweep` (rad, negative to the left); its head is smaller where it is short. An input of
+    steady speed has the same arrow at every frame: the last ones are kept.
+    """
+    side, line, rim = 1 if sweep > 0 else -1, 1.7 * thick, 0.9 * thick
+    bend: Loop = radius * directions(side * _AHEAD + sweep * np.linspace(0, 1, 16))
+    head, turn = min(6.5 * thick, 0.8 * abs(sweep) * radius), bend[-1] / radius * 1j * side
+    (rimmed,), (bare,) = strokes(bend, (line + 2 * rim, line))
+    barbs = (bend[-1] + _barb(length) * turn for length in (head + 2 * rim, head))
+    first, second = (outlines_of(pair) for pair in zip((rimmed, bare), barbs, strict=True))
+    return first, second
+
+
+def _barb(length: float) -> Loop:
+    """Return a triangle along the real axis whose point is a little ahead of 0."""
+    return np.asarray(length * np.array([0.75, -0.35 + 0.5j, -0.35 - 0.5j]), np.complex128)
+
+
+@dataclass(frozen=True)
+class Sliding:
+    """What shows how a slider that drives runs along its guide, y down; `fastest` in the scene's unit/s."""
+
+    joint: str
+    along: complex
+    room: float
+    longest: float
+    fastest: float
+    colours: tuple[Colour, Colour]
+    gauge: Gauge
+
+    def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
+        """Return the arrow ahead of the slider, shorter as it slows down; `rate` as of a `Turning`."""
+        share = pose.crank_rate * rate / self.fastest if self.fastest > 0 else 0.0
+        reach = self.along * self.longest * min(max(share, -1.0), 1.0)
+        if not abs(reach) > 0.02 * self.longest:
+            return []
+        foot, width = places[self.joint] + self.room * unit(reach), 1.7 * self.gauge.line
+        ink, back = self.colours
+        rims = ((back, 0.9 * self.gauge.line), (ink, 0.0))
+        return [Layer(colour, arrows([foot], [reach], width, rim)) for colour, rim in rims]
+
+    def angle(self, places: Places) -> list[Layer]:
+        """Return nothing: a slider has no angle."""
+        return []
+
+
+def motion_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | Sliding | None:
+    """Return what shows how the input moves: its bar's turning, or its slider's way along the guide."""
+    joint = figure.linkage.joint(figure.linkage.drive.joint)
+    if not isinstance(joint, DrivenSlider):
+        return turning_of(figure, view, gauge, theme)
+    along = complex(directions(-joint.line.angle))
+    fastest = float(np.nanmax(np.abs(figure.cycle.crank_rate)))
+    ink = theme.ink, theme.background
+    return Sliding(joint.name, along, _CLEAR * gauge.bar, _LONGEST * gauge.bar, fastest, ink, gauge)
+
+
+def turning_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | None:
+    """Return the driven bar's turning; None where the input is no crank on a pivot."""
+    pin = figure.linkage.drive.joint
+    pivot = getattr(figure.linkage.joint(pin), "pivot", None)
+    if pivot is None:
+        return None
+    length = view.scale * abs(figure.start(pin) - figure.start(pivot))
+    arc = max(0.36 * length, 2.2 * gauge.bar)
+    arrow = max(min(0.7 * length, 8 * gauge.bar), arc + 1.6 * gauge.bar)
+    fastest = float(np.nanmax(np.abs(figure.cycle.crank_rate)))
+    info = figure.scene.info
+    middle = pi if info.full_turn else sum(info.input_range) / 2
+    return Turning(pivot, pin, arc, arrow, fastest, (theme.ink, theme.background), gauge, middle)

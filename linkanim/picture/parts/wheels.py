@@ -1,0 +1,168 @@
+"""Gear pairs: wheels that mesh, planets on the wheel they roll on, pulleys where both turn the same way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import ceil, pi
+
+import numpy as np
+
+from linkanim.mechanics.closing.kinds import Crank
+from linkanim.picture.figure import Figure
+
+_TEETH = 24
+"""Of about how many teeth two wheels of one size have together: few, so that each can be followed."""
+_FEWEST = 9
+TIP, FOOT = 0.85, 1.0
+"""How far a tooth reaches beyond the pitch circle and the gap below it, in modules."""
+_TOGETHER = 1e-9
+"""How far pivots that have nothing between them to show are apart, as a share of the picture."""
+_BELT = 0.3
+"""The larger pulley's radius, as a share of the distance between the pivots."""
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel about a joint, its radius in the scene's unit; `teeth` is 0 for a pulley.
+
+    It turns with the direction from its centre to the joint `arm`, or not at all without one. `tooth` is
+    the angle of a tooth ahead of that direction, in radians, counter-clockwise. The teeth of a `ring`
+    point inwards: `tooth` is then the angle of a gap.
+    """
+
+    centre: str
+    arm: str | None
+    radius: float
+    teeth: int = 0
+    tooth: float = 0.0
+    ring: bool = False
+
+    @property
+    def reach(self) -> float:
+        """How far it reaches from its middle, in the scene's unit: to its tips, or a ring's outer edge."""
+        beyond = 7.0 if self.ring else 2 * TIP
+        return self.radius * (1 + beyond / self.teeth) if self.teeth else self.radius
+
+
+@dataclass(frozen=True)
+class WheelPair:
+    """Two wheels that roll on each other, or share a belt; a planet rolls on a wheel that stands still."""
+
+    driver: Wheel
+    driven: Wheel
+
+    @property
+    def wheels(self) -> tuple[Wheel, Wheel]:
+        """Both of them, the one behind first."""
+        return self.driver, self.driven
+
+    @property
+    def planetary(self) -> bool:
+        """Whether the driven wheel goes round with an arm."""
+        return self.driver.arm is None
+
+
+def pairs(figure: Figure) -> tuple[WheelPair, ...]:
+    """Return the gear pairs with pivots apart, sized so that their pitch circles roll on each other.
+
+    A crank that is geared to the one whose pin it turns on is a planet: what makes it turn as it does is
+    a wheel about that crank's own pivot which stands still, a ring around it where it turns the other way.
+    """
+    cranks = {crank.name: crank for crank in figure.linkage.cranks}
+    found = (_pair(figure, crank, cranks) for crank in cranks.values())
+    return tuple(pair for pair in found if pair)
+
+
+def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> WheelPair | None:
+    gear = crank.gear
+    if gear is None or gear.mate not in cranks:
+        return None
+    driver = cranks[gear.mate]
+    fixed = figure.linkage.joint(driver.pivot).fixed
+    if crank.pivot == driver.name and fixed:
+        return _planet(figure, crank, driver)
+    apart = figure.start(crank.pivot) - figure.start(driver.pivot)
+    if not (fixed and figure.linkage.joint(crank.pivot).fixed) or abs(apart) <= _TOGETHER * figure.extent:
+        return None
+    if gear.ratio > 0:
+        return _pulleys((driver, crank), abs(apart), float(gear.ratio))
+    return _meshing(figure, (driver, crank), apart)
+
+
+def _pulleys(cranks: tuple[Crank, Crank], apart: float, ratio: float) -> WheelPair:
+    driver, driven = cranks
+    large = _BELT * apart
+    return WheelPair(
+        Wheel(driver.pivot, driver.name, large * min(ratio, 1)),
+        Wheel(driven.pivot, driven.name, large * min(1 / ratio, 1)),
+    )
+
+
+def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> WheelPair:
+    """Return two wheels on fixed pivots that turn against each other."""
+    driver, driven = cranks
+    assert driven.gear is not None
+    ratio = abs(driven.gear.ratio)
+    radius = abs(apart) * float(ratio / (1 + ratio))
+    first, second = _teeth(ratio.numerator, ratio.denominator)
+    contact = float(np.angle(apart))
+    at = contact - _angle(figure, driver)
+    facing = contact + pi - _angle(figure, driven) + pi / second
+    return WheelPair(
+        Wheel(driver.pivot, driver.name, radius, first, at),
+        Wheel(driven.pivot, driven.name, abs(apart) - radius, second, facing),
+    )
+
+
+def _teeth(one: int, other: int) -> tuple[int, int]:
+    """Return the numbers of teeth of two wheels whose radii are as these numbers."""
+    many = max(ceil(_FEWEST / min(one, other)), round(_TEETH / (one + other)))
+    return many * one, many * other
+
+
+def _planet(figure: Figure, planet: Crank, arm: Crank) -> WheelPair | None:
+    """Return the still wheel and the planet that rolls on it: r and R of radius, the arm d long.
+
+    Rolling on it makes the planet turn 1 - R/r times as often as its arm inside a ring, where R - r = d,
+    and 1 + R/r times outside a sun, where R + r = d; a belt from it, 1 - R/r times.
+    """
+    assert planet.gear is not None
+    ratio, long = planet.gear.ratio, arm.length
+    contact = _angle(figure, arm)
+    if ratio < 0:
+        still, small = _teeth(ratio.denominator - ratio.numerator, ratio.denominator)
+        tooth = contact - _angle(figure, planet)
+        rolling = Wheel(planet.pivot, planet.name, long / float(-ratio), small, tooth)
+        return WheelPair(Wheel(arm.pivot, None, long + rolling.radius, still, contact, ring=True), rolling)
+    if ratio > 1:
+        still, small = _teeth(ratio.numerator - ratio.denominator, ratio.denominator)
+        facing = contact + pi - _angle(figure, planet) + pi / small
+        rolling = Wheel(planet.pivot, planet.name, long / float(ratio), small, facing)
+        return WheelPair(Wheel(arm.pivot, None, long - rolling.radius, still, contact), rolling)
+    if ratio < 1:
+        large = _BELT * long
+        still_wheel = Wheel(arm.pivot, None, large * float(1 - ratio))
+        return WheelPair(still_wheel, Wheel(planet.pivot, planet.name, large))
+    return None
+
+
+def _angle(figure: Figure, crank: Crank) -> float:
+    return float(np.angle(figure.start(crank.name) - figure.start(crank.pivot)))
+
+
+def teeth_a_second(figure: Figure) -> float:
+    """Return how many teeth of the fastest wheel turn past a direction in a second at the scene's speed."""
+    step = figure.scene.period / len(figure.cycle.phase)
+    fastest = 0.0
+    for wheel in (wheel for pair in pairs(figure) for wheel in pair.wheels if wheel.arm):
+        arm = figure.cycle.position[str(wheel.arm)] - figure.cycle.position[wheel.centre]
+        turned = np.diff(np.unwrap(np.arctan2(arm[:, 1], arm[:, 0])))
+        fastest = max(fastest, wheel.teeth * float(np.nanmax(np.abs(turned))) / step)
+    return fastest * abs(figure.linkage.drive.speed) / (2 * pi)
+
+
+def wheels(figure: Figure) -> Iterator[Wheel]:
+    """Yield the wheels of all pairs."""
+    for pair in pairs(figure):
+        yield from pair.wheels

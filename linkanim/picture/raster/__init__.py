@@ -1,0 +1,1 @@
+"""Pixels: shapes with exact coverage, blending, outlines that turn; it knows no linkage."""

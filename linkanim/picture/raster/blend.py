@@ -1,0 +1,96 @@
+"""Colours mixed into a surface's pixels, all four bytes of each alike.
+
+Numbers in single precision hold bytes and their shares far finer than they show; products and sums
+of such are rounded alike on every machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from linkanim.picture.raster.cells import WHOLE_BITS, Counts, Floats, Ints, Singles
+
+Words = NDArray[np.uint32]
+"""Pixels or colours as a surface keeps them, four bytes each."""
+Shares = NDArray[np.uint16]
+"""How much of pixels is covered, 0 to `WHOLE`."""
+
+_SHARE_BITS = 15
+WHOLE = 1 << _SHARE_BITS
+_ALIKE = np.uint64(0x0001_0001_0001_0001)
+_HALF = np.float32(0.5)
+
+
+class Mix(NamedTuple):
+    """What becomes of pixels: of each byte is kept a share, and a level added; both (4n,).
+
+    The levels hold the half that rounds.
+    """
+
+    place: Ints
+    keep: Singles
+    add: Singles
+
+    def part(self, begin: int, end: int) -> Mix:
+        """Return some of the pixels."""
+        bytes_ = slice(4 * begin, 4 * end)
+        return Mix(self.place[begin:end], self.keep[bytes_], self.add[bytes_])
+
+    def within(self, area: pygame.Rect, width: int) -> Mix:
+        """Return the pixels that lie in an area of a surface so many pixels wide."""
+        y, x = np.divmod(self.place, width)
+        inside = (area.left <= x) & (x < area.right) & (area.top <= y) & (y < area.bottom)
+        keep, add = (part.reshape(-1, 4)[inside].ravel() for part in (self.keep, self.add))
+        return Mix(self.place[inside], keep, add)
+
+
+def shares(cover: Counts | Floats) -> Shares:
+    """Return coverage as it is mixed by."""
+    shift = WHOLE_BITS - _SHARE_BITS
+    return (cover.astype(np.int32) + (1 << shift - 1) >> shift).astype(np.uint16)
+
+
+def mixed_in(place: Ints, share: Shares, ink: Words) -> Mix:
+    """Return what mixing in so much of a colour does, for each pixel its own."""
+    of_bytes = (share.astype(np.uint64) * _ALIKE).view(np.uint16).astype(np.float32)
+    of_bytes *= np.float32(1 / WHOLE)
+    add = ink.view(np.uint8) * of_bytes
+    add += _HALF
+    return Mix(place, np.float32(1) - of_bytes, add)
+
+
+def laid_on(place: Ints, through: Words, ink: Words) -> Mix:
+    """Return what colours on black do, of what is below so much showing through (0 to 255)."""
+    kept = (through * np.uint32(0x01010101)).view(np.uint8).astype(np.float32)
+    return Mix(place, kept / np.float32(255), ink.view(np.uint8) + _HALF)
+
+
+def mix(pixels: Words, what: Mix, *, clear: bool) -> None:
+    """Mix into pixels; `clear` where the surface itself lets light through: its colours are kept straight."""
+    levels = pixels.take(what.place).view(np.uint8).astype(np.float32)
+    if clear:
+        levels = _straight(levels.reshape(-1, 4), what).ravel()
+    else:
+        levels *= what.keep
+        levels += what.add
+    pixels[what.place] = levels.astype(np.uint8).view(np.uint32)
+
+
+def _straight(below: Singles, what: Mix) -> Singles:
+    """Return pixels (n, 4) whose opacity is their last byte, mixed: colours by their part in the opacity."""
+    keep, add = what.keep.reshape(-1, 4), what.add.reshape(-1, 4) - _HALF
+    opacity = below[:, 3:] * keep[:, 3:] + add[:, 3:]
+    colours = below[:, :3] * (below[:, 3:] / np.float32(255)) * keep[:, :3] + add[:, :3]
+    straight = colours * (np.float32(255) / np.maximum(opacity, np.float32(1 / 255)))
+    return np.concatenate((straight, opacity), axis=1) + _HALF
+
+
+def words(surface: pygame.Surface, colours: Iterable[tuple[int, int, int]]) -> Words:
+    """Return colours as the surface keeps them, opaque."""
+    inks = np.array([surface.map_rgb(colour) for colour in colours], np.int64).astype(np.uint32)
+    return inks | np.uint32(0xFFFFFFFF ^ sum(surface.get_masks()[:3]))

@@ -1,0 +1,289 @@
+"""Layers of outlines on a surface: what each covers is worked out for all together, then mixed in.
+
+That all layers of a frame go through the arithmetic together is what makes it fast enough in numpy.
+Those that lie apart are mixed in together, too: each on the lowest level above all that it may lie on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple, overload
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from linkanim.picture.raster.blend import WHOLE, Mix, Shares, Words, laid_on, mix, mixed_in, shares, words
+from linkanim.picture.raster.cells import Edges, Ints, Room, Runs, covered, on_grid, pixel_of, room
+from linkanim.picture.raster.cells import Loop as Loop
+
+Colour = tuple[int, int, int]
+
+_KEPT_BYTES = 16 << 20
+"""More than a frame's largest arrays take together."""
+
+
+class Outlines(Sequence[Loop]):
+    """Closed loops, one after the other in one array: they are placed together."""
+
+    def __init__(self, points: Loop, counts: tuple[int, ...]) -> None:
+        self.points, self.counts = points, counts
+
+    def placed(self, at: complex, turn: complex) -> Outlines:
+        """Return the loops turned by a direction of length 1 about the origin, which then lies at `at`."""
+        return Outlines(at + turn * self.points, self.counts)
+
+    def repeated(self, places: Sequence[complex] | Loop) -> Outlines:
+        """Return the loops about each of the places."""
+        points = np.add.outer(np.asarray(places, np.complex128), self.points).ravel()
+        return Outlines(points, self.counts * len(places))
+
+    def joined(self, other: Outlines) -> Outlines:
+        """Return its loops and another's."""
+        return Outlines(np.concatenate((self.points, other.points)), self.counts + other.counts)
+
+    def __len__(self) -> int:
+        return len(self.counts)
+
+    def __iter__(self) -> Iterator[Loop]:
+        return iter(self[:])
+
+    @overload
+    def __getitem__(self, index: int) -> Loop: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Loop]: ...
+    def __getitem__(self, index: int | slice) -> Loop | list[Loop]:
+        return np.split(self.points, np.cumsum(self.counts)[:-1])[index]
+
+
+def outlines_of(loops: Sequence[Loop]) -> Outlines:
+    """Return loops in one array."""
+    if isinstance(loops, Outlines):
+        return loops
+    if len(loops) == 1:
+        return Outlines(loops[0], (len(loops[0]),))
+    points = np.concatenate(loops) if loops else np.zeros(0, np.complex128)
+    return Outlines(points, tuple(map(len, loops)))
+
+
+class Layer(NamedTuple):
+    """Closed loops of pixel positions x + yi filled with one colour, over the layers before it.
+
+    Loops that turn the same way join where they overlap; a loop that turns the other way cuts a hole.
+    """
+
+    colour: Colour
+    loops: Sequence[Loop]
+    alpha: float = 1.0
+
+
+class _Boxes(NamedTuple):
+    """The pixels that each layer may cover: first columns and rows, and the ones after the last."""
+
+    left: Ints
+    top: Ints
+    right: Ints
+    end: Ints
+
+
+class _Inks(NamedTuple):
+    """The layers' colours as a surface keeps them, and how much of them is mixed in."""
+
+    words: Words
+    alphas: list[float]
+
+
+class _Pixels(NamedTuple):
+    """Pixels, how much of an ink each is covered with, and where those of each level begin."""
+
+    place: Ints
+    share: Shares
+    ink: Words
+    bounds: Ints
+
+
+def paint(
+    surface: pygame.Surface,
+    layers: Iterable[Layer],
+    *,
+    ends: tuple[int, int] | None = None,
+    over: Iterable[Layer] = (),
+) -> None:
+    """Fill the layers in their order on a 32-bit surface whose rows touch; loops may leave it.
+
+    Where there are `ends`, columns and rows from them on are left as they are; those `over` the layers may
+    reach beyond. Where the surface has alpha, it is kept straight (not multiplied into the colours).
+    """
+    _put(surface, _covered(surface, layers, ends or surface.get_size(), over))
+
+
+def paint_noting(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int]) -> Ints:
+    """Fill layers as `paint` does, and return the pixels that are painted on."""
+    found = _covered(surface, layers, ends, ())
+    _put(surface, found)
+    return np.concatenate([np.zeros(0, np.int64), *(part.place for part in found)])
+
+
+def stencil(layers: Iterable[Layer], like: pygame.Surface, *, ends: tuple[int, int] | None = None) -> Mix:
+    """Return what layers do to surfaces like this one, worked out once, to be mixed in again and again.
+
+    It is found on a black and a white surface: what differs there shows through, the rest was put on.
+    """
+    masks = like.get_masks()[:3]
+    black, white = (pygame.Surface(like.get_size(), 0, 32, (*masks, 0)) for _ in range(2))
+    white.fill((255, 255, 255))
+    kept = list(layers)
+    for surface in (black, white):
+        paint(surface, kept, ends=ends)
+    put, over = (pixels_of(surface) & np.uint32(sum(masks)) for surface in (black, white))
+    through = over - put >> np.uint32(like.get_shifts()[1]) & np.uint32(255)
+    place = np.flatnonzero(through < 255)
+    opacity = (255 - through) * np.uint32(0x01010101) & np.uint32(0xFFFFFFFF ^ sum(masks))
+    return laid_on(place, through[place], (put | opacity)[place])
+
+
+def keep_memory() -> None:
+    """Have the C library keep the memory that a frame frees for the next one.
+
+    glibc gives what is free at the heap's end back to the system where it is more than twice the largest
+    block that was ever freed; to get it back, page by page, took a quarter to a half of a frame.
+    """
+    np.empty(_KEPT_BYTES, np.uint8)
+
+
+def pixels_of(surface: pygame.Surface) -> Words:
+    """Return a surface's pixels, row by row, to be read and written."""
+    pixels: Words = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
+    return pixels
+
+
+def is_clear(surface: pygame.Surface) -> bool:
+    """Return whether a surface lets light through."""
+    return bool(surface.get_flags() & pygame.SRCALPHA)
+
+
+def paints(surface: pygame.Surface) -> bool:
+    """Return whether `paint` can write to this surface."""
+    return surface.get_bytesize() == 4 and surface.get_pitch() == 4 * surface.get_width()
+
+
+def _covered(
+    surface: pygame.Surface, layers: Iterable[Layer], ends: tuple[int, int], over: Iterable[Layer]
+) -> list[_Pixels]:
+    """Return the pixels that are covered in full, those on outlines, and those of spans covered in part."""
+    size = surface.get_size()
+    limited, free = (_with_loops(some) for some in (layers, over))
+    drawn = [*limited, *free]
+    if not drawn:
+        return []
+    limits = np.repeat([np.minimum(ends, size), size], (len(limited), len(free)), axis=0).T
+    edges, boxes = _outlined([outlines for _, outlines in drawn], limits)
+    levels = _levels(boxes)
+    order = np.argsort(levels, kind="stable")
+    within = room(boxes.top[order], (boxes.end - boxes.top)[order], limits[0][order], size[0])
+    outline, spans = covered(edges._replace(layer=np.argsort(order)[edges.layer]), within)
+    inks = _inks(surface, [drawn[n][0] for n in order.tolist()])
+    begins = np.searchsorted(levels[order], np.arange(levels.max() + 2))
+    edge, inside = (_inked(runs, within, inks, begins) for runs in (outline, spans))
+    full = inside.share == WHOLE
+    return [_spread(inside, spans.length, full), edge, _spread(inside, spans.length, ~full)]
+
+
+def _with_loops(layers: Iterable[Layer]) -> list[tuple[Layer, Outlines]]:
+    """Return the layers that have loops, with these."""
+    found = ((layer, outlines_of(layer.loops)) for layer in layers)
+    return [(layer, outlines) for layer, outlines in found if outlines.counts]
+
+
+def _outlined(outlines: Sequence[Outlines], limits: Ints) -> tuple[Edges, _Boxes]:
+    """Return the layers' edges, and which pixels each may cover before its limits (2, n)."""
+    begin = on_grid(np.concatenate([outline.points for outline in outlines]))
+    counts = np.array([count for outline in outlines for count in outline.counts])
+    sizes = np.array([len(outline.points) for outline in outlines])
+    last = np.cumsum(counts) - 1
+    end = np.empty_like(begin)
+    end[:-1] = begin[1:]
+    end[last] = begin[last - counts + 1]
+    number = np.repeat(np.arange(len(outlines)), sizes)
+    return Edges(begin, end, number), _boxes(begin, np.cumsum(sizes) - sizes, limits)
+
+
+def _boxes(points: Loop, starts: Ints, limits: Ints) -> _Boxes:
+    """Return the pixels about the points of each layer, within its limits."""
+    sides = []
+    for part, end in zip((points.real, points.imag), limits, strict=True):
+        low = np.minimum(np.maximum(pixel_of(np.minimum.reduceat(part, starts)), 0), end)
+        high = np.minimum(np.maximum(-pixel_of(-np.maximum.reduceat(part, starts)), low), end)
+        sides.append((low, high))
+    (left, right), (top, bottom) = sides
+    return _Boxes(left, top, right, bottom)
+
+
+def _levels(boxes: _Boxes) -> Ints:
+    """Return a level for each layer: above all layers before it that it may touch, and else the lowest."""
+    left, top, right, end = (side[:, None] for side in boxes)
+    meet = (left < boxes.right) & (right > boxes.left) & (top < boxes.end) & (end > boxes.top)
+    taken: list[int] = []
+    levels = []
+    bits, wide = np.packbits(meet, axis=1, bitorder="little").tobytes(), -(-len(meet) // 8)
+    for n in range(len(meet)):
+        touched = int.from_bytes(bits[n * wide : (n + 1) * wide], "little")
+        level = len(taken)
+        while level and not taken[level - 1] & touched:
+            level -= 1
+        if level == len(taken):
+            taken.append(0)
+        taken[level] |= 1 << n
+        levels.append(level)
+    return np.array(levels)
+
+
+def _inks(surface: pygame.Surface, layers: Sequence[Layer]) -> _Inks:
+    inks = words(surface, [layer.colour for layer in layers])
+    return _Inks(inks, [layer.alpha for layer in layers])
+
+
+def _inked(runs: Runs, within: Room, inks: _Inks, begins: Ints) -> _Pixels:
+    """Return the first pixel of each run; the levels begin at these layers."""
+    bounds = np.searchsorted(runs.line, within.first)
+    cover = runs.cover
+    for n, alpha in enumerate(inks.alphas):
+        if alpha < 1:
+            cover[bounds[n] : bounds[n + 1]] = alpha * cover[bounds[n] : bounds[n + 1]]
+    place = within.starts.take(runs.line) + runs.column
+    return _Pixels(place, shares(cover), np.repeat(inks.words, np.diff(bounds)), bounds[begins])
+
+
+def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:
+    """Return all pixels of the runs chosen; of runs that are covered whole the shares are left out."""
+    runs = np.flatnonzero(chosen)
+    begin, share, counts = first.place.take(runs), first.share.take(runs), length.take(runs)
+    bounds = np.concatenate(([0], np.cumsum(counts)))[np.searchsorted(runs, first.bounds)]
+    partly = np.repeat(share, counts) if share.min(initial=WHOLE) < WHOLE else share[:0]
+    return _Pixels(_places(begin, counts), partly, np.repeat(first.ink.take(runs), counts), bounds)
+
+
+def _places(begin: Ints, counts: Ints) -> Ints:
+    """Return the numbers from each beginning on, so many of them."""
+    after = np.cumsum(counts)
+    steps = np.ones(int(counts.sum()), np.int64)
+    steps[:1] = begin[:1]
+    steps[after[:-1]] = begin[1:] - begin[:-1] - counts[:-1] + 1
+    return np.cumsum(steps, out=steps)
+
+
+def _put(surface: pygame.Surface, found: Sequence[_Pixels]) -> None:
+    """Fill the pixels that are covered in full and mix the others, level by level."""
+    if not found:
+        return
+    full, *partly = found
+    pixels, clear = pixels_of(surface), is_clear(surface)
+    mixes = [(mixed_in(part.place, part.share, part.ink), part.bounds.tolist()) for part in partly]
+    bounds = full.bounds.tolist()
+    for level in range(len(bounds) - 1):
+        inside = slice(bounds[level], bounds[level + 1])
+        if inside.start < inside.stop:
+            pixels[full.place[inside]] = full.ink[inside]
+        for mixed, at in mixes:
+            if at[level] < at[level + 1]:
+                mix(pixels, mixed.part(at[level], at[level + 1]), clear=clear)

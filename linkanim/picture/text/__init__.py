@@ -1,0 +1,1 @@
+"""Lines of text: faces, setting, letters with halos."""

@@ -1,0 +1,94 @@
+"""Words that move: set once in a halo, and put down to a quarter of a pixel, so that they glide."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import ceil
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from linkanim.picture.raster.directions import directions
+from linkanim.picture.raster.raster import Colour
+from linkanim.picture.text.text import Type
+
+_FINE = 4
+"""Words are set so many times larger and averaged, and placed to such a part of a pixel."""
+
+
+class Lettering:
+    """One line of text in a halo of another colour, drawn about its middle."""
+
+    def __init__(self, text: str, kind: Type, size: int, colours: tuple[Colour, Colour], halo: float) -> None:
+        ink, back = colours
+        self.text, self.line_height, self.ink, self.halo = text, size, ink, (back, halo)
+        self._cover, above = _letters(text, kind, size)
+        high, wide = self._cover.shape
+        self.drop = (above + high / 2) / _FINE
+        """How far the middle lies below the line's top."""
+        self._drawn: dict[tuple[int, int], pygame.Surface] = {}
+        around = 2 * (round(_FINE * halo) + 1)
+        self.size: tuple[float, float] = ((wide + around) / _FINE, (high + around) / _FINE)
+
+    @cached_property
+    def _large(self) -> NDArray[np.float32]:
+        """The words in their halo: many are measured and find no room."""
+        return _haloed(self._cover, round(_FINE * self.halo[1]), self.ink, self.halo[0])
+
+    def draw(self, surface: pygame.Surface, middle: complex, shown: float = 1.0) -> None:
+        """Draw the words about a place in pixels, as strongly as 0 (not at all) to 1 says."""
+        x = round(_FINE * middle.real - self._large.shape[1] / 2)
+        y = round(_FINE * middle.imag - self._large.shape[0] / 2)
+        sprite = self._sprite(x % _FINE, y % _FINE)
+        if sprite.get_alpha() != round(255 * shown):
+            sprite.set_alpha(round(255 * shown))
+        surface.blit(sprite, (x // _FINE, y // _FINE))
+
+    def _sprite(self, right: int, down: int) -> pygame.Surface:
+        """Return the words so many parts of a pixel further right and down."""
+        if (right, down) not in self._drawn:
+            self._drawn[right, down] = _averaged(self._large, right, down)
+        return self._drawn[right, down]
+
+
+def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.float32], int]:
+    """Return how far a large line of text covers (height, width), 0 to 1, without empty rows.
+
+    Also how many rows of the line are left out above it.
+    """
+    large = _FINE * size
+    sheet = pygame.Surface((kind.width(text, large, strong=True) + _FINE, 2 * large), pygame.SRCALPHA, 32)
+    kind.draw(sheet, text, (_FINE // 2, large // 2), size=large, colour=(255, 255, 255), strong=True)
+    cover = pygame.surfarray.array_alpha(sheet).T.astype(np.float32) / 255
+    rows = np.flatnonzero(cover.any(axis=1))
+    first, last = (int(rows[0]), int(rows[-1])) if rows.size else (0, 0)
+    return np.asarray(cover[first : last + 1], np.float32), first - large // 2
+
+
+def _haloed(cover: NDArray[np.float32], halo: int, ink: Colour, back: Colour) -> NDArray[np.float32]:
+    """Return letters in ink on a halo as (height, width, 4), colours times opacity, 0 to 1."""
+    cover = np.pad(cover, halo + 1)
+    around = cover.copy()
+    for turn in directions(np.linspace(0, 2 * np.pi, 24, endpoint=False)):
+        shift = round(halo * turn.imag), round(halo * turn.real)
+        np.maximum(around, np.roll(cover, shift, (0, 1)), out=around)
+    opacity = np.maximum(around, cover)[..., None]
+    inks, backs = (np.array(colour, np.float32) / 255 for colour in (ink, back))
+    letters = cover[..., None]
+    colours = letters * inks + np.maximum(opacity - letters, 0) * backs
+    return np.concatenate((colours, opacity), axis=-1)
+
+
+def _averaged(large: NDArray[np.float32], right: int, down: int) -> pygame.Surface:
+    high, wide = (
+        ceil((side + shift) / _FINE) for side, shift in zip(large.shape, (down, right), strict=False)
+    )
+    room = np.zeros((high * _FINE, wide * _FINE, 4), np.float32)
+    room[down : down + large.shape[0], right : right + large.shape[1]] = large
+    small = room.reshape(high, _FINE, wide, _FINE, 4).mean(axis=(1, 3))
+    opacity = np.maximum(small[..., 3:], 1e-6)
+    straight = np.concatenate((small[..., :3] / opacity, small[..., 3:]), axis=-1)
+    levels = (255 * straight + 0.5).astype(np.uint8)
+    # in the order of a surface's bytes, which blits many times faster
+    return pygame.image.frombuffer(levels[..., [2, 1, 0, 3]].tobytes(), (wide, high), "BGRA")

@@ -1,0 +1,1 @@
+"""Keys, mouse and what they ask for."""

@@ -1,0 +1,50 @@
+"""The keyboard: key events to presses, and a key that is held to an action that repeats."""
+
+from __future__ import annotations
+
+import pygame
+from pygame.event import Event
+
+from linkanim.player.input.keys import Bind, Press, key_names
+from linkanim.player.state.action import Action
+
+_WAIT = 24
+_EVERY = 3
+
+
+def code(name: str) -> int:
+    """Return pygame's number for a key of the table; a printable key's is its character's."""
+    return ord(name) if len(name) == 1 else int(getattr(pygame, f"K_{name.upper()}"))
+
+
+class Keyboard:
+    """Knows which bound key is being held, and since when."""
+
+    def __init__(self) -> None:
+        self._names = {code(name): name for name in key_names()}
+        self._held: tuple[int, Action] | None = None
+        self._next = 0
+
+    def press(self, event: Event) -> Press | None:
+        """Return what a KEYDOWN means; None with Alt or the system's key, which are not ours."""
+        mod = getattr(event, "mod", 0)
+        if mod & (pygame.KMOD_ALT | pygame.KMOD_META) and not mod & pygame.KMOD_MODE:
+            return None
+        text = getattr(event, "unicode", "")
+        shift, ctrl = bool(mod & pygame.KMOD_SHIFT), bool(mod & pygame.KMOD_CTRL)
+        return Press(self._names.get(event.key, ""), text if text.isprintable() else "", shift, ctrl)
+
+    def hold(self, event: Event, bind: Bind | None, frame: int) -> None:
+        """Take note of the key that went down last."""
+        self._held = (event.key, bind.action) if bind and bind.repeats else None
+        self._next = frame + _WAIT
+
+    def repeated(self, frame: int) -> tuple[Action, ...]:
+        """Return the held key's action when it is due again."""
+        if self._held is None or frame < self._next:
+            return ()
+        if not pygame.key.get_pressed()[self._held[0]]:
+            self._held = None
+            return ()
+        self._next = frame + _EVERY
+        return (self._held[1],)

@@ -1,0 +1,258 @@
+"""The one key table: the window, the help overlay, `--help` and the README all read it.
+
+Keys are named as pygame names its constants (`K_F12` is "f12"), a printable key by its character,
+with "ctrl+" and "shift+" in front, so that nothing here needs pygame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Literal, NamedTuple
+
+from linkanim.player.state.action import Action
+
+Mode = Literal["play", "edit", "list", "shelf"]
+"""What the keys are for: the picture, or the overlay that is open."""
+
+
+class Bind(NamedTuple):
+    """One key and what it asks for; `repeats` where holding the key goes on asking."""
+
+    key: str
+    action: Action
+    repeats: bool = False
+
+
+class KeyRow(NamedTuple):
+    """One line of the help: its subject, the keys as they are written, what they do, what they ask for."""
+
+    subject: str
+    keys: str
+    words: str
+    binds: tuple[Bind, ...] = ()
+
+
+def _on(key: str, name: str, value: int | str | tuple[float, ...] | None = None) -> Bind:
+    return Bind(key, Action(name, value))
+
+
+def _held(key: str, name: str, value: int | tuple[float, ...] | None = None) -> Bind:
+    return Bind(key, Action(name, value), repeats=True)
+
+
+def _every(keys: str, name: str, value: str | None = None) -> tuple[Bind, ...]:
+    return tuple(_on(key, name, value) for key in keys.split())
+
+
+def _two(first: str, second: str, name: str, values: tuple[int | str, int | str]) -> tuple[Bind, Bind]:
+    return _on(first, name, values[0]), _on(second, name, values[1])
+
+
+def _both(less: str, more: str, name: str, by: int = 1) -> tuple[Bind, Bind]:
+    return _held(less, name, -by), _held(more, name, by)
+
+
+_IN, _OUT = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
+
+KEYS: tuple[KeyRow, ...] = (
+    KeyRow("play", "Space", "play / pause", _every("space", "pause")),
+    KeyRow(
+        "play",
+        "← → (Shift: ×10)",
+        "pause, and step the crank",
+        (*_both("left", "right", "step"), *_both("shift+left", "shift+right", "step", 10)),
+    ),
+    KeyRow("play", "↑ ↓", "speed", _both("down", "up", "speed")),
+    KeyRow("play", "D", "direction", _every("d", "direction")),
+    KeyRow("play", "R", "back to the start", _every("r", "start")),
+    KeyRow(
+        "play",
+        "Tab, Shift+Tab, 1–9",
+        "mechanism, of its chapter",
+        (
+            _on("tab", "mechanism", 1),
+            _on("shift+tab", "mechanism", -1),
+            *(_on(str(place + 1), "select", place) for place in range(9)),
+            *(_on(f"kp{place + 1}", "select", place) for place in range(9)),
+        ),
+    ),
+    KeyRow("play", "O", "the shelf: all mechanisms", _every("o", "shelf")),
+    KeyRow("play", "drag pin, drag cursor", "move the crank; the chart's cursor, too"),
+    KeyRow("look", "T", "coupler trace", _every("t", "trace")),
+    KeyRow("look", "N", "names: off, joints and links, with dimensions", _every("n", "names")),
+    KeyRow(
+        "look",
+        "+, −, wheel, drag",
+        "zoom, pan",
+        (
+            *(_held(key, "zoom", _IN) for key in ("+", "=", "kp_plus")),
+            *(_held(key, "zoom", _OUT) for key in ("-", "kp_minus")),
+        ),
+    ),
+    KeyRow("look", "0, Home", "fit", _every("0 kp0 home", "fit")),
+    KeyRow("look", "L", "light / dark", _every("l", "theme")),
+    KeyRow("look", "F11", "full screen", _every("f11", "fullscreen")),
+    KeyRow("look", "H, F1, ?", "help", _every("h f1 ? shift+/", "help")),
+    KeyRow(
+        "look",
+        "Esc, Q",
+        "close an open overlay (Esc); quit",
+        (_on("escape", "back"), _on("q", "quit")),
+    ),
+    KeyRow("measure", "V, A", "velocity, acceleration vectors", _two("v", "a", "vectors", ("v", "a"))),
+    KeyRow("measure", "P", "velocity and acceleration polygons", _every("p", "polygons")),
+    KeyRow("measure", "I", "instant centres: off, marked, with centrodes", _every("i", "centres")),
+    KeyRow("measure", "C (Shift: back)", "chart: next quantity, off", _two("c", "shift+c", "chart", (1, -1))),
+    KeyRow("measure", "K", "the list of quantities", _every("k", "list")),
+    KeyRow("edit", "E", "edit dimensions (H there: how)", _every("e", "edit")),
+    KeyRow(
+        "edit",
+        "B (Shift: ghost)",
+        "assembly: the other closure",
+        (_on("b", "closure"), _on("shift+b", "ghost")),
+    ),
+    KeyRow(
+        "edit",
+        "Ctrl+Z, Ctrl+Y",
+        "undo, redo",
+        (_held("ctrl+z", "undo"), _held("ctrl+y", "redo"), _held("ctrl+shift+z", "redo")),
+    ),
+    KeyRow(
+        "keep",
+        "S, F12 (Shift+S: SVG)",
+        "screenshot",
+        (*_every("s f12", "screenshot"), _on("shift+s", "svg")),
+    ),
+    KeyRow("keep", "G", "record GIF: start, stop", _every("g", "record", "gif")),
+    KeyRow("keep", "M", "record MP4: start, stop", _every("m", "record", "mp4")),
+    KeyRow("keep", "Ctrl+S", "write the scene as a new file", _every("ctrl+s", "save")),
+    KeyRow("keep", "F5", "load the scene file again", _every("f5", "reload")),
+)
+"""Every key of the window, by subject, in the order in which the help shows them."""
+
+EDIT_KEYS: tuple[KeyRow, ...] = (
+    KeyRow("in E", "↑ ↓", "choose a dimension", _both("up", "down", "choose")),
+    KeyRow(
+        "in E",
+        "← → (Shift: ×10)",
+        "nudge it",
+        (*_both("left", "right", "nudge"), *_both("shift+left", "shift+right", "nudge", 10)),
+    ),
+    KeyRow(
+        "in E",
+        "Tab, Shift+Tab",
+        "on with the value typed, to be judged with the others",
+        (_on("tab", "pass_on", 1), _on("shift+tab", "pass_on", -1)),
+    ),
+    KeyRow(
+        "in E",
+        "digits, Enter",
+        "type a value, with or without a unit; take all that is typed",
+        (*_every("return kp_enter", "take"), _held("backspace", "erase")),
+    ),
+    KeyRow("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
+)
+"""What the keys do while the dimensions are being edited."""
+
+LIST_KEYS: tuple[KeyRow, ...] = (
+    KeyRow(
+        "in K",
+        "↑ ↓",
+        "choose a quantity",
+        (*_both("up", "down", "move"), *_both("pageup", "pagedown", "move", 10)),
+    ),
+    KeyRow("in K", "letters", "show what has them in its name", (_held("backspace", "unsift"),)),
+    KeyRow("in K", "Enter", "chart it", _every("return kp_enter", "pick")),
+)
+"""What the keys do while the list of quantities is open."""
+
+SHELF_KEYS: tuple[KeyRow, ...] = (
+    KeyRow(
+        "in O",
+        "arrows, mouse",
+        "choose a mechanism",
+        (*_both("left", "right", "move"), *_both("up", "down", "row")),
+    ),
+    KeyRow("in O", "Enter, click", "put it on", _every("return kp_enter", "pick")),
+)
+"""What the keys do while the shelf is open."""
+
+_OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {"edit": EDIT_KEYS, "list": LIST_KEYS, "shelf": SHELF_KEYS}
+_TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
+    "edit": ("type", frozenset({"space", "h", "e"})),
+    "list": ("sift", frozenset({"space", "h", "k"})),
+}
+"""Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
+
+
+class Press(NamedTuple):
+    """A key that went down: its name, the modifiers, and the text it types (empty where none)."""
+
+    key: str
+    text: str = ""
+    shift: bool = False
+    ctrl: bool = False
+
+
+def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind | None:
+    """Return what a key asks for; None where it is not bound.
+
+    In an open list what can be printed is typed there; but for the few keys that keep their meaning while
+    nothing has been begun (`typing`).
+    """
+    if _is_typed(press, mode, typing):
+        return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
+    tables = (_OPEN.get(mode, ()), KEYS)
+    found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
+    return next(found, None)
+
+
+def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
+    if mode not in _TYPED or press.ctrl or not press.text or not press.text.isprintable():
+        return False
+    return typing or press.key not in _TYPED[mode][1]
+
+
+def _binds(table: tuple[KeyRow, ...]) -> Iterator[Bind]:
+    return (bind for row in table for bind in row.binds)
+
+
+def _names(press: Press) -> tuple[str, ...]:
+    """Return the names a press may be bound under, the most particular first."""
+    if press.ctrl:
+        return ("ctrl+shift+" + press.key,) if press.shift else ("ctrl+" + press.key,)
+    symbol = () if press.text.isalpha() else (press.text,)
+    return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
+
+
+def key_names() -> tuple[str, ...]:
+    """Return every bound key's name once, without modifiers (a key alone may be '+')."""
+    names = (bind.key for table in (KEYS, *_OPEN.values()) for bind in _binds(table))
+    return tuple(dict.fromkeys(name.removeprefix("ctrl+").removeprefix("shift+") for name in names))
+
+
+def help_groups(mode: Mode = "play") -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+    """Return (subject, its lines of keys and what they do) as the help overlay shows them."""
+    rows = _OPEN.get(mode, KEYS)
+    groups: dict[str, list[tuple[str, str]]] = {}
+    for row in rows:
+        groups.setdefault(row.subject, []).append((row.keys, row.words))
+    return tuple((subject, tuple(lines)) for subject, lines in groups.items())
+
+
+def _lines() -> tuple[tuple[str, str], ...]:
+    """Return all lines of the table, those of an open list told as such."""
+    within = (row for table in _OPEN.values() for row in table)
+    rows = (*KEYS, *(row._replace(keys=f"{row.subject}: {row.keys}") for row in within))
+    return tuple((row.keys, row.words) for row in rows)
+
+
+def as_text(*, indent: str = "  ") -> str:
+    """Return the table as plain text, for `--help`."""
+    width = max(len(keys) for keys, _ in _lines())
+    return "\n".join(f"{indent}{keys:<{width}}  {words}" for keys, words in _lines())
+
+
+def as_markdown() -> str:
+    """Return the table in Markdown, for the README."""
+    return "\n".join(["| key | does |", "|---|---|", *(f"| {keys} | {words} |" for keys, words in _lines())])

@@ -1,0 +1,1 @@
+"""What the window shows, as a value, and how actions change it."""

@@ -1,0 +1,118 @@
+"""The one table of actions: what value each may have, what it does, and whether a tape keeps it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from linkanim.player.state import answers
+from linkanim.player.state.action import Action
+from linkanim.player.state.handlers import browse, clock, edits, looks, outside, shelf
+from linkanim.player.state.state import State
+
+
+class Rule(NamedTuple):
+    """One action: the test that its value must pass, and what it makes of a state.
+
+    `taped` is False for what is done outside the picture, which no tape keeps. `answer` says in a word or two
+    what has come of it, from the states before and after.
+    """
+
+    check: Callable[[object], bool]
+    handle: Callable[[State, Any], State]
+    taped: bool = True
+    answer: Callable[[State, State], str | None] | None = None
+
+
+MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
+"""The most of an action's value: no key or mouse gives more, and no float holds whatever a tape may say."""
+
+
+def _nothing(value: object) -> bool:
+    return value is None
+
+
+def _whole(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and abs(value) <= MOST_STEPS
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_NUMBER
+
+
+def _text(value: object) -> bool:
+    return isinstance(value, str)
+
+
+def _one_of(*words: str) -> Callable[[object], bool]:
+    return lambda value: value in words
+
+
+def _numbers(count: int) -> Callable[[object], bool]:
+    return lambda value: isinstance(value, tuple) and len(value) == count and all(map(_number, value))
+
+
+ACTIONS: Mapping[str, Rule] = {
+    "pause": Rule(_nothing, clock.pause),
+    "step": Rule(_whole, clock.step),  # degrees of phase, along the way the crank runs
+    "speed": Rule(_whole, clock.speed, answer=answers.speed),  # steps of the speed ladder
+    "direction": Rule(_nothing, clock.direction, answer=answers.direction),
+    "start": Rule(_nothing, clock.start),
+    "scrub": Rule(_number, clock.scrub),  # the phase to go to, rad
+    "mechanism": Rule(_whole, shelf.mechanism, answer=answers.place),  # places further on the shelf
+    "select": Rule(_whole, shelf.select, answer=answers.place),  # the place in the catalogue, from 0
+    "put": Rule(_whole, browse.put, answer=answers.place),  # the place on the shelf, from 0
+    "closure": Rule(_nothing, shelf.closure, answer=answers.closure),
+    "trace": Rule(_nothing, looks.trace, answer=answers.trace),
+    "vectors": Rule(_one_of("v", "a"), looks.vectors, answer=answers.vectors),
+    "ghost": Rule(_nothing, looks.ghost, answer=answers.ghost),
+    "chart": Rule(_whole, looks.chart, answer=answers.chart),  # quantities further
+    "plot": Rule(_text, browse.plot, answer=answers.chart),  # a quantity's token
+    "names": Rule(_nothing, looks.names, answer=answers.names),
+    "polygons": Rule(_nothing, looks.polygons, answer=answers.polygons),
+    "centres": Rule(_nothing, looks.centres, answer=answers.centres),
+    "theme": Rule(_nothing, looks.theme, answer=answers.theme),
+    "help": Rule(_nothing, looks.help_),
+    # notches, about the point (x, y): window heights from the picture's middle, y down
+    "zoom": Rule(_numbers(3), looks.zoom, answer=answers.zoom),
+    "pan": Rule(_numbers(2), looks.pan),  # window heights, right and down
+    "fit": Rule(_nothing, looks.fit, answer=answers.zoom),
+    "edit": Rule(_nothing, edits.edit),
+    "choose": Rule(_whole, edits.choose),
+    "pass_on": Rule(_whole, edits.pass_on),
+    "nudge": Rule(_whole, edits.nudge),
+    "type": Rule(_text, edits.write),
+    "erase": Rule(_nothing, edits.erase),
+    "take": Rule(_nothing, edits.take),
+    "grab": Rule(_text, edits.grab),  # a joint
+    "carry": Rule(_numbers(3), edits.carry),  # to (x, y) in the scene's unit, in such parts of a nudge's step
+    "drop": Rule(_nothing, edits.drop),
+    "undo": Rule(_nothing, edits.undo, answer=answers.undo),
+    "redo": Rule(_nothing, edits.redo, answer=answers.undo),
+    "back": Rule(_nothing, outside.back),
+    "list": Rule(_nothing, browse.list_, taped=False),
+    "shelf": Rule(_nothing, browse.shelf, taped=False),
+    "move": Rule(_whole, browse.move, taped=False),  # rows of the list, or places on the shelf
+    "point": Rule(_whole, browse.point, taped=False),  # the place on the shelf
+    "sift": Rule(_text, browse.sift, taped=False),
+    "unsift": Rule(_nothing, browse.unsift, taped=False),
+    "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),
+    "screenshot": Rule(_nothing, outside.screenshot, taped=False),
+    "svg": Rule(_nothing, outside.svg, taped=False),
+    "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),
+    "save": Rule(_nothing, outside.effect("save"), taped=False),
+    "reload": Rule(_nothing, outside.effect("reload"), taped=False),
+    "quit": Rule(_nothing, outside.effect("quit"), taped=False),
+    "note": Rule(_text, outside.note, taped=False),  # something the window has to say, as a toast
+}
+
+
+def is_known(action: Action) -> bool:
+    """Tell whether the action is one of ours and its value is of the right kind."""
+    rule = ACTIONS.get(action.name)
+    return rule is not None and rule.check(action.value)
+
+
+def is_taped(action: Action) -> bool:
+    """Tell whether a tape keeps the action: one that is known and shows in the picture."""
+    return is_known(action) and ACTIONS[action.name].taped

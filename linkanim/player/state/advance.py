@@ -1,0 +1,80 @@
+"""The player's only way forward: `advance(state, actions)`, pure.
+
+A frame is three steps, so that the window can ask what a key means once those before it are done:
+the state grows a frame older, each action is carried out, and a window left alone walks on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from linkanim.player.state.action import Action
+from linkanim.player.state.actions import ACTIONS
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.fault import refused
+from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, answered
+from linkanim.player.window.glide import followed
+
+ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
+ATTRACT_EACH = 15 * FRAMES_PER_SECOND
+
+_LIVES = {"turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
+"""For how many frames after the one that the state holds something is to be seen."""
+
+
+def advance(state: State, actions: Iterable[Action] = ()) -> State:
+    """Return the state one frame on, the actions carried out in their order.
+
+    KeyError for an action that is not in `actions.ACTIONS`.
+    """
+    state = aged(state)
+    for action in actions:
+        state = carried(state, action)
+    return settled(state)
+
+
+def aged(state: State) -> State:
+    """Return the state a frame older: what has had its time goes, a changing length is followed."""
+    state = replace(state, frame=state.frame + 1, effects=())
+    if state.toast and state.frame >= state.toast.until:
+        state = replace(state, toast=None)
+    if state.chip and state.frame >= state.chip.until:
+        state = replace(state, chip=None)
+    over = [name for name, life in _LIVES.items() if _is_over(getattr(state, name), life, state.frame)]
+    state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
+    return _followed(state) if state.glide else state
+
+
+def _is_over(since: int | None, life: int, frame: int) -> bool:
+    return since is not None and frame >= since + life
+
+
+def carried(state: State, action: Action) -> State:
+    """Return the state with one action carried out; one that a solver fails at changes nothing."""
+    rule = ACTIONS[action.name]
+    if action.name != "note":
+        state = replace(state, touched=state.frame)
+    try:
+        after = rule.handle(state, action.value)
+        return answered(after, rule.answer(state, after)) if rule.answer else after
+    except Exception as error:
+        return refused(state, action, error)
+
+
+def settled(state: State) -> State:
+    """Return the state at the end of a frame: left alone for a minute, it walks on through the shelf."""
+    idle = state.frame - state.touched - ATTRACT_AFTER
+    busy = state.recording or state.editing.open or state.editing.changed
+    if not state.attract or busy or idle < 0 or idle % ATTRACT_EACH:
+        return state
+    onward = replace(carried(replace(state, help=False), Action("mechanism", 1)), touched=state.touched)
+    return replace(onward, clock=onward.clock.pause(onward.frame, False))
+
+
+def _followed(state: State) -> State:
+    assert state.glide is not None
+    try:
+        return replace(state, glide=followed(state.glide, state.scene, state.frame))
+    except Exception as error:
+        return refused(replace(state, glide=None), Action("glide"), error)

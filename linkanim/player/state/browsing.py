@@ -1,0 +1,62 @@
+"""What is looked through in an open overlay: the list of quantities, and the shelf of mechanisms.
+
+Both belong to the window alone, and no tape keeps them: what is chosen there is asked for by an action of
+its own ("plot", "put"), and that a tape does keep.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkanim.picture.diagrams.quantities import quantities, quantity, telling
+from linkanim.scenes.scene import Scene
+
+RESOLVED = frozenset({"pick", "row"})
+"""What a key asks for in an open list or shelf; the window asks for what it means there instead."""
+
+_LONGEST = 40
+
+
+@dataclass(frozen=True)
+class Listing:
+    """The open list of quantities: the row that is chosen, and the letters that sift it."""
+
+    chosen: int
+    sieve: str = ""
+
+
+@dataclass(frozen=True)
+class Browsing:
+    """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening."""
+
+    entries: tuple[Scene | str, ...]
+    chosen: int
+    since: int
+
+
+def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
+    """Return the tokens of the quantities that have all the sieve's words, the telling ones first."""
+    wanted = sieve.casefold().split()
+    tokens = dict.fromkeys((*telling(scene), *quantities(scene)))
+    return tuple(token for token in tokens if all(word in _searched(scene, token) for word in wanted))
+
+
+def _searched(scene: Scene, token: str) -> str:
+    found = quantity(scene, token)
+    return f"{token} {found.words} {found.symbol}".casefold()
+
+
+def moved(listing: Listing, scene: Scene, further: int) -> Listing:
+    """Return the list so many rows further; its ends are ends."""
+    last = max(len(listed(scene, listing.sieve)) - 1, 0)
+    return Listing(min(max(listing.chosen + further, 0), last), listing.sieve)
+
+
+def sifted(listing: Listing, text: str) -> Listing:
+    """Return the list with more letters in its sieve, from its top."""
+    return Listing(0, (listing.sieve + text)[:_LONGEST])
+
+
+def unsifted(listing: Listing) -> Listing:
+    """Return the list with one letter less in its sieve, from its top."""
+    return Listing(0, listing.sieve[:-1])

@@ -1,0 +1,89 @@
+"""Actions on the list of dimensions, and on what is undone and redone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from linkanim.player.input.dragging import Held, carried_to
+from linkanim.player.state import editing as edit_
+from linkanim.player.state.editing import Editing
+from linkanim.player.state.handlers.shelf import exchanged
+from linkanim.player.state.state import State
+from linkanim.player.window.glide import glide
+from linkanim.scenes.editing.edit import dimensions
+from linkanim.scenes.editing.handles import handles
+from linkanim.scenes.scene import Scene
+
+Handler = Callable[[State, Any], State]
+
+
+def edit(state: State, _: None) -> State:
+    """Open or close the list; a joint is dropped, values begun are let go of, undo and redo stay."""
+    state = drop(state, None)
+    editing = edit_.choose(replace(state.editing, drafts=()), state.scene, 0)
+    return replace(state, editing=replace(editing, open=not editing.open), listing=None, browsing=None)
+
+
+def grab(state: State, joint: str) -> State:
+    """Take hold of a joint while the list is open: the picture stands still, the list at its dimension."""
+    keys = [item.key for item in dimensions(state.scene)]
+    found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
+    if not state.editing.open or not found:
+        return state
+    held = Held(joint, state.scene, state.phase, not state.clock.paused)
+    state = drop(state, None)
+    editing = edit_.choose(replace(state.editing, chosen=keys.index(found[0].key)), state.scene, 0)
+    clock = state.clock.pause(state.frame, True)
+    return replace(state, held=held, editing=editing, clock=clock, glide=None)
+
+
+def carry(state: State, to: tuple[float, float, float]) -> State:
+    """Drag the held joint to a point (scene's unit), in whole units times the third number."""
+    held = state.held
+    if held is None or not to[2] > 0.0:
+        return state
+    editing, scene = carried_to(state.editing, state.scene, held, to[:2], to[2])
+    if scene is state.scene:
+        return replace(state, editing=editing)
+    state = replace(exchanged(state, scene), editing=editing)
+    angle = held.scene.pose(held.phase, 0).crank_angle
+    phase = scene.mechanism.assembly.path.phase_of(angle, state.phase)
+    return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+
+
+def drop(state: State, _: None) -> State:
+    """Let go of the joint; what ran before runs on."""
+    if state.held is None:
+        return state
+    clock = state.clock.pause(state.frame, not state.held.ran)
+    return replace(state, held=None, clock=clock, editing=replace(state.editing, refusal=None))
+
+
+def _listed(work: Callable[[Editing, Scene, Any], Editing]) -> Handler:
+    """Make a handler of what changes the list alone."""
+    return lambda state, value: replace(state, editing=work(state.editing, state.scene, value))
+
+
+def _remade(work: Callable[[Editing, Scene, Any], tuple[Editing, Scene]]) -> Handler:
+    """Make a handler of what may give another scene; the picture follows it smoothly."""
+
+    def handle(state: State, value: Any) -> State:
+        editing, scene = work(state.editing, state.scene, value)
+        if scene is state.scene:
+            return replace(state, editing=editing)
+        way = glide(state.shown, scene, state.frame)
+        return replace(exchanged(state, scene), editing=editing, glide=way)
+
+    return handle
+
+
+choose = _listed(edit_.choose)
+pass_on = _listed(edit_.pass_on)
+write = _listed(lambda editing, _, text: edit_.write(editing, text))
+erase = _listed(lambda editing, scene, _: edit_.erase(editing, scene))
+nudge = _remade(edit_.nudge)
+take = _remade(lambda editing, scene, _: edit_.take(editing, scene))
+undo = _remade(lambda editing, scene, _: edit_.undo(editing, scene))
+redo = _remade(lambda editing, scene, _: edit_.redo(editing, scene))

@@ -1,0 +1,83 @@
+"""Actions that put another scene on: of the shelf, or the other closure of the same."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from linkanim.errors import LinkanimError
+from linkanim.mechanics.facts.classify import Info
+from linkanim.picture.diagrams.quantities import quantities
+from linkanim.player.state import editing as edit
+from linkanim.player.state.editing import Editing
+from linkanim.player.state.fault import proved
+from linkanim.player.state.state import State, fresh, told
+from linkanim.scenes import chapter_of, chapters, load
+from linkanim.scenes.reading.closure import other_closure
+from linkanim.scenes.scene import Scene
+
+
+def mechanism(state: State, further: int) -> State:
+    """Put on the scene so many places further on the shelf."""
+    if not state.shelf:
+        return state
+    return put_on(state, (state.place + further) % len(state.shelf))
+
+
+def select(state: State, place: int) -> State:
+    """Choose within the chapter of the scene that is on; beside the catalogue, within its first."""
+    all_, chapter = chapters(), chapter_of(state.scene.name)
+    members = all_[chapter] if chapter else next(iter(all_.values()))
+    if place >= len(members) or members[place] not in state.shelf:
+        return state
+    return put_on(state, state.shelf.index(members[place]))
+
+
+def closure(state: State, _: None) -> State:
+    """Exchange the scene for its other closure; undo goes back."""
+    try:
+        scene = other_closure(state.scene)
+    except LinkanimError as error:
+        return told(state, str(error))
+    return exchanged(replace(state, editing=edit.changed(state.editing, state.scene)), scene)
+
+
+def renewed(state: State, scene: Scene) -> State:
+    """Put on the scene of one's own as its file has it now; where it is on already, undo goes back."""
+    catalogue = tuple(entry for entry in state.shelf if isinstance(entry, str))
+    was_on = state.place < len(state.shelf) - len(catalogue)
+    state = replace(state, shelf=(scene, *catalogue))
+    if not was_on:
+        return put_on(state, 0)
+    editing = edit.changed(state.editing, state.scene)
+    return exchanged(replace(state, held=None, glide=None, editing=editing), scene)
+
+
+def exchanged(state: State, scene: Scene) -> State:
+    """Show a changed scene at the phase the old one stands at; whatever its solver raises."""
+    clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed)
+    proved(scene, clock.at(state.frame))
+    look = replace(state.look, chart=_kept_chart(state, scene))
+    turned = state.turned if _verdict(scene.info) == _verdict(state.scene.info) else state.frame
+    return replace(state, scene=scene, clock=clock, look=look, turned=turned)
+
+
+def _verdict(info: Info) -> tuple[str, bool, bool]:
+    """Return the class, and on which side of Grashof's rule the lengths are."""
+    rule = info.grashof or ""
+    return info.class_name, "<" in rule, ">" in rule
+
+
+def put_on(state: State, place: int) -> State:
+    """Start a mechanism of the shelf as its file says, paused where the last one was."""
+    entry = state.shelf[place]
+    scene = proved(load(entry) if isinstance(entry, str) else entry, 0.0)
+    clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
+    look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
+    bare = replace(state, listing=None, held=None, glide=None, turned=None, faded=state.frame)
+    editing = Editing(open=state.editing.open)
+    return replace(bare, editing=editing, scene=scene, place=place, clock=clock, look=look)
+
+
+def _kept_chart(state: State, scene: Scene) -> str | None:
+    chart = state.look.chart
+    return chart if chart and chart in quantities(scene) else None

@@ -1,0 +1,140 @@
+"""The player's state: all that one frame of the window shows, as a frozen value.
+
+What must be done outside (a screenshot, full screen, a file to write) is left in `State.effects`,
+as data for the window to carry out.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from linkanim.picture.look import Look
+from linkanim.player.input.dragging import Held
+from linkanim.player.input.keys import Mode
+from linkanim.player.state.action import Action
+from linkanim.player.state.browsing import Browsing, Listing
+from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
+from linkanim.player.state.editing import Editing
+from linkanim.player.window.glide import Glide
+from linkanim.scenes import load, names
+from linkanim.scenes.scene import Scene
+
+TOAST_FRAMES = 3 * FRAMES_PER_SECOND
+CHIP_FRAMES = 66
+FLASH_FRAMES = FRAMES_PER_SECOND
+FADE_FRAMES = 14
+SHUTTER_FRAMES = 12
+
+
+@dataclass(frozen=True)
+class Toast:
+    """A short message; gone at frame `until`."""
+
+    text: str
+    until: int
+
+
+@dataclass(frozen=True)
+class Take:
+    """A recording that runs since frame `since`."""
+
+    format: Literal["gif", "mp4"]
+    since: int
+
+
+@dataclass(frozen=True)
+class State:
+    """All that the window shows at one frame; equal states are equal pictures.
+
+    `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
+    `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf.
+    `chip` is the answer to the last key; `faded` is the frame
+    at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
+    `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
+    which an edit made another class of the linkage, while the list shows it. `effects` is what the last
+    advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "fullscreen",
+    "save", "reload", "quit", and "report" (with the text of a fault's report).
+    """
+
+    scene: Scene
+    clock: Clock
+    shelf: tuple[Scene | str, ...] = ()
+    place: int = 0
+    frame: int = 0
+    look: Look = field(default_factory=Look)
+    help: bool = False
+    editing: Editing = field(default_factory=Editing)
+    held: Held | None = None
+    listing: Listing | None = None
+    browsing: Browsing | None = None
+    glide: Glide | None = None
+    turned: int | None = None
+    toast: Toast | None = None
+    chip: Toast | None = None
+    faded: int | None = None
+    shot: int | None = None
+    recording: Take | None = None
+    attract: bool = False
+    touched: int = 0
+    effects: tuple[Action, ...] = ()
+
+    @property
+    def shown(self) -> Scene:
+        """The scene to draw: `scene`, or one on the way to it while a length is changing."""
+        return self.glide.scene if self.glide else self.scene
+
+    @property
+    def mode(self) -> Mode:
+        """What the keys are for."""
+        if self.editing.open:
+            return "edit"
+        return "list" if self.listing else "shelf" if self.browsing else "play"
+
+    @property
+    def typing(self) -> bool:
+        """Whether something has been begun in the open list."""
+        return self.editing.typed != "" if self.editing.open else bool(self.listing and self.listing.sieve)
+
+    @property
+    def phase(self) -> float:
+        """The phase (rad) at this frame."""
+        return self.clock.at(self.frame)
+
+
+def begin(
+    scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | None = None, attract: bool = False
+) -> State:
+    """Return the state a window opens with: `scene`, loaded where it is a name or path, and the catalogue.
+
+    Without a scene it is the catalogue's first; one that is not of the catalogue stands before it.
+    BadInput as loading raises it.
+    """
+    asked = names()[0] if scene is None else scene
+    found = asked if isinstance(asked, Scene) else load(asked)
+    shelf: tuple[Scene | str, ...] = names()
+    if asked not in shelf and (found.name not in shelf or load(found.name) != found):
+        shelf = (found, *shelf)
+    place = 0 if shelf[0] is found else shelf.index(found.name)
+    return State(found, fresh(found), shelf, place, look=look or Look(), attract=attract)
+
+
+def fresh(scene: Scene) -> Clock:
+    """Return the clock of a scene that starts now."""
+    return Clock(scene.linkage.drive.speed)
+
+
+def told(state: State, text: str) -> State:
+    """Return the state with a toast."""
+    return replace(state, toast=Toast(text, state.frame + TOAST_FRAMES))
+
+
+def answered(state: State, text: str | None) -> State:
+    """Return the state with a chip that says the text; without, as it was."""
+    return replace(state, chip=Toast(text, state.frame + CHIP_FRAMES)) if text else state
+
+
+def asking(state: State, name: str, value: str | None = None) -> State:
+    """Return the state with one more thing to be done outside."""
+    return replace(state, effects=(*state.effects, Action(name, value)))

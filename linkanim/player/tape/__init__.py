@@ -1,0 +1,1 @@
+"""Recordings of actions: in memory and as files."""

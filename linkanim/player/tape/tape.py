@@ -1,0 +1,109 @@
+"""Tapes: what was done, frame by frame, so that the same pictures can be made again at any size."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from linkanim.player.state.action import Action
+from linkanim.player.state.actions import is_taped
+from linkanim.player.state.advance import advance
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.state import State
+
+
+@dataclass(frozen=True)
+class Tape:
+    """Actions by frame, and the state at frame 0; `size` is the window's when it was made."""
+
+    start: State
+    frames: int
+    actions: tuple[tuple[int, Action], ...] = ()
+    size: tuple[int, int] = (1280, 720)
+
+    @property
+    def is_loop(self) -> bool:
+        """Whether nothing was done: such a recording is the scene's seamless loop."""
+        return not self.actions
+
+    @property
+    def seconds(self) -> float:
+        """How long it ran."""
+        return self.frames / FRAMES_PER_SECOND
+
+    def states(self) -> Iterator[State]:
+        """Iterate the states of frames 0 … `frames`, as the window went through them."""
+        by_frame, state = _by_frame(self), self.start
+        yield state
+        for frame in range(1, self.frames + 1):
+            state = advance(state, by_frame.get(frame, ()))
+            yield state
+
+    def pictures(self, fps: float) -> Iterator[tuple[State, float]]:
+        """Iterate (state, phase) at `fps` pictures a second; phases are exact between frames, too."""
+        states = self.states()
+        state, count = next(states), max(1, round(self.seconds * fps))
+        for picture in range(count):
+            time = picture * FRAMES_PER_SECOND / fps
+            while state.frame < math.floor(time):
+                state = next(states)
+            yield state, state.clock.at(time)
+
+
+def starting(state: State) -> State:
+    """Return the state as a tape starts from it: frame 0, standing where it stands, nothing to be done."""
+    clock = state.clock.go(0, state.phase)
+    return State(
+        scene=state.scene,
+        clock=clock,
+        shelf=state.shelf,
+        place=state.place,
+        look=state.look,
+        help=state.help,
+        editing=state.editing,
+    )
+
+
+def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:
+    """Return those of the actions that belong on a tape: what shows, not what is done outside."""
+    return tuple(filter(is_taped, actions))
+
+
+class Taping:
+    """A tape that is being made: the state it starts from, and the actions from frame `since` on."""
+
+    def __init__(self, state: State, size: tuple[int, int]) -> None:
+        self._start, self.since, self._size = starting(state), state.frame, size
+        self._actions: list[tuple[int, Action]] = []
+
+    def note(self, frame: int, actions: tuple[Action, ...]) -> None:
+        """Keep the actions that came at a frame of the window."""
+        self._actions.extend((frame - self.since, action) for action in taped(actions))
+
+    def tape(self, frame: int) -> Tape:
+        """Return the tape up to a frame of the window."""
+        return Tape(self._start, frame - self.since, tuple(self._actions), self._size)
+
+
+class Reel:
+    """A tape that plays over and over."""
+
+    def __init__(self, tape: Tape) -> None:
+        self._tape = tape
+        self._by_frame = _by_frame(tape)
+
+    def rewound(self, state: State) -> State:
+        """Return the state to go on from: after the tape's end it is the start."""
+        return self._tape.start if state.frame >= self._tape.frames else state
+
+    def actions(self, frame: int) -> tuple[Action, ...]:
+        """Return what the tape does at a frame."""
+        return tuple(self._by_frame.get(frame, ()))
+
+
+def _by_frame(tape: Tape) -> dict[int, list[Action]]:
+    by_frame: dict[int, list[Action]] = {}
+    for frame, action in tape.actions:
+        by_frame.setdefault(frame, []).append(action)
+    return by_frame

@@ -1,0 +1,249 @@
+"""A tape as a file: versioned JSON with its scenes in it whole.
+
+A tape is a state to start from, a number of frames (60 a second), and the actions with the frame
+each of them comes at.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from linkanim import intake, whole
+from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS
+from linkanim.document import Section, refuse_controls
+from linkanim.errors import BadInput
+from linkanim.intake import Intake
+from linkanim.picture.look import Look
+from linkanim.player.state.action import Action
+from linkanim.player.state.actions import is_taped
+from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
+from linkanim.player.state.editing import Editing
+from linkanim.player.state.state import State
+from linkanim.player.tape.tape import Tape
+from linkanim.scenes import names
+from linkanim.scenes.reading.joints import Key
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.units import shown
+
+VERSION = 1
+SUFFIX = ".tape.json"
+TAPE_FILE = Intake("a tape", most_bytes=20_000_000, most_values=1_000_000)
+
+_MARK = "linkanim_tape"
+_MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
+
+
+def write(tape: Tape, path: Path) -> None:
+    """Write the tape as a file that was not there before; WorkFailed where that cannot be."""
+    text = json.dumps(to_document(tape), ensure_ascii=False, allow_nan=False, indent=1)
+    whole.add(f"{text}\n".encode(), path)
+
+
+def read(path: Path) -> Tape:
+    """Read a tape; BadInput, naming the place, for what is none, or of another version."""
+    where = intake.named(path)
+    text = TAPE_FILE.read(path, where)
+    try:
+        TAPE_FILE.refuse_heavy(text, where)
+        document = json.loads(text, parse_constant=_no_constant)
+    except (ValueError, RecursionError):
+        raise BadInput(f"{where}: is not JSON; a tape is a file that G or M wrote in the window") from None
+    if isinstance(document, dict):
+        refuse_controls(Section(where, document))
+    return from_document(document, where)
+
+
+def _no_constant(name: str) -> float:
+    raise ValueError(name)
+
+
+def to_document(tape: Tape) -> dict[str, Any]:
+    """Return the tape as JSON's own values."""
+    state = tape.start
+    return {
+        _MARK: VERSION,
+        "scene": _scene_document(state.scene),
+        "start": _start_document(state),
+        "shelf": [entry if isinstance(entry, str) else _scene_document(entry) for entry in state.shelf],
+        "size": list(tape.size),
+        "frames": tape.frames,
+        "actions": [
+            [frame, action.name] if action.value is None else [frame, action.name, action.value]
+            for frame, action in tape.actions
+        ],
+    }
+
+
+def _scene_document(scene: Scene) -> dict[str, Any]:
+    return {"name": scene.name, "document": scene.document}
+
+
+def _start_document(state: State) -> dict[str, Any]:
+    look, editing = state.look, state.editing
+    return {
+        "phase": state.phase,
+        "level": state.clock.level,
+        "direction": state.clock.direction,
+        "paused": state.clock.paused,
+        "place": state.place,
+        "help": state.help,
+        "look": {**vars(look), "vectors": sorted(look.vectors)},
+        "editing": {
+            "open": editing.open,
+            "chosen": editing.chosen,
+            "typed": editing.typed,
+            "drafts": [[text, *key] for key, text in editing.drafts],
+            "past": [_scene_document(scene) for scene in editing.past],
+            "future": [_scene_document(scene) for scene in editing.future],
+        },
+    }
+
+
+def from_document(document: object, where: str) -> Tape:
+    """Return the tape that a document holds; BadInput where it is not one of this version's."""
+    if not isinstance(document, dict) or _MARK not in document:
+        raise BadInput(f"{where}: is not a tape; a tape is a file that G or M wrote in the window")
+    if document[_MARK] != VERSION:
+        found = repr(document[_MARK])[:20]
+        raise BadInput(f"{where}: is a tape of version {found}; this linkanim reads version {VERSION}")
+    top = Section(where, document)
+    frames = top.whole("frames", 0, _MOST_FRAMES)
+    return Tape(_start(top), frames, _actions(top, frames), _size(top))
+
+
+def _size(top: Section) -> tuple[int, int]:
+    sides = top.listed("size", 2)
+    width, height = (sides.whole(key, 1, LARGEST_SIDE) for key in sides.values)
+    return width, height
+
+
+def _start(top: Section) -> State:
+    start = top.table("start")
+    scene = _scene(top.table("scene"))
+    entries = top.listed("shelf")
+    shelf = tuple(_entry(entries, key) for key in entries.values) or (scene,)
+    clock = Clock(
+        scene.linkage.drive.speed,
+        phase=start.number("phase"),
+        level=start.whole("level", -20, 10),
+        direction=-1 if start.whole("direction", -1, 1) < 0 else 1,
+        paused=start.flag("paused"),
+    )
+    return State(
+        scene=scene,
+        clock=clock,
+        shelf=shelf,
+        place=start.whole("place", 0, len(shelf) - 1),
+        look=_look(start.table("look")),
+        help=start.flag("help"),
+        editing=_editing(start.table("editing")),
+    )
+
+
+def _entry(entries: Section, key: str) -> Scene | str:
+    entry = entries.need(key)
+    return str(entry) if entry in names() else _scene(entries.table(key))
+
+
+def _scene(part: Section) -> Scene:
+    document = part.need("document")
+    if not isinstance(document, dict):
+        raise part.error("document", "must be a scene file's table")
+    return scene_from(document, name=_file_name(part), where=part.where)
+
+
+def _file_name(part: Section) -> str:
+    """Return a scene's name, which screenshots and recordings are called by: no way out of their folder."""
+    name = part.text("name")
+    if not 1 <= len(name) <= 200 or not name.isprintable() or name.startswith(".") or set(name) & set("/\\:"):
+        raise part.error("name", "must be a name without a folder; record the tape again")
+    return name
+
+
+def _scenes(part: Section, key: str) -> tuple[Scene, ...]:
+    scenes = part.listed(key)
+    return tuple(_scene(scenes.table(one)) for one in scenes.values)
+
+
+def _look(part: Section) -> Look:
+    pan = part.listed("pan", 2)
+    across, down = (pan.number(key) for key in pan.values)
+    return Look(
+        theme=part.choice("theme", ("light", "dark")),
+        trace=part.flag("trace"),
+        vectors=_vectors(part),
+        chart=None if part.need("chart") is None else part.text("chart"),
+        hud=part.flag("hud"),
+        background=part.flag("background"),
+        zoom=min(max(part.number("zoom"), 0.01), 100.0),
+        pan=(across, down),
+        ghost=part.flag("ghost"),
+        names=part.whole("names", 0, 2) if "names" in part else 0,
+        polygons=part.flag("polygons") if "polygons" in part else False,
+        centres=part.whole("centres", 0, 2) if "centres" in part else 0,
+    )
+
+
+def _vectors(part: Section) -> frozenset[str]:
+    kinds = part.listed("vectors")
+    return frozenset(kinds.choice(key, ("v", "a")) for key in kinds.values)
+
+
+def _editing(part: Section) -> Editing:
+    past, future = (_scenes(part, key) for key in ("past", "future"))
+    return Editing(
+        open=part.flag("open"),
+        chosen=part.whole("chosen", 0, 10_000),
+        typed=part.text("typed")[:40],
+        drafts=_drafts(part),
+        past=past,
+        future=future,
+    )
+
+
+def _drafts(part: Section) -> tuple[tuple[Key, str], ...]:
+    """Return the values begun in other rows: lists of the text and the dimension's path."""
+    if "drafts" not in part:
+        return ()
+    entries = part.listed("drafts")
+    return tuple(_draft(entries, key) for key in entries.values)
+
+
+def _draft(entries: Section, key: str) -> tuple[Key, str]:
+    match entries.items(key):
+        case [str(text), *path] if path and all(isinstance(step, str | int) for step in path):
+            return tuple(path), text[:40]
+    raise entries.error(key, "must be a list of what was typed and the keys of its value")
+
+
+def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
+    entries = top.listed("actions")
+    if len(entries.values) > MOST_ACTIONS:
+        count = len(entries.values)
+        raise top.error("actions", f"are {count:,}, more than {MOST_ACTIONS:,}; record a shorter tape")
+    found: list[tuple[int, Action]] = []
+    for key, entry in entries.values.items():
+        try:
+            frame, action = _action(entry)
+        except ValueError as error:
+            raise entries.error(key, f"{shown(entry)} is not {error}") from None
+        if not (found[-1][0] if found else 0) <= frame <= frames:
+            raise entries.error(key, f"{shown(entry)} is not in the order of frames, up to {frames}")
+        found.append((frame, action))
+    return tuple(found)
+
+
+def _action(entry: Any) -> tuple[int, Action]:
+    """Return the frame and the action of an entry; ValueError with what it should be where it is none."""
+    match entry:
+        case [int(frame), str(name), *rest] if len(rest) < 2:
+            value = rest[0] if rest else None
+        case _:
+            raise ValueError("[frame, name] or [frame, name, value]")
+    action = Action(name, tuple(value) if isinstance(value, list) else value)
+    if not is_taped(action):
+        raise ValueError("an action of this version; record the tape again")
+    return frame, action

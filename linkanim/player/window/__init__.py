@@ -1,0 +1,1 @@
+"""The window itself: the loop, the display, what is shown when."""

@@ -1,0 +1,179 @@
+"""The easel: the painter that fits the scene, size and look of the moment, and what it painted last."""
+
+from __future__ import annotations
+
+import pygame
+
+from linkanim.picture.canvas import Canvas
+from linkanim.picture.painter import Painter
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.shelf import Grid, ShelfPainter, by_chapter, grid
+from linkanim.player.state.browsing import Browsing
+from linkanim.player.state.state import State
+from linkanim.player.window import display
+from linkanim.player.window.approach import Approach
+from linkanim.player.window.fade import Fade
+from linkanim.scenes.editing.handles import handles
+from linkanim.scenes.scene import Scene
+
+
+class Easel:
+    """Paints states into the window; a picture that is there already is not painted again.
+
+    For the mouse it knows where things are in the picture it painted last.
+    """
+
+    def __init__(self, state: State) -> None:
+        self._canvas: Canvas | None = None
+        self._passing: Canvas | None = None
+        self._approach: Approach | None = None
+        self._shown: object = None
+        self._state = state
+        self._titled: str | None = None
+        self._shelf = ShelfPainter()
+        self._fade = Fade()
+
+    def show(self, state: State, over: Overlay) -> None:
+        """Paint the state into the window and flip, where it differs from what is there."""
+        surface = display.surface()
+        self._state = state
+        self._name(state.scene.title)
+        canvas, veiled = self._shown_on(state, surface.get_size()), self._fade.strength(state, surface)
+        picture = (canvas, state.phase, state.clock.speed, over, veiled)
+        if picture != self._shown:
+            self._paint(surface, canvas, state, over)
+            self._fade.draw(surface, veiled, over.shutter)
+            pygame.display.flip()
+            self._shown = picture
+
+    def _paint(self, surface: pygame.Surface, canvas: Canvas, state: State, over: Overlay) -> None:
+        if over.shelf:
+            self._shelf.draw(surface, over.shelf)
+        else:
+            self._shelf.close()
+            canvas.paint(surface, state.phase, state.clock.speed, over)
+
+    def _name(self, title: str) -> None:
+        """Let the window bear the scene's title; the system is told only what is new to it."""
+        if title != self._titled:
+            display.name(title)
+            self._titled = title
+
+    def uncovered(self) -> None:
+        """Take note that the window has to be painted anew."""
+        self._shown = None
+
+    def picture(self, state: State, over: Overlay) -> pygame.Surface:
+        """Return the state painted on a surface of its own, as large as the window."""
+        surface = display.surface().copy()
+        self._paint(surface, self._fitting(state, surface.get_size()), state, over)
+        return surface
+
+    def _fitting(self, state: State, size: tuple[int, int]) -> Canvas:
+        """Return the canvas that fits the state; a view other than the last one's, it is approached."""
+        before, listed = self._canvas, _is_listed(state)
+        if before and before.fits(state.shown, size, state.look, listed=listed):
+            return before
+        self._canvas = Canvas(state.shown, size, state.look, before, both=True, listed=listed)
+        if before and _has_moved(before.painter, self._canvas.painter):
+            self._approach = Approach((self._passing or before).painter.view, state.frame)
+        elif before and not _is_framed_alike(before.painter, self._canvas.painter):
+            self._approach = None
+        return self._canvas
+
+    def _shown_on(self, state: State, size: tuple[int, int]) -> Canvas:
+        """Return the canvas for this frame: one on the way to the fitting one while that is approached."""
+        canvas, self._passing = self._fitting(state, size), None
+        if self._approach is None or self._approach.over(state.frame):
+            self._approach = None
+            return canvas
+        goal = canvas.painter
+        fitted = goal.drawing.scenery.fitted
+        look = self._approach.look(state.look, fitted, goal.view, size, state.frame)
+        listed = _is_listed(state)
+        self._passing = Canvas(state.shown, size, look, canvas, both=True, listed=listed, brief=True)
+        return self._passing
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that is shown."""
+        return self._state.shown
+
+    @property
+    def phase(self) -> float:
+        """The phase that is shown."""
+        return self._state.phase
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """The window's size."""
+        return pygame.display.get_window_size()
+
+    def crank_pin(self) -> tuple[float, float]:
+        """Return where the input crank's pin is, in pixels."""
+        return self._painter.crank_pin_px(self.scene.pose(self.phase, 0))
+
+    def handle_at(self, x: float, y: float, reach: float) -> str | None:
+        """Return the joint under a pixel that can be dragged while the list is open; None elsewhere."""
+        if not self._state.editing.open:
+            return None
+        places = self.scene.pose(self.phase, 0).position.items()
+        away = {name: max(map(abs, self._from(place, x, y))) for name, place in places}
+        near = sorted((far, name) for name, far in away.items() if far <= reach)
+        return next((name for _, name in near if handles(self.scene, name)), None)
+
+    def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
+        px, py = self.pixel(*place)
+        return px - x, py - y
+
+    def world(self, x: float, y: float) -> tuple[float, float]:
+        """Return the point of the scene under a pixel."""
+        return self._painter.view.to_world(x, y)
+
+    def pixel(self, x: float, y: float) -> tuple[float, float]:
+        """Return where a point of the scene is in the window."""
+        return self._painter.view.to_pixel(x, y)
+
+    def shelf_beside(self, browsing: Browsing, rows: int) -> int:
+        """Return the place on a shelf so many rows below the chosen one; it need not be painted yet."""
+        return self._grid(browsing).beside(browsing.chosen, rows)
+
+    def shelf_at(self, x: float, y: float) -> int | None:
+        """Return the place on the open shelf under a pixel; None between its pictures."""
+        assert self._state.browsing is not None
+        return self._grid(self._state.browsing).at(x, y)
+
+    @property
+    def is_shelf_open(self) -> bool:
+        """Whether the shelf lies over the picture."""
+        return self._state.browsing is not None
+
+    def _grid(self, browsing: Browsing) -> Grid:
+        return grid(self.size, [count for _, count in by_chapter(browsing.entries)])
+
+    def charted(self, x: float, y: float) -> float | None:
+        """Return the phase under a pixel of the chart; None beside it."""
+        return self._painter.chart_phase_at(x, y)
+
+    @property
+    def _painter(self) -> Painter:
+        canvas = self._passing or self._canvas
+        assert canvas is not None
+        return canvas.painter
+
+
+def _is_listed(state: State) -> bool:
+    """Return whether a list is open, beside which the scene has less room."""
+    return state.editing.open or state.listing is not None
+
+
+def _has_moved(one: Painter, other: Painter) -> bool:
+    """Return whether one scene in one window is fitted into another place of it."""
+    fitted = one.drawing.scenery.fitted, other.drawing.scenery.fitted
+    return one.scene is other.scene and one.size == other.size and fitted[0] != fitted[1]
+
+
+def _is_framed_alike(one: Painter, other: Painter) -> bool:
+    """Return whether one scene in one window is zoomed and panned alike."""
+    looks = ((painter.look.zoom, painter.look.pan, painter.size) for painter in (one, other))
+    return one.scene is other.scene and len(set(looks)) == 1

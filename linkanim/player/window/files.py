@@ -1,0 +1,49 @@
+"""Files that the window writes: under the current folder, under names that were free."""
+
+from __future__ import annotations
+
+from itertools import count
+from pathlib import Path
+
+import pygame
+
+from linkanim import whole
+from linkanim.picture.raster.offscreen import png_bytes
+from linkanim.player.state.state import State
+
+FOLDER = Path("recordings")
+
+
+def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
+    """Return `name-1`, `name-2`, …: the first under which no file with any of the suffixes is there."""
+    stems = (f"{name}-{number}" for number in count(1))
+    return next(stem for stem in stems if not any((folder / (stem + suffix)).exists() for suffix in suffixes))
+
+
+def screenshot(surface: pygame.Surface, name: str) -> Path:
+    """Write the picture as a PNG under a free name; errors as `_added`."""
+    return _added(png_bytes(surface), name, ".png")
+
+
+def vector(state: State, size: tuple[int, int]) -> Path:
+    """Write the picture as an SVG under a free name, without what lies over it; errors as `_added`."""
+    from linkanim.paper.figure import Figured
+
+    scene = state.scene
+    shown = Figured(scene, size, state.look, state.phase, speed=state.clock.speed, both=True)
+    return _added(shown.document().encode(), scene.name, ".svg")
+
+
+def report(text: str, name: str) -> Path:
+    """Write a fault's report under a free name; errors as `_added`."""
+    return _added(f"{text}\n".encode(), f"{name}-fault", ".json")
+
+
+def _added(data: bytes, name: str, suffix: str) -> Path:
+    """Write a file under a free name in `FOLDER`, made if it is not there; return its path.
+
+    `BadInput` where the folder's name is a file's, `WorkFailed` where the disk refuses.
+    """
+    whole.made_folder(FOLDER)
+    first, *others = (FOLDER / f"{name}-{number}{suffix}" for number in range(1, 10_000))
+    return whole.add(data, first, others)

@@ -1,0 +1,87 @@
+"""The window: events to actions, `advance`, paint, flip; and what is asked of the outside.
+
+`frames` owns the time, and says how many frames have gone by; `Window.tick` does them. A frame that
+comes late is skipped, never slowed down: the frame's number follows the clock.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from linkanim.picture.look import Look
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.state import begin
+from linkanim.player.tape.tape import Tape
+from linkanim.player.window import display
+from linkanim.player.window.scene_file import SceneFile
+from linkanim.player.window.window import Window
+from linkanim.scenes.files import path_of
+from linkanim.scenes.scene import Scene
+
+_STALLED = FRAMES_PER_SECOND
+
+
+def run(
+    scene: Scene | str | os.PathLike[str] | None = None,
+    *,
+    look: Look | None = None,
+    attract: bool = False,
+    size: tuple[int, int] | None = None,
+) -> int:
+    """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
+
+    Without a scene it opens on the catalogue's first. With `attract` it walks through the catalogue
+    when left alone for a minute. NoDisplay where there is no screen, or none any more; BadInput as loading
+    raises it. Whatever ends the window, a recording that runs is finished.
+    """
+    tape = _tape(scene)
+    state = tape.start if tape else begin(scene, look=look)
+    with display.opened(size) as connection:
+        window = Window(replace(state, attract=attract), tape, None if tape else _file(scene))
+        try:
+            for count in frames(time.monotonic, time.sleep):
+                if not window.tick(count):
+                    break
+                connection.check()
+        finally:
+            window.close()
+    return 0
+
+
+def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterator[int]:
+    """Yield how many frames are due since the last time, at 60 a second; wait where none is.
+
+    After a stall of more than a second (a window being moved, a laptop that slept) the time in
+    between is left out, and so is what a clock is set back by.
+    """
+    start, shown = now() - 1 / FRAMES_PER_SECOND, 1
+    yield 1
+    while True:
+        early = start + (shown + 1) / FRAMES_PER_SECOND - now()
+        if early > 2 / FRAMES_PER_SECOND:
+            start, early = start - early + 1 / FRAMES_PER_SECOND, 1 / FRAMES_PER_SECOND
+        wait(max(0.0, early))
+        due = max(int((now() - start) * FRAMES_PER_SECOND), shown + 1)
+        if due - shown > _STALLED:
+            start += (due - shown - 1) / FRAMES_PER_SECOND
+            due = shown + 1
+        yield due - shown
+        shown = due
+
+
+def _file(scene: object) -> SceneFile | None:
+    path = path_of(scene) if isinstance(scene, str | os.PathLike) else None
+    return SceneFile(path) if path else None
+
+
+def _tape(scene: object) -> Tape | None:
+    path = str(scene) if isinstance(scene, str | os.PathLike) else ""
+    if not path.lower().endswith(".json"):
+        return None
+    from linkanim.player.tape import tape_file
+
+    return tape_file.read(Path(path))

@@ -1,0 +1,138 @@
+"""What lies over the picture: the state told in the words of the overlay."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from linkanim.digits import significant, typeset
+from linkanim.picture.diagrams.quantities import quantity
+from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel, Quantities, Shelf
+from linkanim.picture.text.text import subscripted
+from linkanim.player.input.keys import help_groups
+from linkanim.player.state.browsing import Browsing, Listing, listed
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.state import FLASH_FRAMES, SHUTTER_FRAMES, State
+from linkanim.scenes.editing.edit import Dimension, dimensions
+from linkanim.scenes.editing.handles import span
+
+_HINT = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
+_LIST_HINT = "↑ ↓ choose   letters sift   Enter charts   Esc closes"
+_STRIP = "Space pause · Tab next · drag the pin · H keys"
+_STRIP_FRAMES = 6 * FRAMES_PER_SECOND
+_IDLE = 45 * FRAMES_PER_SECOND
+_NAME = re.compile(r"\b[^\W\d_]\w*")
+_STEPS = 12
+"""So many shades of a flash: each is drawn once."""
+
+
+def overlay(state: State, hover: str | None = None) -> Overlay:
+    """Return all that the window shows beside the scene; `hover` is the joint under the mouse."""
+    items = _items(state)
+    return replace(
+        _kept(state, items),
+        toast=state.toast.text if state.toast else None,
+        chip=_chip(state),
+        strip=_strip(state),
+        measured=_measured(state, items),
+        glow=state.held.joint if state.held else hover,
+        grip=state.look.chart is not None,
+        shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
+    )
+
+
+def kept(state: State) -> Overlay:
+    """Return what of it belongs on a screenshot: all that does not come and go."""
+    return _kept(state, _items(state))
+
+
+def _items(state: State) -> tuple[Dimension, ...]:
+    """Return the dimensions of the open list."""
+    return dimensions(state.scene) if state.editing.open else ()
+
+
+def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
+    return Overlay(
+        paused=state.clock.paused,
+        noted=True,
+        recording=_recording(state),
+        help=help_groups(state.mode) if state.help else None,
+        panel=_panel(state, items) if state.editing.open else None,
+        quantities=_quantities(state, state.listing) if state.listing else None,
+        shelf=_shelf(state, state.browsing) if state.browsing else None,
+    )
+
+
+def _quantities(state: State, listing: Listing) -> Quantities:
+    scene = state.scene
+    found = [quantity(scene, token) for token in listed(scene, listing.sieve)]
+    rows = tuple((one.words, f"{one.symbol} ({one.shown_unit(scene.length_unit)})") for one in found)
+    return Quantities(rows, listing.chosen, listing.sieve, _LIST_HINT)
+
+
+def _shelf(state: State, browsing: Browsing) -> Shelf:
+    frame, still = state.frame - browsing.since, state.clock.paused
+    return Shelf(browsing.entries, browsing.chosen, frame, state.look.theme, still=still)
+
+
+def _chip(state: State) -> Fading | None:
+    return Fading(state.chip.text, min(state.chip.until - state.frame, 8)) if state.chip else None
+
+
+def _strip(state: State) -> Fading | None:
+    """Return the strip: in the first seconds until a key is pressed, and now and then when none is."""
+    busy = state.clock.paused or state.mode != "play" or state.help or state.recording or state.attract
+    idle = state.frame - state.touched
+    if busy or state.toast or state.chip or 0 < state.touched > state.frame - _IDLE:
+        return None
+    since = idle % _IDLE
+    eighths = min(since, _STRIP_FRAMES - since, 32) // 4
+    return Fading(_STRIP, eighths) if eighths > 0 else None
+
+
+def _measured(state: State, items: tuple[Dimension, ...]) -> tuple[str, str, str] | None:
+    """Return the bar that the chosen dimension measures, and its length in words."""
+    if not items:
+        return None
+    item = items[state.editing.chosen % len(items)]
+    ends = span(state.scene, item.key)
+    return ends and (*ends, _valued(item))
+
+
+def _recording(state: State) -> str | None:
+    if state.recording is None:
+        return None
+    seconds = (state.frame - state.recording.since) // FRAMES_PER_SECOND
+    return f"REC {state.recording.format.upper()} {seconds // 60}:{seconds % 60:02d}"
+
+
+def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
+    """Return the list of dimensions, the values begun in their places."""
+    editing, info = state.editing, state.scene.info
+    at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
+    rows = (_row(item, begun.get(item.key), chosen=n == at) for n, item in enumerate(items))
+    typed = f"{editing.typed}_" if editing.typed else None
+    return Panel(
+        tuple(replace(row, value=typed, draft=True) if typed and row.chosen else row for row in rows),
+        facts=tuple(fact for fact in (info.class_name, info.grashof) if fact),
+        flash=_flash(state),
+        error=editing.refusal,
+        hint=_HINT,
+    )
+
+
+def _row(item: Dimension, draft: str | None, *, chosen: bool) -> EditRow:
+    label = _NAME.sub(lambda name: subscripted(name[0]), item.label)
+    return EditRow(label, draft or _valued(item), chosen=chosen, draft=draft is not None)
+
+
+def _valued(item: Dimension) -> str:
+    return typeset(f"{significant(item.value, 10)} {item.unit}".strip())
+
+
+def _flash(state: State) -> float:
+    """Return how bright the facts are, from 1 as they change down to 0, in a few steps."""
+    if state.turned is None:
+        return 0.0
+    part = (state.frame - state.turned) / FLASH_FRAMES
+    return round(_STEPS * (1.0 - part) ** 2) / _STEPS

@@ -1,0 +1,237 @@
+"""The window itself: it holds what outlasts a frame, and lets everything pure do the work."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import pygame
+from pygame.event import Event
+
+from linkanim.errors import BadInput, LinkanimError
+from linkanim.player.input.keyboard import Keyboard
+from linkanim.player.input.keys import bind_of
+from linkanim.player.input.mouse import Mouse, latest
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import aged, carried, settled
+from linkanim.player.state.browsing import RESOLVED, listed
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.fault import recovered, report
+from linkanim.player.state.handlers.shelf import renewed
+from linkanim.player.state.state import State, Take
+from linkanim.player.tape.tape import Reel, Tape, Taping
+from linkanim.player.window import display, files
+from linkanim.player.window.easel import Easel
+from linkanim.player.window.scene_file import SceneFile
+from linkanim.player.window.show import kept, overlay
+from linkanim.scenes.editing.write import save
+
+if TYPE_CHECKING:
+    from linkanim.player.window.rendering import Queue
+
+_MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
+_UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
+_TOLD_EVERY = 15
+_BESIDE_A_TAPE = frozenset({"screenshot", "svg", "fullscreen", "quit", "back"})
+
+
+class Window:
+    """One open window: `state` is what it shows, and `easel` how.
+
+    A tape plays in it until a key is pressed. A scene file that it was opened on is watched.
+    """
+
+    def __init__(self, state: State, tape: Tape | None = None, file: SceneFile | None = None) -> None:
+        self.state = state
+        self._file = file
+        self._reel = Reel(tape) if tape else None
+        self._taping: Taping | None = None
+        self._renderings: Queue | None = None
+        self.easel = Easel(state)
+        self._keyboard, self._mouse = Keyboard(), Mouse()
+        self._told: list[str] = []
+        self._windowed = display.frame()
+        self._open = True
+        self._now = state.frame
+        self._good: State | None = None
+        self._reported: set[str] = set()
+
+    def tick(self, frames: int = 1) -> bool:
+        """Go so many frames on, paint and flip; False when the window is to be closed.
+
+        What happened since the last tick comes at its first frame.
+        """
+        events, self._now = pygame.event.get(), self.state.frame + frames
+        for frame in range(frames):
+            self._advance(events if frame == 0 else [])
+        self._show()
+        return self._open
+
+    def close(self) -> None:
+        """Finish the recording that runs, and let go of what the window holds; those under way go on."""
+        try:
+            if self.state.recording:
+                self._render(self.state.recording.format)
+        finally:
+            if self._renderings:
+                self._renderings.close()
+                self._renderings = None
+
+    def _advance(self, events: list[Event]) -> None:
+        """Go one frame on; each key is asked what it means once those before it are done."""
+        self.state, done = aged(self._rewound()), []
+        for action in self._asked(events):
+            self.state = carried(self.state, action)
+            done.append(action)
+        self.state = settled(self.state)
+        if self._taping:
+            self._taping.note(self.state.frame, tuple(done))
+        for effect in self.state.effects:
+            self._carry_out(effect)
+
+    def _asked(self, events: list[Event]) -> Iterator[Action]:
+        """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
+        yield from self._reeled()
+        for event in latest(events):
+            for action in self._meant(event):
+                yield from self._off_the_reel(action)
+                yield from self._resolved(action)
+        for action in self._keyboard.repeated(self.state.frame):
+            yield from self._resolved(action)
+        yield from self._news()
+
+    def _resolved(self, action: Action) -> Iterator[Action]:
+        """Yield an action; what depends on an open list or shelf, as what it means there."""
+        browsing, listing = self.state.browsing, self.state.listing
+        if action.name == "row" and browsing and isinstance(action.value, int):
+            yield Action("point", self.easel.shelf_beside(browsing, action.value))
+        elif action.name == "pick" and browsing:
+            yield Action("put", browsing.chosen)
+        elif action.name == "pick" and listing:
+            tokens = listed(self.state.scene, listing.sieve)
+            yield from (Action("plot", token) for token in tokens[listing.chosen : listing.chosen + 1])
+        elif action.name not in RESOLVED:
+            yield action
+
+    def _rewound(self) -> State:
+        """Return the state to go on from: a tape that has ended goes on from its start."""
+        return self._reel.rewound(self.state) if self._reel else self.state
+
+    def _reeled(self) -> Iterator[Action]:
+        """Yield what the tape does at this frame; what it would do outside is left out."""
+        if self._reel:
+            yield from self._reel.actions(self.state.frame)
+            self.state = replace(self.state, effects=())
+
+    def _off_the_reel(self, action: Action) -> Iterator[Action]:
+        """Leave the tape where an action changes something."""
+        if self._reel and action.name not in _BESIDE_A_TAPE:
+            self._reel = None
+            yield Action("note", "the tape is left: the keys are yours")
+
+    def _show(self) -> None:
+        """Paint and flip; a scene that cannot be painted gives way to the last that could."""
+        hover = self._mouse.hovered(self.easel) if self._good else None
+        try:
+            self.easel.show(self.state, overlay(self.state, hover))
+        except Exception as error:
+            if self._good is None:
+                raise
+            self._carry_out(Action("report", report(self.state.shown, error, phase=self.state.phase)))
+            self._taping = None
+            self.state = recovered(self.state, self._good, error)
+            self.easel.show(self.state, overlay(self.state))
+        self._good = self.state
+
+    def _news(self) -> tuple[Action, ...]:
+        """Return, as notes, what was done outside, and how far recordings are."""
+        told, self._told = self._told, []
+        if self._file and self.state.frame % FRAMES_PER_SECOND == 0:
+            told += self._file.news()
+        if self._renderings and self.state.frame % _TOLD_EVERY == 0:
+            told += self._renderings.news()
+        return tuple(Action("note", text) for text in told)
+
+    def _carry_out(self, effect: Action) -> None:
+        """Do what the state asks of the outside; what cannot be done is told, and the window runs on."""
+        try:
+            self._do(effect)
+        except LinkanimError as error:
+            self._told.append(str(error))
+
+    def _do(self, effect: Action) -> None:
+        match effect.name:
+            case "record":
+                self._taping = Taping(self.state, pygame.display.get_window_size())
+            case "render":
+                self._stop("mp4" if effect.value == "mp4" else "gif")
+            case "screenshot":
+                picture = self.easel.picture(self.state, kept(self.state))
+                self._told.append(str(files.screenshot(picture, self.state.scene.name)))
+            case "svg":
+                self._told.append(str(files.vector(self.state, pygame.display.get_window_size())))
+            case "report":
+                self._report(str(effect.value))
+            case "save":
+                self._told.append(f"{save(self.state.scene, Path())} is written")
+            case "reload":
+                self._reload()
+            case "fullscreen":
+                self._windowed = display.fill(self._windowed)
+            case "quit":
+                self._open = False
+
+    def _reload(self) -> None:
+        """Put on what the scene file holds now; what is wrong with it is told, and the linkage runs on."""
+        if self._file is None:
+            raise BadInput("there is no scene file to load again; `linkanim FILE.toml` opens one")
+        if self.state.recording:
+            raise BadInput("a recording keeps to the scenes it began with; stop it, then F5 loads the file")
+        scene = self._file.load()
+        try:
+            self.state = renewed(self.state, scene)
+        except LinkanimError:
+            raise
+        except Exception as error:
+            self._report(report(scene, error))
+
+    def _report(self, text: str) -> None:
+        """Write the report of a fault, each but once: a held key meets the same one again and again."""
+        if text not in self._reported:
+            self._reported.add(text)
+            written = files.report(text, self.state.scene.name)
+            self._told.append(f"{written} holds what a report of the fault needs")
+
+    def _stop(self, form: Literal["gif", "mp4"]) -> None:
+        """Keep what was recorded and render it; where it cannot be kept, the recording runs on."""
+        try:
+            self._render(form)
+        except LinkanimError as error:
+            assert self._taping
+            self.state = replace(self.state, recording=Take(form, self._taping.since))
+            self._told.append(f"{error}; the recording runs on")
+
+    def _render(self, form: str) -> None:
+        if self._taping:
+            from linkanim.player.window.rendering import Queue
+
+            self._renderings = self._renderings or Queue()
+            self._renderings.add(self._taping.tape(self.state.frame), form)
+            self._taping = None
+
+    def _meant(self, event: Event) -> tuple[Action, ...]:
+        """Return what an event asks for in the state as it is."""
+        if event.type == pygame.QUIT:
+            return (Action("quit"),)
+        if event.type in _UNCOVERED:
+            self.easel.uncovered()
+        if event.type in _MOUSE:
+            return self._mouse.actions(event, self.easel)
+        if event.type != pygame.KEYDOWN:
+            return ()
+        press = self._keyboard.press(event)
+        bind = bind_of(press, self.state.mode, typing=self.state.typing) if press else None
+        self._keyboard.hold(event, bind, self._now)
+        return (bind.action,) if bind else ()

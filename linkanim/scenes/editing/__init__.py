@@ -1,0 +1,1 @@
+"""From a scene to another one and back to a file: dimensions, handles, labels, writing."""
