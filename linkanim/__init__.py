@@ -3,6 +3,16 @@
 `load` gives a scene by name or path, `names` the catalogue, `record` turns a scene into a GIF, MP4
 or numbered PNG. Everything is imported when first asked for: `import linkanim` alone brings in
 neither a window nor an encoder.
+
+`mechanics`, from the ground up; each room imports from those before it only:
+
+    formulas/  arithmetic that knows no linkage: expressions, their programs, exact sums, half angles
+    linkage/   what a linkage is, as data: joints, rigid bodies, lines of travel, the drive
+    loops/     a dyad on a crank pin and something fixed: its signed root, its triangle
+    drive/     the input: how far it goes, how its phase moves it, when everything is back
+    closing/   how each kind of joint closes, a walk over all of them, limits down the chain
+    motion/    a linkage made ready, and what solving it gives: arrays, or one pose of floats
+    facts/     what a linkage is called and can do: class, transmission angle, forces, all quantities
 """
 
 import os

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from functools import cache
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -106,6 +107,40 @@ def test_a_file_imports_only_from_its_own_room_and_those_above() -> None:
         rooms = {name: [*name.split("."), "linkanim"][1] for name in inner}
         lower += [(path, name) for name, room in rooms.items() if RANK.get(room, RANK["linkanim"]) > own]
     assert lower == []
+
+
+# From the ground up, as the map in the package's docstring has them.
+INNER_ROOMS = {
+    "mechanics": ("formulas", "linkage", "loops", "drive", "closing", "motion", "facts"),
+}
+
+
+@pytest.mark.parametrize("room", INNER_ROOMS)
+def test_rooms_within_a_room_import_downwards(room: str) -> None:
+    order, above = INNER_ROOMS[room], []
+    for path in SOURCES:
+        first, second, *_ = [*path.relative_to(PACKAGE).parts, "", ""]
+        if first == room and second in order:
+            inner = {name.split(".")[2] for name in imported(path) if name.startswith(f"linkanim.{room}.")}
+            above += [(path, one) for one in inner if order.index(one) > order.index(second)]
+    assert above == []
+
+
+def test_no_modules_import_each_other_in_a_circle() -> None:
+    modules = {".".join([*module_of(path), path.stem]).removesuffix(".__init__"): path for path in SOURCES}
+    graph = {}
+    for module, path in modules.items():
+        homes = {name if name in modules else name.rpartition(".")[0] for name in set(imported(path)) - BARE}
+        graph[module] = homes & set(modules) - {module}
+    TopologicalSorter(graph).prepare()  # CycleError names the modules
+
+
+@pytest.mark.parametrize("room", INNER_ROOMS)
+def test_the_map_names_every_room_in_order(room: str) -> None:
+    folders = {path.name for path in (PACKAGE / room).iterdir() if (path / "__init__.py").is_file()}
+    assert folders == set(INNER_ROOMS[room])
+    lines = [line.split()[0].removesuffix("/") for line in str(linkanim.__doc__).splitlines() if line.strip()]
+    assert [word for word in lines if word in folders] == list(INNER_ROOMS[room])
 
 
 def test_a_third_party_stays_in_its_rooms() -> None:

@@ -10,8 +10,11 @@ from typing import Any
 import numpy as np
 
 from linkanim.bench.chain import TURN, Floats
-from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage.dyads import RRP, RRR
+from linkanim.mechanics.linkage.joint import Line
 from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.pins import Crank, Pin, Polar
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 

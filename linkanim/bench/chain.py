@@ -11,8 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Pin, Rigid
+from linkanim.mechanics.linkage.dyads import RRP, RRR
 from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.pins import Crank, Pin
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes.scene import Scene
 
 Floats = NDArray[np.float64]

@@ -8,10 +8,10 @@ from typing import Any
 
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
-from linkanim.mechanics.closing.kinds import Pin
 from linkanim.mechanics.facts.register import recorded
 from linkanim.mechanics.facts.symbols import plain_unit
 from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.pins import Pin
 from linkanim.mechanics.motion.measures import (
     DAMPER,
     POINT,

@@ -8,8 +8,8 @@ from math import tau
 
 import numpy as np
 
-from linkanim.mechanics.closing.kinds import Brace
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.linkage.rigid_bodies import Brace
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.picture.raster.raster import Loop
 from linkanim.picture.view import Box, View

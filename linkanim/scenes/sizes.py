@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import hypot
 
-from linkanim.mechanics.closing.kinds import Rigid
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes.reading.check import Table
 from linkanim.scenes.reading.shorthand import SHORTHANDS
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from linkanim.mechanics.closing.kinds import RPR, RRP, RRR, Crank, Line, Pin, Polar, Rigid
-from linkanim.mechanics.linkage.joint import Joint, Point
+from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
+from linkanim.mechanics.linkage.joint import Joint, Line, Point
 from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage
+from linkanim.mechanics.linkage.pins import Crank, Pin, Polar
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 
 BARS = (Body("crank", ("O2", "A")), Body("coupler", ("A", "B")), Body("rocker", ("O4", "B")))
 

@@ -19,9 +19,11 @@ from chain_reference import places
 from mpmath import mp, mpf
 from numpy.typing import NDArray
 
-from linkanim.mechanics.closing.kinds import RRR, Crank, Gear, Pin, Rigid
 from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 
 Random = random.Random

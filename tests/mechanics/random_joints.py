@@ -25,11 +25,13 @@ from reference import DIGITS, NUDGE, derivatives, sign_of
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.closing.kinds import RPP, RPR, RRP, RRR, Crank, DrivenSlider, Gear, Line, Pin, Rigid
 from linkanim.mechanics.drive.path import Swing, Turn
 from linkanim.mechanics.drive.stroke import CylinderStroke
-from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
+from linkanim.mechanics.linkage.joint import Joint, Line
 from linkanim.mechanics.linkage.linkage import Cylinder, Drive, Linkage, Travel
+from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Gear, Pin
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 
 Random = random.Random

@@ -10,9 +10,11 @@ import pytest
 from build import four_bar, six_bar
 
 from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Line, Pin
 from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.dyads import RRP, RRR
+from linkanim.mechanics.linkage.joint import Line
 from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.scenes import load
 from linkanim.scenes.editing.edit import with_dimensions

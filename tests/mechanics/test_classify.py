@@ -11,9 +11,11 @@ import pytest
 from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.closing.kinds import RPR, RRR, Crank, Gear, Pin, Polar, Rigid
 from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.linkage.dyads import RPR, RRR
 from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.scenes import load
 from linkanim.scenes.editing.toml import parse

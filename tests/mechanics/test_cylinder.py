@@ -15,9 +15,11 @@ from mpmath import mp, mpf
 from reference import DIGITS, derivatives
 
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Gear, Line, Pin, Rigid
-from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.dyads import RRP, RRR
+from linkanim.mechanics.linkage.joint import Joint, Line
 from linkanim.mechanics.linkage.linkage import Body, Cylinder, Drive, Linkage
+from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.editing.write import text

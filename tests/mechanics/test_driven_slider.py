@@ -13,11 +13,13 @@ from mpmath import mp, mpf
 from reference import DIGITS, NUDGE, derivatives
 
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.mechanics.closing.kinds import RPR, RRP, RRR, DrivenSlider, Line, Pin, Rigid
 from linkanim.mechanics.facts.effort import input_effort
 from linkanim.mechanics.facts.register import register
-from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
+from linkanim.mechanics.linkage.joint import Joint, Line
 from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage, Travel
+from linkanim.mechanics.linkage.pins import DrivenSlider, Pin
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.scenes import load
 from linkanim.scenes.editing.edit import dimensions, with_dimensions

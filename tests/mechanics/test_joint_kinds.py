@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from itertools import islice
 from typing import Any
 
@@ -19,6 +20,9 @@ from random_joints import (
     worst,
 )
 from reference import DIGITS
+
+from linkanim.mechanics.closing.kinds import CLOSERS
+from linkanim.mechanics.linkage.joint import Joint
 
 EPS = 2.0**-52
 POSITION, RATE = 1e-12, 1e-10
@@ -61,3 +65,13 @@ def test_one_pose_is_the_same_as_one_of_many(make: Make) -> None:
     pose = solved.pose(4.0, 2.0, 0.0, 2)
     for kind in ("position", "velocity", "acceleration"):
         assert getattr(pose, kind)["J"] == tuple(getattr(motion, kind)["J"][1])
+
+
+def test_every_kind_of_joint_is_known_to_close() -> None:
+    kinds, found = Joint.__subclasses__(), set()
+    while kinds:
+        kind = kinds.pop()
+        kinds += kind.__subclasses__()
+        # By name: a class with slots is a second one beside that from which it was made.
+        found |= set() if inspect.isabstract(kind) else {kind.__name__}
+    assert found == {kind.__name__ for kind in CLOSERS}

@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 from build import four_bar, with_joints
 
-from linkanim.mechanics.closing.kinds import RPR, RRP, Crank, Gear, Line, Pin, Rigid
+from linkanim.mechanics.linkage.dyads import RPR, RRP
+from linkanim.mechanics.linkage.joint import Line
 from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.derived import transmission_angle
 from linkanim.mechanics.motion.mechanism import mechanism
 

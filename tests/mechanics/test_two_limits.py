@@ -11,9 +11,10 @@ from build import slider_crank, with_joints
 from chain_reference import places
 from mpmath import mp, mpf
 
-from linkanim.mechanics.closing.kinds import RRR, Pin
 from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.pins import Pin
 from linkanim.mechanics.motion.mechanism import mechanism
 
 SMALL = mpf(10) ** -10

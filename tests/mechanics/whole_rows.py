@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.closing.kinds import Pin
+from linkanim.mechanics.linkage.pins import Pin
 from linkanim.mechanics.motion.mechanism import Mechanism
 
 

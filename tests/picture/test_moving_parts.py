@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from pictures import contrast, pixels
 
-from linkanim.mechanics.closing.kinds import Crank, Gear, Pin
 from linkanim.mechanics.linkage.linkage import Damper, Drive, Linkage
+from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
 from linkanim.picture.arrangement.sweep import sweep_of
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.layout import gauge

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError, WorkFailed
 from linkanim.intake import control_in
-from linkanim.mechanics.closing.kinds import Crank
+from linkanim.mechanics.linkage.pins import Crank
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions, with_dimensions
 from linkanim.scenes.editing.toml import parse

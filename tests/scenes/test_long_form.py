@@ -11,8 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.mechanics.closing.kinds import RPP, RPR, RRP, RRR, Crank, Gear, Line, Pin, Polar, Rigid
+from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
+from linkanim.mechanics.linkage.joint import Line
 from linkanim.mechanics.linkage.linkage import Body, Damper, Drive, Spring
+from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes import load
 from linkanim.scenes.editing.edit import dimensions, with_dimensions
 from linkanim.scenes.editing.handles import handles, span

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.mechanics.linkage.frames import holding
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.picture.figure import figure
 from linkanim.scenes import load
 from linkanim.scenes.editing.edit import dimensions, with_dimensions

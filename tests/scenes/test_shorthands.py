@@ -7,9 +7,11 @@ import tomllib
 
 import pytest
 
-from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Line, Pin, Polar, Rigid
-from linkanim.mechanics.linkage.joint import Joint, Point
+from linkanim.mechanics.linkage.dyads import RRP, RRR
+from linkanim.mechanics.linkage.joint import Joint, Line, Point
 from linkanim.mechanics.linkage.linkage import Body, Drive
+from linkanim.mechanics.linkage.pins import Crank, Pin, Polar
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 

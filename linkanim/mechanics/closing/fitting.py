@@ -15,6 +15,7 @@ from typing import NamedTuple
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import ChainRoot, Closing, End, Fit, Near, Zero
+from linkanim.mechanics.closing.kinematics import walk_at, walked
 from linkanim.mechanics.drive.path import Swing
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
@@ -114,7 +115,7 @@ def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
 
 
 def _closing(assembly: Assembly, name: str) -> Closing:
-    return assembly.walk_at(Graph(exact=True).input("x"), Slope(1.0)).closings[name]
+    return walk_at(assembly, Graph(exact=True).input("x"), Slope(1.0)).closings[name]
 
 
 def _by_phase(assembly: Assembly, name: str) -> tuple[Value, ...]:
@@ -263,7 +264,7 @@ def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[D
     graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
     state = swing_by_angle((v - u, u, v), Slope(0.0), path.middle, path.amplitude)
-    run = decimals(("u", "v"), _outputs(assembly.walk(state).closings[name])[:1])
+    run = decimals(("u", "v"), _outputs(walked(assembly, state).closings[name])[:1])
     amplitude = (exactly(path.high) - exactly(path.low)) / 2
 
     def sampled(way: Decimal) -> Sample:

@@ -16,9 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.closing.assembly import Assembly, resigned
+from linkanim.mechanics.closing.assemble import resigned
+from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import ChainRoot, End
 from linkanim.mechanics.closing.fitting import fitted, refined
+from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import ends_of
 from linkanim.mechanics.closing.separation import Separations, separations
 from linkanim.mechanics.closing.touching import through_change_points
@@ -99,7 +101,7 @@ def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
 
 def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
     """Return the greatest that the factors U and W of a dyad come to, in squares of the scene's unit."""
-    closing = assembly.walk_at(Graph().input("x"), Slope(0.0)).closings[name]
+    closing = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings[name]
     with np.errstate(all="ignore"):
         u, w = (float(np.nanmax(values)) for values in batch({"x": True}, [closing.u, closing.w])(phases))
     return u * assembly.unscale**2, w * assembly.unscale**2

@@ -21,6 +21,7 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.closing.fitting import extreme
+from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import around, ends_of
 from linkanim.mechanics.closing.walk import AT_ITS_LIMIT
 from linkanim.mechanics.drive.path import Path
@@ -136,7 +137,7 @@ def separations(assembly: Assembly) -> Separations:
             (), nothing[:, 0], phases, nothing > 0, (), lambda places: nothing[:, : len(places)]
         )
     scale = np.array([*scales.values()])
-    found = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
+    found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
     closings = {name: found[name] for name in scales}
     run = _program(closings)
 
@@ -201,7 +202,7 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, float]:
 
     One that all along is more than it changes between three samples at the most keeps away from them.
     """
-    closings = assembly.walk_at(Graph().input("x"), Slope(0.0)).closings
+    closings = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings
     if not closings:
         return {}
     found = closings.values()

@@ -9,7 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.closing.assembly import JUST_AFTER, Assembly, most_turns
+from linkanim.mechanics.closing.assemble import JUST_AFTER, most_turns
+from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import ChainRoot, Touch
 from linkanim.mechanics.closing.separation import Separations, separations
 from linkanim.mechanics.formulas.planar import Slope

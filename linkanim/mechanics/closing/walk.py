@@ -1,23 +1,22 @@
-"""One walk over a linkage: every joint, body and centre of mass, with first and second derivatives.
+"""One walk over a linkage: what is known of its joints so far, and the roots that close the next one.
 
-Each joint adds itself, closed from the joints before it. What turns as one piece is kept beside its
+Joints come in their order, each closed from those before it. What turns as one piece is kept beside its
 frame: a bar, the arms along which its joints are carried, and how fast it turns.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from linkanim.errors import AssemblyError
+from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.formulas.circular import Half
 from linkanim.mechanics.formulas.expression import sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec, carried
-from linkanim.mechanics.linkage.frames import holding, share_of
 from linkanim.mechanics.linkage.joint import Point
 from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.rigid_bodies import holding, share_of
 from linkanim.mechanics.loops.input_state import InputState
 from linkanim.mechanics.loops.loop import Gearing, Loop
 from linkanim.mechanics.loops.signed import SignedRoot, plain_root
@@ -28,9 +27,6 @@ AT_ITS_LIMIT = (
     "make one length longer or shorter"
 )
 
-if TYPE_CHECKING:
-    from linkanim.mechanics.closing.assembly import Assembly
-
 
 @dataclass(frozen=True, slots=True)
 class Piece:
@@ -38,18 +34,6 @@ class Piece:
 
     turning: Slope = field(default_factory=lambda: Slope(0.0))
     arms: dict[tuple[str, str], Vec] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Kinematics:
-    """What the walk finds; positions in the scene's unit."""
-
-    points: Mapping[str, MovingPoint]
-    centres: Mapping[str, MovingPoint]
-    bodies: Mapping[str, Slope]
-    travels: Mapping[str, Moving]
-    closings: Mapping[str, Closing]
-    """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
 
 
 @dataclass
@@ -83,7 +67,7 @@ class Walk:
     def loop_root(self, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
         """Return the root of a loop on a crank pin, ψ/2, and ψ' with its derivative."""
         pace = self.pace(loop.gearing)
-        root, half = loop.closed(self.state, self.assembly.path, pace)
+        root, half = loop.closed(self.state, self.assembly.path.swinging(self.state), pace)
         return root.times(sign), half, pace
 
     def pin_loop(self, loop: Loop, sign: int) -> tuple[SignedRoot, PinLoop]:
@@ -150,35 +134,12 @@ class Walk:
             return -piece.arms[end, start]
         return self.points[end].position - self.points[start].position
 
+    def turning_of(self, names: tuple[str, ...], owner: str) -> Slope:
+        """Return how the rigid body turns that has all these joints; AssemblyError where none has."""
+        return self.pieces[self._body_of(names, owner)].turning
+
     def _body_of(self, names: tuple[str, ...], owner: str) -> int:
         n = holding(self.linkage.frames, names)
         if n is None:
             raise AssemblyError(f"{owner}: {' and '.join(names)} are not joints of one rigid body")
         return n
-
-    def kinematics(self) -> Kinematics:
-        """Return what was found, with the named bodies and their centres of mass."""
-        bodies = {body.name: body for body in self.linkage.bodies}
-        turning = {name: body for name, body in bodies.items() if body.slider is None}
-        return Kinematics(
-            self.points,
-            {
-                name: self.attached((body.joints[0], body.joints[1]), body.com)
-                for name, body in turning.items()
-                if body.com is not None
-            },
-            {
-                name: self.pieces[self._body_of(body.joints, f"body {name}")].turning
-                for name, body in turning.items()
-            },
-            {name: self.travels[body.slider] for name, body in bodies.items() if body.slider is not None},
-            self.closings,
-        )
-
-
-def walked(assembly: Assembly, state: InputState) -> Kinematics:
-    """Return the motion of everything in the linkage at the state's instant."""
-    walk = Walk(assembly, state)
-    for joint in assembly.linkage.joints:
-        joint.close(walk)
-    return walk.kinematics()

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkanim.mechanics.closing.kinds import RRR
-from linkanim.mechanics.linkage.frames import holding
+from linkanim.mechanics.closing.kinds import CLOSERS
+from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Body, Linkage
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.loops.roots import Kind
 from linkanim.mechanics.motion.derived import pivots_of
 from linkanim.mechanics.motion.mechanism import Mechanism
@@ -105,7 +106,7 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
         return _cranks_name(linkage)
     if linkage.slides:
         return _slider_driven_name(linkage, dyads)
-    own = dyads[0].linkage_name(mechanism.assembly) if len(dyads) == 1 else None
+    own = CLOSERS[type(dyads[0])].name(dyads[0], mechanism.assembly) if len(dyads) == 1 else None
     return own or f"{_bars(len(dyads))} linkage{slider}"
 
 

@@ -16,11 +16,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
-from linkanim.mechanics.closing.kinds import Rigid
 from linkanim.mechanics.facts.symbols import indexed
 from linkanim.mechanics.formulas.exact import unit
 from linkanim.mechanics.linkage.joint import Slide
 from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.derived import as_complex, over
 
 Order = Literal[1, 2]

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.closing.kinds import Pin
 from linkanim.mechanics.facts.effort import effort_token, input_effort
 from linkanim.mechanics.facts.symbols import called, indexed, link_labels
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.linkage.pins import Pin
 from linkanim.mechanics.motion.columns import components
 from linkanim.mechanics.motion.derived import (
     between,

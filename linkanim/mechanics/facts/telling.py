@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkanim.mechanics.closing.kinds import Pin
 from linkanim.mechanics.facts.effort import effort_token
 from linkanim.mechanics.facts.register import Quantity, register
-from linkanim.mechanics.linkage.frames import holding
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.linkage.pins import Pin
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.motion.derived import crank_body, output_body
 from linkanim.mechanics.motion.measures import TURNING
 from linkanim.mechanics.motion.motion import Motion

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import around, changes_by_row, highest, own_rows
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
@@ -91,7 +92,7 @@ def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
 def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
     """Yield U and W of each dyad on moving points where its separation, its rate or U - W changes sign."""
     assembly = mechanism.assembly
-    found = assembly.walk_at(Graph().input("x"), Slope(1.0)).closings
+    found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
     if not found:
         return
     closings, count = found.values(), len(found)

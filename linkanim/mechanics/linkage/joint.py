@@ -1,4 +1,4 @@
-"""What a joint is, whatever its kind: the questions that all kinds answer, one file a kind in `kinds`.
+"""What a joint is, whatever its kind: what all kinds have, and the lines along which sliders travel.
 
 Joints stand in the order in which they can be solved: each one names only joints before it.
 """
@@ -6,15 +6,9 @@ Joints stand in the order in which they can be solved: each one names only joint
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self
-
-if TYPE_CHECKING:
-    from linkanim.mechanics.closing.assembly import Assembly
-    from linkanim.mechanics.closing.walk import Walk
-    from linkanim.mechanics.linkage.linkage import Linkage
-    from linkanim.mechanics.loops.loop import Gearing, Loop
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal, NamedTuple, Self
 
 Point = tuple[float, float]
 
@@ -41,6 +35,38 @@ class Slide(NamedTuple):
     start: str | None
     axis: tuple[str, str] | None
     angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of travel: through the joint `through`, at `angle`, shifted by `offset` to its left.
+
+    A fixed line runs through a fixed pin, its angle is absolute. One that is carried names two joints of
+    the body that carries it, `on`; `through` is a joint of that body, and the angle is from on[0] -> on[1].
+    """
+
+    through: str
+    angle: float = 0.0
+    offset: float = 0.0
+    on: tuple[str, str] | None = None
+
+    def needs(self, key: str) -> tuple[Need, ...]:
+        """Return the joints that the line is known by, `key` being its own in a scene file."""
+        through = Need(f"{key}.through", self.through, "" if self.on else "fixed")
+        return (through, *(Need(f"{key}.on", name) for name in self.on or ()))
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The joints that must be on one body: those of the axis, and the one it runs through."""
+        return tuple(dict.fromkeys((*self.on, self.through))) if self.on else ()
+
+    def guiding(self, joint: str) -> Slide:
+        """Return how a joint slides along the line."""
+        return Slide(joint, self.on[0] if self.on else None, self.on, self.angle)
+
+    def scaled(self, factor: float) -> Line:
+        """Return the line with its offset times a factor."""
+        return replace(self, offset=self.offset * factor)
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,21 +138,9 @@ class Joint(ABC):
     def scaled(self, factor: float) -> Self:
         """Return the joint with every length times a factor."""
 
-    @abstractmethod
-    def close(self, walk: Walk) -> None:
-        """Add the joint's motion, and its bars', to the walk."""
-
-    def loop(self, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
-        """Return the loop that the joint closes from a crank pin and fixed elements, if it does."""
-        return None
-
     def placed(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
         """Return the bodies' frames with the joint in them: a frame of its own for each of its bars."""
         return (*frames, *({start: 0j, self.name: complex(length)} for start, length in self.bars))
-
-    def linkage_name(self, assembly: Assembly) -> str | None:
-        """Return the class of a linkage whose only dyad this is; None where the kind has no name for it."""
-        return None
 
     def why_apart(self, u: float, w: float) -> str:
         """Say in words and numbers why it cannot be assembled at any angle of the input.

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
-from linkanim.mechanics.closing.kinds import Crank, Pin
-from linkanim.mechanics.linkage.frames import frames_of
 from linkanim.mechanics.linkage.joint import Frame, Joint, Point
+from linkanim.mechanics.linkage.pins import Crank, Pin
+from linkanim.mechanics.linkage.rigid_bodies import frames_of
 
 Outline = Literal["bar", "plate", "wheel", "slot", "hook", "none"]
 """How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, a bar

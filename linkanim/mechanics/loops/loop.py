@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.formulas.circular import Half, half_angle, sharp_half_angle, signed_half_angle
@@ -16,14 +15,11 @@ from linkanim.mechanics.formulas.exact import HALF_TURN, Sum, exact_angle, gap, 
 from linkanim.mechanics.formulas.expression import Value
 from linkanim.mechanics.formulas.planar import Slope, Vec
 from linkanim.mechanics.formulas.precise import context, exactly, nearest_sum, sine_and_cosine
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.loops.input_state import InputState
 from linkanim.mechanics.loops.roots import Kind, LoopRoot
-from linkanim.mechanics.loops.signed import SignedRoot, sharpened, sign_of_root, signed_root
-
-if TYPE_CHECKING:
-    from linkanim.mechanics.closing.kinds import Crank, Pin
-    from linkanim.mechanics.drive.path import Path
-    from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.loops.signed import SignedRoot, Swinging, sharpened, sign_of_root, signed_root
 
 STRAIGHT = Sum(0.0)
 
@@ -74,9 +70,11 @@ class Loop:
         """Whether the loop keeps its crank from turning fully."""
         return Kind.LIMIT in (self.root.u.kind, self.root.w.kind)
 
-    def closed(self, state: InputState, path: Path, pace: Slope) -> tuple[SignedRoot, Half]:
-        """Return the loop's root and ψ/2 at the state's instant, ψ running at `pace`."""
-        swing = path.swinging(state)
+    def closed(self, state: InputState, swing: Swinging | None, pace: Slope) -> tuple[SignedRoot, Half]:
+        """Return the loop's root and ψ/2 at the state's instant, ψ running at `pace`.
+
+        `swing` is the input's, None where no dyad limits it.
+        """
         half = sharpened(self.root, self._half(state), swing)
         return signed_root(self.root, half, pace, swing), half
 
@@ -118,16 +116,6 @@ def gearings(linkage: Linkage) -> dict[str, Gearing]:
         offset = mate.offset * crank.gear.ratio + exact_angle(crank.gear.offset)
         found[crank.name] = Gearing(mate.ratio * crank.gear.ratio, offset)
     return found
-
-
-def find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loop]:
-    """Return the dyads that close from a crank pin against something fixed, by the joint's name.
-
-    A loop that limits a geared crank is left to the general closure.
-    """
-    found = ((joint.name, joint.loop(linkage, gears)) for joint in linkage.joints)
-    own = linkage.drive.joint
-    return {name: loop for name, loop in found if loop and (loop.pin == own or not loop.limits)}
 
 
 def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:

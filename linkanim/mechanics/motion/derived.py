@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from linkanim.mechanics.closing.kinds import Crank
-from linkanim.mechanics.linkage.frames import holding
 from linkanim.mechanics.linkage.linkage import Body, Linkage
+from linkanim.mechanics.linkage.pins import Crank
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.motion.columns import components
 
 _STRAIGHT = 1e-12

@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkanim.mechanics.closing.assembly import Assembly, assemble
+from linkanim.mechanics.closing.assemble import assemble
+from linkanim.mechanics.closing.assembly import Assembly
+from linkanim.mechanics.closing.kinematics import Kinematics, walked
 from linkanim.mechanics.closing.limits import restricted
-from linkanim.mechanics.closing.walk import Kinematics
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope
 from linkanim.mechanics.formulas.program import Batch, batch, scalar
@@ -118,7 +119,7 @@ class Mechanism:
             names, state = self._state(graph, pace, variant)
             unscale = self.assembly.unscale
             crank = {kind: {"": (value,)} for kind, value in zip(CRANK, state.shown(unscale), strict=True)}
-            rows = dict(_quantities(self.assembly.walk(state), unscale))
+            rows = dict(_quantities(walked(self.assembly, state), unscale))
             found = self._traces[variant] = Traced(names, crank | rows)
         return found
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import FrozenInstanceError, dataclass, field
 from functools import cached_property
 from types import MappingProxyType
@@ -19,9 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.loops.loop import Gearing
-from linkanim.mechanics.motion.columns import read_only
+from linkanim.mechanics.motion.columns import Scaled, read_only
 from linkanim.mechanics.motion.derived import between, cross, direction, growth, over, size
-from linkanim.mechanics.motion.request import ORDER, Paced, Request
+from linkanim.mechanics.motion.measures import DERIVATIVE_OF
+from linkanim.mechanics.motion.request import ORDER, Request
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -197,6 +198,25 @@ def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
     if item.stiffness is None or item.free_length is None:
         return None
     return item.stiffness * (length - item.free_length) * metre
+
+
+@dataclass(frozen=True)
+class Paced:
+    """A motion run so many times as fast: its quantities, each times its power of the factor."""
+
+    motion: Motion
+    factor: float
+
+    def turned(self, angles: Array, ends: tuple[str, str], ratio: float) -> Array:
+        """Return how far the way from one joint to another turns from row to row of its angles."""
+        return self.motion.request.turned(angles, ends, ratio)
+
+    def read(self, name: str, known: Collection[str]) -> dict[str, Any]:
+        """Return a quantity."""
+        found, power = getattr(self.motion, name), self.factor ** ORDER[name]
+        if not ORDER[name]:
+            return {name: found}
+        return {name: Scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
 
 
 class Motion(Derived):

@@ -8,21 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.drive.path import Path
 from linkanim.mechanics.drive.reach import WaysLeft
+from linkanim.mechanics.formulas.program import Batch
 from linkanim.mechanics.formulas.winding import turned
-from linkanim.mechanics.motion.columns import Columns, Floats, ResultLayout, Scaled, read_only
+from linkanim.mechanics.motion.columns import Columns, Floats, ResultLayout, read_only
 from linkanim.mechanics.motion.derived import between, direction
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, FAMILIES
-
-if TYPE_CHECKING:
-    from linkanim.mechanics.drive.path import Path
-    from linkanim.mechanics.formulas.program import Batch
-    from linkanim.mechanics.motion.motion import Motion
 
 Array = NDArray[np.float64]
 
@@ -144,25 +141,6 @@ class Request(NamedTuple):
         return {"phase": x} | {
             kind: row.reshape(self.shape) for kind, row in zip(places.kinds, results, strict=True)
         }
-
-
-@dataclass(frozen=True)
-class Paced:
-    """A motion run so many times as fast: its quantities, each times its power of the factor."""
-
-    motion: Motion
-    factor: float
-
-    def turned(self, angles: Array, ends: tuple[str, str], ratio: float) -> Array:
-        """Return how far the way from one joint to another turns from row to row of its angles."""
-        return self.motion.request.turned(angles, ends, ratio)
-
-    def read(self, name: str, known: Collection[str]) -> dict[str, Any]:
-        """Return a quantity."""
-        found, power = getattr(self.motion, name), self.factor ** ORDER[name]
-        if not ORDER[name]:
-            return {name: found}
-        return {name: Scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
 
 
 def shaped(rate: Any, shape: tuple[int, ...]) -> Any:

@@ -9,10 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.digits import short, typeset
-from linkanim.mechanics.closing.kinds import Brace, Rigid
 from linkanim.mechanics.facts.symbols import driven_body
-from linkanim.mechanics.linkage.frames import holding
 from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.linkage.rigid_bodies import Brace, Rigid, holding
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster.parts import Part

@@ -11,8 +11,8 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.closing.kinds import Rigid
 from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.picture.figure import SAMPLES, Figure
 from linkanim.picture.labels.placing import MOMENTS, Clutter, Obstacles, Solid, Wish
 from linkanim.picture.layout import Gauge, Layout

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkanim.mechanics.linkage.frames import holding
 from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts.body_shapes import SHAPES

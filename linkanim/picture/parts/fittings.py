@@ -11,9 +11,9 @@ from math import frexp
 
 import numpy as np
 
-from linkanim.mechanics.closing.kinds import RPP, RPR, RRP, DrivenSlider
-from linkanim.mechanics.linkage.joint import Joint
-from linkanim.mechanics.linkage.rail import Line
+from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP
+from linkanim.mechanics.linkage.joint import Joint, Line
+from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.picture.figure import DOWN, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts.struts import barrel

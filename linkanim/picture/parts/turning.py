@@ -8,7 +8,7 @@ from math import pi, remainder, tau
 
 import numpy as np
 
-from linkanim.mechanics.closing.kinds import DrivenSlider
+from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge

@@ -8,7 +8,7 @@ from math import ceil, pi
 
 import numpy as np
 
-from linkanim.mechanics.closing.kinds import Crank
+from linkanim.mechanics.linkage.pins import Crank
 from linkanim.picture.figure import Figure
 
 _TEETH = 24

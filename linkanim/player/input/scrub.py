@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from linkanim.mechanics.closing.kinds import DrivenSlider
 from linkanim.mechanics.formulas.exact import unit
+from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.scenes.scene import Scene
 
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import atan2, degrees, hypot
 
-from linkanim.mechanics.closing.kinds import Rigid
 from linkanim.mechanics.linkage.joint import Point
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.reading.joints import Key
 from linkanim.scenes.scene import Scene

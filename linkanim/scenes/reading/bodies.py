@@ -6,9 +6,9 @@ import re
 from collections.abc import Mapping
 
 from linkanim import units
-from linkanim.mechanics.linkage.frames import coincide, holding
 from linkanim.mechanics.linkage.joint import Frame, Joint
 from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.linkage.rigid_bodies import coincide, holding
 from linkanim.scenes.reading.check import Table, no_joint
 from linkanim.scenes.reading.joints import LOOKS
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from linkanim import units
-from linkanim.mechanics.closing.kinds import Crank, DrivenSlider
-from linkanim.mechanics.linkage.frames import coincide, frames_of
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Cylinder, Drive, Travel
+from linkanim.mechanics.linkage.pins import Crank, DrivenSlider
+from linkanim.mechanics.linkage.rigid_bodies import coincide, frames_of
 from linkanim.scenes.reading.check import Table
 
 DEFAULT_SPEED = "20 rpm"

@@ -9,22 +9,12 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, NamedTuple, get_args
 
-from linkanim.mechanics.closing.kinds import (
-    RPP,
-    RPR,
-    RRP,
-    RRR,
-    Crank,
-    DrivenSlider,
-    Gear,
-    Line,
-    Pin,
-    Polar,
-    Rigid,
-)
 from linkanim.mechanics.formulas.exact import unit
-from linkanim.mechanics.linkage.joint import Joint, Point
+from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
+from linkanim.mechanics.linkage.joint import Joint, Line, Point
 from linkanim.mechanics.linkage.linkage import Outline
+from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Gear, Pin, Polar
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes.reading.check import Table
 
 Key = tuple[str | int, ...]

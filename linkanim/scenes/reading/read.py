@@ -7,10 +7,11 @@ from typing import Any
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput
-from linkanim.mechanics.closing.kinds import RRR, Crank, Pin, brace
-from linkanim.mechanics.linkage.frames import coincide, frames_of, holding
+from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.joint import Frame, Joint, Need
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.linkage.pins import Crank, Pin
+from linkanim.mechanics.linkage.rigid_bodies import brace, coincide, frames_of, holding
 from linkanim.scenes.reading.bodies import read_bodies
 from linkanim.scenes.reading.check import Table, no_joint
 from linkanim.scenes.reading.drive import read_drive

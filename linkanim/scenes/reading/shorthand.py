@@ -10,9 +10,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from linkanim.mechanics.closing.kinds import RRP, RRR, Crank, Line, Pin, Rigid
-from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.dyads import RRP, RRR
+from linkanim.mechanics.linkage.joint import Joint, Line
 from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.linkage.pins import Crank, Pin
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes.reading.check import Table
 from linkanim.scenes.reading.joints import OPEN, DimensionKind, on_circle, polar_pin, side
 

@@ -11,128 +11,51 @@ vanish together (differentiate the closure in the phase).
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from collections.abc import Mapping
+from typing import NamedTuple
 
+from linkanim.mechanics.closing.walk import Walk
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope, Vec, carried
-from linkanim.mechanics.linkage.joint import Joint, Need
-from linkanim.mechanics.loops.loop import Loop, ground_between
+from linkanim.mechanics.linkage.dyads import RRR
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.loops.loop import Gearing, Loop, ground_between
 from linkanim.mechanics.loops.roots import four_bar_root
 from linkanim.mechanics.loops.triangle import Triangle, moving_triangle, pin_triangle
 
-if TYPE_CHECKING:
-    from linkanim.mechanics.closing.walk import Walk
-    from linkanim.mechanics.linkage.linkage import Linkage
-    from linkanim.mechanics.loops.loop import Gearing
+
+def loop(joint: RRR, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
+    """Return the loop of a crank pin against a fixed pin."""
+    for swapped in (False, True):
+        (moving, fixed), bars = _turned(joint, swapped)
+        crank = linkage.crank(moving) if moving in gears else None
+        if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
+            ground = ground_between(linkage, crank, fixed)
+            if ground is None:
+                return None
+            root = four_bar_root(ground.exact, crank.length, bars, ground.angle)
+            return Loop(moving, crank, gears[moving], ground, root, swapped)
+    return None
 
 
-@dataclass(frozen=True, slots=True)
-class RRR(Joint):
-    """Two bars that meet in a pin: `lengths[i]` from `ends[i]`.
-
-    `side` is +1 where the pin lies left of the line from `ends[0]` to `ends[1]`, -1 right.
-    With `side_of = (b, p, q)` it says instead on which side of p -> q the joint b lies just
-    after the start of the drive (a four-bar driven at its rocker is named that way).
-    """
-
-    ends: tuple[str, str]
-    lengths: tuple[float, float]
-    side: int = 1
-    side_of: tuple[str, str, str] | None = None
-
-    sides: ClassVar[tuple[str, str]] = ("left", "right")
-    dyad: ClassVar[bool] = True
-
-    @property
-    def needs(self) -> tuple[Need, ...]:
-        """The far ends of its two bars."""
-        return Need("from", self.ends[0]), Need("from", self.ends[1])
-
-    @property
-    def bars(self) -> tuple[tuple[str, float], ...]:
-        """Its two bars."""
-        return (self.ends[0], self.lengths[0]), (self.ends[1], self.lengths[1])
-
-    @property
-    def pins(self) -> tuple[str, ...]:
-        """The far ends of its bars, and the joint itself."""
-        return *self.ends, self.name
-
-    @property
-    def named_sign(self) -> int:
-        """The sign of the root: left of the line, or of the closure that another joint's side names."""
-        return -self.side if self.side_of else self.side
-
-    @property
-    def named_from(self) -> tuple[int, str, str, str] | None:
-        """The side of a line on which another joint lies, where that names the closure."""
-        return (self.side, *self.side_of) if self.side_of else None
-
-    def scaled(self, factor: float) -> RRR:
-        """Return the dyad with its bars times a factor."""
-        return replace(self, lengths=(self.lengths[0] * factor, self.lengths[1] * factor))
-
-    def loop(self, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
-        """Return the loop of a crank pin against a fixed pin."""
-        for swapped in (False, True):
-            (moving, fixed), bars = _turned(self, swapped)
-            crank = linkage.crank(moving) if moving in gears else None
-            if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
-                ground = ground_between(linkage, crank, fixed)
-                if ground is None:
-                    return None
-                root = four_bar_root(ground.exact, crank.length, bars, ground.angle)
-                return Loop(moving, crank, gears[moving], ground, root, swapped)
-        return None
-
-    def close(self, walk: Walk) -> None:
-        """Add where the two bars meet, and how they turn."""
-        loop, sign = walk.assembly.loops.get(self.name), walk.assembly.signs[self.name]
-        swapped = loop is not None and loop.swapped
-        (first, second), lengths = _turned(self, swapped)
-        p, q = walk.points[first], walk.points[second]
-        sign = -sign if swapped else sign
-        if loop is not None:
-            root, pin = walk.pin_loop(loop, sign)
-            triangle = pin_triangle(pin, lengths, root)
-        else:
-            across = q - p
-            root = walk.span_root(self.name, across, lengths).times(sign)
-            triangle = moving_triangle(across, lengths, root)
-        found = _meet(p, q, lengths, triangle)
-        walk.points[self.name] = found.point
-        arms = ((found.turning_a, first, found.arm_a), (found.turning_b, second, found.arm_b))
-        for turning, end, arm in reversed(arms) if swapped else arms:
-            walk.add_piece(turning, (end, self.name), arm)
-
-    def transmission(self, u: float, w: float) -> float:
-        """Return the angle μ between its bars' lines: tan²(μ/2) = W/U or, past 90°, U/W.
-
-        It is the cosine rule in its half-angle form.
-        """
-        return 2 * math.atan2(math.sqrt(min(u, w)), math.sqrt(max(u, w)))
-
-    def transmission_at(self, place: Callable[[str], Any]) -> Any:
-        """Return the angle between its bars' lines."""
-        # Here, so that reading a scene file loads no arrays.
-        import numpy as np
-
-        one, other = (place(end) - place(self.name) for end in self.ends)
-        product = one * other.conjugate()
-        return np.arctan2(abs(product.imag), abs(product.real))
-
-    def why_apart(self, u: float, w: float) -> str:
-        """Say how near its ends come, or how far apart: U = (a + b)² - L², W = L² - (a - b)²."""
-        a, b = self.lengths
-        least, most = math.sqrt(max((a + b) ** 2 - u, 0.0)), math.sqrt(max((a - b) ** 2 + w, 0.0))
-        if w < 0:
-            apart = f"at most {most:.6g}; these bars need {abs(a - b):g}"
-        else:
-            apart = f"at least {least:.6g}; these bars reach {a + b:g}"
-        ends = "–".join(self.ends)
-        return f"the bars of {a:g} and {b:g} cannot meet at any angle of the input: {ends} is {apart}"
+def close(joint: RRR, walk: Walk) -> None:
+    """Add where the two bars meet, and how they turn."""
+    loop, sign = walk.assembly.loops.get(joint.name), walk.assembly.signs[joint.name]
+    swapped = loop is not None and loop.swapped
+    (first, second), lengths = _turned(joint, swapped)
+    p, q = walk.points[first], walk.points[second]
+    sign = -sign if swapped else sign
+    if loop is not None:
+        root, pin = walk.pin_loop(loop, sign)
+        triangle = pin_triangle(pin, lengths, root)
+    else:
+        across = q - p
+        root = walk.span_root(joint.name, across, lengths).times(sign)
+        triangle = moving_triangle(across, lengths, root)
+    found = _meet(p, q, lengths, triangle)
+    walk.points[joint.name] = found.point
+    arms = ((found.turning_a, first, found.arm_a), (found.turning_b, second, found.arm_b))
+    for turning, end, arm in reversed(arms) if swapped else arms:
+        walk.add_piece(turning, (end, joint.name), arm)
 
 
 def _turned(joint: RRR, swapped: bool) -> tuple[tuple[str, str], tuple[float, float]]:

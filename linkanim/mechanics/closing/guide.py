@@ -12,59 +12,16 @@ and what travels at s along the line has the guide's motion, s' along it, and Co
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
+from linkanim.mechanics.closing.walk import Walk
 from linkanim.mechanics.formulas.exact import unit
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec, carried
-from linkanim.mechanics.linkage.joint import Need, Slide
-
-if TYPE_CHECKING:
-    from linkanim.mechanics.closing.walk import Walk
+from linkanim.mechanics.linkage.joint import Line
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
-    """A line of travel: through the joint `through`, at `angle`, shifted by `offset` to its left.
-
-    A fixed line runs through a fixed pin, its angle is absolute. One that is carried names two joints of
-    the body that carries it, `on`; `through` is a joint of that body, and the angle is from on[0] -> on[1].
-    """
-
-    through: str
-    angle: float = 0.0
-    offset: float = 0.0
-    on: tuple[str, str] | None = None
-
-    def needs(self, key: str) -> tuple[Need, ...]:
-        """Return the joints that the line is known by, `key` being its own in a scene file."""
-        through = Need(f"{key}.through", self.through, "" if self.on else "fixed")
-        return (through, *(Need(f"{key}.on", name) for name in self.on or ()))
-
-    @property
-    def body(self) -> tuple[str, ...]:
-        """The joints that must be on one body: those of the axis, and the one it runs through."""
-        return tuple(dict.fromkeys((*self.on, self.through))) if self.on else ()
-
-    def guiding(self, joint: str) -> Slide:
-        """Return how a joint slides along the line."""
-        return Slide(joint, self.on[0] if self.on else None, self.on, self.angle)
-
-    def scaled(self, factor: float) -> Line:
-        """Return the line with its offset times a factor."""
-        return replace(self, offset=self.offset * factor)
-
-    def laid(self, walk: Walk) -> Rail:
-        """Return where the line lies at the walk's instant, and how it moves."""
-        along = Vec(*unit(self.angle))
-        if self.on is None:
-            return Rail(walk.points[self.through], along, Slope(0.0), self.offset)
-        axis, turning = walk.axis(self.on)
-        return Rail(walk.points[self.through], axis.times(along), turning, self.offset)
-
-
-@dataclass(frozen=True, slots=True)
-class Rail:
+class Guide:
     """A line of travel at one instant: its base point, its direction, and how it turns."""
 
     base: MovingPoint
@@ -103,3 +60,12 @@ class Rail:
         return guided + MovingPoint(
             Vec(0.0, 0.0), u.scaled(travel.rate), u.scaled(travel.second) + n.scaled(across)
         )
+
+
+def guide(line: Line, walk: Walk) -> Guide:
+    """Return where a line of travel lies at the walk's instant, and how it moves."""
+    along = Vec(*unit(line.angle))
+    if line.on is None:
+        return Guide(walk.points[line.through], along, Slope(0.0), line.offset)
+    axis, turning = walk.axis(line.on)
+    return Guide(walk.points[line.through], axis.times(along), turning, line.offset)

@@ -1,0 +1,116 @@
+"""Joints that are given, not closed: fixed pins, crank pins, the slider that drives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import ClassVar
+
+from linkanim.mechanics.linkage.joint import Frame, Joint, Line, Need, Point, Slide
+
+
+@dataclass(frozen=True, slots=True)
+class Polar:
+    """Where a fixed pin lies as it was written: `length` at `angle` from `base`.
+
+    `base` names a fixed pin; None is the origin of coordinates. Kept because a length that is
+    read back from coordinates is rounded, and a change point depends on its last bit.
+    """
+
+    length: float
+    angle: float
+    base: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Pin(Joint):
+    """A fixed pin on the ground."""
+
+    position: Point
+    polar: Polar | None = None
+
+    fixed: ClassVar[bool] = True
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Its coordinates."""
+        return self.position
+
+    def scaled(self, factor: float) -> Pin:
+        """Return the pin with its coordinates, and its length as written, times a factor."""
+        polar = self.polar and Polar(self.polar.length * factor, self.polar.angle, self.polar.base)
+        return Pin(self.name, (self.position[0] * factor, self.position[1] * factor), polar)
+
+    def placed(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
+        """Return the frames with the pin on the ground."""
+        return ({**frames[0], self.name: complex(*self.position)}, *frames[1:])
+
+
+@dataclass(frozen=True, slots=True)
+class Gear:
+    """A gear pair: angle = ratio × (angle of the crank `mate`) + offset."""
+
+    mate: str
+    ratio: Fraction
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Crank(Joint):
+    """A pin that turns about the fixed pin `pivot`: the input; or about any joint, geared to another crank.
+
+    The angle of a geared crank is absolute, also of one whose pivot moves: a planet.
+    """
+
+    pivot: str
+    length: float
+    gear: Gear | None = None
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """Its pivot, and the crank that it is geared to."""
+        if self.gear is None:
+            return (Need("crank", self.pivot, "fixed"),)
+        return Need("crank", self.pivot), Need("gear.with", self.gear.mate, "crank")
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """The crank."""
+        return ((self.pivot, self.length),)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """Its two ends."""
+        return self.pivot, self.name
+
+    def scaled(self, factor: float) -> Crank:
+        """Return the crank with its length times a factor."""
+        return replace(self, length=self.length * factor)
+
+
+@dataclass(frozen=True, slots=True)
+class DrivenSlider(Joint):
+    """A slider on the fixed `line`; the drive gives its travel, from the joint that the line runs through."""
+
+    line: Line
+
+    travels: ClassVar[bool] = True
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """The joint that its line runs through."""
+        return self.line.needs("line")
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """The joint, along its line."""
+        return (self.line.guiding(self.name),)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """The line's offset."""
+        return (self.line.offset,)
+
+    def scaled(self, factor: float) -> DrivenSlider:
+        """Return the slider with its line's offset times a factor."""
+        return replace(self, line=self.line.scaled(factor))
