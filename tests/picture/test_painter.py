@@ -429,7 +429,7 @@ def test_frames_in_any_order_are_those_that_a_fresh_painter_paints(name: str) ->
 _FAULTS = """
 from resource import RUSAGE_SELF, getrusage
 from linkanim.picture.look import Look
-from linkanim.picture.offscreen import offscreen
+from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.painter import Painter
 from linkanim.scenes import load
 scene, size = load("crank-rocker"), (1280, 720)
