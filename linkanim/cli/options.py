@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from argparse import BooleanOptionalAction
+from argparse import Action, BooleanOptionalAction, Namespace
 from pathlib import Path
+from typing import Any
 
 from linkanim import units
 from linkanim.cli import values
 from linkanim.cli.parser import Parser, valued
 from linkanim.cli.presets import PRESETS
+from linkanim.picture.look import TOGGLES, Look, Option, Toggle
 
 IN_SCENE = "a built-in scene's name (see `linkanim scenes`), or the path of a scene file"
 EVERY_ANGLE = object()
@@ -22,7 +24,7 @@ def play(parser: Parser) -> None:
         "--attract", action="store_true", help="walk through the scenes when no key is pressed for a minute"
     )
     parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="the window's, in pixels")
-    _theme(parser)
+    _look(parser, "play")
 
 
 def record(parser: Parser) -> None:
@@ -39,7 +41,10 @@ def record(parser: Parser) -> None:
         "--for", dest="preset", choices=tuple(PRESETS), help="size, fps and format for a purpose"
     )
     _clip(parser)
-    _look(parser)
+    _look(parser, "record")
+    parser.add_argument(
+        "--noted", action="store_true", help="have the text say where a limit or a change point is near"
+    )
     parser.add_argument("--progress", action="store_true", help="show it also where stderr is no terminal")
 
 
@@ -58,51 +63,36 @@ def _clip(parser: Parser) -> None:
     parser.add_argument("--reverse", action="store_true", help="run backwards")
 
 
-def _look(parser: Parser) -> None:
-    """What is shown."""
-    _shown(parser)
-    parser.add_argument("--hud", action=BooleanOptionalAction, default=True, help="the lines of text")
-    parser.add_argument(
-        "--noted", action="store_true", help="say in them where a limit or a change point is near"
-    )
-    parser.add_argument("--chart", metavar="QTY", help="a quantity over the period, such as rocker.angle")
-    _theme(parser)
-    parser.add_argument("--transparent", action="store_true", help="no background (GIF and PNG)")
+def _look(parser: Parser, command: str) -> None:
+    """What is shown: the options that the fields of the look have."""
+    for name, toggle in TOGGLES.items():
+        for option in toggle.options:
+            if command in option.commands:
+                how = {"dest": name, "default": getattr(Look(), name), "help": option.help}
+                parser.add_argument(f"--{option.name}", **how, **_reading(option, toggle, how["default"]))
 
 
-def _shown(parser: Parser) -> None:
-    """What is shown of the motion itself."""
-    parser.add_argument(
-        "--trace", action=BooleanOptionalAction, default=True, help="curves of the traced joints"
-    )
-    parser.add_argument(
-        "--vectors",
-        type=valued(values.vectors),
-        default=frozenset(),
-        metavar="v,a",
-        help="velocity, acceleration",
-    )
-    parser.add_argument(
-        "--names",
-        action="count",
-        default=0,
-        help="name joints and links; twice: their dimensions and the input's angle, too",
-    )
-    parser.add_argument(
-        "--polygons", action="store_true", help="velocity and acceleration polygons beside the linkage"
-    )
-    parser.add_argument(
-        "--instant-centres",
-        action="store_true",
-        help="mark the instant centres of all links, of more than five those to the ground",
-    )
-    parser.add_argument(
-        "--centrodes", action="store_true", help="and the curves that the coupler's runs along"
-    )
+def _reading(option: Option, toggle: Toggle, usual: object) -> dict[str, Any]:
+    """Return how argparse reads an option of a field of the look."""
+    match usual:
+        case bool() if option.step is None:
+            return {"action": BooleanOptionalAction}
+        case int():
+            return {"action": Further, "const": option.step, "nargs": 0}
+        case frozenset():
+            return {"type": valued(values.vectors), "metavar": option.metavar}
+    return {"choices": toggle.steps} if toggle.steps else {"metavar": option.metavar}
 
 
-def _theme(parser: Parser) -> None:
-    parser.add_argument("--theme", choices=("light", "dark"), default="light", help="default: light")
+class Further(Action):
+    """An option that goes to its step of a field of the look, or a step further; never back."""
+
+    def __call__(self, _parser: object, found: Namespace, _values: object, _word: str | None = None) -> None:
+        """Put the step into what is found."""
+        steps = TOGGLES[self.dest].steps
+        at = steps.index(getattr(found, self.dest))
+        to = at + 1 if self.const is None else steps.index(self.const)
+        setattr(found, self.dest, steps[max(at, min(to, len(steps) - 1))])
 
 
 def solve(parser: Parser) -> None:
@@ -204,7 +194,7 @@ def chart(parser: Parser) -> None:
         "--label", metavar="TEXT", help="what that table is called (default: its file's name)"
     )
     parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
-    _theme(parser)
+    _look(parser, "chart")
 
 
 def draw(parser: Parser) -> None:
@@ -225,13 +215,11 @@ def draw(parser: Parser) -> None:
         "--phase", type=valued(units.angle), metavar="PHASE", help="phase instead (default: the start)"
     )
     parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
-    _shown(parser)
-    parser.add_argument("--ghost", action="store_true", help="the other closure, faintly")
+    _look(parser, "draw")
     parser.add_argument(
         "--poses", type=valued(values.poses), metavar="N", help="N faint poses over the period behind it"
     )
-    _theme(parser)
-    parser.add_argument("--transparent", action="store_true", help="no background")
+    parser.set_defaults(hud=False)
 
 
 def report(parser: Parser) -> None:

@@ -7,8 +7,10 @@ from pathlib import Path
 
 from linkanim.errors import BadInput
 from linkanim.mechanics.motion.derived import coupler_body
+from linkanim.picture.look import TOGGLES, Look
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
+from linkanim.scenes.reading.closure import other_closure
 from linkanim.scenes.scene import Scene
 from linkanim.whole import checked_target
 
@@ -28,11 +30,15 @@ def scene_size_target(
     return load(options.scene), size, target
 
 
-def centres_of(scene: Scene, options: Namespace) -> int:
-    """Return what of the instant centres the options ask for, as `Look.centres` says it.
+def look_of(scene: Scene, options: Namespace) -> Look:
+    """Return what the options say is to be shown of a scene.
 
-    `BadInput` for centrodes where every link turns about a fixed pin, or slides.
+    `BadInput` for centrodes where every link turns about a fixed pin, or slides; `AssemblyError` for the
+    other closure where there is none.
     """
-    if options.centrodes and coupler_body(scene.linkage) is None:
+    look = Look(**{name: value for name, value in vars(options).items() if name in TOGGLES})
+    if look.centres > 1 and coupler_body(scene.linkage) is None:
         raise BadInput(f"--centrodes: {scene.name} has no coupler; --instant-centres marks what there is")
-    return 2 if options.centrodes else int(options.instant_centres)
+    if look.ghost:
+        other_closure(scene)  # which says why where there is none
+    return look

@@ -10,9 +10,9 @@ from decimal import Decimal, InvalidOperation
 
 from linkanim.bounds import LARGEST_SIDE, MOST_POSES
 from linkanim.errors import BadInput, UnitError
+from linkanim.picture.look import TOGGLES
 
 MOST_ROWS = 1_000_000
-VECTORS = ("v", "a")
 
 
 @dataclass(frozen=True)
@@ -95,6 +95,6 @@ def poses(text: str) -> int:
 def vectors(text: str) -> frozenset[str]:
     """Read a list such as `v,a`: which of velocity and acceleration are drawn."""
     chosen = frozenset(part.strip() for part in text.split(","))
-    if not chosen <= set(VECTORS):
+    if not chosen <= set(TOGGLES["vectors"].steps):
         raise BadInput(f"{text!r} is not a list of vectors; take v (velocity), a (acceleration) or v,a")
     return chosen

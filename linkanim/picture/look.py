@@ -1,17 +1,63 @@
-"""What is shown of a scene, apart from the pose: the choices that outlast a frame."""
+"""What is shown of a scene, apart from the pose; each field says how users change it.
+
+`TOGGLES` is the one table of that: keys, the help sheet, what the window answers, tapes and the options of
+the commands read it, so that a field added here is in all of them.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, Literal, NamedTuple, TypeVar
 
 ThemeName = Literal["light", "dark"]
+Default = TypeVar("Default")
 
 VELOCITY: Literal["v"] = "v"
 ACCELERATION: Literal["a"] = "a"
 
 
-@dataclass(frozen=True)
+class Option(NamedTuple):
+    """An option of the command line, written `--name`: its help, and the commands that take it.
+
+    `step` is what it stands for; without one each mention goes a step further, and one of two steps has its
+    `--no-name`. With a `metavar` it takes a value.
+    """
+
+    name: str
+    help: str
+    step: object = None
+    metavar: str | None = None
+    commands: tuple[str, ...] = ("record", "draw")
+
+
+class Toggle(NamedTuple):
+    """How one field of `Look` is changed; its name is that of the action and of the tape's key, too.
+
+    `steps` are its values in the order in which its key goes through them, those of a set its members, each
+    with a key of its own; without any it is free text. `answers` is what the window says at each step. In
+    the help sheet its keys stand with their `title` under a `subject`; without one, in a line with others.
+    """
+
+    steps: tuple[Any, ...] = (False, True)
+    answers: tuple[str, ...] = ()
+    keys: tuple[str, ...] = ()
+    title: str = ""
+    subject: str = ""
+    options: tuple[Option, ...] = ()
+
+    @property
+    def members(self) -> tuple[str | None, ...]:
+        """What its action names for each key: of a set the member, else nothing."""
+        return self.steps if len(self.keys) > 1 else (None,)
+
+
+def _toggle(default: Default, *options: Option, **how: Any) -> Default:
+    """Return a field of `Look` that is changed so."""
+    return field(default=default, metadata={"toggle": Toggle(options=options, **how)})
+
+
+@dataclass(frozen=True, kw_only=True)
 class Look:
     """What is shown; two pictures of one pose with equal looks and sizes have the same bytes.
 
@@ -25,18 +71,83 @@ class Look:
     the coupler's centrodes as well.
     """
 
-    theme: ThemeName = "light"
-    trace: bool = True
-    vectors: frozenset[str] = frozenset()
-    chart: str | None = None
-    hud: bool = True
-    background: bool = True
+    trace: bool = _toggle(
+        True,
+        Option("trace", "curves of the traced joints"),
+        answers=("no trace", "trace"),
+        keys=("t",),
+        title="coupler trace",
+        subject="look",
+    )
+    vectors: frozenset[str] = _toggle(
+        frozenset(),
+        Option("vectors", "velocity, acceleration", metavar="v,a"),
+        steps=(VELOCITY, ACCELERATION),
+        answers=("velocity", "acceleration"),
+        keys=("v", "a"),
+        title="velocity, acceleration vectors",
+        subject="measure",
+    )
+    names: int = _toggle(
+        0,
+        Option("names", "name joints and links; twice: their dimensions and the input's angle, too"),
+        steps=(0, 1, 2),
+        answers=("no names", "names", "names and dimensions"),
+        keys=("n",),
+        title="names: off, joints and links, with dimensions",
+        subject="look",
+    )
+    polygons: bool = _toggle(
+        False,
+        Option("polygons", "velocity and acceleration polygons beside the linkage", True),
+        answers=("no polygons", "polygons"),
+        keys=("p",),
+        title="velocity and acceleration polygons",
+        subject="measure",
+    )
+    centres: int = _toggle(
+        0,
+        Option(
+            "instant-centres",
+            "mark the instant centres of all links, of more than five those to the ground",
+            1,
+        ),
+        Option("centrodes", "and the curves that the coupler's runs along", 2),
+        steps=(0, 1, 2),
+        answers=("no instant centres", "instant centres", "instant centres and centrodes"),
+        keys=("i",),
+        title="instant centres: off, marked, with centrodes",
+        subject="measure",
+    )
+    ghost: bool = _toggle(
+        False,
+        Option("ghost", "the other closure, faintly", True, commands=("draw",)),
+        answers=("one closure", "both closures"),
+        keys=("shift+b",),
+    )
+    hud: bool = _toggle(True, Option("hud", "the lines of text", commands=("record",)))
+    chart: str | None = _toggle(
+        None,
+        Option(
+            "chart", "a quantity over the period, such as rocker.angle", metavar="QTY", commands=("record",)
+        ),
+        steps=(),
+    )
+    theme: ThemeName = _toggle(  # noqa: RUF009 -- gives a field
+        "light",
+        Option("theme", "default: light", commands=("play", "record", "chart", "draw")),
+        steps=("light", "dark"),
+        answers=("light", "dark"),
+        keys=("l",),
+    )
+    background: bool = _toggle(
+        True,
+        Option("transparent", "no background (GIF and PNG)", False, commands=("record",)),
+        Option("transparent", "no background", False, commands=("draw",)),
+        steps=(True, False),
+    )
     zoom: float = 1.0
     pan: tuple[float, float] = (0.0, 0.0)
-    ghost: bool = False
-    names: int = 0
-    polygons: bool = False
-    centres: int = 0
 
     @property
     def framed(self) -> bool:
@@ -47,3 +158,30 @@ class Look:
     def overrun(self) -> bool:
         """Whether curves or the scene itself may lie where the words stand."""
         return self.framed or self.centres > 1
+
+
+TOGGLES: Mapping[str, Toggle] = {
+    one.name: one.metadata["toggle"] for one in fields(Look) if "toggle" in one.metadata
+}
+"""How each field is changed, by its name."""
+
+
+def toggled(look: Look, name: str, member: str | None = None) -> Look:
+    """Return the look with a field at its next step, or with a member of a set put in or taken out."""
+    value, steps = getattr(look, name), TOGGLES[name].steps
+    if isinstance(value, frozenset):
+        changed: Any = value ^ {member}
+    else:
+        changed = steps[(steps.index(value) + 1) % len(steps)]
+    return replace(look, **{name: changed})
+
+
+def answer(before: Look, after: Look, name: str) -> str | None:
+    """Return in a word or two what has become of a field; None where it is as it was."""
+    was, now = getattr(before, name), getattr(after, name)
+    words: dict[Any, str] = dict(zip(TOGGLES[name].steps, TOGGLES[name].answers, strict=True))
+    if was == now:
+        return None
+    if isinstance(now, frozenset):
+        return next(words[one] if one in now else f"no {words[one]}" for one in was ^ now)
+    return words[now]

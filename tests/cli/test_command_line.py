@@ -15,8 +15,8 @@ from linkanim.cli.command_table import parse
 # What is on, or has a value, in a command line that says only what it must.
 UNSAID: list[tuple[list[str], dict[str, Any]]] = [
     ([], {"command": "play", "theme": "light"}),
-    (["record", "press"], {"trace": True, "hud": True, "theme": "light"}),
-    (["draw", "press"], {"trace": True, "theme": "light"}),
+    (["record", "press"], {"trace": True, "hud": True, "theme": "light", "background": True}),
+    (["draw", "press"], {"trace": True, "theme": "light", "background": True}),
     (["solve", "press"], {}),
     (["info", "press"], {}),
     (["scenes"], {}),

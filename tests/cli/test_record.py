@@ -16,7 +16,8 @@ from tqdm import tqdm
 import linkanim
 from linkanim.cli import main
 from linkanim.cli.command_table import parse
-from linkanim.cli.commands.record import advance, bar, look_of
+from linkanim.cli.commands.record import advance, bar
+from linkanim.cli.picture_options import look_of
 from linkanim.errors import BadInput
 from linkanim.player.state.action import Action
 from linkanim.player.state.state import begin

@@ -13,33 +13,16 @@ from typing import NoReturn
 from tqdm import tqdm
 
 from linkanim.cli.command_table import parse
-from linkanim.cli.picture_options import centres_of
+from linkanim.cli.picture_options import look_of
 from linkanim.cli.presets import DEFAULT, PRESETS
 from linkanim.errors import BadInput
-from linkanim.picture.look import Look
+from linkanim.picture.look import TOGGLES
 from linkanim.recorder.recording import Progress, Recording
 from linkanim.recorder.scene_frames import record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
-from linkanim.scenes.scene import Scene
 
-_OF_A_SCENE = (
-    "speed",
-    "periods",
-    "seconds",
-    "reverse",
-    "trace",
-    "hud",
-    "noted",
-    "vectors",
-    "names",
-    "polygons",
-    "instant_centres",
-    "centrodes",
-    "chart",
-    "theme",
-    "transparent",
-)
+_OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted", *TOGGLES)
 """Options that a tape has its own answer to."""
 
 
@@ -79,27 +62,18 @@ def _of_tape(options: Namespace) -> Callable[..., Recording]:
     """Return what records a tape; `BadInput` for an option that the tape has its own answer to."""
     usual = parse(["record", options.scene])
     for name in _OF_A_SCENE:
-        if getattr(options, name) != getattr(usual, name):
-            option = f"--{'no-' if getattr(options, name) is False else ''}{name.replace('_', '-')}"
-            raise BadInput(
-                f"{option} is for a scene; a tape keeps its own (--size, --fps and --for are free)"
-            )
+        found = getattr(options, name, None)
+        if found != getattr(usual, name, None):
+            word = _word(name, found)
+            raise BadInput(f"{word} is for a scene; a tape keeps its own (--size, --fps and --for are free)")
     return partial(record_tape, options.scene)
 
 
-def look_of(scene: Scene, options: Namespace) -> Look:
-    """Return what the options say is to be shown."""
-    return Look(
-        theme=options.theme,
-        trace=options.trace,
-        vectors=options.vectors,
-        names=min(options.names, 2),
-        polygons=options.polygons,
-        centres=centres_of(scene, options),
-        chart=options.chart,
-        hud=options.hud,
-        background=not options.transparent,
-    )
+def _word(name: str, found: object) -> str:
+    """Return the option that is behind a value."""
+    options = TOGGLES[name].options if name in TOGGLES else ()
+    option = next((option.name for option in options if option.step in (None, found)), name)
+    return f"--no-{option}" if found is False and option == name else f"--{option}"
 
 
 @contextmanager

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Literal, NamedTuple
 
+from linkanim.picture.look import TOGGLES
 from linkanim.player.state.action import Action
 
 Mode = Literal["play", "edit", "list", "shelf"]
@@ -44,8 +45,19 @@ def _every(keys: str, name: str, value: str | None = None) -> tuple[Bind, ...]:
     return tuple(_on(key, name, value) for key in keys.split())
 
 
-def _two(first: str, second: str, name: str, values: tuple[int | str, int | str]) -> tuple[Bind, Bind]:
-    return _on(first, name, values[0]), _on(second, name, values[1])
+def _of_look(name: str) -> tuple[Bind, ...]:
+    """Return the keys of a field of the look."""
+    toggle = TOGGLES[name]
+    return tuple(map(_on, toggle.keys, [name] * len(toggle.keys), toggle.members))
+
+
+def _looks(subject: str) -> tuple[KeyRow, ...]:
+    """Return the lines of the look's fields under a subject."""
+    return tuple(
+        KeyRow(subject, ", ".join(toggle.keys).upper(), toggle.title, _of_look(name))
+        for name, toggle in TOGGLES.items()
+        if toggle.subject == subject
+    )
 
 
 def _both(less: str, more: str, name: str, by: int = 1) -> tuple[Bind, Bind]:
@@ -78,8 +90,7 @@ KEYS: tuple[KeyRow, ...] = (
     ),
     KeyRow("play", "O", "the shelf: all mechanisms", _every("o", "shelf")),
     KeyRow("play", "drag pin, drag cursor", "move the crank; the chart's cursor, too"),
-    KeyRow("look", "T", "coupler trace", _every("t", "trace")),
-    KeyRow("look", "N", "names: off, joints and links, with dimensions", _every("n", "names")),
+    *_looks("look"),
     KeyRow(
         "look",
         "+, −, wheel, drag",
@@ -90,7 +101,7 @@ KEYS: tuple[KeyRow, ...] = (
         ),
     ),
     KeyRow("look", "0, Home", "fit", _every("0 kp0 home", "fit")),
-    KeyRow("look", "L", "light / dark", _every("l", "theme")),
+    KeyRow("look", "L", "light / dark", _of_look("theme")),
     KeyRow("look", "F11", "full screen", _every("f11", "fullscreen")),
     KeyRow("look", "H, F1, ?", "help", _every("h f1 ? shift+/", "help")),
     KeyRow(
@@ -99,17 +110,20 @@ KEYS: tuple[KeyRow, ...] = (
         "close an open overlay (Esc); quit",
         (_on("escape", "back"), _on("q", "quit")),
     ),
-    KeyRow("measure", "V, A", "velocity, acceleration vectors", _two("v", "a", "vectors", ("v", "a"))),
-    KeyRow("measure", "P", "velocity and acceleration polygons", _every("p", "polygons")),
-    KeyRow("measure", "I", "instant centres: off, marked, with centrodes", _every("i", "centres")),
-    KeyRow("measure", "C (Shift: back)", "chart: next quantity, off", _two("c", "shift+c", "chart", (1, -1))),
+    *_looks("measure"),
+    KeyRow(
+        "measure",
+        "C (Shift: back)",
+        "chart: next quantity, off",
+        (_on("c", "chart", 1), _on("shift+c", "chart", -1)),
+    ),
     KeyRow("measure", "K", "the list of quantities", _every("k", "list")),
     KeyRow("edit", "E", "edit dimensions (H there: how)", _every("e", "edit")),
     KeyRow(
         "edit",
         "B (Shift: ghost)",
         "assembly: the other closure",
-        (_on("b", "closure"), _on("shift+b", "ghost")),
+        (_on("b", "closure"), *_of_look("ghost")),
     ),
     KeyRow(
         "edit",

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
+from linkanim.picture.look import TOGGLES
 from linkanim.player.state import answers
 from linkanim.player.state.action import Action
 from linkanim.player.state.handlers import browse, clock, edits, looks, outside, shelf
@@ -44,12 +46,19 @@ def _text(value: object) -> bool:
     return isinstance(value, str)
 
 
-def _one_of(*words: str) -> Callable[[object], bool]:
+def _one_of(*words: str | None) -> Callable[[object], bool]:
     return lambda value: value in words
 
 
 def _numbers(count: int) -> Callable[[object], bool]:
     return lambda value: isinstance(value, tuple) and len(value) == count and all(map(_number, value))
+
+
+def _of_look(name: str) -> Rule:
+    """Return the rule of a field of the look; some do more than to go on a step."""
+    handle = {"ghost": looks.ghost, "theme": looks.theme}.get(name, looks.toggling(name))
+    said = partial(answers.of_look, name)
+    return Rule(_one_of(*TOGGLES[name].members), handle, answer=said)
 
 
 ACTIONS: Mapping[str, Rule] = {
@@ -63,15 +72,9 @@ ACTIONS: Mapping[str, Rule] = {
     "select": Rule(_whole, shelf.select, answer=answers.place),  # the place in the catalogue, from 0
     "put": Rule(_whole, browse.put, answer=answers.place),  # the place on the shelf, from 0
     "closure": Rule(_nothing, shelf.closure, answer=answers.closure),
-    "trace": Rule(_nothing, looks.trace, answer=answers.trace),
-    "vectors": Rule(_one_of("v", "a"), looks.vectors, answer=answers.vectors),
-    "ghost": Rule(_nothing, looks.ghost, answer=answers.ghost),
+    **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
     "chart": Rule(_whole, looks.chart, answer=answers.chart),  # quantities further
     "plot": Rule(_text, browse.plot, answer=answers.chart),  # a quantity's token
-    "names": Rule(_nothing, looks.names, answer=answers.names),
-    "polygons": Rule(_nothing, looks.polygons, answer=answers.polygons),
-    "centres": Rule(_nothing, looks.centres, answer=answers.centres),
-    "theme": Rule(_nothing, looks.theme, answer=answers.theme),
     "help": Rule(_nothing, looks.help_),
     # notches, about the point (x, y): window heights from the picture's middle, y down
     "zoom": Rule(_numbers(3), looks.zoom, answer=answers.zoom),

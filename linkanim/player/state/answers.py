@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from linkanim.picture.diagrams.quantities import quantity
+from linkanim.picture.look import answer
 from linkanim.picture.parts.driven import speed_words
 from linkanim.player.state.state import State
 from linkanim.scenes.reading.closure import closure_name
-
-_NAMES = ("no names", "names", "names and dimensions")
-_CENTRES = ("no instant centres", "instant centres", "instant centres and centrodes")
-_KINDS = {"v": "velocity", "a": "acceleration"}
 
 
 def speed(_: State, after: State) -> str:
@@ -32,24 +29,6 @@ def closure(before: State, after: State) -> str | None:
     return None if after.scene is before.scene else closure_name(after.scene)
 
 
-def trace(_: State, after: State) -> str:
-    """Say whether the trace is shown."""
-    return "trace" if after.look.trace else "no trace"
-
-
-def vectors(before: State, after: State) -> str:
-    """Say which vectors came or went."""
-    (kind,) = before.look.vectors ^ after.look.vectors
-    return _KINDS[kind] if kind in after.look.vectors else f"no {_KINDS[kind]}"
-
-
-def ghost(before: State, after: State) -> str | None:
-    """Say whether the other closure is shown."""
-    if before.look.ghost == after.look.ghost:
-        return None
-    return "both closures" if after.look.ghost else "one closure"
-
-
 def chart(before: State, after: State) -> str | None:
     """Say what is charted."""
     token = after.look.chart
@@ -58,24 +37,9 @@ def chart(before: State, after: State) -> str | None:
     return quantity(after.scene, token).words if token else "no chart"
 
 
-def names(_: State, after: State) -> str:
-    """Say what is named."""
-    return _NAMES[after.look.names]
-
-
-def polygons(_: State, after: State) -> str:
-    """Say whether the polygons are shown."""
-    return "polygons" if after.look.polygons else "no polygons"
-
-
-def centres(_: State, after: State) -> str:
-    """Say what is shown of the instant centres."""
-    return _CENTRES[after.look.centres]
-
-
-def theme(_: State, after: State) -> str:
-    """Say which theme is on."""
-    return after.look.theme
+def of_look(name: str, before: State, after: State) -> str | None:
+    """Say what is shown now of a field of the look."""
+    return answer(before.look, after.look, name)
 
 
 def zoom(_: State, after: State) -> str:

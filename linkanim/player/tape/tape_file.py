@@ -15,7 +15,7 @@ from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS
 from linkanim.document import Section, refuse_controls
 from linkanim.errors import BadInput
 from linkanim.intake import Intake
-from linkanim.picture.look import Look
+from linkanim.picture.look import TOGGLES, Look
 from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
@@ -169,27 +169,30 @@ def _scenes(part: Section, key: str) -> tuple[Scene, ...]:
 
 
 def _look(part: Section) -> Look:
+    """Return the look; a field that the tape is older than is as `Look` has it."""
     pan = part.listed("pan", 2)
     across, down = (pan.number(key) for key in pan.values)
     return Look(
-        theme=part.choice("theme", ("light", "dark")),
-        trace=part.flag("trace"),
-        vectors=_vectors(part),
-        chart=None if part.need("chart") is None else part.text("chart"),
-        hud=part.flag("hud"),
-        background=part.flag("background"),
+        **{name: _step(part, name) for name in TOGGLES if name in part},
         zoom=min(max(part.number("zoom"), 0.01), 100.0),
         pan=(across, down),
-        ghost=part.flag("ghost"),
-        names=part.whole("names", 0, 2) if "names" in part else 0,
-        polygons=part.flag("polygons") if "polygons" in part else False,
-        centres=part.whole("centres", 0, 2) if "centres" in part else 0,
     )
 
 
-def _vectors(part: Section) -> frozenset[str]:
-    kinds = part.listed("vectors")
-    return frozenset(kinds.choice(key, ("v", "a")) for key in kinds.values)
+def _step(part: Section, name: str) -> Any:
+    """Return the value of a field of the look."""
+    steps, usual = TOGGLES[name].steps, getattr(Look(), name)
+    match usual:
+        case bool():
+            return part.flag(name)
+        case int():
+            return part.whole(name, steps[0], steps[-1])
+        case frozenset():
+            members = part.listed(name)
+            return frozenset(members.choice(key, steps) for key in members.values)
+        case str():
+            return part.choice(name, steps)
+    return None if part.need(name) is None else part.text(name)
 
 
 def _editing(part: Section) -> Editing:

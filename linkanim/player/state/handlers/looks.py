@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from linkanim.errors import LinkanimError
 from linkanim.picture.diagrams.quantities import telling
+from linkanim.picture.look import toggled
 from linkanim.player.state.state import State, told
 from linkanim.player.window.framing import panned, zoomed
 from linkanim.scenes.reading.closure import other_closure
@@ -20,29 +22,9 @@ def chart(state: State, further: int) -> State:
     return replace(state, look=replace(state.look, chart=charts[(at + further) % len(charts)]))
 
 
-def trace(state: State, _: None) -> State:
-    """Show or hide the trace."""
-    return replace(state, look=replace(state.look, trace=not state.look.trace))
-
-
-def names(state: State, _: None) -> State:
-    """Show the names of joints and links, then their dimensions, then neither."""
-    return replace(state, look=replace(state.look, names=(state.look.names + 1) % 3))
-
-
-def polygons(state: State, _: None) -> State:
-    """Show or hide the velocity and the acceleration polygon."""
-    return replace(state, look=replace(state.look, polygons=not state.look.polygons))
-
-
-def centres(state: State, _: None) -> State:
-    """Show the instant centres, then the coupler's centrodes too, then neither."""
-    return replace(state, look=replace(state.look, centres=(state.look.centres + 1) % 3))
-
-
-def vectors(state: State, kind: str) -> State:
-    """Show or hide the velocities or accelerations."""
-    return replace(state, look=replace(state.look, vectors=state.look.vectors ^ {kind}))
+def toggling(name: str) -> Callable[[State, str | None], State]:
+    """Return the handler that takes a field of the look to its next step; of a set, puts in or takes out."""
+    return lambda state, member: replace(state, look=toggled(state.look, name, member))
 
 
 def ghost(state: State, _: None) -> State:
@@ -52,13 +34,12 @@ def ghost(state: State, _: None) -> State:
             other_closure(state.scene)
         except LinkanimError as error:
             return told(state, str(error))
-    return replace(state, look=replace(state.look, ghost=not state.look.ghost))
+    return replace(state, look=toggled(state.look, "ghost"))
 
 
 def theme(state: State, _: None) -> State:
     """Go from light to dark, or back."""
-    other = replace(state.look, theme="light" if state.look.theme == "dark" else "dark")
-    return replace(state, look=other, faded=state.frame)
+    return replace(state, look=toggled(state.look, "theme"), faded=state.frame)
 
 
 def zoom(state: State, about: tuple[float, float, float]) -> State:
