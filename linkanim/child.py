@@ -33,11 +33,11 @@ def path_of_programs() -> str:
 
 
 def python(*words: str) -> list[str]:
-    """Return the command of a Python with these words, which goes with `surroundings`."""
+    """Return the command of a Python with these words, which goes with `env`."""
     return [sys.executable, "-P", *words]
 
 
-def surroundings(**more: str) -> dict[str, str]:
+def env(**more: str) -> dict[str, str]:
     """Return an environment in which Python finds what we find, with more variables in it."""
     return {**os.environ, "PYTHONPATH": os.pathsep.join(_places()), **more}
 

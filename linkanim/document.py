@@ -52,8 +52,8 @@ class Section:
     def error(self, key: str, reason: str) -> BadInput:
         """Return (not raise) the error about one key: file, key, value if it has one, and the reason."""
         value = self.values.get(key)
-        said = "" if value is None or isinstance(value, Mapping | list) else f" = {shown(value)}"
-        return self.at(f"{self.key(key)}{said}: {reason}", key)
+        shown_value = "" if value is None or isinstance(value, Mapping | list) else f" = {shown(value)}"
+        return self.at(f"{self.key(key)}{shown_value}: {reason}", key)
 
     def wrong(self, reason: str) -> BadInput:
         """Return (not raise) the error about this table as a whole."""

@@ -19,9 +19,9 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from linkanim.atomic_files import checked_folder, hold, refuse_taken, scratch, settle, take_place
 from linkanim.errors import BadInput
 from linkanim.intake import Intake
-from linkanim.whole import checked_folder, hold, refuse_taken, scratch, settle, take_place
 
 Sums = Mapping[str, frozenset[str]]
 """The SHA-256 sums under which a file is known as ours, by its name."""

@@ -25,7 +25,7 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("bounds", "cells", "child", "digits", "document", "intake", "units", "whole"),
+            ("bounds", "child", "digits", "document", "export", "intake", "units", "atomic_files"),
             ("manifest",),
             ("mechanics",),
             ("scenes",),
@@ -45,12 +45,12 @@ THIRD_PARTIES = {
     "errors": set(),
     "bounds": set(),
     "child": set(),
-    "cells": {"numpy", "orjson"},
+    "export": {"numpy", "orjson"},
     "digits": set(),
     "document": set(),
     "intake": set(),
     "units": set(),
-    "whole": set(),
+    "atomic_files": set(),
     "manifest": set(),
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},

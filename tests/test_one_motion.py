@@ -16,11 +16,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.cells import csv_head, csv_rows
 from linkanim.cli import main
-from linkanim.cli.strict import json_text
 from linkanim.cli.tree import leaves, tree
 from linkanim.cli.tree import rows as rows_of_tree
+from linkanim.export import csv_head, csv_rows, json_text
 from linkanim.mechanics.facts.register import Quantity, register
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.chart import pen_for

@@ -8,7 +8,7 @@ from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 
-from linkanim.whole import made_folder
+from linkanim.atomic_files import made_folder
 
 CHART = "speed-vs-error.png"
 

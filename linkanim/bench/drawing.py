@@ -7,10 +7,10 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from linkanim.atomic_files import checked_target
 from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Measured, Result
 from linkanim.manifest import replacing, single
-from linkanim.whole import checked_target
 
 SIZE = (1600, 960)
 LEAST, MOST = 1e-17, 10.0

@@ -90,7 +90,7 @@ def _posed(question: Question, derivatives: int) -> Timed:
     return Timed(run, len(phases))
 
 
-def _asking(solve: Solve, question: Question) -> Timed:
+def _timed(solve: Solve, question: Question) -> Timed:
     return Timed(lambda: solve(question), question.angles.size)
 
 
@@ -101,7 +101,7 @@ def _closed_forms(easy: Easy) -> Iterator[Entry]:
         ("circles", "circle intersection", "Bourke 1997", methods.circle_dyad),
     ):
         solve = methods.closed(close)
-        runs = (_asking(way, question) for way in (methods.positions(close), solve))
+        runs = (_timed(way, question) for way in (methods.positions(close), solve))
         yield Entry("", key, name, source, solve, *runs)
 
 
@@ -109,12 +109,12 @@ def _from_pose_to_pose(easy: Easy) -> Iterator[Entry]:
     question = easy.in_poses(ONE_BY_ONE)
     for count in (1, 2, 3):
         solve = methods.newton(count)
-        runs = (_asking(way, question) for way in (methods.newton_positions(count), solve))
+        runs = (_timed(way, question) for way in (methods.newton_positions(count), solve))
         name = f"Newton, {count} iteration{'s' if count > 1 else ''}"
         yield Entry("", f"newton {count}", name, "each dyad's equations", solve, *runs)
     rk4 = methods.runge_kutta
     source = "each dyad's equations"
-    yield Entry("", "rk4", "RK4 on the velocity", source, rk4, _asking(rk4, question))
+    yield Entry("", "rk4", "RK4 on the velocity", source, rk4, _timed(rk4, question))
 
 
 def _tables(easy: Easy) -> Iterator[Entry]:
@@ -141,8 +141,8 @@ def _packages(easy: Easy, counts: tuple[int, ...]) -> Iterator[Entry]:
     one = others.pylinkage_model(easy.in_poses(ONE_BY_ONE), TURN / ONE_BY_ONE).linkage
     runs = (_walked(work, ONE_BY_ONE) for work in (one.step, one.step_with_derivatives))
     yield Entry("", "pylinkage step", "pylinkage step()", "pylinkage", others.pylinkage_step, *runs)
-    asked = _asking(others.fsolve, easy.in_poses(180))
-    yield Entry("", "fsolve", "scipy fsolve", "scipy.optimize", others.fsolve, asked)
+    timed = _timed(others.fsolve, easy.in_poses(180))
+    yield Entry("", "fsolve", "scipy fsolve", "scipy.optimize", others.fsolve, timed)
 
 
 def _stepped(work: Callable[[int], object], count: int) -> Timed:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Measured, Result, Target
+from linkanim.export import columns, json_text
 
 TITLES = (
     "method",
@@ -24,8 +24,6 @@ NOTE = (
     "joints: positions in longest links, rates in longest links or the pose's largest rate, of poses on the "
     "right closure; wrong closure and NaN: of {poses} hard poses."
 )
-
-Lines = Sequence[Sequence[str]]
 
 
 def as_text(result: Result) -> str:
@@ -80,16 +78,6 @@ def target_lines(targets: Sequence[Target]) -> list[Sequence[str]]:
     return [("target", "measured", "bound", ""), *rows]
 
 
-def columns(rows: Lines) -> str:
-    """Return rows in columns, the first to the left, the others to the right."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    aligned: Sequence[Callable[[str, int], str]] = (str.ljust, *[str.rjust] * (len(widths) - 1))
-    return "\n".join(
-        "  ".join(put(cell, width) for put, cell, width in zip(aligned, row, widths, strict=True)).rstrip()
-        for row in rows
-    )
-
-
 def _time(nanos: float) -> str:
     return f"{nanos:,.1f}" if nanos < 100 else f"{float(f'{nanos:.3g}'):,.0f}"
 
@@ -111,7 +99,7 @@ def as_json(result: Result) -> str:
         "targets": [
             {
                 "what": target.what,
-                "measured": _finite(target.measured),
+                "measured": target.measured,
                 "least" if target.least else "most": target.bound,
                 "unit": target.unit,
                 "met": target.met,
@@ -119,7 +107,7 @@ def as_json(result: Result) -> str:
             for target in result.targets
         ],
     }
-    return json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False)
+    return json_text(found, indent=2)
 
 
 def _row(row: Measured) -> dict[str, Any]:
@@ -137,10 +125,6 @@ def _row(row: Measured) -> dict[str, Any]:
 
 
 def _score(score: Score) -> dict[str, Any]:
-    position, velocity, acceleration = map(_finite, score.errors)
+    position, velocity, acceleration = score.errors
     errors = {"error": position, "velocity_error": velocity, "acceleration_error": acceleration}
     return {"poses": score.poses, **errors, "wrong": score.wrong, "nan": score.missing}
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

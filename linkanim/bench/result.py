@@ -68,13 +68,13 @@ def run(
     rows: Callable[[CaseSet], Sequence[Entry]] = entries,
 ) -> Result:
     """Measure all methods on all mechanisms; some minutes."""
-    asked = [(mechanism, tuple(rows(mechanism))) for mechanism in mechanisms]
+    entered = [(mechanism, tuple(rows(mechanism))) for mechanism in mechanisms]
     times = nanoseconds(
-        _work([row for _, methods in asked for row in methods]), budget=BUDGET, progress=progress
+        _work([row for _, methods in entered for row in methods]), budget=BUDGET, progress=progress
     )
     found = tuple(
         _row(entry, times, scores[entry.solve])
-        for mechanism, methods in asked
+        for mechanism, methods in entered
         for scores in [_scores(mechanism, methods)]
         for entry in methods
     )
@@ -92,7 +92,7 @@ def _scores(mechanism: CaseSet, methods: Sequence[Entry]) -> dict[Solve, dict[st
     """Return each method's scores, by the name of the case."""
     answers = {case.name: answer(case) for case in (mechanism.easy, *mechanism.hard)}
     solves = dict.fromkeys(entry.solve for entry in methods)
-    return {solve: {name: score(solve, asked) for name, asked in answers.items()} for solve in solves}
+    return {solve: {name: score(solve, exact) for name, exact in answers.items()} for solve in solves}
 
 
 def _row(entry: Entry, times: Mapping[Key, float], scores: Mapping[str, Score]) -> Measured:

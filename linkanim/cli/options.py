@@ -43,7 +43,10 @@ def record(parser: Parser) -> None:
     _clip(parser)
     _look(parser, "record")
     parser.add_argument(
-        "--noted", action="store_true", help="have the text say where a limit or a change point is near"
+        "--noted",
+        dest="near_limits",
+        action="store_true",
+        help="have the text say where a limit or a change point is near",
     )
     parser.add_argument("--progress", action="store_true", help="show it also where stderr is no terminal")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
+from linkanim.atomic_files import checked_target
 from linkanim.errors import BadInput
 from linkanim.mechanics.motion.derived import coupler_body
 from linkanim.picture.look import TOGGLES, Look
@@ -12,7 +13,6 @@ from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
 from linkanim.scenes.reading.closure import other_closure
 from linkanim.scenes.scene import Scene
-from linkanim.whole import checked_target
 
 _SIZE = (1280, 720)
 

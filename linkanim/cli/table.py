@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator
 from typing import Any
 
 from linkanim.cli.tree import Tree
 from linkanim.digits import significant
+from linkanim.export import columns
 from linkanim.mechanics.facts.register import recorded
 from linkanim.mechanics.facts.symbols import plain_unit
 from linkanim.mechanics.linkage.linkage import Linkage
@@ -129,13 +130,6 @@ def _sweep_cells(row: Tree, fixed: Container[str], scene: Scene) -> Iterator[tup
             if slides
             else (f"{called[name]} deg", _degrees(body["angle"]))
         )
-
-
-def columns(lines: Sequence[Sequence[str]]) -> str:
-    """Return the lines with their cells below each other, names to the left and numbers to the right."""
-    first, *others = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    form = "  ".join([f"{{:<{first}}}", *(f"{{:>{width}}}" for width in others)])
-    return "\n".join(form.format(*line) for line in lines)
 
 
 def _number(value: float) -> str:

@@ -35,7 +35,7 @@ _DIGITS = 6
 
 
 def scene_html(scene: Scene) -> str:
-    """Return a scene's figure at its start, and what is told of it."""
+    """Return a scene's figure at its start, and what is known of it."""
     figure = Figured(scene, _FIGURE, Look(names=1, hud=False)).document()
     return _beside(figure, scene._repr_html_())
 
@@ -53,7 +53,7 @@ def _beside(picture: str, table: str) -> str:
 
 
 def _unit(motion: Motion) -> str:
-    """Return the unit of length that a motion is told in."""
+    """Return the unit of length of a motion."""
     scale = motion.setting.linkage.metre
     return next((unit for unit in length_units() if metre(unit) == scale), "")
 
@@ -115,18 +115,20 @@ def _telling(motion: Motion) -> Quantity:
     return known[f"{output.name}.{rate if motion.velocity else where}"]
 
 
-def _chart(motion: Motion, told: Quantity) -> str:
+def _chart(motion: Motion, quantity: Quantity) -> str:
     """Return a chart of a quantity over the input's angle, or over the phase where the input swings."""
     slides, steps = motion.setting.linkage.slides, np.diff(motion.crank_angle)
     turns = not slides and bool((steps > 0).all() or (steps < 0).all())
     x = np.degrees(motion.crank_angle if turns else motion.phase)
-    values = np.asarray(told.shown(motion), float)
+    values = np.asarray(quantity.shown(motion), float)
     type_, parts = Type(), layout(_CHART)
     pen = pen_for(parts, type_, LIGHT)
     y_axis = around(values, most=4)
     area = plot_area(Rect(0, 0, *_CHART), y_axis, pen, foot=True)
     plot = Plot(area, around(x, most=6, unit="°", room=0.0), y_axis)
     items: list[Item] = [*axes(plot, pen), x_title(plot, "input angle (°)" if turns else "phase φ (°)", pen)]
-    items.append(Caption(told.title(_unit(motion)), (area.x, area.y - 1.35 * pen.text), pen.text, LIGHT.ink))
+    items.append(
+        Caption(quantity.title(_unit(motion)), (area.x, area.y - 1.35 * pen.text), pen.text, LIGHT.ink)
+    )
     items.append(curve_layer(plot, x, values, LIGHT.velocity, 1.3 * pen.line))
-    return svg(_CHART, LIGHT.background, items, title=told.words)
+    return svg(_CHART, LIGHT.background, items, title=quantity.words)

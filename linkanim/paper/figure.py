@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pygame
 
+from linkanim.atomic_files import replacing
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
@@ -28,7 +29,6 @@ from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.scenes.reading.closure import ghost_of
 from linkanim.scenes.scene import Scene
-from linkanim.whole import replacing
 
 SUFFIXES = (".svg", ".png", ".pdf")
 

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from linkanim.cells import csv_head, csv_rows
 from linkanim.digits import rpm, typeset
+from linkanim.export import csv_head, csv_rows
 from linkanim.paper import html
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Pace, curves_of

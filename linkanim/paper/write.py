@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from linkanim.cells import csv_head, csv_rows
+from linkanim.atomic_files import replacing
+from linkanim.export import csv_head, csv_rows
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import table
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
 from linkanim.picture.raster.offscreen import png_bytes
-from linkanim.whole import replacing
 
 SUFFIXES = (".svg", ".png", ".pdf", ".csv")
 

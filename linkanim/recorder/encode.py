@@ -71,12 +71,12 @@ def count_frames(part: Path, form: Format) -> int:
         return count_pictures(part)
     # a line for each frame: how many it copied ffmpeg 7 does not say otherwise
     copied = ["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]
-    asking = [ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied]
+    command = [ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied]
     try:
-        told = subprocess.run(asking, capture_output=True, check=False)
+        done = subprocess.run(command, capture_output=True, check=False)
     except OSError as error:
-        raise not_started(asking, error) from error
-    return len(re.findall(rb"^\d", told.stdout, re.MULTILINE)) if told.returncode == 0 else 0
+        raise not_started(command, error) from error
+    return len(re.findall(rb"^\d", done.stdout, re.MULTILINE)) if done.returncode == 0 else 0
 
 
 def ffmpeg() -> str:
@@ -103,8 +103,8 @@ def _gif(
     stream: Stream, part: Path, palette: Callable[[], Sequence[Colour]]
 ) -> Iterator[Callable[[Frame], None]]:
     width, height = stream.size
-    one_core = child.surroundings(**child.ONE_CORE)
-    with running(child.python("-m", "linkanim.recorder.gif"), surroundings=one_core) as write:
+    one_core = child.env(**child.ONE_CORE)
+    with running(child.python("-m", "linkanim.recorder.gif"), env=one_core) as write:
         colours = tuple(palette()) or ((0, 0, 0),)
         job = Job(str(part), width, height, round(100 / stream.rate), colours, stream.alpha)
         write(json.dumps(asdict(job)).encode() + b"\n")

@@ -11,6 +11,7 @@ from pathlib import Path
 import imageio.v3 as iio
 import numpy as np
 
+from linkanim.atomic_files import checked_folder
 from linkanim.errors import RecordingFailed
 from linkanim.manifest import FileSet, replacing
 from linkanim.picture.figure import figure
@@ -23,7 +24,6 @@ from linkanim.recorder.scene_frames import SceneFrames, record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
-from linkanim.whole import checked_folder
 
 SIZE = (400, 225)
 RATES = (20.0, 100 / 6, 12.5, 10.0)

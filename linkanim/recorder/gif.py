@@ -93,18 +93,18 @@ class Nearest:
             self._known[some] = nearness.argmax(axis=1) + 1
 
 
-def pieces(job: Job, told: Iterator[Change]) -> Iterator[bytes]:
+def pieces(job: Job, stream: Iterator[Change]) -> Iterator[bytes]:
     """Yield the GIF's bytes: its head, then those of each frame, told by what changes, then its end."""
     yield _head(job)
     nearest = Nearest(job.palette)
-    yield from _standing_alone(job, nearest, told) if job.alpha else _changing(job, nearest, told)
+    yield from _standing_alone(job, nearest, stream) if job.alpha else _changing(job, nearest, stream)
     yield bytes([_END])
 
 
-def _changing(job: Job, nearest: Nearest, told: Iterator[Change]) -> Iterator[bytes]:
+def _changing(job: Job, nearest: Nearest, stream: Iterator[Change]) -> Iterator[bytes]:
     """Yield frames each of which is drawn over the one before."""
     shown = np.empty((job.height, job.width), np.uint8)
-    for number, (place, words) in enumerate(told):
+    for number, (place, words) in enumerate(stream):
         if number == 0:
             shown.put(place, nearest(words))
             yield _picture(job, Area(0, 0, job.width, job.height), shown, _KEEP)
@@ -116,10 +116,10 @@ def _changing(job: Job, nearest: Nearest, told: Iterator[Change]) -> Iterator[by
         yield _picture(job, area, _thinned(shown[area.inside], at[other]), _KEEP)
 
 
-def _standing_alone(job: Job, nearest: Nearest, told: Iterator[Change]) -> Iterator[bytes]:
+def _standing_alone(job: Job, nearest: Nearest, stream: Iterator[Change]) -> Iterator[bytes]:
     """Yield frames each of which is drawn on nothing, and gone before the next."""
     frame = np.zeros((job.height, job.width), np.uint32)
-    for place, words in told:
+    for place, words in stream:
         frame.put(place, words)
         opaque = frame >> 24 >= _OPAQUE
         area, _ = _around(np.flatnonzero(opaque), job.width)
@@ -217,8 +217,8 @@ def main() -> None:
     """Do the job that the first line of stdin tells as JSON; one line on stderr where it cannot be done."""
     try:
         with open(sys.stdin.fileno(), "rb", closefd=False) as source:
-            told = json.loads(source.readline())
-            job = Job(**{**told, "palette": tuple(map(tuple, told["palette"]))})
+            header = json.loads(source.readline())
+            job = Job(**{**header, "palette": tuple(map(tuple, header["palette"]))})
             with Path(job.path).open("wb") as target:
                 target.writelines(pieces(job, changes(source, job.width * job.height)))
     except (OSError, EOFError) as error:

@@ -90,19 +90,19 @@ class Plan:
     @property
     def moved(self) -> bool:
         """Whether rounding moved the clip's length by more than a hundredth of a second."""
-        return abs(self.seconds - float(_asked_seconds(self.clip))) > 0.01 + 1e-9
+        return abs(self.seconds - float(_requested_seconds(self.clip))) > 0.01 + 1e-9
 
     @property
     def summary(self) -> str:
         """The clip in words: frames, length, periods and speed, with what rounding moved."""
         clip = f"{self.frames} frames at {short(float(self.rate))} fps, {short(self.seconds)} s"
-        said = f"{clip}, {self._extent} at {self.speed_text}"
-        asked = rpm(math.copysign(self.clip.speed, self.speed))
+        text = f"{clip}, {self._extent} at {self.speed_text}"
+        requested = rpm(math.copysign(self.clip.speed, self.speed))
         if self.moved and self.closes:
-            said += f" ({asked} asked, {self.speed_text} recorded)"
+            text += f" ({requested} asked, {self.speed_text} recorded)"
         elif self.moved:
-            said += f" ({short(self.clip.seconds or 0.0)} s asked)"
-        return said
+            text += f" ({short(self.clip.seconds or 0.0)} s asked)"
+        return text
 
     @property
     def _extent(self) -> str:
@@ -122,7 +122,7 @@ def make_plan(clip: Clip, form: Format) -> Plan:
     frames a period, or more than `MOST_FRAMES`.
     """
     _refuse_nonsense(clip)
-    frames, rate = _cut(_asked_seconds(clip), Fraction(clip.fps).limit_denominator(_FINEST), clip, form)
+    frames, rate = _cut(_requested_seconds(clip), Fraction(clip.fps).limit_denominator(_FINEST), clip, form)
     _refuse_too_few(clip, frames)
     sign = -1.0 if clip.reverse else 1.0
     if clip.seconds is None:
@@ -142,7 +142,7 @@ def refuse_size(size: tuple[int, int]) -> None:
         )
 
 
-def _asked_seconds(clip: Clip) -> Fraction:
+def _requested_seconds(clip: Clip) -> Fraction:
     """Return the clip's length asked for, as the simplest fraction that a file can hold."""
     seconds = clip.periods * clip.period / abs(clip.speed) if clip.seconds is None else clip.seconds
     return Fraction(seconds).limit_denominator(_FINEST)

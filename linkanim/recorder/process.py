@@ -28,26 +28,29 @@ _ROOM_FOR_ALL = 1_000_000
 
 
 class _GoneError(Exception):
-    """The encoder does not read any more; what it said and its exit code tell why."""
+    """The encoder does not read any more; its last lines and its exit code tell why."""
 
 
 @contextmanager
 def running(
-    command: Sequence[str], *, ahead: int | None = None, surroundings: Mapping[str, str] | None = None
+    command: Sequence[str], *, ahead: int | None = None, env: Mapping[str, str] | None = None
 ) -> Iterator[Callable[[Frame], None]]:
     """Run the encoder and give the function that writes to it, not too far ahead of what is encoded.
 
     One that queues frames tells of each it is done with by a line on stdout, and gets no more than
-    `ahead` of them; so its memory is the same for few frames and for many. `surroundings` is its
+    `ahead` of them; so its memory is the same for few frames and for many. `env` is its
     environment, ours where None. When the block ends well, the encoder has; else it is gone.
     `RecordingFailed` where it cannot be started, stops early or reports an error.
     """
-    process = _started(command, surroundings)
+    process = _started(command, env)
     room = Semaphore(_ROOM_FOR_ALL if ahead is None else ahead)
     words: deque[bytes] = deque(maxlen=_LAST_WORDS)
-    frames, told, said = _pipes(process)
+    frames, stdout, stderr = _pipes(process)
     _widen(frames)
-    listeners = (Thread(target=_making_room, args=(told, room)), Thread(target=words.extend, args=(said,)))
+    listeners = (
+        Thread(target=_making_room, args=(stdout, room)),
+        Thread(target=words.extend, args=(stderr,)),
+    )
 
     def write(frame: Frame) -> None:
         room.acquire(timeout=_PATIENCE)
@@ -69,12 +72,12 @@ def running(
     _refuse_failure(process.returncode, words)
 
 
-def _started(command: Sequence[str], surroundings: Mapping[str, str] | None) -> subprocess.Popen[bytes]:
+def _started(command: Sequence[str], env: Mapping[str, str] | None) -> subprocess.Popen[bytes]:
     """Start the encoder in a session of its own: Ctrl-C in the terminal is for us, and we stop it."""
     pipe = subprocess.PIPE
     try:
         return subprocess.Popen(
-            command, stdin=pipe, stdout=pipe, stderr=pipe, env=surroundings, start_new_session=True
+            command, stdin=pipe, stdout=pipe, stderr=pipe, env=env, start_new_session=True
         )
     except OSError as error:
         raise not_started(command, error) from error
@@ -99,8 +102,8 @@ def _widen(pipe: IO[bytes]) -> None:
             fcntl.fcntl(pipe.fileno(), fcntl.F_SETPIPE_SZ, _WIDTH)
 
 
-def _making_room(told: IO[bytes], room: Semaphore) -> None:
-    for _ in told:
+def _making_room(stdout: IO[bytes], room: Semaphore) -> None:
+    for _ in stdout:
         room.release()
     room.release(_ROOM_FOR_ALL)  # the encoder is gone: whoever waits is to find out
 
@@ -110,9 +113,9 @@ def _refuse_failure(code: int, words: Iterable[bytes]) -> None:
     if code == 0:
         return
     lines = [line.decode(errors="replace").strip() for line in words]
-    said = "".join(": " + re.sub(r"^\[.*?\] ", "", line) for line in lines[-1:])
+    reason = "".join(": " + re.sub(r"^\[.*?\] ", "", line) for line in lines[-1:])
     how = f"was stopped by {_signal_name(-code)}" if code < 0 else "gave up"
-    raise RecordingFailed(f"the encoder {how}{said or f' with code {code}' * (code > 0)}")
+    raise RecordingFailed(f"the encoder {how}{reason or f' with code {code}' * (code > 0)}")
 
 
 def _signal_name(number: int) -> str:

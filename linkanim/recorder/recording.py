@@ -14,7 +14,7 @@ from typing import Protocol, cast
 
 import numpy as np
 
-from linkanim import manifest, whole
+from linkanim import atomic_files, manifest
 from linkanim.errors import BadInput, RecordingFailed, WorkFailed
 from linkanim.recorder.encode import Stream, count_frames, encoding
 from linkanim.recorder.palette import Colour, make_palette
@@ -93,8 +93,8 @@ class Recording:
 
 
 def checked_path(path: str | os.PathLike[str]) -> tuple[Path, Format]:
-    """Return the path and the format its ending stands for; `BadInput` as `whole.checked_target`."""
-    target = whole.checked_target(path, SUFFIXES)
+    """Return the path and the format its ending stands for; `BadInput` as `atomic_files.checked_target`."""
+    target = atomic_files.checked_target(path, SUFFIXES)
     return target, cast(Format, target.suffix.lower()[1:])
 
 
@@ -113,7 +113,7 @@ def write(
     if frames.alpha and form == "mp4":
         raise BadInput(f"{target.name}: MP4 has no transparency; record a GIF or PNG, or keep the background")
     made = _frame_files(target, plan.frames) if form == "png" else [target]
-    finished = _numbering(target, made) if form == "png" else whole.replacing(target)
+    finished = _numbering(target, made) if form == "png" else atomic_files.replacing(target)
     with _saying_why(target), finished as part:
         _encode(frames, plan, part, form, progress)
         held = count_frames(part, form)

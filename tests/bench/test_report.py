@@ -17,6 +17,7 @@ from linkanim.bench.entries import Entry, Timed
 from linkanim.bench.ours import batch
 from linkanim.bench.result import Target, run, targets
 from linkanim.errors import BadInput
+from linkanim.export import columns
 
 
 def test_the_table_has_a_line_for_each_method_of_each_mechanism_and_for_each_target() -> None:
@@ -44,7 +45,7 @@ def test_times_have_three_digits(nanos: float, written: str) -> None:
 
 
 def test_columns_are_aligned() -> None:
-    assert report.columns([("a", "bb"), ("ccc", "d")]) == "a    bb\nccc   d"
+    assert columns([("a", "bb"), ("ccc", "d")]) == "a    bb\nccc   d"
 
 
 def test_the_readmes_table_is_markdown_with_its_machine() -> None:

@@ -10,7 +10,7 @@ from animation import animation_seconds
 from cost import FPS, FRAMES, SIZE, Cost, cost
 
 from linkanim.bench.machine import Machine, this_machine
-from linkanim.bench.report import columns
+from linkanim.export import columns
 from linkanim.recorder.plan import Format
 
 SCENE = "press"

@@ -11,18 +11,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.atomic_files import checked_target, replacing
 from linkanim.bench.cases import FOUR_BAR
 from linkanim.bench.chain import TURN
 from linkanim.bench.entries import ONE_BY_ONE, Timed
 from linkanim.bench.machine import Machine, this_machine
-from linkanim.bench.report import columns
 from linkanim.bench.timing import nanoseconds
+from linkanim.export import columns
 from linkanim.mechanics.linkage.dyads import RPP, RRP, RRR
 from linkanim.mechanics.linkage.joint import Line
 from linkanim.mechanics.linkage.linkage import Drive, Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
-from linkanim.whole import checked_target, replacing
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000)
 DYADS = (1, 2, 5, 10, 20, 50)

@@ -15,8 +15,8 @@ from tempfile import TemporaryDirectory
 from fidelity import frame_decibels, jitter
 
 from linkanim.bench.machine import Machine, this_machine
-from linkanim.bench.report import columns
 from linkanim.errors import WorkFailed
+from linkanim.export import columns
 from linkanim.picture.look import Look
 from linkanim.player.state.advance import advance
 from linkanim.player.state.clock import FRAMES_PER_SECOND
@@ -128,11 +128,11 @@ def first_frame(*, starts: int = STARTS) -> float:
 
 
 def _started(compiled: str) -> float:
-    surroundings = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    env = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     start = time.time()
     done = subprocess.run(
         [sys.executable, "-c", TELL_FIRST],
-        env={**surroundings, "PYTHONPYCACHEPREFIX": compiled},
+        env={**env, "PYTHONPYCACHEPREFIX": compiled},
         check=False,
         capture_output=True,
         text=True,

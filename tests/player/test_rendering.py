@@ -36,7 +36,7 @@ def test_what_a_rendering_says_is_told_and_nothing_of_it_is_left(
     unlink, open_ones = Path.unlink, list[rendering.Rendering]()
 
     def refused(path: Path, missing_ok: bool = False) -> None:
-        if not open_ones or not open_ones[0]._said.closed:
+        if not open_ones or not open_ones[0]._log.closed:
             raise PermissionError(13, "The process cannot access the file")
         unlink(path, missing_ok)
 

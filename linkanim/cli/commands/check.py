@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkanim import intake
-from linkanim.cli.strict import json_text
 from linkanim.errors import BadInput
+from linkanim.export import json_text
 from linkanim.scenes import load
 from linkanim.scenes.editing.toml import SCENE_FILE
 from linkanim.scenes.reading.problems import Problem, problems
@@ -66,9 +66,9 @@ def _words(found: Iterable[Checked]) -> str:
 
 
 def _object(one: Checked) -> dict[str, object]:
-    told = [
+    found = [
         {"line": problem.line, "message": problem.message.removeprefix(f"{one.file}: ")}
         for problem in one.problems
     ]
     scene = one.scene and {"title": one.scene.title, "class": one.scene.info.class_name}
-    return {"file": one.file, "good": not told, "problems": told, "scene": scene or None}
+    return {"file": one.file, "good": not found, "problems": found, "scene": scene or None}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from linkanim.cli.strict import json_text
+from linkanim.export import json_text
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 

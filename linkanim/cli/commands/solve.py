@@ -12,25 +12,24 @@ from typing import TextIO
 
 import numpy as np
 
-from linkanim.cells import csv_head, csv_rows, lines
+from linkanim.atomic_files import checked_target, replacing
 from linkanim.cli import table
 from linkanim.cli.options import EVERY_ANGLE
-from linkanim.cli.strict import json_text
 from linkanim.cli.sweeping import RowBlock, Steps, blocks
 from linkanim.cli.tree import Leaf, Tree, input_key, leaves, mapped, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
+from linkanim.export import csv_head, csv_rows, json_text, lines
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
-from linkanim.whole import checked_target, replacing
 
 _NUMBER = "\0"
 """Stands for a number in the text that the rows share: no name holds it."""
 
 
 @dataclass(frozen=True)
-class Asked:
+class Inputs:
     """Where to solve: `by` is "angle" (of the crank) or "phase"; one value in radians, or a sweep's steps."""
 
     by: str
@@ -44,35 +43,35 @@ def run(options: Namespace) -> None:
     `BadInput` for options that do not go together; `OutOfRange` for one angle that cannot be reached.
     In a sweep such an angle has a row of nulls.
     """
-    asked = _asked(options)
+    inputs = _inputs(options)
     target = _target(options.csv)
     scene = load(options.scene)
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
-    found = _blocks(scene, asked, speed, options.acceleration)
+    found = _blocks(scene, inputs, speed, options.acceleration)
     if options.csv:
-        _write_csv(target, asked.by, found)
+        _write_csv(target, inputs.by, found)
         return
     head: Tree = {"scene": scene.name, input_key(scene): None, "phase": None}
-    head |= {"time": None} if asked.steps else {}
+    head |= {"time": None} if inputs.steps else {}
     head |= {"speed": speed, "acceleration": options.acceleration, "length_unit": scene.length_unit}
     trees = ({**head, **block.found} for block in found)
     if options.json:
-        _print_json(trees, asked.steps is not None)
+        _print_json(trees, inputs.steps is not None)
     else:
-        words = table.of_sweep if asked.steps else table.of_pose
+        words = table.of_sweep if inputs.steps else table.of_pose
         print(words(scene, (row for block in trees for row in rows(block))))
 
 
-def _asked(options: Namespace) -> Asked:
+def _inputs(options: Namespace) -> Inputs:
     sweep, angle, phase = options.sweep, options.angle, options.phase
     if sweep is None:
         return _one(angle, phase, options.csv)
     if angle is not None or phase not in (None, EVERY_ANGLE):
         raise BadInput("--sweep goes with no other angle; write --phase alone to sweep the phase")
-    return Asked("phase" if phase is EVERY_ANGLE else "angle", steps=Steps.of(sweep))
+    return Inputs("phase" if phase is EVERY_ANGLE else "angle", steps=Steps.of(sweep))
 
 
-def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Asked:
+def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Inputs:
     if csv_name:
         raise BadInput("--csv is for a sweep; add --sweep 0:360:1, or take --json")
     if phase is EVERY_ANGLE:
@@ -80,23 +79,23 @@ def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Aske
     given = [(by, value) for by, value in (("angle", angle), ("phase", phase)) if value is not None]
     if len(given) != 1:
         raise BadInput('say where to solve: one of --angle "87 deg", --phase "87 deg" and --sweep 0:360:1')
-    return Asked(*given[0])
+    return Inputs(*given[0])
 
 
-def _blocks(scene: Scene, asked: Asked, speed: float, acceleration: float) -> Iterator[RowBlock]:
+def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> Iterator[RowBlock]:
     """Yield what was asked for, row by row in blocks; `OutOfRange` where one angle cannot be reached."""
 
-    def solve(inputs: Leaf) -> Motion:
-        return scene.solve(**{asked.by: inputs}, speed=speed, acceleration=acceleration)  # type: ignore[arg-type]
+    def solve(values: Leaf) -> Motion:
+        return scene.solve(**{inputs.by: values}, speed=speed, acceleration=acceleration)  # type: ignore[arg-type]
 
-    if asked.steps is not None:
-        yield from blocks(scene, asked.steps, asked.by, speed, solve)
+    if inputs.steps is not None:
+        yield from blocks(scene, inputs.steps, inputs.by, speed, solve)
         return
-    motion = solve(np.array([asked.value]))
+    motion = solve(np.array([inputs.value]))
     if any(np.isnan(points).any() for points in motion.position.values()):
-        raise out_of_range(scene, asked.value)
-    where = {input_key(scene): motion.crank_angle, "phase": motion.phase, asked.by: np.array([asked.value])}
-    yield RowBlock(np.degrees([asked.value]), {**where, **tree(scene, motion)})
+        raise out_of_range(scene, inputs.value)
+    where = {input_key(scene): motion.crank_angle, "phase": motion.phase, inputs.by: np.array([inputs.value])}
+    yield RowBlock(np.degrees([inputs.value]), {**where, **tree(scene, motion)})
 
 
 def out_of_range(scene: Scene, angle: float) -> OutOfRange:

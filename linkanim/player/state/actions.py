@@ -57,8 +57,8 @@ def _numbers(count: int) -> Callable[[object], bool]:
 def _of_look(name: str) -> Rule:
     """Return the rule of a field of the look; some do more than to go on a step."""
     handle = {"ghost": looks.ghost, "theme": looks.theme}.get(name, looks.toggling(name))
-    said = partial(answers.of_look, name)
-    return Rule(_one_of(*TOGGLES[name].members), handle, answer=said)
+    answer = partial(answers.of_look, name)
+    return Rule(_one_of(*TOGGLES[name].members), handle, answer=answer)
 
 
 ACTIONS: Mapping[str, Rule] = {

@@ -13,7 +13,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.actions import ACTIONS
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import refused
-from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, answered
+from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, with_chip
 from linkanim.player.window.glide import followed
 
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
@@ -57,7 +57,7 @@ def carried(state: State, action: Action) -> State:
         state = replace(state, touched=state.frame)
     try:
         after = rule.handle(state, action.value)
-        return answered(after, rule.answer(state, after)) if rule.answer else after
+        return with_chip(after, rule.answer(state, after)) if rule.answer else after
     except Exception as error:
         return refused(state, action, error)
 

@@ -36,9 +36,9 @@ class Browsing:
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
     """Return the tokens of the quantities that have all the sieve's words, the telling ones first."""
-    wanted = sieve.casefold().split()
+    words = sieve.casefold().split()
     tokens = dict.fromkeys((*telling(scene), *quantities(scene)))
-    return tuple(token for token in tokens if all(word in _searched(scene, token) for word in wanted))
+    return tuple(token for token in tokens if all(word in _searched(scene, token) for word in words))
 
 
 def _searched(scene: Scene, token: str) -> str:

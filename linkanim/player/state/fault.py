@@ -12,7 +12,7 @@ from dataclasses import replace
 from linkanim.errors import LinkanimError
 from linkanim.player.state.action import Action
 from linkanim.player.state.editing import chosen
-from linkanim.player.state.state import State, asking, told
+from linkanim.player.state.state import State, with_effect, with_toast
 from linkanim.scenes.scene import Scene
 
 _TRIED = 90
@@ -32,16 +32,16 @@ def proved(scene: Scene, phase: float) -> Scene:
 def refused(state: State, action: Action, error: Exception) -> State:
     """Return the state as it was, the reason told where the value stands, or in a toast.
 
-    What linkanim raises on purpose says its reason by itself; of anything else a report is asked for.
+    What linkanim raises on purpose says its reason by itself; of anything else a report is written.
     """
     if isinstance(error, LinkanimError):
-        return told(state, str(error))
+        return with_toast(state, str(error))
     sentence = f"the solver failed there ({named(error)}); the last good linkage runs on"
     item = chosen(state.editing, state.scene) if action.name in _AT_A_VALUE else None
-    asked = {"action": list(action), "key": item.key if item else None, "typed": state.editing.typed}
-    state = asking(state, "report", report(state.scene, error, **asked))
+    context = {"action": list(action), "key": item.key if item else None, "typed": state.editing.typed}
+    state = with_effect(state, "report", report(state.scene, error, **context))
     if item is None:
-        return told(state, sentence)
+        return with_toast(state, sentence)
     return replace(state, editing=replace(state.editing, refusal=sentence))
 
 
@@ -50,8 +50,8 @@ def named(error: Exception) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
 
 
-def report(scene: Scene, error: Exception, **asked: object) -> str:
-    """Return, as JSON, the scene whole, what was asked of it, and where the solver failed."""
+def report(scene: Scene, error: Exception, **context: object) -> str:
+    """Return, as JSON, the whole scene, the context, and where the solver failed."""
     import json
 
     from linkanim import __version__
@@ -60,7 +60,7 @@ def report(scene: Scene, error: Exception, **asked: object) -> str:
         "linkanim": __version__,
         "scene": scene.name,
         "document": scene.document,
-        **asked,
+        **context,
         "error": named(error),
         "traceback": traceback.format_exception(error),
     }
@@ -77,4 +77,4 @@ def recovered(state: State, good: State, error: Exception) -> State:
         return replace(state, glide=None)
     clock = good.clock.go(state.frame, good.phase, paused=state.scene is good.scene or good.clock.paused)
     back = replace(good, frame=state.frame, clock=clock, glide=None, effects=(), recording=None)
-    return told(back, f"the solver failed there ({named(error)}); the last good linkage is back")
+    return with_toast(back, f"the solver failed there ({named(error)}); the last good linkage is back")

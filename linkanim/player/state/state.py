@@ -111,10 +111,10 @@ def begin(
     Without a scene it is the catalogue's first; one that is not of the catalogue stands before it.
     BadInput as loading raises it.
     """
-    asked = names()[0] if scene is None else scene
-    found = asked if isinstance(asked, Scene) else load(asked)
+    source = names()[0] if scene is None else scene
+    found = source if isinstance(source, Scene) else load(source)
     shelf: tuple[Scene | str, ...] = names()
-    if asked not in shelf and (found.name not in shelf or load(found.name) != found):
+    if source not in shelf and (found.name not in shelf or load(found.name) != found):
         shelf = (found, *shelf)
     place = 0 if shelf[0] is found else shelf.index(found.name)
     return State(found, fresh(found), shelf, place, look=look or Look(), attract=attract)
@@ -125,16 +125,16 @@ def fresh(scene: Scene) -> Clock:
     return Clock(scene.linkage.drive.speed)
 
 
-def told(state: State, text: str) -> State:
+def with_toast(state: State, text: str) -> State:
     """Return the state with a toast."""
     return replace(state, toast=Toast(text, state.frame + TOAST_FRAMES))
 
 
-def answered(state: State, text: str | None) -> State:
+def with_chip(state: State, text: str | None) -> State:
     """Return the state with a chip that says the text; without, as it was."""
     return replace(state, chip=Toast(text, state.frame + CHIP_FRAMES)) if text else state
 
 
-def asking(state: State, name: str, value: str | None = None) -> State:
+def with_effect(state: State, name: str, value: str | None = None) -> State:
     """Return the state with one more thing to be done outside."""
     return replace(state, effects=(*state.effects, Action(name, value)))

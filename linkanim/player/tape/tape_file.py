@@ -10,7 +10,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from linkanim import intake, whole
+from linkanim import atomic_files, intake
 from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS
 from linkanim.document import Section, refuse_controls
 from linkanim.errors import BadInput
@@ -39,7 +39,7 @@ _MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
 def write(tape: Tape, path: Path) -> None:
     """Write the tape as a file that was not there before; WorkFailed where that cannot be."""
     text = json.dumps(to_document(tape), ensure_ascii=False, allow_nan=False, indent=1)
-    whole.add(f"{text}\n".encode(), path)
+    atomic_files.add(f"{text}\n".encode(), path)
 
 
 def read(path: Path) -> Tape:

@@ -25,11 +25,11 @@ def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
     Gives the connection to the display server. NoDisplay where there is no screen; SDL_VIDEODRIVER=dummy
     asks for none, and gets none.
     """
-    asked, connection = os.environ.get("SDL_VIDEODRIVER"), Connection()
+    driver, connection = os.environ.get("SDL_VIDEODRIVER"), Connection()
     _prepare()
     try:
         pygame.display.init()
-        if asked is None and pygame.display.get_driver() in _INVISIBLE:
+        if driver is None and pygame.display.get_driver() in _INVISIBLE:
             raise NoDisplay(_NO_SCREEN)
         _hasten(pygame.display.get_driver())
         pygame.display.set_mode(size or _suiting(), pygame.RESIZABLE)
@@ -41,7 +41,7 @@ def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
         raise NoDisplay(f"{_NO_SCREEN} ({error})") from None
     finally:
         connection.close()
-        if asked is None:
+        if driver is None:
             os.environ.pop("SDL_VIDEODRIVER", None)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pygame
 
-from linkanim import whole
+from linkanim import atomic_files
 from linkanim.picture.raster.offscreen import png_bytes
 from linkanim.player.state.state import State
 
@@ -44,6 +44,6 @@ def _added(data: bytes, name: str, suffix: str) -> Path:
 
     `BadInput` where the folder's name is a file's, `WorkFailed` where the disk refuses.
     """
-    whole.made_folder(FOLDER)
+    atomic_files.made_folder(FOLDER)
     first, *others = (FOLDER / f"{name}-{number}{suffix}" for number in range(1, 10_000))
-    return whole.add(data, first, others)
+    return atomic_files.add(data, first, others)

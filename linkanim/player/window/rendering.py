@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from linkanim import child
+from linkanim.atomic_files import made_folder
 from linkanim.errors import WorkFailed
 from linkanim.player.tape import tape_file
 from linkanim.player.tape.tape import Tape
 from linkanim.player.window.files import FOLDER, free_stem
-from linkanim.whole import made_folder
 
 _TAIL = 400
 _COUNT = re.compile(r"(\d+)/(\d+)")
@@ -29,10 +29,10 @@ class Rendering:
     it writes at.
     """
 
-    def __init__(self, target: Path, process: subprocess.Popen[bytes], said: BinaryIO) -> None:
+    def __init__(self, target: Path, process: subprocess.Popen[bytes], log: BinaryIO) -> None:
         self.target = target
         self._process = process
-        self._said = said
+        self._log = log
 
     @property
     def done(self) -> bool:
@@ -54,13 +54,13 @@ class Rendering:
 
     def close(self) -> None:
         """Let go of what it says; the process itself goes on."""
-        self._said.close()
-        _forgotten(self._said.name)
+        self._log.close()
+        _forgotten(self._log.name)
 
     def _tail(self) -> str:
-        size = os.fstat(self._said.fileno()).st_size
-        self._said.seek(max(size - _TAIL, 0))
-        return self._said.read(_TAIL).decode("utf-8", "replace")
+        size = os.fstat(self._log.fileno()).st_size
+        self._log.seek(max(size - _TAIL, 0))
+        return self._log.read(_TAIL).decode("utf-8", "replace")
 
 
 class Kept(NamedTuple):
@@ -125,16 +125,16 @@ def render(kept: Kept) -> Rendering:
     command = child.python("-m", "linkanim", "record", str(kept.tape), "-o", str(target), "--progress")
     number, name = tempfile.mkstemp()
     # it stays open as long as the rendering
-    said = Path(name).open("rb", buffering=0)  # noqa: SIM115
+    log = Path(name).open("rb", buffering=0)  # noqa: SIM115
     try:
         process = _start(command, number)
     except OSError as error:
-        said.close()
+        log.close()
         raise WorkFailed(f"{target}: the recording process cannot be started: {error.strerror}") from None
     finally:
         os.close(number)
         _forgotten(name)
-    return Rendering(target, process, said)
+    return Rendering(target, process, log)
 
 
 def _forgotten(name: str) -> None:
@@ -143,13 +143,13 @@ def _forgotten(name: str) -> None:
         Path(name).unlink()
 
 
-def _start(command: list[str], said: int) -> subprocess.Popen[bytes]:
+def _start(command: list[str], log: int) -> subprocess.Popen[bytes]:
     """Start a process that neither Ctrl-C in our terminal nor our end takes with it."""
     return subprocess.Popen(
         command,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
-        stderr=said,
-        env=child.surroundings(),
+        stderr=log,
+        env=child.env(),
         start_new_session=True,
     )

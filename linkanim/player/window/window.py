@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
-_TOLD_EVERY = 15
+_NEWS_EVERY = 15
 _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "fullscreen", "quit", "back"})
 
 
@@ -51,7 +51,7 @@ class Window:
         self._renderings: Queue | None = None
         self.easel = Easel(state)
         self._keyboard, self._mouse = Keyboard(), Mouse()
-        self._told: list[str] = []
+        self._notes: list[str] = []
         self._windowed = display.frame()
         self._open = True
         self._now = state.frame
@@ -82,7 +82,7 @@ class Window:
     def _advance(self, events: list[Event]) -> None:
         """Go one frame on; each key is asked what it means once those before it are done."""
         self.state, done = aged(self._rewound()), []
-        for action in self._asked(events):
+        for action in self._requested(events):
             self.state = carried(self.state, action)
             done.append(action)
         self.state = settled(self.state)
@@ -91,7 +91,7 @@ class Window:
         for effect in self.state.effects:
             self._carry_out(effect)
 
-    def _asked(self, events: list[Event]) -> Iterator[Action]:
+    def _requested(self, events: list[Event]) -> Iterator[Action]:
         """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
         yield from self._reeled()
         for event in latest(events):
@@ -147,19 +147,19 @@ class Window:
 
     def _news(self) -> tuple[Action, ...]:
         """Return, as notes, what was done outside, and how far recordings are."""
-        told, self._told = self._told, []
+        notes, self._notes = self._notes, []
         if self._file and self.state.frame % FRAMES_PER_SECOND == 0:
-            told += self._file.news()
-        if self._renderings and self.state.frame % _TOLD_EVERY == 0:
-            told += self._renderings.news()
-        return tuple(Action("note", text) for text in told)
+            notes += self._file.news()
+        if self._renderings and self.state.frame % _NEWS_EVERY == 0:
+            notes += self._renderings.news()
+        return tuple(Action("note", text) for text in notes)
 
     def _carry_out(self, effect: Action) -> None:
-        """Do what the state asks of the outside; what cannot be done is told, and the window runs on."""
+        """Do what the state asks of the outside; what cannot be done is a note, and the window runs on."""
         try:
             self._do(effect)
         except LinkanimError as error:
-            self._told.append(str(error))
+            self._notes.append(str(error))
 
     def _do(self, effect: Action) -> None:
         match effect.name:
@@ -169,13 +169,13 @@ class Window:
                 self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
                 picture = self.easel.picture(self.state, kept(self.state))
-                self._told.append(str(files.screenshot(picture, self.state.scene.name)))
+                self._notes.append(str(files.screenshot(picture, self.state.scene.name)))
             case "svg":
-                self._told.append(str(files.vector(self.state, pygame.display.get_window_size())))
+                self._notes.append(str(files.vector(self.state, pygame.display.get_window_size())))
             case "report":
                 self._report(str(effect.value))
             case "save":
-                self._told.append(f"{save(self.state.scene, Path())} is written")
+                self._notes.append(f"{save(self.state.scene, Path())} is written")
             case "reload":
                 self._reload()
             case "fullscreen":
@@ -184,7 +184,7 @@ class Window:
                 self._open = False
 
     def _reload(self) -> None:
-        """Put on what the scene file holds now; what is wrong with it is told, and the linkage runs on."""
+        """Put on what the scene file holds now; what is wrong with it is a note, and the linkage runs on."""
         if self._file is None:
             raise BadInput("there is no scene file to load again; `linkanim FILE.toml` opens one")
         if self.state.recording:
@@ -202,7 +202,7 @@ class Window:
         if text not in self._reported:
             self._reported.add(text)
             written = files.report(text, self.state.scene.name)
-            self._told.append(f"{written} holds what a report of the fault needs")
+            self._notes.append(f"{written} holds what a report of the fault needs")
 
     def _stop(self, form: Literal["gif", "mp4"]) -> None:
         """Keep what was recorded and render it; where it cannot be kept, the recording runs on."""
@@ -211,7 +211,7 @@ class Window:
         except LinkanimError as error:
             assert self._taping
             self.state = replace(self.state, recording=Take(form, self._taping.since))
-            self._told.append(f"{error}; the recording runs on")
+            self._notes.append(f"{error}; the recording runs on")
 
     def _render(self, form: str) -> None:
         if self._taping:

@@ -6,7 +6,7 @@ import re
 from itertools import count
 from pathlib import Path
 
-from linkanim import whole
+from linkanim import atomic_files
 from linkanim.errors import SceneError
 from linkanim.scenes.scene import Scene
 
@@ -33,7 +33,7 @@ def save(scene: Scene, folder: Path) -> Path:
     nothing left behind, where the folder cannot be written.
     """
     numbered = (folder / f"{scene.name}-{number}.toml" for number in count(2))
-    return whole.add(text(scene).encode("utf-8"), folder / f"{scene.name}.toml", numbered)
+    return atomic_files.add(text(scene).encode("utf-8"), folder / f"{scene.name}.toml", numbered)
 
 
 def _on_one_line(found: re.Match[str]) -> str:

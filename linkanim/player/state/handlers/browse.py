@@ -7,7 +7,7 @@ from dataclasses import replace
 from linkanim.picture.diagrams.quantities import quantities
 from linkanim.player.state.browsing import Browsing, Listing, listed, moved, sifted, unsifted
 from linkanim.player.state.handlers.shelf import put_on
-from linkanim.player.state.state import State, told
+from linkanim.player.state.state import State, with_toast
 
 
 def list_(state: State, _: None) -> State:
@@ -54,7 +54,7 @@ def unsift(state: State, _: None) -> State:
 def plot(state: State, token: str) -> State:
     """Chart a quantity, and close the list."""
     if token not in quantities(state.scene):
-        return told(state, f"{state.scene.name} has no quantity {token}")
+        return with_toast(state, f"{state.scene.name} has no quantity {token}")
     return replace(state, look=replace(state.look, chart=token), listing=None)
 
 

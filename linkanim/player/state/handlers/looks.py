@@ -8,7 +8,7 @@ from dataclasses import replace
 from linkanim.errors import LinkanimError
 from linkanim.picture.diagrams.quantities import telling
 from linkanim.picture.look import toggled
-from linkanim.player.state.state import State, told
+from linkanim.player.state.state import State, with_toast
 from linkanim.player.window.framing import panned, zoomed
 from linkanim.scenes.reading.closure import other_closure
 
@@ -33,7 +33,7 @@ def ghost(state: State, _: None) -> State:
         try:
             other_closure(state.scene)
         except LinkanimError as error:
-            return told(state, str(error))
+            return with_toast(state, str(error))
     return replace(state, look=toggled(state.look, "ghost"))
 
 

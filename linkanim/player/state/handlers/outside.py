@@ -8,12 +8,12 @@ from typing import Literal
 
 from linkanim.player.state import editing as edit_
 from linkanim.player.state.handlers.edits import edit
-from linkanim.player.state.state import State, Take, asking, told
+from linkanim.player.state.state import State, Take, with_effect, with_toast
 
 
 def note(state: State, text: str) -> State:
     """Tell something in a toast."""
-    return told(state, text)
+    return with_toast(state, text)
 
 
 def back(state: State, _: None) -> State:
@@ -24,26 +24,26 @@ def back(state: State, _: None) -> State:
         return replace(state, listing=None, browsing=None)
     if state.editing.open and state.editing.begun:
         return replace(state, editing=edit_.let_go(state.editing))
-    return edit(state, None) if state.editing.open else asking(state, "quit")
+    return edit(state, None) if state.editing.open else with_effect(state, "quit")
 
 
 def record(state: State, form: Literal["gif", "mp4"]) -> State:
     """Start a recording, or stop the one that runs, whichever its format is."""
     if state.recording is None:
-        return replace(asking(state, "record", form), recording=Take(form, state.frame))
-    return replace(asking(state, "render", state.recording.format), recording=None)
+        return replace(with_effect(state, "record", form), recording=Take(form, state.frame))
+    return replace(with_effect(state, "render", state.recording.format), recording=None)
 
 
 def screenshot(state: State, _: None) -> State:
     """Ask for a screenshot; the shutter is seen to go."""
-    return replace(asking(state, "screenshot"), shot=state.frame)
+    return replace(with_effect(state, "screenshot"), shot=state.frame)
 
 
 def svg(state: State, _: None) -> State:
     """Ask for the picture as an SVG, the shutter going."""
-    return replace(asking(state, "svg"), shot=state.frame)
+    return replace(with_effect(state, "svg"), shot=state.frame)
 
 
 def effect(name: str) -> Callable[[State, None], State]:
     """Return the handler of what changes nothing in the picture."""
-    return lambda state, _: asking(state, name)
+    return lambda state, _: with_effect(state, name)

@@ -10,7 +10,7 @@ from linkanim.picture.diagrams.quantities import quantities
 from linkanim.player.state import editing as edit
 from linkanim.player.state.editing import Editing
 from linkanim.player.state.fault import proved
-from linkanim.player.state.state import State, fresh, told
+from linkanim.player.state.state import State, fresh, with_toast
 from linkanim.scenes import chapter_of, chapters, load
 from linkanim.scenes.reading.closure import other_closure
 from linkanim.scenes.scene import Scene
@@ -37,7 +37,7 @@ def closure(state: State, _: None) -> State:
     try:
         scene = other_closure(state.scene)
     except LinkanimError as error:
-        return told(state, str(error))
+        return with_toast(state, str(error))
     return exchanged(replace(state, editing=edit.changed(state.editing, state.scene)), scene)
 
 

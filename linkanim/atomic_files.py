@@ -39,24 +39,24 @@ _FORSAKEN = 7 * 24 * 3600
 
 
 def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> Path:
-    """Return the path, where a file can be asked for under it.
+    """Return the path of a file that can be written.
 
     `BadInput` where `path` has none of the suffixes, is a folder or a name of Windows' own, lies in a
     folder that is not there, or is taken as by `refuse_taken`.
     """
-    asked = Path(path)
-    if asked.is_dir():
+    target = Path(path)
+    if target.is_dir():
         raise BadInput(
-            f"{asked} is a folder; give the name of a file in it, such as {asked / ('out' + suffixes[0])}"
+            f"{target} is a folder; give the name of a file in it, such as {target / ('out' + suffixes[0])}"
         )
-    if asked.suffix.lower() not in suffixes:
-        raise BadInput(f"{asked}: the name's ending says the format; use one of {', '.join(suffixes)}")
-    if asked.name.split(".")[0].strip().lower() in _DEVICES:
-        raise BadInput(f"{asked}: Windows keeps {asked.stem} for a device; choose another name")
-    if not asked.parent.is_dir():
-        raise BadInput(f"{asked}: there is no folder {asked.parent}; make it first, or choose another")
-    refuse_taken(asked)
-    return asked
+    if target.suffix.lower() not in suffixes:
+        raise BadInput(f"{target}: the name's ending says the format; use one of {', '.join(suffixes)}")
+    if target.name.split(".")[0].strip().lower() in _DEVICES:
+        raise BadInput(f"{target}: Windows keeps {target.stem} for a device; choose another name")
+    if not target.parent.is_dir():
+        raise BadInput(f"{target}: there is no folder {target.parent}; make it first, or choose another")
+    refuse_taken(target)
+    return target
 
 
 def refuse_taken(path: Path) -> None:

@@ -1,9 +1,11 @@
-"""Columns of numbers as text, for CSV and JSON alike: every digit that a float has, and no more."""
+"""What is known as text for others to read: CSV and JSON with every digit that a float has, and columns."""
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Sequence
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from io import StringIO
 
 import numpy as np
@@ -44,3 +46,26 @@ def csv_rows(columns: Sequence[ArrayLike]) -> str:
     """Return a table's rows; what is not finite is an empty cell."""
     text = "".join(f"{line}\n" for line in lines(columns))
     return text if all(np.isfinite(column).all() for column in columns) else text.replace(NULL, "")
+
+
+def columns(rows: Sequence[Sequence[str]]) -> str:
+    """Return rows with their cells below each other, the first to the left, the others to the right."""
+    first, *others = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    form = "  ".join([f"{{:<{first}}}", *(f"{{:>{width}}}" for width in others)])
+    return "\n".join(form.format(*row).rstrip() for row in rows)
+
+
+def json_text(value: object, *, indent: int | None = None) -> str:
+    """Return the value as strict JSON; NaN and infinities, at any depth, are null."""
+    return json.dumps(finite(value), indent=indent, allow_nan=False, ensure_ascii=False)
+
+
+def finite(value: object) -> object:
+    """Return the value with None in the place of every float that is not finite."""
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {key: finite(part) for key, part in value.items()}
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [finite(part) for part in value]
+    return value

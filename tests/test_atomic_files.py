@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from linkanim import manifest, whole
+from linkanim import atomic_files, manifest
 from linkanim.errors import BadInput, WorkFailed
 
 BEFORE = b"what was there before"
@@ -26,7 +26,7 @@ def target(tmp_path: Path) -> Path:
 
 
 def replaced(path: Path) -> None:
-    with whole.replacing(path) as part:
+    with atomic_files.replacing(path) as part:
         part.write_bytes(b"new")
 
 
@@ -36,11 +36,11 @@ def set_replaced(path: Path) -> None:
 
 
 def added(path: Path) -> None:
-    assert whole.add(b"new", path, [path.with_name("out-2.csv")]) == path.with_name("out-2.csv")
+    assert atomic_files.add(b"new", path, [path.with_name("out-2.csv")]) == path.with_name("out-2.csv")
 
 
 def test_a_file_is_replaced_when_it_is_whole(target: Path) -> None:
-    with whole.replacing(target) as part:
+    with atomic_files.replacing(target) as part:
         part.write_bytes(b"new")
         assert target.read_bytes() == BEFORE
         assert part.parent.parent == target.parent
@@ -51,7 +51,7 @@ def test_a_file_is_replaced_when_it_is_whole(target: Path) -> None:
 @pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError, ValueError])
 def test_whatever_interrupts_leaves_what_was_there(target: Path, error: type[BaseException]) -> None:
     def interrupted() -> None:
-        with whole.replacing(target) as part:
+        with atomic_files.replacing(target) as part:
             part.write_bytes(b"half")
             raise error
 
@@ -114,9 +114,9 @@ def test_the_bytes_are_on_the_disk_before_the_name(
 @pytest.mark.parametrize("name", ["CON.gif", "nul.gif", "Aux.old.gif", "com7.gif", "LPT1 .gif"])
 def test_a_name_that_windows_keeps_for_a_device_is_refused_everywhere(tmp_path: Path, name: str) -> None:
     with pytest.raises(BadInput, match=r"Windows keeps .* for a device; choose another name$"):
-        whole.checked_target(tmp_path / name, (".gif",))
+        atomic_files.checked_target(tmp_path / name, (".gif",))
     for free in ("console.gif", "com.gif", "com10.gif", "my.con.gif"):
-        assert whole.checked_target(tmp_path / free, (".gif",)) == tmp_path / free
+        assert atomic_files.checked_target(tmp_path / free, (".gif",)) == tmp_path / free
 
 
 @pytest.fixture(params=["link", "dangling link", "loop of links", "pipe", "folder", "read-only file"])
@@ -156,7 +156,7 @@ def state(folder: Path) -> dict[str, tuple[int, bytes]]:
 def test_what_is_no_plain_writable_file_is_never_written_over(taken: Path) -> None:
     before = state(taken.parent)
     with pytest.raises(BadInput, match=r"taken\.csv is .*; (name|choose|make)|taken\.csv is a folder; give"):
-        whole.checked_target(taken, (".csv",))
+        atomic_files.checked_target(taken, (".csv",))
     with pytest.raises(BadInput, match=r"taken\.csv is .*; (name|choose|make) "):
         replaced(taken)
     assert state(taken.parent) == before
@@ -166,7 +166,7 @@ def test_what_takes_the_name_meanwhile_is_not_written_over(tmp_path: Path) -> No
     path = tmp_path / "out.csv"
 
     def interfered() -> None:
-        with whole.replacing(path) as part:
+        with atomic_files.replacing(path) as part:
             part.write_bytes(b"new")
             path.symlink_to("absent.csv")
 
@@ -180,7 +180,7 @@ def test_a_folder_that_is_a_loop_of_links_is_refused(tmp_path: Path) -> None:
     (tmp_path / "a").symlink_to("b")
     (tmp_path / "b").symlink_to("a")
     with pytest.raises(BadInput, match="a link that leads to no folder"):
-        whole.made_folder(tmp_path / "a")
+        atomic_files.made_folder(tmp_path / "a")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="has no modes of this kind")
@@ -209,14 +209,14 @@ def test_an_added_file_takes_the_first_free_name(
         "out-2.csv": b"new",
     }
     with pytest.raises(WorkFailed, match=r"out\.csv: cannot be written: file exists"):
-        whole.add(b"new", target)
+        atomic_files.add(b"new", target)
 
 
 def test_a_written_file_is_as_open_to_others_as_any(tmp_path: Path) -> None:
     (tmp_path / "plain").touch()
     replaced(tmp_path / "replaced")
     set_replaced(tmp_path / "out-1.csv")
-    whole.add(b"", tmp_path / "added")
+    atomic_files.add(b"", tmp_path / "added")
     assert {path.stat().st_mode for path in tmp_path.iterdir()} == {(tmp_path / "plain").stat().st_mode}
 
 
@@ -224,8 +224,8 @@ def test_a_written_file_is_as_open_to_others_as_any(tmp_path: Path) -> None:
 HOLDING = """
 import sys
 from pathlib import Path
-from linkanim import whole
-with whole.replacing(Path(sys.argv[1])) as part:
+from linkanim import atomic_files
+with atomic_files.replacing(Path(sys.argv[1])) as part:
     print(part.parent, flush=True)
     sys.stdin.read()
 """
@@ -250,7 +250,7 @@ def test_the_lock_and_no_number_tells_whose_run_is_alive(tmp_path: Path) -> None
         foreign.touch()
         (left / "deep").mkdir()
         (left / "deep" / "0001.png").touch()
-        whole.clear_stale(tmp_path)
+        atomic_files.clear_stale(tmp_path)
         assert set(tmp_path.iterdir()) == {at_work, foreign}
         living.communicate()
     assert {path.name for path in tmp_path.iterdir()} == {"living.csv", foreign.name}
@@ -269,15 +269,15 @@ def test_another_machine_s_run_is_told_by_its_age(
     then = time.time() - days * 24 * 3600
     for path in (*part.iterdir(), part):
         os.utime(path, (then, then))
-    whole.clear_stale(tmp_path)
+    atomic_files.clear_stale(tmp_path)
     assert part.exists() == stays
 
 
 def test_a_folder_is_made_where_only_it_is_missing(target: Path) -> None:
-    made = whole.made_folder(target.parent / "into")
+    made = atomic_files.made_folder(target.parent / "into")
     assert made.is_dir()
-    assert whole.made_folder(made) == made
+    assert atomic_files.made_folder(made) == made
     with pytest.raises(BadInput, match="is a file; name a folder"):
-        whole.made_folder(target)
+        atomic_files.made_folder(target)
     with pytest.raises(BadInput, match="there is no folder"):
-        whole.made_folder(made / "absent" / "deeper")
+        atomic_files.made_folder(made / "absent" / "deeper")

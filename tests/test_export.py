@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkanim.cells import csv_head, csv_rows, lines
+from linkanim.export import csv_head, csv_rows, lines
 
 
 def bits(value: float) -> bytes:
