@@ -41,6 +41,12 @@ RANK = {
     for room in rooms
 }
 
+# Rooms within a room, from the top down; what lies beside them under the name of the room itself.
+WITHIN = {
+    "player": ("state", "input", "tape", "window"),
+    "cli": ("cli", "commands"),
+}
+
 THIRD_PARTIES = {
     "errors": set(),
     "bounds": set(),
@@ -141,6 +147,25 @@ def test_the_map_names_every_room_in_order(room: str) -> None:
     assert folders == set(INNER_ROOMS[room])
     lines = [line.split()[0].removesuffix("/") for line in str(linkanim.__doc__).splitlines() if line.strip()]
     assert [word for word in lines if word in folders] == list(INNER_ROOMS[room])
+
+
+@pytest.mark.parametrize("room", WITHIN)
+def test_a_room_within_imports_only_from_itself_and_those_above(room: str) -> None:
+    def inner(parts: tuple[str, ...]) -> int:
+        return WITHIN[room].index(parts[1] if parts[1] in WITHIN[room] else room)
+
+    lower, seen = [], 0
+    for path in SOURCES:
+        if room_of(path) != room or (room not in WITHIN[room] and path.parent == PACKAGE / room):
+            continue
+        own = inner(path.relative_to(PACKAGE).parts)
+        for name in imported(path):
+            parts = tuple(name.split(".")[1:])
+            seen += parts[:1] == (room,)
+            if parts[:1] == (room,) and inner((*parts, "")) > own:
+                lower.append((path, name))
+    assert lower == []
+    assert seen > 5
 
 
 def test_a_third_party_stays_in_its_rooms() -> None:

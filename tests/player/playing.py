@@ -9,7 +9,7 @@ import pygame
 
 from linkanim.player.state.state import CHIP_FRAMES, State
 from linkanim.player.window import display
-from linkanim.player.window.scene_file import SceneFile
+from linkanim.player.window.files import SceneFile
 from linkanim.player.window.window import Window
 
 SIZE = (320, 180)

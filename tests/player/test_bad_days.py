@@ -16,7 +16,7 @@ from playing import SIZE, Player, fake_start
 from linkanim.player.state.state import State, begin
 from linkanim.player.tape.tape_file import read
 from linkanim.player.window import display, rendering
-from linkanim.player.window.scene_file import SceneFile
+from linkanim.player.window.files import SceneFile
 from linkanim.scenes import load
 from linkanim.scenes.editing.write import save
 

@@ -10,8 +10,8 @@ import pytest
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.editing import chosen
+from linkanim.player.state.glide import EVERY, FRAMES, closes
 from linkanim.player.state.state import FLASH_FRAMES, State, begin
-from linkanim.player.window.glide import EVERY, FRAMES, closes
 from linkanim.player.window.show import overlay
 from linkanim.scenes import load
 from linkanim.scenes.editing.edit import dimensions, passing
@@ -374,7 +374,7 @@ def test_a_scene_on_the_way_is_worked_out_in_the_frame_before_it_is_drawn(
         worked.append(state.frame)
         return passing(*given)
 
-    monkeypatch.setattr("linkanim.player.window.glide.passing", noted)
+    monkeypatch.setattr("linkanim.player.state.glide.passing", noted)
     while state.glide:
         before, state = state.shown, advance(state)
         drawn += [state.frame] if state.shown is not before else []

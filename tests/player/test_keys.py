@@ -19,7 +19,6 @@ from linkanim.player.input.keys import (
     SHELF_KEYS,
     Bind,
     KeyRow,
-    Mode,
     Press,
     as_markdown,
     as_text,
@@ -27,7 +26,7 @@ from linkanim.player.input.keys import (
     help_groups,
     key_names,
 )
-from linkanim.player.state.action import Action
+from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.actions import is_known
 from linkanim.player.state.browsing import RESOLVED
 

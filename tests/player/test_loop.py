@@ -20,7 +20,7 @@ from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape, starting
 from linkanim.player.tape.tape_file import write
 from linkanim.player.window import display
-from linkanim.player.window.connection import Connection
+from linkanim.player.window.display import Connection
 from linkanim.player.window.loop import frames, run
 from linkanim.player.window.window import Window
 from linkanim.scenes import Scene, load

@@ -18,10 +18,10 @@ from playing import CTRL, SHIFT, SIZE, Player, fake_start
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import carried
 from linkanim.player.state.clock import STEP
+from linkanim.player.state.glide import FRAMES
 from linkanim.player.state.state import TOAST_FRAMES, State, begin
 from linkanim.player.tape.tape_file import read
 from linkanim.player.window import display
-from linkanim.player.window.glide import FRAMES
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
 

@@ -7,13 +7,10 @@ with "ctrl+" and "shift+" in front, so that nothing here needs pygame.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from linkanim.picture.look import TOGGLES
-from linkanim.player.state.action import Action
-
-Mode = Literal["play", "edit", "list", "shelf"]
-"""What the keys are for: the picture, or the overlay that is open."""
+from linkanim.player.state.action import Action, Mode
 
 
 class Bind(NamedTuple):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from itertools import zip_longest
 from typing import Literal, Protocol
 
 import pygame
 from pygame.event import Event
 
-from linkanim.player.input.scrub import phase_towards
+from linkanim.mechanics.formulas.exact import unit
+from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.player.state.action import Action
 from linkanim.scenes.scene import Scene
 
@@ -22,7 +24,7 @@ def latest(events: list[Event]) -> list[Event]:
     return [one for one, then in pairs if then is None or not one.type == then.type == pygame.MOUSEMOTION]
 
 
-class Stage(Protocol):
+class MouseTarget(Protocol):
     """What the mouse has to know of the picture under it, in pixels."""
 
     @property
@@ -65,72 +67,91 @@ class Mouse:
         self._at = (0.0, 0.0)
         self._seen = False
 
-    def actions(self, event: Event, stage: Stage) -> tuple[Action, ...]:
+    def actions(self, event: Event, target: MouseTarget) -> tuple[Action, ...]:
         """Return what a mouse event asks for."""
         self._seen = self._seen or event.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN)
-        if stage.is_shelf_open:
-            return self._on_the_shelf(event, stage)
+        if target.is_shelf_open:
+            return self._on_the_shelf(event, target)
         match event.type:
             case pygame.MOUSEWHEEL:
-                return self._zoomed(event.y, stage) if event.y else ()
+                return self._zoomed(event.y, target) if event.y else ()
             case pygame.MOUSEBUTTONDOWN if event.button == 1:
                 self._at = event.pos
-                handle = stage.handle_at(*self._at, _REACH * stage.size[1])
-                self._drag = "joint" if handle else self._grabbed(stage)
+                handle = target.handle_at(*self._at, _REACH * target.size[1])
+                self._drag = "joint" if handle else self._grabbed(target)
                 if handle:
                     return (Action("grab", handle),)
-                return self._moved(stage) if self._drag == "chart" else ()
+                return self._moved(target) if self._drag == "chart" else ()
             case pygame.MOUSEBUTTONUP if event.button == 1:
                 held, self._drag = self._drag, None
                 return (Action("drop"),) if held == "joint" else ()
             case pygame.MOUSEMOTION:
                 before, self._at = self._at, event.pos
-                return self._panned(before, stage) if self._drag == "pan" else self._moved(stage)
+                return self._panned(before, target) if self._drag == "pan" else self._moved(target)
         return ()
 
-    def hovered(self, stage: Stage) -> str | None:
+    def hovered(self, target: MouseTarget) -> str | None:
         """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
-        if not self._seen or stage.is_shelf_open or self._drag in ("pan", "chart"):
+        if not self._seen or target.is_shelf_open or self._drag in ("pan", "chart"):
             return None
-        return stage.handle_at(*self._at, _REACH * stage.size[1]) or (
-            stage.scene.linkage.drive.joint if self._is_at_pin(stage) else None
+        return target.handle_at(*self._at, _REACH * target.size[1]) or (
+            target.scene.linkage.drive.joint if self._is_at_pin(target) else None
         )
 
-    def _is_at_pin(self, stage: Stage) -> bool:
-        pin = stage.crank_pin()
-        return max(abs(self._at[0] - pin[0]), abs(self._at[1] - pin[1])) <= _REACH * stage.size[1]
+    def _is_at_pin(self, target: MouseTarget) -> bool:
+        pin = target.crank_pin()
+        return max(abs(self._at[0] - pin[0]), abs(self._at[1] - pin[1])) <= _REACH * target.size[1]
 
-    def _on_the_shelf(self, event: Event, stage: Stage) -> tuple[Action, ...]:
+    def _on_the_shelf(self, event: Event, target: MouseTarget) -> tuple[Action, ...]:
         """Choose the mechanism under the mouse; a click puts it on, and one beside closes the shelf."""
         self._drag = None
         if event.type not in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN):
             return ()
         self._at = event.pos
-        place = stage.shelf_at(*self._at)
+        place = target.shelf_at(*self._at)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
             return (Action("shelf") if place is None else Action("put", place),)
         return () if place is None else (Action("point", place),)
 
-    def _grabbed(self, stage: Stage) -> Literal["pan", "crank", "chart"]:
-        if self._is_at_pin(stage):
+    def _grabbed(self, target: MouseTarget) -> Literal["pan", "crank", "chart"]:
+        if self._is_at_pin(target):
             return "crank"
-        return "pan" if stage.charted(*self._at) is None else "chart"
+        return "pan" if target.charted(*self._at) is None else "chart"
 
-    def _zoomed(self, notches: float, stage: Stage) -> tuple[Action, ...]:
+    def _zoomed(self, notches: float, target: MouseTarget) -> tuple[Action, ...]:
         """Zoom about the mouse; about the middle before it is known where that is."""
-        middle = stage.size[0] / 2, stage.size[1] / 2
+        middle = target.size[0] / 2, target.size[1] / 2
         x, y = (at - half for at, half in zip(self._at if self._seen else middle, middle, strict=True))
-        return (Action("zoom", (float(notches), x / stage.size[1], y / stage.size[1])),)
+        return (Action("zoom", (float(notches), x / target.size[1], y / target.size[1])),)
 
-    def _panned(self, before: tuple[float, float], stage: Stage) -> tuple[Action, ...]:
+    def _panned(self, before: tuple[float, float], target: MouseTarget) -> tuple[Action, ...]:
         x, y = (now - then for now, then in zip(self._at, before, strict=True))
-        return (Action("pan", (x / stage.size[1], y / stage.size[1])),)
+        return (Action("pan", (x / target.size[1], y / target.size[1])),)
 
-    def _moved(self, stage: Stage) -> tuple[Action, ...]:
+    def _moved(self, target: MouseTarget) -> tuple[Action, ...]:
         if self._drag == "crank":
-            return (Action("scrub", phase_towards(stage.scene, stage.phase, stage.world(*self._at))),)
+            return (Action("scrub", phase_towards(target.scene, target.phase, target.world(*self._at))),)
         if self._drag == "joint":
             fine = _TENTHS if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1.0
-            return (Action("carry", (*stage.world(*self._at), fine)),)
-        phase = stage.charted(*self._at) if self._drag == "chart" else None
+            return (Action("carry", (*target.world(*self._at), fine)),)
+        phase = target.charted(*self._at) if self._drag == "chart" else None
         return () if phase is None else (Action("scrub", phase),)
+
+
+def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> float:
+    """Return the phase near `phase` at which the input crank points at `point` (scene's unit).
+
+    A slider that drives comes as near to the point as its guide lets it.
+
+    An input that swings stops at its limits; of the two phases of an angle it is the nearer one, and
+    past a limit the way back is the one not come by. A point on the pivot itself changes nothing.
+    """
+    path, driven = scene.mechanism.assembly.path, scene.linkage.joint(scene.linkage.drive.joint)
+    if isinstance(driven, DrivenSlider):
+        base, (along, left) = scene.linkage.pin(driven.line.through).position, unit(driven.line.angle)
+        travel = (point[0] - base[0]) * along + (point[1] - base[1]) * left
+        return path.phase_of(travel, phase)
+    crank = scene.linkage.crank(driven.name)
+    pivot = scene.pose(phase, 0).position[crank.pivot]
+    x, y = point[0] - pivot[0], point[1] - pivot[1]
+    return phase if x == 0.0 == y else path.phase_of(math.atan2(y, x), phase)

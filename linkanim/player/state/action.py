@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
+Mode = Literal["play", "edit", "list", "shelf"]
+"""What the keys are for: the picture, or the overlay that is open."""
 Value = None | int | float | str | tuple[float, ...]
 
 

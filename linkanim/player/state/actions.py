@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
+from dataclasses import replace
 from typing import Any, NamedTuple
 
-from linkanim.picture.look import TOGGLES
-from linkanim.player.state import answers
+from linkanim.picture.diagrams.quantities import quantity
+from linkanim.picture.look import TOGGLES, answer
+from linkanim.picture.parts.driven import speed_words
 from linkanim.player.state.action import Action
-from linkanim.player.state.handlers import browse, clock, edits, looks, outside, shelf
+from linkanim.player.state.clock import Clock
+from linkanim.player.state.handlers import edits, looks, outside, shelf
 from linkanim.player.state.state import State
+from linkanim.scenes.reading.closure import closure_name
 
 
 class Rule(NamedTuple):
@@ -54,32 +57,79 @@ def _numbers(count: int) -> Callable[[object], bool]:
     return lambda value: isinstance(value, tuple) and len(value) == count and all(map(_number, value))
 
 
+def _speed(_: State, after: State) -> str:
+    """Say the input's speed."""
+    return speed_words(after.scene, after.clock.speed)
+
+
+def _direction(_: State, after: State) -> str:
+    """Say which way the phase runs."""
+    return "forward" if after.clock.direction > 0 else "reverse"
+
+
+def _place(before: State, after: State) -> str | None:
+    """Say which of the shelf's mechanisms is on."""
+    return None if after.scene is before.scene else f"{after.place + 1} / {len(after.shelf)}"
+
+
+def _closure(before: State, after: State) -> str | None:
+    """Say which of the two closures is on."""
+    return None if after.scene is before.scene else closure_name(after.scene)
+
+
+def _chart(before: State, after: State) -> str | None:
+    """Say what is charted."""
+    token = after.look.chart
+    if token == before.look.chart:
+        return None
+    return quantity(after.scene, token).words if token else "no chart"
+
+
+def _zoom(_: State, after: State) -> str:
+    """Say how large the picture is."""
+    return f"{after.look.zoom:.0%}".replace("%", " %")
+
+
+def _undo(before: State, after: State) -> str | None:
+    """Say that there was nothing to undo or redo; else the picture says it."""
+    return "nothing there" if before.editing == after.editing else None
+
+
+def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any], State]:
+    """Return the handler of what changes the clock alone, from the frame of the state on."""
+    return lambda state, value: replace(state, clock=work(state.clock, state.frame, value))
+
+
 def _of_look(name: str) -> Rule:
     """Return the rule of a field of the look; some do more than to go on a step."""
     handle = {"ghost": looks.ghost, "theme": looks.theme}.get(name, looks.toggling(name))
-    answer = partial(answers.of_look, name)
-    return Rule(_one_of(*TOGGLES[name].members), handle, answer=answer)
+    return Rule(
+        _one_of(*TOGGLES[name].members),
+        handle,
+        answer=lambda before, after: answer(before.look, after.look, name),
+    )
 
 
 ACTIONS: Mapping[str, Rule] = {
-    "pause": Rule(_nothing, clock.pause),
-    "step": Rule(_whole, clock.step),  # degrees of phase, along the way the crank runs
-    "speed": Rule(_whole, clock.speed, answer=answers.speed),  # steps of the speed ladder
-    "direction": Rule(_nothing, clock.direction, answer=answers.direction),
-    "start": Rule(_nothing, clock.start),
-    "scrub": Rule(_number, clock.scrub),  # the phase to go to, rad
-    "mechanism": Rule(_whole, shelf.mechanism, answer=answers.place),  # places further on the shelf
-    "select": Rule(_whole, shelf.select, answer=answers.place),  # the place in the catalogue, from 0
-    "put": Rule(_whole, browse.put, answer=answers.place),  # the place on the shelf, from 0
-    "closure": Rule(_nothing, shelf.closure, answer=answers.closure),
+    "pause": Rule(_nothing, _running(lambda clock, frame, _: clock.pause(frame, not clock.paused))),
+    "step": Rule(_whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
+    "speed": Rule(_whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
+    "direction": Rule(_nothing, _running(lambda clock, frame, _: clock.turn(frame)), answer=_direction),
+    "start": Rule(_nothing, _running(lambda clock, frame, _: clock.go(frame, 0.0))),
+    # the phase to go to, rad
+    "scrub": Rule(_number, _running(lambda clock, frame, phase: clock.go(frame, phase, paused=True))),
+    "mechanism": Rule(_whole, shelf.mechanism, answer=_place),  # places further on the shelf
+    "select": Rule(_whole, shelf.select, answer=_place),  # the place in the catalogue, from 0
+    "put": Rule(_whole, shelf.put, answer=_place),  # the place on the shelf, from 0
+    "closure": Rule(_nothing, shelf.closure, answer=_closure),
     **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
-    "chart": Rule(_whole, looks.chart, answer=answers.chart),  # quantities further
-    "plot": Rule(_text, browse.plot, answer=answers.chart),  # a quantity's token
+    "chart": Rule(_whole, looks.chart, answer=_chart),  # quantities further
+    "plot": Rule(_text, shelf.plot, answer=_chart),  # a quantity's token
     "help": Rule(_nothing, looks.help_),
     # notches, about the point (x, y): window heights from the picture's middle, y down
-    "zoom": Rule(_numbers(3), looks.zoom, answer=answers.zoom),
+    "zoom": Rule(_numbers(3), looks.zoom, answer=_zoom),
     "pan": Rule(_numbers(2), looks.pan),  # window heights, right and down
-    "fit": Rule(_nothing, looks.fit, answer=answers.zoom),
+    "fit": Rule(_nothing, looks.fit, answer=_zoom),
     "edit": Rule(_nothing, edits.edit),
     "choose": Rule(_whole, edits.choose),
     "pass_on": Rule(_whole, edits.pass_on),
@@ -90,15 +140,15 @@ ACTIONS: Mapping[str, Rule] = {
     "grab": Rule(_text, edits.grab),  # a joint
     "carry": Rule(_numbers(3), edits.carry),  # to (x, y) in the scene's unit, in such parts of a nudge's step
     "drop": Rule(_nothing, edits.drop),
-    "undo": Rule(_nothing, edits.undo, answer=answers.undo),
-    "redo": Rule(_nothing, edits.redo, answer=answers.undo),
+    "undo": Rule(_nothing, edits.undo, answer=_undo),
+    "redo": Rule(_nothing, edits.redo, answer=_undo),
     "back": Rule(_nothing, outside.back),
-    "list": Rule(_nothing, browse.list_, taped=False),
-    "shelf": Rule(_nothing, browse.shelf, taped=False),
-    "move": Rule(_whole, browse.move, taped=False),  # rows of the list, or places on the shelf
-    "point": Rule(_whole, browse.point, taped=False),  # the place on the shelf
-    "sift": Rule(_text, browse.sift, taped=False),
-    "unsift": Rule(_nothing, browse.unsift, taped=False),
+    "list": Rule(_nothing, shelf.list_, taped=False),
+    "shelf": Rule(_nothing, shelf.open_shelf, taped=False),
+    "move": Rule(_whole, shelf.move, taped=False),  # rows of the list, or places on the shelf
+    "point": Rule(_whole, shelf.point, taped=False),  # the place on the shelf
+    "sift": Rule(_text, shelf.sift, taped=False),
+    "unsift": Rule(_nothing, shelf.unsift, taped=False),
     "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),
     "screenshot": Rule(_nothing, outside.screenshot, taped=False),
     "svg": Rule(_nothing, outside.svg, taped=False),

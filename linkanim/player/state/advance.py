@@ -13,8 +13,8 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.actions import ACTIONS
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import refused
+from linkanim.player.state.glide import followed
 from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, with_chip
-from linkanim.player.window.glide import followed
 
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND

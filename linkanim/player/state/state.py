@@ -11,13 +11,11 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from linkanim.picture.look import Look
-from linkanim.player.input.dragging import Held
-from linkanim.player.input.keys import Mode
-from linkanim.player.state.action import Action
+from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.browsing import Browsing, Listing
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
-from linkanim.player.state.editing import Editing
-from linkanim.player.window.glide import Glide
+from linkanim.player.state.editing import Editing, Held
+from linkanim.player.state.glide import Glide
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 

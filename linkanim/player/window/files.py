@@ -1,15 +1,18 @@
-"""Files that the window writes: under the current folder, under names that were free."""
+"""Files that the window writes, under names that were free, and the scene file that it was opened on."""
 
 from __future__ import annotations
 
+from contextlib import suppress
 from itertools import count
 from pathlib import Path
 
 import pygame
 
-from linkanim import atomic_files
+from linkanim import atomic_files, intake
 from linkanim.picture.raster.offscreen import png_bytes
 from linkanim.player.state.state import State
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
 
 FOLDER = Path("recordings")
 
@@ -47,3 +50,33 @@ def _added(data: bytes, name: str, suffix: str) -> Path:
     atomic_files.made_folder(FOLDER)
     first, *others = (FOLDER / f"{name}-{number}{suffix}" for number in range(1, 10_000))
     return atomic_files.add(data, first, others)
+
+
+class SceneFile:
+    """A scene file, and how it was when it was last looked at."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._seen = self._state()
+
+    def news(self) -> list[str]:
+        """Return what has become of the file since it was last looked at, in words."""
+        before, self._seen = self._seen, self._state()
+        if before == self._seen:
+            return []
+        name = intake.named(self._path.name)
+        if self._seen is None:
+            return [f"{name} is gone; the linkage runs on, and Ctrl+S writes it as a new file"]
+        return [f"{name} has changed; F5 loads it"]
+
+    def load(self) -> Scene:
+        """Read the file as it is now; errors as `scenes.load`."""
+        self._seen = self._state()
+        return load(self._path)
+
+    def _state(self) -> tuple[int, int, int] | None:
+        """Return what is another number once the file is written anew; None where there is none."""
+        with suppress(OSError):
+            found = self._path.stat()
+            return found.st_mtime_ns, found.st_size, found.st_ino
+        return None

@@ -17,7 +17,7 @@ from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
 from linkanim.player.window import display
-from linkanim.player.window.scene_file import SceneFile
+from linkanim.player.window.files import SceneFile
 from linkanim.player.window.window import Window
 from linkanim.scenes.files import path_of
 from linkanim.scenes.scene import Scene

@@ -24,7 +24,7 @@ from linkanim.player.state.state import State, Take
 from linkanim.player.tape.tape import Reel, Tape, Taping
 from linkanim.player.window import display, files
 from linkanim.player.window.easel import Easel
-from linkanim.player.window.scene_file import SceneFile
+from linkanim.player.window.files import SceneFile
 from linkanim.player.window.show import kept, overlay
 from linkanim.scenes.editing.write import save
 

@@ -6,12 +6,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from linkanim.player.input.dragging import Held, carried_to
 from linkanim.player.state import editing as edit_
-from linkanim.player.state.editing import Editing
+from linkanim.player.state.editing import Editing, Held, carried_to
+from linkanim.player.state.glide import glide
 from linkanim.player.state.handlers.shelf import exchanged
 from linkanim.player.state.state import State
-from linkanim.player.window.glide import glide
 from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.scene import Scene
