@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from chain_reference import places
+from limits import Limits
 from mpmath import mp, mpf
 from reference import DIGITS, NUDGE, derivatives
 
@@ -185,6 +186,29 @@ def test_the_force_that_drives_a_piston_is_along_its_line() -> None:
 def test_a_travel_that_cannot_be_is_refused_with_what_can(ends: tuple[float, float], words: str) -> None:
     with pytest.raises(AssemblyError, match=words):
         mechanism(piston(ends))
+
+
+AWAY, ABOVE = Pin("P", (100.0, 40.0)), RRR("X", ("A", "P"), (60.0, 50.0))
+
+# At its dead centres the crank has no rate, and neither has what stands on it; before them it does not close.
+BESIDE = {
+    "a slot that just misses": ((80.0, 160.0), (Pin("P", (0.0, 100.0)), RPR("X", "P", "A", 1.0, 59.99)), ""),
+    "a slot on a bar": ((1e-13, 160.0), (RPR("X", "C", "A", 1.0),), "joint A: .* from 80 to 160 only"),
+    "a slot of a pin": ((0.0, 160.0), (Pin("P", (0, 100.0)), RPR("X", "P", "A", 1.0)), "joint A: .* from 80"),
+    "a dyad beside it": ((80.0, 160.0), (AWAY, ABOVE), "joint X: .* travel run from"),
+    "a dyad on a dyad": ((80.0, 150.0), (AWAY, ABOVE, RRR("Y", ("X", "C"), (70.0, 80.0))), "joint X: .* run"),
+}
+
+
+@pytest.mark.parametrize("name", BESIDE)
+def test_what_stands_on_a_crank_at_its_dead_centre_is_looked_at_within_limits(name: str) -> None:
+    ends, further, words = BESIDE[name]
+    with Limits(2.0, 200).held():
+        if not words:
+            assert mechanism(piston(ends, *further)).assembly.path.input_range == ends
+            return
+        with pytest.raises(AssemblyError, match=words):
+            mechanism(piston(ends, *further))
 
 
 FILE = """

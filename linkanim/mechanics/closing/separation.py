@@ -206,14 +206,22 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, float]:
     if not closings:
         return {}
     found = closings.values()
-    margins, sizes = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)
-    most, size = (np.nanmax(np.abs(rows), axis=1, initial=0.0) for rows in (margins, sizes))
+    rows = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)
+    margins, sizes = rows
+    rows[:, _behind(margins < -TOUCHING * sizes)] = math.nan
+    most, size = np.fmax.reduce(np.abs(rows), axis=2)
     nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * _longest(assembly)) ** 2)
     for name in (name for name, flat in zip(closings, nothing, strict=True) if flat):
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
-    clear = margins.min(axis=1) > 3 * np.abs(np.diff(margins, axis=1)).max(axis=1)
+    near = np.fmin.reduce(margins, axis=1) <= 3 * np.fmax.reduce(np.abs(np.diff(margins, axis=1)), axis=1)
     scales = np.minimum(most, size).tolist()
-    return {name: scale for name, scale, away in zip(closings, scales, clear, strict=True) if not away}
+    return {name: scale for name, scale, comes in zip(closings, scales, near, strict=True) if comes}
+
+
+def _behind(shut: Bools) -> Bools:
+    """Tell of every dyad where one before it in the chain does not close: it is but rounding there (D, N)."""
+    before = np.logical_or.accumulate(shut, axis=0)
+    return np.concatenate([np.zeros_like(shut[:1]), before[:-1]])
 
 
 def _longest(assembly: Assembly) -> float:
@@ -254,12 +262,15 @@ def _near(left: Sampled, right: Sampled, fastest: Array | float = 0.0) -> Bools:
     before, after = left.rows[2], right.rows[2]
     speed = np.maximum(np.maximum(_speed(left), _speed(right)), fastest)
     least = np.maximum(2 * (right.phases - left.phases) * speed, TOUCHING)
-    clear = np.minimum(np.abs(before), np.abs(after)) > least
-    return np.asarray(np.isfinite(before + after) & ~(clear & (before * after > 0)))
+    clear = (np.minimum(np.abs(before), np.abs(after)) > least) & (before * after > 0)
+    return np.asarray(np.isfinite(before + after) & ~clear & ~_behind(clear & (before < 0)))
 
 
 def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
-    """Tell between which neighbours a margin near nothing could have two extremes (D, N)."""
+    """Tell between which neighbours a margin near nothing could have two extremes (D, N).
+
+    Where neither has a rate, at a limit of the dyad before it, floats cannot tell, nor closer by.
+    """
     step = right.phases - left.phases
     (r, b, _, d), (s, c, _, e) = left.rows, right.rows
     size = np.max(np.abs([r, s, step * b, step * c]), axis=0)
@@ -267,7 +278,8 @@ def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
     none = (r * s > 0) & (r * (r + step * b) > 0) & (s * (s - step * c) > 0)
     one = (r * s <= 0) & (b * c > 0)
     flat = size * step * np.maximum(np.abs(d), np.abs(e)) <= FLAT
-    return np.asarray(_near(left, right, fastest) & ~(even & (none | one)) & ~flat)
+    blind = np.isnan(r) & np.isnan(s)
+    return np.asarray(_near(left, right, fastest) & ~(even & (none | one)) & ~flat & ~blind)
 
 
 def _turning(samples: Sampled) -> Bools:
