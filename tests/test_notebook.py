@@ -127,7 +127,7 @@ def test_the_input_of_a_slider_that_drives_is_its_travel(shown: Shown) -> None:
     page = parsed(motion, shown)
     assert texts(page, "th")[0] == "input travel (mm)"
     first = [texts(row, "td")[0] for row in list(page.iter("tr"))[1:]]
-    assert [float(cell.replace("−", "-")) for cell in first] == pytest.approx(motion.crank_angle, rel=1e-5)
+    assert [float(cell.replace("−", "-")) for cell in first] == pytest.approx(motion.coordinate, rel=1e-5)
 
 
 def test_an_ipython_that_is_half_imported_is_no_shell() -> None:

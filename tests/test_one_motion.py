@@ -126,14 +126,14 @@ def test_the_hud_says_what_solve_prints_and_where_the_cursor_stands(
         printed = json.loads(solved(name, phase, speed, "--json"))
         told = dict(rows(shown.scene, shown.scene.pose(phase, speed=speed)))
         angle = next(_number(value) for label, value in told.items() if label.endswith((" angle", " travel")))
-        shown_by_solve = printed["travel"] if shown.scene.linkage.slides else math.degrees(printed["angle"])
+        shown_by_solve = printed["travel"] if "travel" in printed else math.degrees(printed["angle"])
         assert math.remainder(angle - shown_by_solve, 360) == pytest.approx(0, abs=0.051)
         cursor = float(first.at(speed).course.x_of(phase))
         if shown.scene.info.full_turn:
             assert math.remainder(cursor - angle, 360) == pytest.approx(0, abs=0.051)
         else:
             there = shown.scene.pose(float(first.at(speed).course.phase_of(cursor)))
-            stands = there.crank_angle if shown.scene.linkage.slides else math.degrees(there.crank_angle)
+            stands = there.coordinate if "travel" in printed else math.degrees(there.coordinate)
             assert angle == pytest.approx(stands, abs=0.051)
         linkage = shown.scene.linkage
         for kind, items in (("spring", linkage.springs), ("damper", linkage.dampers)):

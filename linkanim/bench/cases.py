@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from linkanim.bench.chain import TURN, Floats
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RRP, RRR
 from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin, Polar
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes import load

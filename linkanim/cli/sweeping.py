@@ -87,7 +87,7 @@ def blocks(
         inputs = steps.radians(row - shared, stop)
         motion = solve(inputs)
         time = (inputs - start) / speed if speed else np.full(len(inputs), np.nan)
-        where = {input_key(scene): motion.crank_angle, "phase": motion.phase, by: inputs, "time": time}
+        where = {input_key(scene): motion.coordinate, "phase": motion.phase, by: inputs, "time": time}
         found = _continued({**where, **tree(scene, motion)}, last)
         last = found
         yield RowBlock(steps.degrees(row, stop), _without(found, shared))

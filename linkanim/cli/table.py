@@ -38,8 +38,9 @@ def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
 
 
 def _input(scene: Scene, row: Tree) -> str:
-    if scene.linkage.slides:
-        return f"travel {_number(row['travel'])} {scene.length_unit}"
+    coordinate = scene.linkage.drive.coordinate
+    if not coordinate.is_angle:
+        return f"{coordinate.name} {_number(row[coordinate.name])} {scene.length_unit}"
     return f"{scene.info.input_name} angle {_degrees(row['angle'])} deg"
 
 

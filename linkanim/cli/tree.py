@@ -21,7 +21,7 @@ Tree = dict[str, Any]
 
 def input_key(scene: Scene) -> str:
     """Return under which key the tree has the input: its angle, or the travel of a slider that drives."""
-    return "travel" if scene.linkage.slides else "angle"
+    return scene.linkage.drive.coordinate.name
 
 
 def tree(scene: Scene, motion: Motion) -> Tree:

@@ -92,12 +92,13 @@ def _table(motion: Motion) -> str:
 
 def _input_title(motion: Motion) -> str:
     """Return what a column of the input is titled."""
-    return f"input travel ({_unit(motion)})" if motion.setting.linkage.slides else "input angle (°)"
+    coordinate = motion.setting.linkage.drive.coordinate
+    return f"input {coordinate.name} ({coordinate.shown_unit(_unit(motion))})"
 
 
 def _input(motion: Motion) -> Any:
     """Return the input's angle in degrees, or the travel of a slider that drives."""
-    return motion.crank_angle if motion.setting.linkage.slides else np.degrees(motion.crank_angle)
+    return motion.setting.linkage.drive.coordinate.shown(motion.coordinate)
 
 
 def _row(values: Any) -> str:
@@ -110,16 +111,16 @@ def _telling(motion: Motion) -> Quantity:
     linkage, known = motion.setting.linkage, _quantities(motion)
     output = output_body(linkage)
     if output is None:
-        return known["input.velocity" if linkage.slides else "input.angular_velocity"]
+        return known[linkage.drive.coordinate.rate_token]
     where, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
     return known[f"{output.name}.{rate if motion.velocity else where}"]
 
 
 def _chart(motion: Motion, quantity: Quantity) -> str:
     """Return a chart of a quantity over the input's angle, or over the phase where the input swings."""
-    slides, steps = motion.setting.linkage.slides, np.diff(motion.crank_angle)
-    turns = not slides and bool((steps > 0).all() or (steps < 0).all())
-    x = np.degrees(motion.crank_angle if turns else motion.phase)
+    coordinate, steps = motion.setting.linkage.drive.coordinate, np.diff(motion.coordinate)
+    turns = coordinate.is_angle and bool((steps > 0).all() or (steps < 0).all())
+    x = np.degrees(motion.coordinate if turns else motion.phase)
     values = np.asarray(quantity.shown(motion), float)
     type_, parts = Type(), layout(_CHART)
     pen = pen_for(parts, type_, LIGHT)

@@ -193,7 +193,7 @@ def _said(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
     scene = curves.scene
     unit = "°" if curve.quantity.shown_unit(scene.length_unit) == "°" else ""
     value = stepped(peak.value, (plot.y.high - plot.y.low) / 500)
-    angle = peak.angle if scene.linkage.slides else radians(peak.angle)
+    angle = radians(peak.angle) if scene.linkage.drive.coordinate.is_angle else peak.angle
     return f"{value}{unit} at {driven_words(scene, angle)}"
 
 

@@ -79,7 +79,7 @@ class Curves:
     def places(self, curve: Curve, motion: Motion) -> Floats:
         """Return where the instants of a motion lie along the axis of a curve."""
         if _there_and_back(self.scene, self.over):
-            return np.degrees(motion.crank_angle)
+            return np.degrees(motion.coordinate)
         return course(self.scene, curve.pace.speed, self.over).x_of(motion.phase)
 
     def axis(self, most: int) -> Axis:
@@ -130,7 +130,7 @@ def _of(scene: Scene, one: Quantity, pace: Pace, over: Over | None, cycle: Motio
     """Yield the curve of a quantity, or one for each component of a vector."""
     series = series_of(scene, one, cycle.paced(pace.speed / scene.linkage.drive.speed))
     if _there_and_back(scene, over):
-        angle = np.degrees(cycle.crank_angle)
+        angle = np.degrees(cycle.coordinate)
         x, phases = np.append(angle, angle[0]), np.append(series.phases, scene.period)
         values = np.vstack([series.values, series.values[0] + gain_of(series)])
     else:
@@ -170,15 +170,10 @@ def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
     value = float(curve.solved(scene, np.array([phase]))[0])
     if curve.quantity.unit == "rad":
         value += 360 * round((curve.values[index] - value) / 360)
-    angle = _shown(scene, scene.pose(phase, 0).crank_angle)
+    angle = scene.linkage.drive.coordinate.shown(scene.pose(phase, 0).coordinate)
     way = slice(None) if curve.rises else slice(None, None, -1)
     x = float(np.interp(phase, curve.phases[way], curve.x[way]))
     return Peak(x, value, angle % 360 if scene.info.full_turn else angle)
-
-
-def _shown(scene: Scene, angle: float) -> float:
-    """Return the input's angle in degrees, or a slider's travel as it is."""
-    return angle if scene.linkage.slides else degrees(angle)
 
 
 def table(curves: Curves) -> tuple[list[str], list[Floats]]:
@@ -191,10 +186,10 @@ def table(curves: Curves) -> tuple[list[str], list[Floats]]:
     scene = curves.scene
     phases = np.linspace(0.0, scene.period, SAMPLES // 2 * round(scene.period / tau) + 1)
     motion = scene.solve(phase=phases)
-    angle = motion.crank_angle
+    angle = motion.coordinate
     names, columns = ["angle_deg", "angle", "phase"], [np.degrees(angle), angle, phases]
-    if scene.linkage.slides:
-        names, columns = ["travel", "phase"], [angle, phases]
+    if not scene.linkage.drive.coordinate.is_angle:
+        names, columns = [scene.linkage.drive.coordinate.name, "phase"], [angle, phases]
     several = len({curve.pace for curve in curves.curves}) > 1
     for pace in dict.fromkeys(curve.pace for curve in curves.curves):
         paced = motion.paced(pace.speed / scene.linkage.drive.speed)

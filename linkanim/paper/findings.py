@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import degrees, isfinite
+from math import degrees, isfinite, tau
 from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.digits import significant, stepped, typeset
-from linkanim.errors import BadInput, OutOfRange
+from linkanim.digits import significant, typeset
+from linkanim.errors import OutOfRange
 from linkanim.mechanics.facts.register import Quantity
 from linkanim.mechanics.facts.symbols import input_symbol
 from linkanim.mechanics.motion.derived import output_body, output_slider
@@ -48,8 +48,8 @@ class Sheet:
 def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
     """Return the instants at angles of the input (rad); OutOfRange for one that it does not come to."""
     path = scene.mechanism.assembly.path
-    if angles and scene.linkage.slides:
-        raise BadInput(f"{scene.name}: its input is a slider, which has no angle; leave --angles out")
+    if angles:
+        scene.linkage.drive.check_angle(scene.name, "leave --angles out")
     for angle in angles:
         if not path.holds(angle):
             low, high = (f"{degrees(limit):.6g} deg" for limit in path.input_range)
@@ -76,7 +76,7 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
 def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
     """Return every quantity of a scene at one instant, at each speed."""
     motions = [scene.solve(phase=instant.phase, speed=pace.speed) for pace in paces]
-    said = f"{input_symbol(scene.linkage)} = {_input_words(scene, float(motions[0].crank_angle))}"
+    said = f"{input_symbol(scene.linkage)} = {_input_words(scene, float(motions[0].coordinate))}"
     sections: dict[str, list[Finding]] = {}
     for quantity in scene.quantities.values():
         rows = sections.setdefault(_section(quantity), [])
@@ -86,10 +86,8 @@ def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
 
 
 def _input_words(scene: Scene, angle: float) -> str:
-    if scene.linkage.slides:
-        return f"{stepped(angle, 0.01)} {scene.length_unit}"
-    turned = degrees(angle) % 360 if scene.info.full_turn else degrees(angle)
-    return f"{stepped(turned, 0.01)}°"
+    turned = angle % tau if scene.info.full_turn else angle
+    return scene.linkage.drive.coordinate.text(turned, scene.length_unit, 0.01)
 
 
 def _rows(scene: Scene, quantity: Quantity, motions: list[Motion]) -> Iterator[Finding]:
@@ -144,8 +142,8 @@ def table(scene: Scene, pace: Pace) -> tuple[list[str], np.ndarray]:
     count = round(degrees(scene.period))
     motion = scene.solve(phase=np.arange(count + 1) * (scene.period / count), speed=pace.speed)
     names, columns = (
-        ["phase", "travel" if scene.linkage.slides else "angle", "time"],
-        [motion.phase, motion.crank_angle],
+        ["phase", scene.linkage.drive.coordinate.name, "time"],
+        [motion.phase, motion.coordinate],
     )
     columns.append(motion.phase / abs(pace.speed))
     for token, quantity in scene.quantities.items():

@@ -111,8 +111,8 @@ class Figure:
     @cached_property
     def cylinders(self) -> tuple[Damper, ...]:
         """What is drawn as cylinder and piston: the dampers, and the cylinder that drives."""
-        driving = self.linkage.drive.cylinder
-        return (*self.linkage.dampers, *((Damper("cylinder", driving.between),) if driving else ()))
+        along = self.linkage.drive.actuator.along
+        return (*self.linkage.dampers, *((Damper("cylinder", along),) if along else ()))
 
     @cached_property
     def fixed(self) -> tuple[str, ...]:

@@ -103,10 +103,8 @@ class Scene:
         """
         if (angle is None) == (phase is None):
             raise BadInput("give either angle= or phase=, in radians")
-        if angle is not None and self.linkage.slides:
-            from linkanim.mechanics.drive.stroke import NO_ANGLE
-
-            raise BadInput(f"{self.name}: {NO_ANGLE}")
+        if angle is not None:
+            self.linkage.drive.check_angle(self.name, "take the phase")
         _check_derivatives(derivatives)
         return self.mechanism.solve(
             angle=angle,

@@ -41,6 +41,4 @@ def _sizes(linkage: Linkage) -> Iterator[tuple[float, str]]:
         yield from ((abs(length), joint.name) for length in joint.lengths)
     for body in linkage.bodies:
         yield from ((abs(part), f"{body.name}'s centre of mass") for part in body.com or ())
-    for stroke in (drive.cylinder, drive.travel):
-        if stroke:
-            yield max(abs(stroke.first), abs(stroke.last)), "the input's travel"
+    yield from ((abs(length), "the input's travel") for length in drive.actuator.lengths)

@@ -18,9 +18,10 @@ from linkanim.bench.entries import ONE_BY_ONE, Timed
 from linkanim.bench.machine import Machine, this_machine
 from linkanim.bench.timing import nanoseconds
 from linkanim.export import columns
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPP, RRP, RRR
 from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 

@@ -21,7 +21,7 @@ from reference import derivatives, sign_of, unit
 
 from linkanim.bench.reference import crossing
 from linkanim.errors import BadInput
-from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.scenes.reading.read import scene_from
 

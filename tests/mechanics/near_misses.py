@@ -19,7 +19,7 @@ from chain_reference import places
 from mpmath import mp, mpf
 from numpy.typing import NDArray
 
-from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin

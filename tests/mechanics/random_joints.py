@@ -25,11 +25,13 @@ from reference import DIGITS, NUDGE, derivatives, sign_of
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.path import Swing, Turn
-from linkanim.mechanics.drive.stroke import CylinderStroke
+from linkanim.mechanics.drive.cylinder import CylinderStroke
+from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.drive.turn import Turn
+from linkanim.mechanics.linkage.drive import Cylinder, Drive, Travel
 from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.linkage import Cylinder, Drive, Linkage, Travel
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Gear, Pin
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
@@ -159,7 +161,7 @@ def driven_by_a_slider(rng: Random) -> Linkage:
         RRR("J", ("C", "O2"), (rod, crank), rng.choice((1, -1))),
         Rigid("K", ("C", "J"), (rng.uniform(5, 60), rng.uniform(-30, 30))),
     )
-    return Linkage(joints, Drive("C", 1.0, travel=Travel(first, last)))
+    return Linkage(joints, Drive("C", 1.0, actuator=Travel(first, last)))
 
 
 DOWN_THE_CHAIN: tuple[Make, ...] = (
@@ -234,7 +236,7 @@ class _Exact:
         self._places = [self._refined(mpf(place.high) + mpf(place.low)) for place in touches] or [
             mpf(0) if flip == 0 else mp.pi for flip in self.flips
         ]
-        if touches and not linkage.slides:
+        if touches and linkage.drive.coordinate.is_angle:
             # The float nearest the length at which it just reaches its line stands for that length.
             joint = linkage.joint("J")
             assert isinstance(joint, RRP)
@@ -243,7 +245,7 @@ class _Exact:
 
     def _refined(self, place: Any) -> Any:
         """Return a change point: the ends of a slider's travel, or where the bar to a line leans most."""
-        if self._linkage.slides:
+        if not self._linkage.drive.coordinate.is_angle:
             return mp.pi * mp.nint(place / mp.pi)
         return _extreme(lambda angle: _aside(self._linkage, angle), place)
 
@@ -255,7 +257,7 @@ class _Exact:
         drive = self._linkage.drive
         if isinstance(self._path, Turn):
             return phase
-        if drive.cylinder:
+        if isinstance(drive.actuator, Cylinder):
             return _on_cylinder(self._linkage, phase)
         low, high = self._travel or self._ends
         return (low + high) / 2 - (high - low) / 2 * mp.cos(phase)
@@ -268,8 +270,8 @@ class _Exact:
 
 def _travel(linkage: Linkage) -> tuple[Any, Any] | None:
     """The ends of a slider's travel; the floats nearest its dead centres stand for these."""
-    travel, joint = linkage.drive.travel, linkage.joint("J")
-    if travel is None:
+    travel, joint = linkage.drive.actuator, linkage.joint("J")
+    if not isinstance(travel, Travel):
         return None
     assert isinstance(joint, RRR)
     rod, crank = map(mpf, joint.lengths)
@@ -283,10 +285,9 @@ def _travel(linkage: Linkage) -> tuple[Any, Any] | None:
 
 def _on_cylinder(linkage: Linkage, phase: Any) -> Any:
     """The crank's angle by the law of cosines, on the side of the pivot's line to the pin it starts on."""
-    cylinder, crank = linkage.drive.cylinder, linkage.crank("J")
-    assert cylinder is not None
+    ends, crank = linkage.drive.actuator.lengths, linkage.crank("J")
     pin = mp.mpc(*map(mpf, linkage.pin("G").position))
-    first, last, arm = mpf(cylinder.first), mpf(cylinder.last), mpf(crank.length)
+    (first, last), arm = map(mpf, ends), mpf(crank.length)
     length = (first + last) / 2 - (last - first) / 2 * mp.cos(phase)
     psi = mp.acos((abs(pin) ** 2 + arm**2 - length**2) / (2 * abs(pin) * arm))
     path = mechanism(linkage).assembly.path
@@ -347,7 +348,7 @@ def _highest(function: Callable[[Any], Any], near: Any, step: Any) -> Any:
 
 def _clear(linkage: Linkage, solved: Mechanism) -> bool:
     """Whether J's margin stays clear of zero but for limits and change points."""
-    if linkage.drive.cylinder or linkage.slides or _margin(linkage, mpf(0)) is None:
+    if linkage.drive.actuator.lengths or _margin(linkage, mpf(0)) is None:
         return True
     path = solved.assembly.path
     if isinstance(path, Swing) and not all(path.ends):

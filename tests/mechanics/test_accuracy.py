@@ -17,8 +17,9 @@ from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, on_line
 
 from linkanim.bench.reference import crossing
 from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.path import Swing
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.linkage.drive import Drive
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.mechanics.motion.motion import Motion

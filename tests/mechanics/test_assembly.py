@@ -12,9 +12,10 @@ import pytest
 from build import four_bar, rocker_driven, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 

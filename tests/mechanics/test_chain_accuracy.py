@@ -16,9 +16,10 @@ from reference import DIGITS, NUDGE, Points, Pose, derivatives, sign_of, unit
 
 from linkanim.bench.reference import crossing
 from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 

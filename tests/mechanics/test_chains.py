@@ -10,10 +10,11 @@ import pytest
 from build import four_bar, six_bar
 
 from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RRP, RRR
 from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.scenes import load
@@ -135,7 +136,7 @@ def test_by_angle_a_swing_gives_what_its_first_way_up_gives_by_phase() -> None:
     phases = np.linspace(0.2, math.pi - 0.2, 101)
     by_phase = solved.solve(phase=phases, speed=1.0)
     by_angle = solved.solve(
-        angle=by_phase.crank_angle, speed=by_phase.crank_rate, acceleration=by_phase.crank_second
+        angle=by_phase.coordinate, speed=by_phase.coordinate_rate, acceleration=by_phase.coordinate_second
     )
     for kind in ("position", "velocity", "acceleration"):
         for joint, values in getattr(by_phase, kind).items():

@@ -12,8 +12,9 @@ from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPR, RRR
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import mechanism

@@ -11,10 +11,11 @@ from near_misses import BESIDE, is_right, near_miss, rows
 from whole_rows import whole_rows
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RRP, RRR
 from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 

@@ -15,9 +15,10 @@ from mpmath import mp, mpf
 from reference import DIGITS, derivatives
 
 from linkanim.errors import AssemblyError, SceneError
+from linkanim.mechanics.linkage.drive import Cylinder, Drive
 from linkanim.mechanics.linkage.dyads import RRP, RRR
 from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.linkage import Body, Cylinder, Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
@@ -48,9 +49,7 @@ def boom(first: float, last: float, *further: Joint, start: float = 0.0) -> Link
 
 def angle_at(linkage: Linkage, side: int, phase: Any) -> Any:
     """The crank's angle by the law of cosines, the joint on the left of pivot -> pin for side +1."""
-    cylinder = linkage.drive.cylinder
-    assert cylinder is not None
-    first, last, at = mpf(cylinder.first), mpf(cylinder.last), mp.mpc(*map(mpf, (200, 30)))
+    (first, last), at = map(mpf, linkage.drive.actuator.lengths), mp.mpc(*map(mpf, (200, 30)))
     length = (first + last) / 2 - (last - first) / 2 * mp.cos(phase)
     ground, arm = mp.mpc(80, -60), abs(at)
     psi = mp.acos((abs(ground) ** 2 + arm**2 - length**2) / (2 * abs(ground) * arm))
@@ -112,8 +111,8 @@ def test_one_pose_is_one_of_many_and_by_angle_it_is_the_same() -> None:
     for n, phase in enumerate(PHASES.tolist()):
         pose = solved.pose(phase, 1.0, 0.0, 2)
         assert pose.position["B"] == pytest.approx(tuple(motion.position["B"][n]), rel=1e-15)
-        assert pose.crank_angle == pytest.approx(motion.crank_angle[n], rel=1e-15)
-    angles = motion.crank_angle[1:3]
+        assert pose.coordinate == pytest.approx(motion.coordinate[n], rel=1e-15)
+    angles = motion.coordinate[1:3]
     by_angle = solved.solve(angle=angles, speed=1.0)
     assert by_angle.position["B"] == pytest.approx(motion.position["B"][1:3], rel=1e-13)
     assert by_angle.phase == pytest.approx(PHASES[1:3], rel=1e-12)
@@ -126,7 +125,7 @@ def test_one_pose_is_one_of_many_and_by_angle_it_is_the_same() -> None:
 def test_a_phase_is_found_for_every_angle_of_its_range() -> None:
     path = mechanism(boom(200.0, 300.0)).assembly.path
     for phase in (0.2, 1.5, 3.0):
-        angle = float(path.angles(np.array([phase]))[0])
+        angle = float(path.coordinates(np.array([phase]))[0])
         assert path.phase_of(angle, near=phase + 0.1) == pytest.approx(phase, abs=1e-9)
         assert path.phase_of(angle, near=2 * math.pi - phase) == pytest.approx(2 * math.pi - phase, abs=1e-9)
         assert path.holds(angle)
@@ -196,7 +195,7 @@ length = [300, 350]
 
 def test_a_scene_file_says_it_and_is_written_back_to_the_same_motion() -> None:
     scene = scene_from(parse(FILE, "my.toml"), name="my", where="my.toml")
-    assert scene.linkage.drive.cylinder == Cylinder(("G", "H"), 200.0, 300.0)
+    assert scene.linkage.drive.actuator == Cylinder(("G", "H"), 200.0, 300.0)
     again = scene_from(parse(text(scene), "my.toml"), name="my", where="my.toml")
     assert again.linkage == scene.linkage
     assert scene.info.full_turn is False

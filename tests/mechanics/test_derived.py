@@ -209,7 +209,7 @@ def test_a_yoke_has_no_transmission_angle_and_an_advantage() -> None:
     known = register(load("scotch-yoke").linkage)
     assert "transmission_angle" not in known
     advantage = _read(load("scotch-yoke"), "mechanical_advantage")
-    angle = load("scotch-yoke").solve(phase=PHASES).crank_angle
+    angle = load("scotch-yoke").solve(phase=PHASES).coordinate
     assert advantage == pytest.approx(1 / np.abs(np.sin(angle)))
 
 
@@ -217,6 +217,6 @@ def test_where_input_and_output_rest_the_advantage_is_that_of_their_start() -> N
     scene = load("toggle-press")
     read = register(scene.linkage)["mechanical_advantage"].read
     resting, soon = scene.pose(0.0), scene.pose(1e-4)
-    assert resting.crank_rate == 0.0
+    assert resting.coordinate_rate == 0.0
     assert read(resting) == pytest.approx(read(soon), rel=1e-6)
     assert read(scene.solve(phase=[0.0, 1e-4])) == pytest.approx([read(resting), read(soon)], rel=1e-12)

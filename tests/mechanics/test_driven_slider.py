@@ -16,9 +16,10 @@ from reference import DIGITS, NUDGE, derivatives
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.mechanics.facts.effort import input_effort
 from linkanim.mechanics.facts.register import register
+from linkanim.mechanics.linkage.drive import Drive, Travel
 from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage, Travel
+from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.pins import DrivenSlider, Pin
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import mechanism
@@ -48,13 +49,11 @@ def piston(
         RRR("A", ("C", "O"), bars),
         *further,
     )
-    return Linkage(joints, Drive("C", 1.0, travel=Travel(*ends)), BODIES)
+    return Linkage(joints, Drive("C", 1.0, actuator=Travel(*ends)), BODIES)
 
 
 def travelled(linkage: Linkage, phase: Any) -> Any:
-    travel = linkage.drive.travel
-    assert travel is not None
-    first, last = mpf(travel.first), mpf(travel.last)
+    first, last = map(mpf, linkage.drive.actuator.lengths)
     return (first + last) / 2 - (last - first) / 2 * mp.cos(phase)
 
 
@@ -136,8 +135,8 @@ def test_the_travel_runs_as_it_is_asked_also_of_extreme_lengths() -> None:
         motion = mechanism(linkage).solve(phase=phases, speed=2.0)
         expected = size * (120 - 30 * np.cos(phases))
         assert motion.travel["piston"] == pytest.approx(expected, rel=4 * EPS)
-        assert motion.crank_angle == pytest.approx(expected, rel=4 * EPS)
-        assert motion.crank_rate == pytest.approx(60 * size * np.sin(phases), abs=1e-13 * size)
+        assert motion.coordinate == pytest.approx(expected, rel=4 * EPS)
+        assert motion.coordinate_rate == pytest.approx(60 * size * np.sin(phases), abs=1e-13 * size)
         assert mechanism(linkage).assembly.path.input_range == pytest.approx((90 * size, 150 * size))
 
 
@@ -148,7 +147,7 @@ def test_one_pose_is_one_of_many() -> None:
         pose = solved.pose(phase, 1.0, 0.0, 2)
         assert pose.position["A"] == tuple(motion.position["A"][n])
         assert pose.acceleration["A"] == tuple(motion.acceleration["A"][n])
-        assert pose.crank_angle == motion.crank_angle[n]
+        assert pose.coordinate == motion.coordinate[n]
 
 
 def test_coefficients_are_by_the_travel() -> None:
@@ -158,7 +157,7 @@ def test_coefficients_are_by_the_travel() -> None:
     assert first == pytest.approx(1.0)
     assert second == pytest.approx(0.0, abs=1e-15)
     assert motion.coefficient["crank"][0] == pytest.approx(
-        motion.angular_velocity["crank"] / motion.crank_rate
+        motion.angular_velocity["crank"] / motion.coordinate_rate
     )
     known = register(scene.linkage)
     assert known["crank.coefficient"].unit == "rad/{}"
@@ -230,7 +229,7 @@ slider = "C"
 
 def test_a_scene_file_says_it_is_edited_and_written_back_to_the_same_motion() -> None:
     scene = scene_from(parse(FILE, "my.toml"), name="my", where="my.toml")
-    assert scene.linkage.drive.travel == Travel(90.0, 150.0)
+    assert scene.linkage.drive.actuator == Travel(90.0, 150.0)
     again = scene_from(parse(text(scene), "my.toml"), name="my", where="my.toml")
     assert again.linkage == scene.linkage
     assert scene.info.input_range == (90.0, 150.0)
@@ -248,6 +247,10 @@ def test_it_has_no_angle() -> None:
         load("driven-piston").solve(angle=1.0)
     with pytest.raises(BadInput, match="no angle"):
         load("driven-piston").mechanism.solve(angle=1.0, speed=1.0)
+    for motion in (load("driven-piston").pose(1.0), load("driven-piston").solve(phase=[1.0])):
+        with pytest.raises(AttributeError, match=r"crank.angle"):
+            _ = motion.crank_angle
+    assert load("press").pose(1.0).crank_angle == load("press").pose(1.0).coordinate
 
 
 @pytest.mark.parametrize(

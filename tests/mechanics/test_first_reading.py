@@ -9,7 +9,7 @@ import pytest
 from bits import rows
 
 from linkanim.mechanics.motion.measures import FAMILIES
-from linkanim.mechanics.motion.request import CRANK
+from linkanim.mechanics.motion.request import COORDINATE
 from linkanim.scenes import load
 
 KINDS = tuple(kind for family in FAMILIES for kind in family)
@@ -19,7 +19,7 @@ SCENES = ("press", "double-rocker", "geared-five-bar-3-2")
 
 
 @pytest.mark.parametrize("scene", SCENES)
-@pytest.mark.parametrize("order", [KINDS, KINDS[::-1], (*CRANK, "phase", *KINDS[1::2], *KINDS[::2])])
+@pytest.mark.parametrize("order", [KINDS, KINDS[::-1], (*COORDINATE, "phase", *KINDS[1::2], *KINDS[::2])])
 def test_the_order_of_reading_changes_no_bit(scene: str, order: tuple[str, ...]) -> None:
     once = load(scene).solve(phase=PHASES)
     whole = {kind: dict(values) for kind, values in once.every.items()}
@@ -72,10 +72,10 @@ def test_a_motion_stays_what_it_was_when_the_caller_changes_the_arrays(given: st
     motion, same = (scene.solve(**asked, **{given: x}) for x in (values, values.copy()))  # type: ignore[arg-type]
     values[:] = 9.0
     assert motion.velocity["B"].tobytes() == same.velocity["B"].tobytes()
-    assert motion.crank_angle.tobytes() == same.crank_angle.tobytes()
+    assert motion.coordinate.tobytes() == same.coordinate.tobytes()
 
 
-@pytest.mark.parametrize("name", ["position", "phase", "crank_angle"])
+@pytest.mark.parametrize("name", ["position", "phase", "coordinate"])
 def test_a_motion_is_frozen(name: str) -> None:
     motion = load("press").solve(angle=[0.3, 0.4])
     with pytest.raises(FrozenInstanceError):
@@ -94,7 +94,7 @@ def test_the_inputs_own_motion_is_that_of_a_pose(scene: str) -> None:
     motion = load(scene).solve(phase=PHASES, speed=3.0, acceleration=0.5)
     for index, phase in enumerate(PHASES[:9].tolist()):
         pose = load(scene).pose(phase, speed=3.0, acceleration=0.5)
-        for name in CRANK:
+        for name in COORDINATE:
             assert np.broadcast_to(getattr(motion, name), PHASES.shape)[index] == pytest.approx(
                 getattr(pose, name), rel=1e-14
             )
@@ -103,7 +103,7 @@ def test_the_inputs_own_motion_is_that_of_a_pose(scene: str) -> None:
 def test_a_motion_run_faster_stands_where_it_stood() -> None:
     motion = load("double-rocker").solve(phase=PHASES, speed=2.0)
     paced = motion.paced(-3.0)
-    for name, power in (("phase", 1.0), ("crank_angle", 1.0), ("crank_rate", -3.0), ("crank_second", 9.0)):
+    for name, power in zip(("phase", *COORDINATE), (1.0, 1.0, -3.0, 9.0), strict=True):
         assert np.array_equal(getattr(paced, name), getattr(motion, name) * power)
     assert np.array_equal(paced.position["B"], motion.position["B"])
     assert np.array_equal(paced.velocity["B"], motion.velocity["B"] * -3.0)

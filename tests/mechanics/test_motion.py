@@ -37,7 +37,7 @@ def test_results_have_the_shape_of_what_was_asked(shape: tuple[int, ...]) -> Non
     assert motion.com_velocity["3"].shape == (*shape, 2)
     assert motion.angular_velocity["3"].shape == shape
     assert motion.angle["3"].shape == shape
-    assert motion.crank_angle.shape == shape
+    assert motion.coordinate.shape == shape
 
 
 def test_speeds_may_differ_from_angle_to_angle() -> None:
@@ -260,9 +260,9 @@ def test_coefficients_are_rates_over_the_input_s(name: str) -> None:
         seconds = (
             motion.angular_acceleration if body in motion.angular_velocity else motion.travel_acceleration
         )
-        pace = motion.crank_rate
+        pace = motion.coordinate_rate
         assert rates[body] == pytest.approx(first * pace, rel=1e-9, abs=1e-9)
-        meant = second * pace**2 + first * motion.crank_second
+        meant = second * pace**2 + first * motion.coordinate_second
         assert seconds[body] == pytest.approx(meant, rel=1e-8, abs=1e-8 * np.abs(meant).max() + 1e-9)
 
 
@@ -330,7 +330,7 @@ def test_what_follows_from_a_motion_cannot_be_written_to() -> None:
     motion = load("press").solve(phase=[0.1, 0.2])
     for found in (
         motion.phase,
-        motion.crank_angle,
+        motion.coordinate,
         motion.angle["3"],
         motion.coefficient["3"][1],
         motion.spring["return"].length,
@@ -351,7 +351,7 @@ def test_a_used_scene_and_a_motion_go_through_a_pickle(name: str) -> None:
     again, motion_again, pose_again = pickle.loads(pickle.dumps((scene, motion, pose)))
     paced = pickle.loads(pickle.dumps(motion.paced(2.0)))
     assert again == scene
-    assert paced.crank_rate == pytest.approx(motion.crank_rate * 2.0)
+    assert paced.coordinate_rate == pytest.approx(motion.coordinate_rate * 2.0)
     for quantity, (many, one) in zip(known, meant, strict=True):
         assert np.array_equal(quantity.read(motion_again), many, equal_nan=True), quantity.token
         assert np.array_equal(quantity.read(pose_again), one, equal_nan=True), quantity.token

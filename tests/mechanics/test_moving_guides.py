@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from build import four_bar, with_joints
 
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPR, RRP
 from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.derived import transmission_angle

@@ -12,7 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.mechanics.motion.motion import Motion
@@ -104,7 +104,7 @@ def test_the_other_closure_is_the_mirror_image(name: str, data: st.DataObject) -
 @given(st.data(), st.floats(-3.0, 3.0))
 def test_turned_ground_turns_everything(name: str, data: st.DataObject, turn: float) -> None:
     lengths, _, motion = drawn(data, name)
-    tilted = assembled(four_bar(lengths, ground_angle=turn, start=turn + float(motion.crank_angle[0])))
+    tilted = assembled(four_bar(lengths, ground_angle=turn, start=turn + float(motion.coordinate[0])))
     moved = tilted.solve(phase=PHASES, speed=1.0)
     rotation = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
     fastest = np.abs(motion.acceleration["B"]).max()

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from build import BARS, four_bar, slider_crank
 
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.scenes import load

@@ -11,7 +11,7 @@ from build import slider_crank, with_joints
 from chain_reference import places
 from mpmath import mp, mpf
 
-from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Pin

@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPP, RRP
 from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Body, Drive, Linkage
+from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.motion.mechanism import mechanism
 

@@ -314,5 +314,5 @@ def test_a_table_of_rates_is_compared_at_the_charts_speed_also_of_a_swing() -> N
     page = _page("double-rocker", "rocker.angular_velocity", speeds=(3.0,))
     phases = np.array([0.5, 1.0, 2.0])
     motion = page.curves.scene.solve(phase=phases, speed=3.0)
-    table = np.column_stack([np.degrees(motion.crank_angle), motion.angular_velocity["rocker"]])
+    table = np.column_stack([np.degrees(motion.coordinate), motion.angular_velocity["rocker"]])
     assert beside(page.curves, table, "t").largest == pytest.approx(0.0, abs=1e-9)

@@ -161,7 +161,7 @@ def test_the_table_of_all_quantities_is_that_of_solve(press: Path, n: int) -> No
     scene, pace = load("press"), PACES[n - 1]
     motion = scene.solve(phase=found["phase"], speed=pace.speed)
     assert found["time"] == pytest.approx(found["phase"] / pace.speed)
-    assert found["angle"] == pytest.approx(motion.crank_angle)
+    assert found["angle"] == pytest.approx(motion.coordinate)
     assert len(lines) == 361
     for token in ("3.angular_acceleration", "5.travel_velocity", "cushion.force", "4.com_velocity.y"):
         solved = np.asarray(register(scene.linkage)[token].read(motion))
@@ -179,7 +179,7 @@ def test_a_slider_s_extremes_are_told_by_themselves() -> None:
     second_turn = Instant(math.radians(447), "")
     assert sheet(load("kite"), second_turn, PACES).title == "θ₂ = 147.00°"
     piston = load("driven-piston")
-    travel = float(piston.solve(phase=1.0).crank_angle)
+    travel = float(piston.solve(phase=1.0).coordinate)
     assert sheet(piston, Instant(1.0, "then"), PACES).title == f"s = {travel:.2f} mm (then)"
     for instant, degrees in ((high, 71.0), (low, 316.5)):
         assert math.degrees(instant.phase) == pytest.approx(degrees, abs=1.0)
@@ -212,7 +212,7 @@ def test_angles_choose_the_phase_also_of_a_swing() -> None:
     scene = load("double-rocker")
     middle = sum(scene.info.input_range) / 2
     (instant,) = instants_at(scene, (middle,))
-    assert scene.pose(instant.phase).crank_angle == pytest.approx(middle)
+    assert scene.pose(instant.phase).coordinate == pytest.approx(middle)
 
 
 # Refused in one line, and nothing is written.

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from pictures import contrast, pixels
 
-from linkanim.mechanics.linkage.linkage import Damper, Drive, Linkage
+from linkanim.mechanics.linkage.drive import Drive
+from linkanim.mechanics.linkage.linkage import Damper, Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
 from linkanim.picture.arrangement.sweep import sweep_of
 from linkanim.picture.figure import Figure, figure

@@ -65,7 +65,7 @@ def test_the_angle_s_arc_runs_as_far_as_the_hud_says(name: str) -> None:
     turning, swings = painter.drawing.cast.turning, not scene.info.full_turn
     assert isinstance(turning, Turning)
     for phase in np.linspace(0.1, 6.2, 9):
-        angle = scene.pose(float(phase)).crank_angle
+        angle = scene.pose(float(phase)).coordinate
         assert turning.turned(angle + math.tau) == pytest.approx(angle if swings else angle % math.tau)
     (symbol,) = [label for label in labelled(painter).labels if label.lettering.text.startswith("θ")]
     for phase in np.linspace(0, math.tau, 9):
@@ -159,7 +159,7 @@ def test_the_arrow_bends_the_way_the_input_turns_and_turns_over_with_it(name: st
         centre, tip = places[turning.pivot], line.loops[-1][0]
         bar = places[turning.pin] - centre
         ahead = -np.angle((tip - centre) / bar)
-        assert np.sign(ahead) == np.sign(pose.crank_rate)
+        assert np.sign(ahead) == np.sign(pose.coordinate_rate)
         assert 0.2 < abs(ahead) < 2.2
 
 
@@ -173,7 +173,7 @@ def test_the_arrow_runs_the_way_the_driven_slider_does() -> None:
         places = painter.drawing.places(pose)
         line = sliding.direction(pose, places, abs(drive.speed / speed))[-1]
         ahead = line.loops[0].real - places["C"].real
-        assert np.sign(ahead).tolist() == [np.sign(pose.crank_rate)] * len(ahead)
+        assert np.sign(ahead).tolist() == [np.sign(pose.coordinate_rate)] * len(ahead)
         assert np.abs(ahead).min() > 2 * sliding.gauge.bar  # off its block
         assert np.ptp(ahead) > 3 * sliding.gauge.bar
         assert not sliding.angle(places)

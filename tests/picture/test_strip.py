@@ -72,7 +72,7 @@ def test_an_input_that_turns_is_charted_over_its_own_angle(
     assert chart.course.title == "crank angle θ₂ (°)"
     assert chart.course.span == pytest.approx(span)
     assert _share(chart, phase) == pytest.approx(angle / span, abs=1e-6)
-    shown = math.degrees(_pose(chart, phase).crank_angle) % 360
+    shown = math.degrees(_pose(chart, phase).coordinate) % 360
     assert _share(chart, phase) * span % 360 == pytest.approx(shown, abs=1e-3)
 
 
@@ -102,7 +102,7 @@ def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:
     assert [place for place, _ in chart.course.marks] == pytest.approx([place for place, _ in marks])
     for place, label in marks:
         pose = _pose(chart, float(chart.course.phase_of(place)))
-        assert f"{math.degrees(pose.crank_angle):.1f}°" == label
+        assert f"{math.degrees(pose.coordinate):.1f}°" == label
     assert _strip("crank-rocker", "rocker.angle").course.marks == ()
 
 
@@ -130,7 +130,7 @@ def test_no_words_of_a_chart_lie_on_others(size: tuple[int, int], beside: bool, 
 
 def _input_told(scene: Scene, value: float) -> str:
     """A driven slider's travel, or else an angle."""
-    if scene.linkage.slides:
+    if not scene.linkage.drive.coordinate.is_angle:
         return f"{value + 0.0:.1f} {scene.length_unit}"
     return f"{math.degrees(value) + 0.0:.1f}°"
 
@@ -141,9 +141,9 @@ def test_every_limit_is_marked_where_the_input_turns_back(name: str) -> None:
     ends = [_input_told(scene, end) for end in scene.info.input_range]
     for place, label in chart.course.marks:
         pose = _pose(chart, float(chart.course.phase_of(place)))
-        assert label.replace("−", "-") == _input_told(scene, pose.crank_angle)
+        assert label.replace("−", "-") == _input_told(scene, pose.coordinate)
         assert label.replace("−", "-") in ends
-        assert abs(pose.crank_rate) < 1e-9
+        assert abs(pose.coordinate_rate) < 1e-9
 
 
 @pytest.mark.parametrize("speed", [0.5, -0.5, 4.0, -9.0])

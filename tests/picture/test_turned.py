@@ -13,7 +13,8 @@ from fidelity import Pixels
 from pictures import BARE, painted, pixels
 from test_moving_parts import GAUGE, VIEW, geared, planetary
 
-from linkanim.mechanics.linkage.linkage import Drive, Linkage
+from linkanim.mechanics.linkage.drive import Drive
+from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
 from linkanim.picture import turned
 from linkanim.picture.backdrop import Backdrop

@@ -91,7 +91,7 @@ def test_a_swings_crank_angle_stays_though_its_range_changes() -> None:
     moved = drag(state, "B", (14.0, 9.0))
     assert moved.editing.refusal is None
     assert moved.scene.info.input_range != state.scene.info.input_range
-    angles = (one.scene.pose(one.phase, 0).crank_angle for one in (state, moved))
+    angles = (one.scene.pose(one.phase, 0).coordinate for one in (state, moved))
     assert next(angles) == pytest.approx(next(angles))
 
 

@@ -17,7 +17,7 @@ def test_the_crank_goes_where_it_is_dragged(name: str, phase: float) -> None:
     scene = load(name)
     pose = scene.pose(phase, 0)
     near, pin = phase + 0.2, pose.position[scene.linkage.drive.joint]
-    found = scene.mechanism.assembly.path.phase_of(pose.crank_angle, near=near)
+    found = scene.mechanism.assembly.path.phase_of(pose.coordinate, near=near)
     assert found == pytest.approx(phase, abs=1e-6)
     assert phase_towards(scene, near, pin) == pytest.approx(phase, abs=1e-6)
 

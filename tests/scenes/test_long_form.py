@@ -11,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Body, Damper, Drive, Spring
+from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes import load

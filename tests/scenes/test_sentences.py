@@ -68,7 +68,7 @@ def test_a_link_that_is_called_crank_turns_and_one_called_rocker_swings(name: st
             assert bool(fixed & set(member.joints)) == (noun != "coupler"), (body, words)
             assert noun == "coupler" or turns_fully(scene, body) == (noun == "crank"), (body, words)
     assert len(set(scene.info.link_names.values())) == len(scene.info.link_names)
-    if not scene.linkage.slides and scene.linkage.drive.cylinder is None:
+    if not scene.linkage.drive.actuator.lengths:
         assert (scene.info.input_name == "crank") == scene.info.full_turn
 
 
@@ -143,7 +143,7 @@ def test_the_offset_slider_cranks_way_forward_is_the_shorter_one() -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_an_input_swings_as_far_as_it_is_said_to(name: str) -> None:
     scene = load(name)
-    angle = scene.cycle(SAMPLES).crank_angle
+    angle = scene.cycle(SAMPLES).coordinate
     low, high = scene.info.input_range
     if scene.info.full_turn:
         assert dict(scene.info.lines)["input"] == "turns fully"

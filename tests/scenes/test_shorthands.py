@@ -7,9 +7,10 @@ import tomllib
 
 import pytest
 
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RRP, RRR
 from linkanim.mechanics.linkage.joint import Joint, Line, Point
-from linkanim.mechanics.linkage.linkage import Body, Drive
+from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.linkage.pins import Crank, Pin, Polar
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes.reading.read import scene_from

@@ -211,7 +211,7 @@ def test_at_grashofs_limit_two_turns_bring_all_back() -> None:
 
 def test_cardans_wheel_draws_a_line_with_its_rim_and_an_ellipse_within() -> None:
     motion = load("cardan-gears").cycle(720)
-    theta = motion.crank_angle
+    theta = motion.coordinate
     x, y = motion.position["E"].T
     assert np.max(np.abs(y)) <= 1e-14 * 100
     assert np.max(np.abs(x - 100 * np.cos(theta))) <= 1e-14 * 100

@@ -136,7 +136,7 @@ def test_the_trammels_end_draws_an_ellipse() -> None:
     x, y = motion.position["P"].T
     # 160 from the block on the upright line, 60 from the one on the level line.
     assert np.max(np.abs((x / 160) ** 2 + (y / 60) ** 2 - 1)) <= 16 * EPS
-    theta = motion.crank_angle
+    theta = motion.coordinate
     assert np.max(np.abs(x - 160 * np.cos(theta))) <= 4 * EPS * 160
     assert np.max(np.abs(y + 60 * np.sin(theta))) <= 4 * EPS * 160
 

@@ -64,7 +64,7 @@ def faults(scene: Scene, document: Mapping[str, Any], *, thorough: bool) -> Iter
     if lost:
         return
     size = longest(places)
-    yield from unclosed(document, places, cycle.crank_angle, size)
+    yield from unclosed(document, places, cycle.coordinate, size)
     yield from kinks(place, scene.period, STEPS * drives, size)
     some = np.array([0.3, 1.1, 2.9, 4.0, 5.7])
     turns = [place(some + 2 * math.pi * k) for k in range(drives + 1)]

@@ -72,9 +72,9 @@ BY_ROCKER = {"ground": 5, "crank": 4, "coupler": 3, "rocker": 2, "driver": "rock
 def test_what_is_not_closed_is_named(document: dict[str, object], moved: str, words: str) -> None:
     motion = scene_from(document, name="x", where="x").cycle(40)
     places = {name: np.array(place) for name, place in motion.position.items()}
-    assert list(unclosed(document, places, motion.crank_angle, 5.0)) == []
+    assert list(unclosed(document, places, motion.coordinate, 5.0)) == []
     places[moved][7] += 3e-11
-    assert words in " ".join(unclosed(document, places, motion.crank_angle, 5.0))
+    assert words in " ".join(unclosed(document, places, motion.coordinate, 5.0))
 
 
 SLOT = {"slot": {"pivot": "G", "through": "A", "offset": 1}, "length": 4}
@@ -87,10 +87,10 @@ def test_slots_and_gears_are_held_to(joint: dict[str, object], words: str) -> No
     document = {"ground": {"O": [0, 0], "G": [5, 1]}, "joints": {"A": crank, "E": joint}}
     motion = scene_from(document, name="x", where="x").cycle(40)
     places = {name: np.array(place) for name, place in motion.position.items()}
-    assert list(unclosed(document, places, motion.crank_angle, 5.0)) == []
+    assert list(unclosed(document, places, motion.coordinate, 5.0)) == []
     places["E"] *= 1 + 1e-11
     places["A"] *= 1 + 1e-11
-    assert words in " ".join(unclosed(document, places, motion.crank_angle, 5.0))
+    assert words in " ".join(unclosed(document, places, motion.coordinate, 5.0))
 
 
 def test_a_place_that_is_not_a_number_is_no_closed_bar_and_not_finite() -> None:
@@ -100,7 +100,7 @@ def test_a_place_that_is_not_a_number_is_no_closed_bar_and_not_finite() -> None:
     assert list(not_finite(places)) == []
     places["B"][3, 1] = math.nan
     assert list(not_finite(places)) == ["B is nowhere at 1 of 40 instants"]
-    assert list(unclosed(document, places, motion.crank_angle, 5.0))
+    assert list(unclosed(document, places, motion.coordinate, 5.0))
 
 
 def test_a_period_too_short_or_too_long_is_found() -> None:

@@ -94,7 +94,7 @@ def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> 
     motion = solve(np.array([inputs.value]))
     if any(np.isnan(points).any() for points in motion.position.values()):
         raise out_of_range(scene, inputs.value)
-    where = {input_key(scene): motion.crank_angle, "phase": motion.phase, inputs.by: np.array([inputs.value])}
+    where = {input_key(scene): motion.coordinate, "phase": motion.phase, inputs.by: np.array([inputs.value])}
     yield RowBlock(np.degrees([inputs.value]), {**where, **tree(scene, motion)})
 
 

@@ -9,21 +9,27 @@ from dataclasses import replace
 import numpy as np
 
 from linkanim.bounds import MOST_DYAD_TURNS, MOST_TURNS
-from linkanim.digits import degrees
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.kinds import CLOSERS
 from linkanim.mechanics.closing.kinematics import walk_at
-from linkanim.mechanics.drive.path import Arc, Path, Swing, Turn, arcs_of, open_arcs
-from linkanim.mechanics.drive.stroke import CylinderStroke, cylinder_stroke, slider_stroke
+from linkanim.mechanics.drive.cylinder import cylinder_stroke
+from linkanim.mechanics.drive.input_path import InputPath
+from linkanim.mechanics.drive.ranges import Arc, arcs_of, open_arcs
+from linkanim.mechanics.drive.slider import slider_stroke
+from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.drive.turn import Turn
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope
 from linkanim.mechanics.formulas.program import batch
+from linkanim.mechanics.linkage.drive import Cylinder, Travel
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.loop import Gearing, Loop, gearings
 from linkanim.mechanics.loops.roots import Kind
 from linkanim.mechanics.loops.signed import OWN_LIMIT
 
+STROKES = {Cylinder: cylinder_stroke, Travel: slider_stroke}
+"""Which path what drives runs on; else it is that of a crank, which its loops may limit."""
 JUST_AFTER = 1e-6
 """Phase at which a closure is judged where it is ambiguous at the start itself."""
 
@@ -77,13 +83,11 @@ def _scale(linkage: Linkage) -> float:
 
 def _paths(
     linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Arc] | None, unscale: float
-) -> Iterator[Path]:
+) -> Iterator[InputPath]:
     """Yield the paths the input may take, the one asked for first."""
-    if linkage.drive.travel is not None:
-        yield slider_stroke(linkage.drive.travel, unscale)
-        return
-    if linkage.drive.cylinder is not None:
-        yield _driven(cylinder_stroke(linkage, unscale), arcs)
+    stroke = STROKES.get(type(linkage.drive.actuator))
+    if stroke is not None:
+        yield stroke(linkage, unscale, arcs)
         return
     if arcs is None:
         yield Turn(linkage.drive.start, turns_to_return(linkage, loops))
@@ -108,19 +112,6 @@ def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Arc) -> int:
         if low != high:
             return 2
     return 1
-
-
-def _driven(path: CylinderStroke, arcs: list[Arc] | None) -> CylinderStroke:
-    """Return the path that a cylinder drives; AssemblyError where a loop on the crank leaves it no room."""
-    low, high = path.input_range
-    around = [arc.shifted(arc.turns_to(path.middle)) for arc in arcs or ()]
-    if arcs is None or any(float(arc.low) < low and high < float(arc.high) for arc in around):
-        return path
-    within = " or ".join(f"{degrees(float(arc.low))}…{degrees(float(arc.high))}" for arc in arcs)
-    raise AssemblyError(
-        f"joint {arcs[0].ends[0]}: the cylinder would turn the crank {degrees(low)}…{degrees(high)}, "
-        f"and the bars meet at {within} only; change from and to"
-    )
 
 
 def _rank(arc: Arc, linkage: Linkage, loops: Mapping[str, Loop]) -> tuple[bool, bool]:
@@ -168,7 +159,7 @@ def most_turns(linkage: Linkage) -> int:
     return min(MOST_TURNS, MOST_DYAD_TURNS // max(dyads, 1))
 
 
-def _sign_choices(linkage: Linkage, loops: Mapping[str, Loop], path: Path) -> Iterator[dict[str, int]]:
+def _sign_choices(linkage: Linkage, loops: Mapping[str, Loop], path: InputPath) -> Iterator[dict[str, int]]:
     """Yield the closures' signs on a path: one choice, two where a dyad is named by another joint's side."""
     named = {joint.name: joint.named_sign for joint in linkage.joints}
     signs = {name: sign for name, sign in named.items() if sign is not None}
@@ -179,7 +170,7 @@ def _sign_choices(linkage: Linkage, loops: Mapping[str, Loop], path: Path) -> It
             yield {**signs, joint.name: -signs[joint.name]}
 
 
-def _just_after_start(loop: Loop | None, path: Path) -> int:
+def _just_after_start(loop: Loop | None, path: InputPath) -> int:
     """Return the sign that the loop's own root has just after the start: the named closure holds there."""
     if loop is None:
         return 1

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from linkanim.mechanics.closing.chain import ChainRoot
-from linkanim.mechanics.drive.path import Path
+from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.loop import Gearing, Loop, gearings
 
@@ -22,11 +22,18 @@ class Assembly:
 
     linkage: Linkage
     loops: Mapping[str, Loop]
-    path: Path
+    path: InputPath
     signs: Mapping[str, int]
     unscale: float = 1.0
     chain: Mapping[str, ChainRoot] = field(default_factory=dict)
     """The roots of dyads on moving points that vanish on the way."""
+
+    @property
+    def change_points(self) -> Iterator[float]:
+        """The input's places at which a root changes its sign, of loops and of dyads down the chain."""
+        roots: tuple[Loop | ChainRoot, ...] = (*self.loops.values(), *self.chain.values())
+        for root in roots:
+            yield from root.change_points(self.path)
 
     @cached_property
     def gears(self) -> Mapping[str, Gearing]:

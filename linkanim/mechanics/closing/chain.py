@@ -14,6 +14,7 @@ F keeps its digits: there q = ±√F, and the signs of all the ways are its sign
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
@@ -22,7 +23,7 @@ from linkanim.mechanics.formulas.circular import sharp_half_angle
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Value, maximum, minimum, select, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec
-from linkanim.mechanics.loops.input_state import InputState
+from linkanim.mechanics.loops.input_state import InputPlaces, InputState
 from linkanim.mechanics.loops.signed import SMALLEST, Reduced, SignedRoot, plain_root
 
 
@@ -223,6 +224,10 @@ class ChainRoot:
     zeros: tuple[Zero, ...]
     least: float
     sign: float = 1.0
+
+    def change_points(self, path: InputPlaces) -> Iterator[float]:
+        """Yield the input's places at which the root changes its sign and the input goes on."""
+        yield from (path.coordinate_at(zero.place) for zero in self.zeros if isinstance(zero, Touch))
 
     def side(self, state: InputState) -> Value:
         """Return the sign of the closure on the smooth path."""

@@ -16,7 +16,7 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import ChainRoot, Closing, End, Fit, Near, Zero
 from linkanim.mechanics.closing.kinematics import walk_at, walked
-from linkanim.mechanics.drive.path import Swing
+from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope

@@ -24,7 +24,9 @@ from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import ends_of
 from linkanim.mechanics.closing.separation import Separations, separations
 from linkanim.mechanics.closing.touching import through_change_points
-from linkanim.mechanics.drive.path import ONE_PLACE, Swing
+from linkanim.mechanics.drive.input_path import Limit
+from linkanim.mechanics.drive.ranges import ONE_PLACE
+from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
@@ -42,8 +44,6 @@ CUTS = 8
 """A dyad may show where it does not close only when the one before it no longer leaves its own range."""
 
 Array = NDArray[np.float64]
-Limit = tuple[Sum, str | None]
-"""The phase of a limit, and the dyad that sets it; None where the path itself ends."""
 
 
 def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
@@ -81,7 +81,7 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
         )
     on_swing, limited = found, assembly
     for _ in range(CUTS):
-        swing = limited.path.cut(*_open_interval(limited, on_swing))
+        swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing)))
         if swing.amplitude < NO_WAY:
             raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
         limited, on_swing = _limited(assembly, swing)

@@ -24,7 +24,7 @@ from linkanim.mechanics.closing.fitting import extreme
 from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import around, ends_of
 from linkanim.mechanics.closing.walk import AT_ITS_LIMIT
-from linkanim.mechanics.drive.path import Path
+from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
@@ -323,7 +323,7 @@ def _settled(assembly: Assembly, name: str, phases: Array, margins: Array) -> It
             yield Extreme(phase, place, closes, reach)
 
 
-def _at_own_end(path: Path, name: str, phase: float) -> bool:
+def _at_own_end(path: InputPath, name: str, phase: float) -> bool:
     ends = zip(path.ends, (0.0, math.pi), strict=False)
     return any(end == name and abs(math.remainder(phase - at, 2 * math.pi)) <= AT_END for end, at in ends)
 

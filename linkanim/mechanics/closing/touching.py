@@ -42,7 +42,7 @@ def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
     side = root.side(path.state(JUST_AFTER, Slope(1.0)))
     assert isinstance(side, float)
     if len(touches) % 2:
-        path = replace(path, rounds=2 * path.rounds)
+        path = path.doubled()
         if path.periods > (most := most_turns(assembly.linkage)):
             raise AssemblyError(
                 f"joint {name}: with the change points up to this one every joint is back after "

@@ -1,60 +1,176 @@
-"""What paths of the input have in common: those that no dyad limits, and those that run there and back."""
+"""The path of the input: how far it goes, how its phase moves it, when everything is back.
+
+A path is found once for a linkage; every pose is computed from it.
+"""
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.drive.reach import Array, WaysLeft
-from linkanim.mechanics.formulas.exact import Sum
-from linkanim.mechanics.formulas.expression import Graph
+from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, two_product, two_sum
+from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.loops.input_state import InputState, turn
 from linkanim.mechanics.loops.signed import Swinging
 
+Array = NDArray[np.float64]
 
-class Unlimited:
-    """A path that no dyad limits: it has no ends to be measured from, and is solved from its angle alone."""
+NEARLY_ZERO = 1e-8
+"""Half a last digit of this is more than a limit is off by."""
+SAME_PLACE = 1e-9
+"""Angles that differ by less, in radians, are one; travels by less than this share of the whole."""
 
-    __slots__ = ()
+Limit = tuple[Sum, str | None]
+"""The phase of a limit, and the dyad that sets it; None where the path itself ends."""
 
-    ends: ClassVar[tuple[str, ...]] = ()
-    amplitude: ClassVar[None] = None
-    limits: ClassVar[tuple[float, ...]] = ()
-    """The angles at which a dyad stops the input."""
+
+class Shortened(NamedTuple):
+    """The angles between which a path is cut back, the dyads that limit it there, and its repeats."""
+
+    low: Sum
+    high: Sum
+    ends: tuple[str, str]
+    repeats: int
+
+
+@dataclass(frozen=True, slots=True)
+class InputPath(ABC):
+    """What every input answers: its range, its clock, its law and its limits.
+
+    Its coordinate is an angle (rad), or of a slider its travel (the scene's unit); its phase is the clock's.
+    After `periods` periods of the drive every joint is back, `rounds` times as many as without change
+    points down the chain. What is not told otherwise holds where no dyad limits it.
+    """
+
+    rounds: int = field(default=1, kw_only=True)
+
+    full_turn: ClassVar[bool]
+    """Whether it turns fully; else it runs there and back."""
+
+    @property
+    @abstractmethod
+    def periods(self) -> int:
+        """The number of drive periods after which every joint is back."""
+
+    @property
+    @abstractmethod
+    def input_range(self) -> tuple[float, float]:
+        """How far the input goes, the lower end first."""
+
+    @property
+    def dead_ends(self) -> tuple[float, ...]:
+        """The ends at which a dyad may be at its limit though it does not stop the input."""
+        return ()
+
+    def doubled(self) -> Self:
+        """Return the path of a linkage that is back after twice as many periods."""
+        return replace(self, rounds=2 * self.rounds)
+
+    @abstractmethod
+    def holds(self, place: float, turns: int = 1) -> bool:
+        """Tell whether the input comes to a place; to an angle also by `turns` turns, or twice as many …"""
+
+    @abstractmethod
+    def phase_of(self, place: float, near: float) -> float:
+        """Return the phase nearest to `near` at which the input stands at a place, or at its end."""
+
+    @abstractmethod
+    def coordinates(self, phases: Array) -> Array:
+        """Return the input's coordinate at phases."""
+
+    @abstractmethod
+    def phases(self, angles: Array, distances: LimitDistances | None) -> Array:
+        """Return the phase at angles of the input, on its way up; NaN for those out of reach."""
+
+    @abstractmethod
+    def home(self, start: float) -> float:
+        """Return the phase of the start."""
+
+    @abstractmethod
+    def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
+        """Return phases around the start and what is known there (D, N), and the start's index."""
+
+    @abstractmethod
+    def cut(self, low: Limit, high: Limit) -> Shortened:
+        """Return the part of the path between two phases; AssemblyError where it may not be shorter."""
+
+    @abstractmethod
+    def place(self, phase: Sum) -> Sum:
+        """Return what names the place at a phase: an angle, or the phase where that is passed twice."""
+
+    @abstractmethod
+    def coordinate_at(self, place: Sum) -> float:
+        """Return the input's coordinate at a place."""
+
+    @abstractmethod
+    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
+        """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
+
+    @abstractmethod
+    def state(self, phase: Value, pace: Slope) -> InputState:
+        """Return the input's state at a phase, in plain floats or noted expressions."""
+
+    @abstractmethod
+    def state_per_input(self, phase: Value) -> InputState:
+        """Return the input's state at a phase, its rates those by its own coordinate."""
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        """The dyads that limit the input at its lower and its upper end, "" where it merely turns back."""
+        return ()
+
+    @property
+    def amplitude(self) -> float | None:
+        """Half the angle of a swing between limits; None without one."""
+        return None
+
+    @property
+    def limits(self) -> tuple[float, ...]:
+        """The places at which a dyad stops the input."""
+        return ()
+
+    def distances(self, angle: Array) -> LimitDistances | None:
+        """Return how far angles are from the input's ends; None where no angle is out of reach."""
+        return None
 
     def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state at its angle."""
         return ("x",), turn(graph.input("x"), pace, Sum(0.0))
 
-    def solved_from(self, reached: WaysLeft) -> tuple[Array, ...]:
-        """Return what the program by angle takes: the angle."""
-        return (reached.angle,)
+    def solved_from(self, distances: LimitDistances) -> tuple[Array, ...]:
+        """Return what the program by angle takes: the angle, and what else its state is known by."""
+        return (distances.angle,)
 
     def swinging(self, state: InputState) -> Swinging | None:
-        """Return None: no dyad limits a swing."""
+        """Return the swing as the state has it; None where no dyad limits it."""
         return None
 
+    def same(self, place: float, other: float) -> bool:
+        """Tell whether two places of the input are one."""
+        return abs(math.remainder(place - other, 2 * math.pi)) <= SAME_PLACE
 
-class ThereAndBack(ABC):
+    def distinct(self, places: Iterable[float]) -> tuple[float, ...]:
+        """Return places of the input, angles within one turn, each once, the least first."""
+        found: list[float] = []
+        for place in sorted(math.remainder(place, 2 * math.pi) % (2 * math.pi) for place in places):
+            if not any(self.same(place, other) for other in found):
+                found.append(place)
+        return tuple(found)
+
+
+@dataclass(frozen=True, slots=True)
+class ThereAndBack(InputPath):
     """A path on which the input turns back at both ends, where its phase is 0 and π."""
 
-    __slots__ = ()
-
     full_turn: ClassVar[bool] = False
-
-    @abstractmethod
-    def angles(self, phases: Array) -> Array:
-        """Return the input's angle at phases."""
-
-    @abstractmethod
-    def phase_of(self, angle: float, near: float) -> float:
-        """Return the phase nearest to `near` at which the input stands at an angle, or at its end."""
 
     def home(self, start: float) -> float:
         """Return the phase of the start on the way to the far end, at most that of an end."""
@@ -79,3 +195,54 @@ def half_squares(ends: tuple[Sum, Sum], reference: Sum, ratio: Fraction) -> tupl
     # An angle whole turns from ψ = 0, or from ψ = π, lies between them.
     passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
     return 0.0 if passes[0] else min(squares), 1.0 if passes[1] else max(squares)
+
+
+@dataclass(frozen=True)
+class LimitDistances:
+    """How far angles are from the limits of a swing.
+
+    `angle` is that from its middle, `u` and `v` are half of what is left to its upper and its lower limit;
+    angles lie `outside`, or are a limit as well as a float can say it.
+    """
+
+    angle: Array
+    u: Array
+    v: Array
+    outside: NDArray[np.bool_]
+    at_limit: NDArray[np.bool_]
+
+    @property
+    def snapped(self) -> tuple[Array, Array]:
+        """u and v, the smaller one zero for angles that are a limit."""
+        pairs = (self.u, self.v), (self.v, self.u)
+        u, v = (np.where(self.at_limit & (way <= other), 0.0, way) for way, other in pairs)
+        return u, v
+
+
+@np.errstate(all="ignore")
+def limit_distances(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> LimitDistances:
+    """Return how far angles are from a swing's low end, middle and high end, whole turns aside.
+
+    After `repeats` turns of the input the linkage is the same; they are taken off without rounding.
+    The float nearest a limit is the limit as well as a float can say it: it is never outside, nor is 0 where
+    a limit is what its own last digits leave of 0.
+    """
+    low_end, middle, high_end = swing
+    turns = repeats * np.rint((angle - float(middle)) / (2 * math.pi * repeats))
+    whole, lost = two_product(-turns, FULL_TURN.high)
+    high, error = two_sum(angle, whole)
+    low = error + lost - turns * FULL_TURN.low
+    v, u = _way(high, low, low_end, 1.0), _way(high, low, high_end, -1.0)
+    nearest = np.spacing(np.maximum(np.abs(angle), NEARLY_ZERO)) / 2
+    at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
+    outside = ~((np.minimum(u, v) >= 0) | at_limit)
+    return LimitDistances(
+        _way(high, low, middle, 1.0), np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2, outside, at_limit
+    )
+
+
+def _way(high: Array, low: Array, limit: Sum, sign: float) -> Array:
+    """Return sign × (angle - limit), both sums of two floats."""
+    total, error = two_sum(high, -limit.high)
+    way: Array = sign * (total + (error + (low - limit.low)))
+    return way

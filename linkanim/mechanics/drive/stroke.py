@@ -1,70 +1,33 @@
-"""A length as the input, running to and fro: that of a cylinder, which turns a crank, or a slider's travel.
+"""A length that drives, running to and fro: it is mid - amp·cos φ.
 
-It is mid - amp·cos φ: it starts at `first`, is at `last` half a period on, and comes back.
-
-The length ℓ of a cylinder between a fixed pin G and a joint H of the crank's body makes a triangle with
-the crank's pivot, whose sides g and r do not change. With ψ its angle at the pivot the law of cosines is
-
-    4 g r sin²(ψ/2) = (ℓ - g + r)(ℓ + g - r)      4 g r cos²(ψ/2) = (g + r - ℓ)(g + r + ℓ)
-
-without cancellation, since half the phase tells how far ℓ is from its ends, so half of ψ has its sine and
-cosine without an arc function; and ψ' = ℓ ℓ'/(g r sin ψ).
-A slider has no angle: there the phase itself stands for one. Where a dyad is at its limit at an end of the
-travel, such as a piston's rod and crank at a dead centre, that is a change point of the phase's, and the
-motion runs on through it to the other closure.
+It starts at `first`, is at `last` half a period on, and comes back.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
-from fractions import Fraction
+from dataclasses import dataclass, field
 from typing import ClassVar, NoReturn
 
 import numpy as np
 
-from linkanim.errors import AssemblyError, BadInput
-from linkanim.mechanics.drive.input_path import ThereAndBack, Unlimited, half_squares, nearer_way
-from linkanim.mechanics.drive.reach import Array, WaysLeft, reach
-from linkanim.mechanics.formulas.circular import Half, direction, half_of, sharp_half_angle
-from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, exact_angle
-from linkanim.mechanics.formulas.expression import Graph, Value, arctan2, sqrt
-from linkanim.mechanics.formulas.planar import Moving, Slope, Vec
-from linkanim.mechanics.linkage.linkage import Cylinder, Linkage, Travel
-from linkanim.mechanics.loops.input_state import HalfForm, InputState, TravelState, turn
-from linkanim.mechanics.loops.loop import ground_between
-
-NO_ANGLE = "the input is a slider, which has no angle; take the phase (--phase, or phase=)"
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.drive.input_path import Array, Limit, ThereAndBack
+from linkanim.mechanics.formulas.circular import sharp_half_angle
+from linkanim.mechanics.formulas.expression import Value
+from linkanim.mechanics.formulas.planar import Moving, Slope
 
 
 @dataclass(frozen=True, slots=True)
-class HalfState(InputState):
-    """The input's state where half of its angle from `origin` is known by its sine and cosine."""
-
-    own: Half | None = None
-
-    def half_shifted(self, ratio: Fraction, shift: Sum, form: HalfForm) -> Half:
-        """Return half of ratio × angle + shift, turned from the half that is known where ratio is ±1."""
-        assert self.own is not None
-        if abs(ratio) != 1:
-            return InputState.half_shifted(self, ratio, shift, form)
-        way = float(ratio)
-        rest = direction(float(shift.times(0.5)))
-        turned = Vec(self.own.cosine, self.own.sine * way).times(Vec(*rest))
-        return half_of(turned.y, turned.x)
-
-
-@dataclass(frozen=True, slots=True)
-class Stroke(ThereAndBack, Unlimited):
+class Stroke(ThereAndBack):
     """The input's path where a length drives it; results times `unscale` are in the scene's unit."""
 
     first: float
     last: float
-    rounds: int = field(default=1, kw_only=True)
     unscale: float = field(default=1.0, kw_only=True)
 
-    word: ClassVar[str]
-    """What drives, and what of it runs to and fro."""
+    runs: ClassVar[str]
+    """What runs to and fro, in words."""
 
     @property
     def periods(self) -> int:
@@ -89,238 +52,13 @@ class Stroke(ThereAndBack, Unlimited):
         second = (whole.cosine * (pace.value * pace.value) + whole.sine * pace.rate) * reach
         return Moving(length, rate, second)
 
-    def cut(self, low: tuple[Sum, str | None], high: tuple[Sum, str | None]) -> NoReturn:
+    def cut(self, low: Limit, high: Limit) -> NoReturn:
         """Refuse to run shorter than asked: AssemblyError with the lengths between which all closes."""
         dyad = next(name for _, name in (low, high) if name is not None)
         ends = [float(self.lengths(np.array(float(phase)))) * self.unscale for phase, _ in (low, high)]
         least, most = sorted(ends)
         first, last = self.first * self.unscale, self.last * self.unscale
         raise AssemblyError(
-            f"joint {dyad}: it lets the {self.word} run from {least:.6g} to {most:.6g} only, "
+            f"joint {dyad}: it lets the {self.runs} run from {least:.6g} to {most:.6g} only, "
             f"not from {first:g} to {last:g}; change from and to"
         )
-
-
-@dataclass(frozen=True, slots=True)
-class CylinderStroke(Stroke):
-    """The input's path where a cylinder drives it; θ = base + side × ψ."""
-
-    sides: tuple[float, float]
-    """Of the triangle, from the crank's pivot: to the cylinder's fixed pin, and to its joint on the crank."""
-    base: Sum
-    side: int
-    lost: float = 0.0
-    """What rounding took from the first side, which is read from coordinates."""
-
-    word: ClassVar[str] = "cylinder's length"
-
-    @property
-    def input_range(self) -> tuple[float, float]:
-        """How far the crank goes."""
-        low, high = sorted(self.angle_of(length) for length in (self.first, self.last))
-        return low, high
-
-    def angle_of(self, length: float) -> float:
-        """Return the crank's angle at a length of the cylinder."""
-        g, r = self.sides
-        sine, cosine = (length - g + r) * (length + g - r), (g + r - length) * (g + r + length)
-        return float(self.base) + self.side * 2 * math.atan2(math.sqrt(sine), math.sqrt(cosine))
-
-    @property
-    def middle(self) -> float:
-        """The angle in the middle of the crank's range."""
-        return sum(self.input_range) / 2
-
-    def holds(self, angle: float, turns: int = 1) -> bool:
-        """Tell whether the crank comes to an angle, or to one that many turns away, or twice as many …"""
-        low, high = self.input_range
-        return abs(math.remainder(angle - self.middle, 2 * math.pi * turns)) <= (high - low) / 2
-
-    def around(self, angle: float) -> CylinderStroke:
-        """Return the path with its range, by whole turns, around an angle, or nearest to it."""
-        turns = round((angle - self.middle) / (2 * math.pi))
-        return replace(self, base=self.base + FULL_TURN.times(float(turns)))
-
-    def phase_of(self, angle: float, near: float) -> float:
-        """Return the phase nearest to `near` at which the crank stands at an angle, or at its end."""
-        g, r = self.sides
-        psi = abs(math.remainder(angle - float(self.base), 2 * math.pi))
-        length = math.sqrt(g * g + r * r - 2 * g * r * math.cos(psi))
-        return nearer_way(self.forth(length), near)
-
-    def angles(self, phases: Array) -> Array:
-        """Return the crank's angle at phases."""
-        g, r = self.sides
-        length = self.lengths(phases)
-        sine, cosine = (length - g + r) * (length + g - r), (g + r - length) * (g + r + length)
-        angles: Array = float(self.base) + self.side * 2 * np.arctan2(np.sqrt(sine), np.sqrt(cosine))
-        return angles
-
-    def phases(self, angles: Array, reached: WaysLeft | None) -> Array:
-        """Return the phase at angles of the crank on the cylinder's way to `last`; NaN out of reach."""
-        assert reached is not None
-        g, r = self.sides
-        lengths = np.sqrt(g * g + r * r - 2 * g * r * np.cos(angles - float(self.base)))
-        middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
-        phases = np.arccos(np.clip((middle - lengths) / half, -1.0, 1.0))
-        return np.where(reached.outside.reshape(angles.shape), np.nan, phases)
-
-    def place(self, phase: Sum) -> Sum:
-        """Return the angle at a phase: a place that is passed there and back."""
-        return exact_angle(float(self.angles(np.array([float(phase)]))[0]))
-
-    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
-        """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
-        low, high = self.input_range
-        return half_squares((Sum(low), Sum(high)), reference, ratio)
-
-    def state(self, phase: Value, pace: Slope) -> InputState:
-        """Return the input's state at a phase, in plain floats or noted expressions."""
-        g, r = self.sides
-        running = self.running(phase, pace)
-        length, rate, second = running.value, running.rate, running.second
-        half = self._half(phase, length)
-        squares = half.squares(2 * g * r)
-        turning = length * rate / squares.product
-        along = (squares.cosine - squares.sine) * 0.5
-        bend = (rate * rate + length * second - along * turning * turning) / squares.product
-        angle = arctan2(half.sine, half.cosine) * 2.0
-        return HalfState(angle, self.base, turning, bend, pace, own=half)
-
-    def state_per_input(self, phase: Value) -> InputState:
-        """Return the input's state at a phase, its rates those by the crank's angle."""
-        half = self._half(phase, self.running(phase, Slope(1.0)).value)
-        angle = arctan2(half.sine, half.cosine) * 2.0
-        return HalfState(angle, self.base, 1.0, 0.0, Slope(1.0), own=half)
-
-    def _half(self, phase: Value, length: Value) -> Half:
-        """Return half of the triangle's angle at the crank's pivot, `side` times."""
-        g, r = self.sides
-        beyond, short = self._ways(sharp_half_angle(phase))
-        sine, cosine = sqrt(beyond * (length + abs(g - r))), sqrt(short * (g + r + length))
-        scale = 0.5 / math.sqrt(g * r)
-        return half_of(sine * (scale * self.side), cosine * scale)
-
-    def _ways(self, half: Half) -> tuple[Value, Value]:
-        """Return how much longer the cylinder is than it can be short, and how much shorter than long.
-
-        Sums of what is not negative, from half the phase: near the ends of what it can be nothing cancels.
-        """
-        g, r = self.sides
-        way, sine, cosine = self.last - self.first, half.sine, half.cosine
-        least, most = sorted((self.first, self.last))
-        from_least, to_most = (sine * sine, cosine * cosine) if way > 0 else (cosine * cosine, sine * sine)
-        longer = 1.0 if g > r else -1.0
-        beyond = math.fsum((least, -longer * g, -longer * self.lost, longer * r))
-        short = math.fsum((g, self.lost, r, -most))
-        return from_least * abs(way) + beyond, to_most * abs(way) + short
-
-    def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
-        """Return the names of the graph's inputs, and the input's state at its angle from the middle."""
-        return ("x",), turn(graph.input("x"), pace, Sum(self.middle))
-
-    def reach(self, angle: Array) -> WaysLeft | None:
-        """Return which angles the crank comes to; at both ends it merely turns back."""
-        low, high = self.input_range
-        found = reach(angle, (Sum(low), Sum(self.middle), Sum(high)), 1)
-        return replace(found, at_limit=np.zeros_like(found.outside))
-
-
-@dataclass(frozen=True, slots=True)
-class SliderStroke(Stroke):
-    """The input's path where a slider drives it. What other paths tell of an angle it tells of the travel."""
-
-    word: ClassVar[str] = "slider's travel"
-
-    @property
-    def input_range(self) -> tuple[float, float]:
-        """How far the slider goes."""
-        low, high = sorted((self.first * self.unscale, self.last * self.unscale))
-        return low, high
-
-    def holds(self, angle: float, turns: int = 1) -> bool:
-        """Tell whether the slider comes so far."""
-        low, high = self.input_range
-        return low <= angle <= high
-
-    def phase_of(self, angle: float, near: float) -> float:
-        """Return the phase nearest to `near` at which the slider has travelled so far, or is at its end."""
-        return nearer_way(self.forth(angle / self.unscale), near)
-
-    def angles(self, phases: Array) -> Array:
-        """Return the slider's travel at phases."""
-        return self.lengths(phases) * self.unscale
-
-    def place(self, phase: Sum) -> Sum:
-        """Return the phase: of a travel's two ways through it, each is a place of its own."""
-        return phase
-
-    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
-        """Return the least and greatest sin²(φ/2) of the phase."""
-        return 0.0, 1.0
-
-    def state(self, phase: Value, pace: Slope) -> InputState:
-        """Return the input's state at a phase, in plain floats or noted expressions."""
-        travel = self.running(phase, pace)
-        return TravelState(phase, Sum(0.0), pace.value, pace.rate, pace, travel=travel)
-
-    def state_per_input(self, phase: Value) -> InputState:
-        """Return the input's state at a phase, its rates those by the slider's travel."""
-        by_phase = self.running(phase, Slope(1.0))
-        rate = 1.0 / by_phase.rate
-        second = -(by_phase.second * rate * rate * rate)
-        travel = Moving(by_phase.value, 1.0, 0.0)
-        return TravelState(phase, Sum(0.0), rate, second, Slope(rate, second), travel=travel)
-
-    def state_by_angle(self, graph: Graph, pace: Slope) -> NoReturn:
-        """Refuse to be asked for an angle."""
-        raise BadInput(NO_ANGLE)
-
-    def reach(self, angle: Array) -> NoReturn:
-        """Refuse to be asked for an angle."""
-        raise BadInput(NO_ANGLE)
-
-    def phases(self, angles: Array, reached: WaysLeft | None) -> NoReturn:
-        """Refuse to be asked for an angle."""
-        raise BadInput(NO_ANGLE)
-
-
-def slider_stroke(travel: Travel, unscale: float) -> SliderStroke:
-    """Return the path of a linkage that a slider drives."""
-    return SliderStroke(travel.first, travel.last, unscale=unscale)
-
-
-def cylinder_stroke(linkage: Linkage, unscale: float) -> CylinderStroke:
-    """Return the path of a linkage that a cylinder drives; AssemblyError where its triangle does not close.
-
-    Of the two triangles it is the one whose range contains the stated start, or else the one in which the
-    cylinder's joint lies left of the line from the crank's pivot to the fixed pin.
-    """
-    drive = linkage.drive
-    cylinder = drive.cylinder
-    assert cylinder is not None
-    crank = linkage.crank(drive.joint)
-    fixed, joint = cylinder.between
-    ground = ground_between(linkage, crank, fixed)
-    assert ground is not None
-    frame = next(frame for frame in linkage.frames[1:] if {crank.pivot, crank.name, joint} <= frame.keys())
-    arm = (frame[joint] - frame[crank.pivot]) / (frame[crank.name] - frame[crank.pivot]) * crank.length
-    sides = ground.length, abs(arm)
-    _check(cylinder, sides)
-    own = exact_angle(math.atan2(arm.imag, arm.real))
-    base = ground.angle - own
-    ends = cylinder.first, cylinder.last
-    paths = [CylinderStroke(*ends, sides, base, side, ground.rest, unscale=unscale) for side in (1, -1)]
-    start = drive.stated_start
-    held = (path for path in paths if start is not None and path.holds(start))
-    return next(held, paths[0]).around(drive.start)
-
-
-def _check(cylinder: Cylinder, sides: tuple[float, float]) -> None:
-    low, high = abs(sides[0] - sides[1]), sum(sides)
-    for key, length in (("from", cylinder.first), ("to", cylinder.last)):
-        if not low < length < high:
-            raise AssemblyError(
-                f"cylinder {key} = {length:g}: between {' and '.join(cylinder.between)} it can be "
-                f"{low:g} to {high:g} long, ends not included"
-            )

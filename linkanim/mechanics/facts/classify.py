@@ -11,10 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.digits import degrees, short, significant
-from linkanim.mechanics.closing.chain import Touch
 from linkanim.mechanics.closing.search import around, sign_changes
-from linkanim.mechanics.drive.path import Path
-from linkanim.mechanics.facts.effort import Demand, demand, effort_token, usual_effort
+from linkanim.mechanics.facts.effort import Demand, demand, usual_effort
 from linkanim.mechanics.facts.naming import (
     SAMPLES,
     FourBar,
@@ -25,9 +23,6 @@ from linkanim.mechanics.facts.naming import (
 )
 from linkanim.mechanics.facts.symbols import driven_body, input_symbol
 from linkanim.mechanics.facts.transmission import Transmission, transmission
-from linkanim.mechanics.formulas.exact import HALF_TURN, Sum
-from linkanim.mechanics.loops.loop import Gearing
-from linkanim.mechanics.loops.roots import Kind
 from linkanim.mechanics.motion.derived import output_slider
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.mechanics.motion.motion import Array, Motion
@@ -78,7 +73,7 @@ class Info:
     @cached_property
     def ends(self) -> tuple[float, float]:
         """Where an input that does not turn fully turns back: at phase 0, and half a period on."""
-        first, last = self.mechanism.assembly.path.angles(np.array([0.0, math.pi])).tolist()
+        first, last = self.mechanism.assembly.path.coordinates(np.array([0.0, math.pi])).tolist()
         return first, last
 
     @property
@@ -89,27 +84,17 @@ class Info:
     @property
     def toggles(self) -> tuple[float, ...]:
         """The input's limits; an end at which it merely turns back is none."""
-        if self.mechanism.linkage.slides:
-            return tuple(end for end in self.input_range if self._at_end(end))
-        return self.mechanism.assembly.path.limits
+        path, touched = self.mechanism.assembly.path, tuple(self.mechanism.assembly.change_points)
+        ends = (end for end in path.dead_ends if any(path.same(place, end) for place in touched))
+        return (*path.limits, *ends)
 
     @cached_property
     def change_points(self) -> tuple[float, ...]:
-        """The input's angles at its change points within one turn, each once, the least first."""
-        if self.mechanism.linkage.slides:
-            return tuple(sorted({place for place in _touched(self.mechanism) if not self._is_end(place)}))
-        return _change_points(self.mechanism)
-
-    def _at_end(self, end: float) -> bool:
-        """Whether a dyad is at its limit at an end of a slider's travel."""
-        return any(self._is_end(place) and self._same(place, end) for place in _touched(self.mechanism))
-
-    def _is_end(self, place: float) -> bool:
-        return any(self._same(place, end) for end in self.input_range)
-
-    def _same(self, place: float, other: float) -> bool:
-        low, high = self.input_range
-        return abs(place - other) <= SAME_ANGLE * (high - low)
+        """The input's places at its change points, angles within one turn, each once, the least first."""
+        path, touched = self.mechanism.assembly.path, self.mechanism.assembly.change_points
+        return path.distinct(
+            place for place in touched if not any(path.same(place, end) for end in path.dead_ends)
+        )
 
     @property
     def circuits(self) -> int | None:
@@ -178,8 +163,7 @@ class Info:
     @property
     def effort(self) -> tuple[str, str]:
         """What the input delivers, torque or force, and its unit."""
-        name = effort_token(self.mechanism.linkage).partition(".")[2]
-        return name, {"torque": "N m", "force": "N"}[name]
+        return self.mechanism.linkage.drive.actuator.effort
 
     @cached_property
     def turning_links(self) -> tuple[str, ...]:
@@ -197,9 +181,9 @@ class Info:
 
         One that swings goes by its name in the scene; named crank it is the rocker, or the input rocker.
         """
-        body = driven_body(self.mechanism.linkage)
-        if self.mechanism.linkage.slides:
-            return "slider"
+        body, noun = driven_body(self.mechanism.linkage), self.mechanism.linkage.drive.actuator.noun
+        if noun is not None:
+            return noun
         if self.full_turn:
             return "crank"
         return self.link_names[body.name] if body and not body.name.isdecimal() else "rocker"
@@ -233,35 +217,6 @@ def _grashof(bar: FourBar) -> str:
 def _circuits(bar: FourBar) -> int:
     """Return how many separate motions the lengths allow: two for Grashof, else one."""
     return 2 if bar.margin > 0 else 1
-
-
-def _change_points(mechanism: Mechanism) -> tuple[float, ...]:
-    """Return the input's angles at its change points within one turn, each once, the least first."""
-    found: list[float] = []
-    for angle in sorted(math.remainder(angle, 2 * math.pi) % (2 * math.pi) for angle in _touched(mechanism)):
-        known = (math.remainder(angle - other, 2 * math.pi) for other in found)
-        if all(abs(way) > SAME_ANGLE for way in known):
-            found.append(angle)
-    return tuple(found)
-
-
-def _touched(mechanism: Mechanism) -> Iterator[float]:
-    """Yield the input's angles at which a root changes its sign, of loops and of dyads down the chain."""
-    path = mechanism.assembly.path
-    for loop in mechanism.assembly.loops.values():
-        for factor, extra in ((loop.root.u, HALF_TURN), (loop.root.w, Sum(0.0))):
-            if factor.kind is Kind.CHANGE_POINT:
-                yield from _reached(path, loop.gearing, loop.root.reference + extra)
-    for root in mechanism.assembly.chain.values():
-        places = np.array([float(zero.place) for zero in root.zeros if isinstance(zero, Touch)])
-        yield from (places if path.full_turn else path.angles(places)).tolist()
-
-
-def _reached(path: Path, gearing: Gearing, angle: Sum) -> Iterator[float]:
-    """Yield the input's angles, as far as it reaches them, at which a crank stands at an angle."""
-    p, q = gearing.ratio.as_integer_ratio()
-    first, step = float((angle - gearing.offset) * (1 / gearing.ratio)), 2 * math.pi * q / abs(p)
-    return (here for turn in range(abs(p)) if path.holds(here := first + turn * step, q))
 
 
 class _Slider(NamedTuple):
@@ -301,9 +256,9 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     yield "class", info.class_name
     if info.grashof:
         yield "Grashof", info.grashof
-    slides = info.mechanism.linkage.slides
+    moves = info.mechanism.linkage.drive.actuator.moves
     across = _places(info, info.input_range, "…")
-    yield "input", "turns fully" if info.full_turn else f"{'slides' if slides else 'swings'} {across}"
+    yield "input", "turns fully" if info.full_turn else f"{moves} {across}"
     if info.turning_links:
         yield "turns fully", ", ".join(info.link_names[name] for name in info.turning_links)
     if info.toggles:
@@ -336,9 +291,9 @@ def _worst(info: Info, found: Transmission) -> str:
     least = f"{significant(math.degrees(found.least), 3)}° at {found.dyad}"
     if found.greatest - found.least <= SAME_ANGLE:
         return f"μ = {least}, all the way"
-    place = float(info.mechanism.solve(phase=found.phase, speed=1.0, derivatives=0).crank_angle)
     linkage = info.mechanism.linkage
-    if linkage.slides:
+    place = float(info.mechanism.solve(phase=found.phase, speed=1.0, derivatives=0).coordinate)
+    if not linkage.drive.coordinate.is_angle:
         where = f"{significant(place, 4)} {info.length_unit}"
     else:
         turned = round(math.degrees(place), 1) % 360 if info.full_turn else math.degrees(place)
@@ -349,10 +304,6 @@ def _worst(info: Info, found: Transmission) -> str:
 
 def _places(info: Info, places: tuple[float, ...], between: str = ", ") -> str:
     """Return places of the input in words: its angles, or how far a slider has travelled."""
-    if not info.mechanism.linkage.slides:
-        return _degrees(places, between)
+    if info.mechanism.linkage.drive.coordinate.is_angle:
+        return between.join(map(degrees, places))
     return f"{between.join(significant(place, 6) for place in places)} {info.length_unit}"
-
-
-def _degrees(angles: tuple[float, ...], between: str = ", ") -> str:
-    return between.join(map(degrees, angles))

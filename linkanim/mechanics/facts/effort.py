@@ -47,16 +47,16 @@ class _Way(NamedTuple):
     points: str
     centres: str
     turning: str
-    crank: str
+    input: str
 
 
-_MOVING = _Way("velocity", "com_velocity", "angular_velocity", "crank_rate")
-_STARTING = _Way("acceleration", "com_acceleration", "angular_acceleration", "crank_second")
+_MOVING = _Way("velocity", "com_velocity", "angular_velocity", "coordinate_rate")
+_STARTING = _Way("acceleration", "com_acceleration", "angular_acceleration", "coordinate_second")
 
 
 def effort_token(linkage: Linkage) -> str:
     """Return the token of the effort at the input: a force of a cylinder or slider, a torque of a crank."""
-    return "input.force" if linkage.drive.cylinder or linkage.slides else "input.torque"
+    return f"input.{linkage.drive.actuator.effort[0]}"
 
 
 def input_power(motion: Any) -> Any:
@@ -144,11 +144,10 @@ def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any]]:
 def _pace(motion: Any, way: _Way) -> Any:
     """Return how fast the input moves, in rad/s; a cylinder's length, or a slider, in m/s."""
     linkage = motion.setting.linkage
-    if linkage.slides:
-        return getattr(motion, way.crank) * linkage.metre
-    if linkage.drive.cylinder is None:
-        return getattr(motion, way.crank)
-    ends = linkage.drive.cylinder.between
+    ends = linkage.drive.actuator.along
+    if ends is None:
+        rate = getattr(motion, way.input)
+        return rate if linkage.drive.coordinate.is_angle else rate * linkage.metre
     moving = between(getattr(motion, way.points), ends)
     return growth(between(motion.position, ends), moving) * linkage.metre
 
@@ -200,8 +199,8 @@ def demand(solved: Callable[[Array], Any], periods: int, *, quickest: float, lim
     if (limited and not idle[:: len(idle) // (2 * periods)].all()) or not np.isfinite(effort).all():
         return Demand(work, None, None)
     peak = _peak(lambda near: np.asarray(input_effort(solved(near))), phases, effort)
-    steady = np.ndim(cycle.crank_rate) == 0
-    return Demand(work, peak, float(np.mean(used) / cycle.crank_rate) if steady else _mean(effort))
+    steady = np.ndim(cycle.coordinate_rate) == 0
+    return Demand(work, peak, float(np.mean(used) / cycle.coordinate_rate) if steady else _mean(effort))
 
 
 def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> float:

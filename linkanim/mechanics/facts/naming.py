@@ -104,28 +104,26 @@ def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
         return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"
     if not dyads:
         return _cranks_name(linkage)
-    if linkage.slides:
-        return _slider_driven_name(linkage, dyads)
+    if linkage.drive.actuator.noun is not None:
+        return _driven_name(linkage, dyads, linkage.drive.actuator.noun)
     own = CLOSERS[type(dyads[0])].name(dyads[0], mechanism.assembly) if len(dyads) == 1 else None
     return own or f"{_bars(len(dyads))} linkage{slider}"
 
 
-def _slider_driven_name(linkage: Linkage, dyads: list[Joint]) -> str:
-    """Name a linkage that a slider drives."""
+def _driven_name(linkage: Linkage, dyads: list[Joint], noun: str) -> str:
+    """Name a linkage by what drives it where that is no crank."""
     first = dyads[0]
     ends = set(first.ends) if isinstance(first, RRR) else set()
     cranked = linkage.drive.joint in ends and any(pin.name in ends for pin in linkage.pins)
     if cranked and len(dyads) == 1:
-        return "slider-crank driven at its slider"
-    return f"{_bars(len(dyads))} linkage driven by a slider"
+        return f"slider-crank driven at its {noun}"
+    return f"{_bars(len(dyads))} linkage driven by a {noun}"
 
 
 def _cranks_name(linkage: Linkage) -> str:
     """Name a linkage without dyads by how its cranks turn."""
-    if linkage.slides:
-        return "slider"
-    if linkage.drive.cylinder is not None:
-        return "crank driven by a cylinder"
+    if linkage.drive.actuator.linkage_name is not None:
+        return linkage.drive.actuator.linkage_name
     geared = [crank for crank in linkage.cranks if crank.gear]
     if any(not linkage.joint(crank.pivot).fixed for crank in geared):
         return "epicyclic gear train"

@@ -184,19 +184,18 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
         token, path = f"{dyad}.transmission_angle", ("joints", dyad, "transmission_angle")
         yield Quantity(token, indexed("μ", dyad), said, "rad", 0, read, path=path)
     output = output_body(linkage)
-    if output is not None and (output.slider or not linkage.slides):
+    if output is not None and (output.slider or linkage.drive.coordinate.is_angle):
         read = mechanical_advantage(linkage)
         yield _keyed(Quantity("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read))
 
 
 def _of_input(linkage: Linkage) -> Iterator[Quantity]:
     """Yield how fast the input moves, how long its cylinder is, and what it delivers."""
-    if linkage.slides:
-        yield Quantity("input.velocity", "v_{in}", "Input: velocity", "{}/s", 1, input_rate)
-    else:
-        yield Quantity("input.angular_velocity", "ω_{in}", "Input: angular velocity", "rad/s", 1, input_rate)
-    if linkage.drive.cylinder is not None:
-        ends = linkage.drive.cylinder.between
+    coordinate, ends = linkage.drive.coordinate, linkage.drive.actuator.along
+    symbol = "ω_{in}" if coordinate.is_angle else "v_{in}"
+    words = f"Input: {coordinate.velocity}"
+    yield Quantity(coordinate.rate_token, symbol, words, f"{coordinate.unit}/s", 1, input_rate)
+    if ends is not None:
 
         def length(motion: Any) -> Any:
             return size(between(motion.position, ends))
@@ -215,10 +214,9 @@ def _effort(linkage: Linkage) -> Quantity:
     """Return the torque at the input, or the force of what drives in a straight line."""
     damped = any(damper.forceful for damper in linkage.dampers)
     order = 2 if any(body.forceful for body in linkage.bodies) else int(damped)
-    token = effort_token(linkage)
-    if token == "input.force":
-        return Quantity(token, "F_{in}", "Input: force", "N", order, input_effort)
-    return Quantity(token, "T_{in}", "Input: torque", "N m", order, input_effort)
+    name, unit = linkage.drive.actuator.effort
+    symbol = f"{name[0].upper()}_{{in}}"
+    return Quantity(effort_token(linkage), symbol, f"Input: {name}", unit, order, input_effort)
 
 
 def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:

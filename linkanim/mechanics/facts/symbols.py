@@ -61,7 +61,7 @@ def driven_body(linkage: Linkage) -> Body | None:
 
 def input_symbol(linkage: Linkage) -> str:
     """Return the input's symbol: θ₂, of a four-bar driven at its rocker θ₄, of a slider s."""
-    if linkage.slides:
-        return "s"
-    body = driven_body(linkage)
-    return indexed("θ", link_labels(linkage)[body.name] if body else "2")
+    coordinate, body = linkage.drive.coordinate, driven_body(linkage)
+    if not coordinate.is_angle:
+        return coordinate.letter
+    return indexed(coordinate.letter, link_labels(linkage)[body.name] if body else "2")

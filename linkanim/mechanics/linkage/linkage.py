@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
+from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.joint import Frame, Joint, Point
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.linkage.rigid_bodies import frames_of
@@ -81,63 +82,6 @@ class Damper:
         return self.coefficient is not None
 
 
-@dataclass(frozen=True, slots=True)
-class Cylinder:
-    """A cylinder that drives the linkage: its length runs from `first` to `last` and back.
-
-    `between` is a fixed pin and a joint of the driven crank's body.
-    """
-
-    between: tuple[str, str]
-    first: float
-    last: float
-
-    def scaled(self, factor: float) -> Cylinder:
-        """Return the cylinder with its lengths times a factor."""
-        return replace(self, first=self.first * factor, last=self.last * factor)
-
-
-@dataclass(frozen=True, slots=True)
-class Travel:
-    """How far the slider that drives the linkage travels along its line: from `first` to `last` and back."""
-
-    first: float
-    last: float
-
-    def scaled(self, factor: float) -> Travel:
-        """Return the travel with its ends times a factor."""
-        return Travel(self.first * factor, self.last * factor)
-
-
-@dataclass(frozen=True, slots=True)
-class Drive:
-    """What moves the linkage: the input crank, its speed (rad/s, negative clockwise) and start (rad).
-
-    Where a cylinder turns the crank, or the joint is a slider that has a `travel`, `speed` is that of the
-    phase, one there-and-back being 2π. `at_zero` says that a start of 0 was stated, and is not the default.
-    """
-
-    joint: str
-    speed: float
-    start: float = 0.0
-    cylinder: Cylinder | None = None
-    travel: Travel | None = None
-    at_zero: bool = False
-
-    @property
-    def stated_start(self) -> float | None:
-        """The start; None where none was stated."""
-        return self.start if self.start or self.at_zero else None
-
-    def scaled(self, factor: float) -> Drive:
-        """Return the drive with the lengths of its cylinder, or its slider's travel, times a factor."""
-        return replace(
-            self,
-            cylinder=self.cylinder and self.cylinder.scaled(factor),
-            travel=self.travel and self.travel.scaled(factor),
-        )
-
-
 @dataclass(frozen=True)
 class Linkage:
     """A planar linkage with one input."""
@@ -151,11 +95,6 @@ class Linkage:
     """One unit of length in metres (0.001 for mm); forces need it."""
     gravity: float = 0.0
     """How fast masses fall, in m/s², down; 0 where nothing is said of it."""
-
-    @property
-    def slides(self) -> bool:
-        """Whether the input is a slider, whose travel is told where that of others is an angle."""
-        return self.drive.travel is not None
 
     @property
     def forceful(self) -> bool:

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Protocol
 
 from linkanim.mechanics.formulas.circular import Half, cosine_of, half_angle, sharp_half_angle
 from linkanim.mechanics.formulas.exact import Sum, quarter_turns, two_product, two_sum
@@ -21,6 +22,16 @@ HalfForm = Callable[..., Half]
 """Returns half of an angle that is the sum of two numbers; `quarters=` are half turns beside it."""
 NOTHING = 2.0**-100
 """What is less is left of equal sums of two floats."""
+
+
+class InputPlaces(Protocol):
+    """Where the input comes to, as roots ask it that know where they change their sign."""
+
+    def holds(self, place: float, turns: int = 1) -> bool:
+        """Tell whether the input comes to a place, or to one that many turns away, or twice as many …"""
+
+    def coordinate_at(self, place: Sum) -> float:
+        """Return the input's coordinate at a place by which a change point down the chain is known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,8 +73,8 @@ class InputState:
     phase: Value | None = None
     within: float = math.inf
 
-    def shown(self, unscale: float) -> tuple[Value, Value, Value]:
-        """Return what is told of the input, with its rates: its angle; of a slider its travel, `unscale`d."""
+    def coordinate(self, unscale: float) -> tuple[Value, Value, Value]:
+        """Return the input's coordinate with its rates: its angle; of a slider its travel, `unscale`d."""
         return self.angle + float(self.origin), self.rate, self.second
 
     @property
@@ -116,7 +127,7 @@ class TravelState(InputState):
 
     travel: Moving = field(default_factory=lambda: Moving(0.0, 0.0, 0.0))
 
-    def shown(self, unscale: float) -> tuple[Value, Value, Value]:
+    def coordinate(self, unscale: float) -> tuple[Value, Value, Value]:
         """Return the slider's travel, with its rates, `unscale`d."""
         return self.travel.value * unscale, self.travel.rate * unscale, self.travel.second * unscale
 

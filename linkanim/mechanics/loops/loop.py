@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from fractions import Fraction
@@ -17,7 +17,7 @@ from linkanim.mechanics.formulas.planar import Slope, Vec
 from linkanim.mechanics.formulas.precise import context, exactly, nearest_sum, sine_and_cosine
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.loops.input_state import InputState
+from linkanim.mechanics.loops.input_state import InputPlaces, InputState
 from linkanim.mechanics.loops.roots import Kind, LoopRoot
 from linkanim.mechanics.loops.signed import SignedRoot, Swinging, sharpened, sign_of_root, signed_root
 
@@ -70,6 +70,14 @@ class Loop:
         """Whether the loop keeps its crank from turning fully."""
         return Kind.LIMIT in (self.root.u.kind, self.root.w.kind)
 
+    def change_points(self, path: InputPlaces) -> Iterator[float]:
+        """Yield the input's angles, as far as it comes to them, at which the root changes its sign."""
+        p, q = self.gearing.ratio.as_integer_ratio()
+        for angle in self.root.change_points:
+            first, step = float((angle - self.gearing.offset) * Fraction(q, p)), 2 * math.pi * q / abs(p)
+            places = (first + turn * step for turn in range(abs(p)))
+            yield from (place for place in places if path.holds(place, q))
+
     def closed(self, state: InputState, swing: Swinging | None, pace: Slope) -> tuple[SignedRoot, Half]:
         """Return the loop's root and ψ/2 at the state's instant, ψ running at `pace`.
 
@@ -103,7 +111,8 @@ def own_loop(crank: str, loops: Mapping[str, Loop]) -> Loop | None:
 
 def gearings(linkage: Linkage) -> dict[str, Gearing]:
     """Map each crank's pin to how it turns with the input; AssemblyError where it does not."""
-    found = {} if linkage.drive.travel else {linkage.drive.joint: Gearing()}
+    own = linkage.drive.joint
+    found = {own: Gearing()} if isinstance(linkage.joint(own), Crank) else {}
     for crank in linkage.cranks:
         if crank.name in found:
             continue

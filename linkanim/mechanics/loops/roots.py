@@ -14,7 +14,7 @@ from decimal import Decimal, localcontext
 from enum import Enum
 from fractions import Fraction
 
-from linkanim.mechanics.formulas.exact import Sum, gap, quarter_turns
+from linkanim.mechanics.formulas.exact import HALF_TURN, Sum, gap, quarter_turns
 from linkanim.mechanics.formulas.precise import context, nearest_sum, sine_and_cosine
 
 WIDE = 1 / 16
@@ -66,6 +66,12 @@ class LoopRoot:
     w: Factor
     reference: Sum
     unit: float = 1.0
+
+    @property
+    def change_points(self) -> tuple[Sum, ...]:
+        """The crank's angles at which a factor touches zero."""
+        places = (self.u, self.reference + HALF_TURN), (self.w, self.reference)
+        return tuple(place for factor, place in places if factor.kind is Kind.CHANGE_POINT)
 
     @property
     def wide(self) -> bool:

@@ -106,7 +106,7 @@ def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
         there, theirs = other.slider or other.joints[0], _rate(motion, other)
         arm = place - as_complex(motion.position[there])
         rate, velocity = rate - theirs, velocity - as_complex(motion.velocity[there]) - 1j * theirs * arm
-    turns = abs(rate) > _STRAIGHT * abs(motion.crank_rate)
+    turns = abs(rate) > _STRAIGHT * abs(motion.coordinate_rate)
     found = place.real - over(velocity.imag, rate), place.imag + over(velocity.real, rate)
     return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
 
@@ -117,7 +117,7 @@ def _rate(motion: Any, body: Body) -> Any:
         return motion.angular_velocity[body.name]
     (guide, *_) = motion.setting.linkage.joint(body.slider).slides
     if guide.axis is None:
-        return 0.0 * motion.crank_rate
+        return 0.0 * motion.coordinate_rate
     start, end = (as_complex(motion.position[name]) for name in guide.axis)
     first, second = (as_complex(motion.velocity[name]) for name in guide.axis)
     return over(second - first, end - start).imag
@@ -212,15 +212,15 @@ def _faster(motion: Any, length: float, rates: tuple[str, str], output: str) -> 
 
     Where both rest for an instant it is how they start to move.
     """
-    first, other = length * motion.crank_rate, getattr(motion, rates[0])[output]
+    first, other = length * motion.coordinate_rate, getattr(motion, rates[0])[output]
     found = abs(over(first, other))
     rests = np.asarray((first == 0) & (other == 0))
     if not rests.any():
         return found
-    starting = abs(over(length * motion.crank_second, getattr(motion, rates[1])[output]))
+    starting = abs(over(length * motion.coordinate_second, getattr(motion, rates[1])[output]))
     return np.where(rests, starting, found)[()]
 
 
 def input_rate(motion: Any) -> Any:
     """Return the input's own velocity, one value an instant: of a swing it is not the phase's."""
-    return motion.crank_rate + 0.0 * motion.phase
+    return motion.coordinate_rate + 0.0 * motion.phase

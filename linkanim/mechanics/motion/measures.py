@@ -6,10 +6,11 @@ on mechanisms: ω, α, v, a; h and f for first kinematic coefficients.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from linkanim.mechanics.linkage.drive import ANGLE, TRAVEL, Coordinate
 from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.motion.derived import curvature_radius, normal, tangential
 
@@ -79,19 +80,22 @@ def _coefficients(symbol: str, letter: str, units: tuple[str, str], by: str) -> 
     )
 
 
-_BY_ANGLE = {
-    True: _coefficients("h", "q", ("rad/rad", "rad/rad²"), "theta"),
-    False: _coefficients("f", "s", ("{}/rad", "{}/rad²"), "theta"),
-}
-_BY_TRAVEL = {
-    True: _coefficients("h", "q", ("rad/{}", "rad/{}²"), "travel"),
-    False: _coefficients("f", "s", ("{0}/{0}", "{0}/{0}²"), "travel"),
-}
+def _per_input(coordinate: Coordinate) -> Mapping[bool, tuple[Measure, Measure]]:
+    """Return the coefficients of what turns, and of what slides, by the input's angle or travel."""
+    by, plain = coordinate.unit, "theta" if coordinate.is_angle else coordinate.name
+    slid = f"{{}}/{by}" if coordinate.is_angle else "{0}/{0}"
+    return {
+        True: _coefficients("h", "q", (f"rad/{by}", f"rad/{by}²"), plain),
+        False: _coefficients("f", "s", (slid, f"{slid}²"), plain),
+    }
+
+
+_COEFFICIENTS = {coordinate: _per_input(coordinate) for coordinate in (ANGLE, TRAVEL)}
 
 
 def coefficients_of(linkage: Linkage, *, turning: bool) -> tuple[Measure, Measure]:
     """Return the two kinematic coefficients of bodies that turn, or slide: by the input's angle or travel."""
-    return (_BY_TRAVEL if linkage.slides else _BY_ANGLE)[turning]
+    return _COEFFICIENTS[linkage.drive.coordinate][turning]
 
 
 def measures_of(linkage: Linkage, body: Body) -> tuple[tuple[Measure, ...], tuple[Measure, Measure]]:

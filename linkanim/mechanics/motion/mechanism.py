@@ -22,7 +22,7 @@ from linkanim.mechanics.loops.input_state import InputState
 from linkanim.mechanics.motion.columns import ResultLayout, layout
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, NUMBERS, VECTORS
 from linkanim.mechanics.motion.motion import Array, Motion, Pose, Setting
-from linkanim.mechanics.motion.request import CRANK, Programs, Request, Variant, shaped
+from linkanim.mechanics.motion.request import COORDINATE, Programs, Request, Variant, shaped
 
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
 
@@ -118,9 +118,10 @@ class Mechanism:
             pace = Slope(graph.input("w", uniform=uniform), second)
             names, state = self._state(graph, pace, variant)
             unscale = self.assembly.unscale
-            crank = {kind: {"": (value,)} for kind, value in zip(CRANK, state.shown(unscale), strict=True)}
+            places = zip(COORDINATE, state.coordinate(unscale), strict=True)
+            driven = {kind: {"": (value,)} for kind, value in places}
             rows = dict(_quantities(walked(self.assembly, state), unscale))
-            found = self._traces[variant] = Traced(names, crank | rows)
+            found = self._traces[variant] = Traced(names, driven | rows)
         return found
 
     def _state(self, graph: Graph, pace: Slope, variant: Variant) -> tuple[tuple[str, ...], InputState]:
@@ -135,9 +136,9 @@ class Mechanism:
         outputs: list[Value] = []
         parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
         for kind, values in trace.rows.items():
-            if kind in CRANK or (values and DERIVATIVE_OF[kind] <= derivatives):
+            if kind in COORDINATE or (values and DERIVATIVE_OF[kind] <= derivatives):
                 outputs.extend(component for components in values.values() for component in components)
-                parts.append(f"{kind!r}: {'{}' if kind in CRANK else _dict_display(values)}")
+                parts.append(f"{kind!r}: {'{}' if kind in COORDINATE else _dict_display(values)}")
         display = f"{{{{{', '.join(parts)}}}}}"
         return scalar((*trace.names, "w", "a"), outputs, display, {"setting": self.setting})
 
@@ -149,7 +150,7 @@ class Mechanism:
         motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
         motion = motion.per_input if per_input else motion
         found = {kind: _plain(values) for kind, values in motion.every.items()}
-        inputs = ("phase", "input_speed", "input_acceleration", *CRANK)
+        inputs = ("phase", "input_speed", "input_acceleration", *COORDINATE)
         return found | {name: float(getattr(motion, name)) for name in inputs} | {"setting": self.setting}
 
     def solve(
@@ -167,8 +168,8 @@ class Mechanism:
         varying = isinstance(rates[0], np.ndarray)
         variant = Variant(phase is not None, varying or rates[1] != 0.0, varying)
         x = _kept(given, shape)
-        reached = self.assembly.path.reach(x) if phase is None else None
-        request = Request(self.programs(variant), x, reached, rates, shape, derivatives)
+        distances = self.assembly.path.distances(x) if phase is None else None
+        request = Request(self.programs(variant), x, distances, rates, shape, derivatives)
         return Motion(self.setting, shaped(rates[0], shape), shaped(rates[1], shape), request)
 
     def programs(self, variant: Variant) -> Programs:

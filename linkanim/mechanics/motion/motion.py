@@ -119,9 +119,16 @@ class Derived(ABC):
     travel_velocity: Mapping[str, Any]
     travel_acceleration: Mapping[str, Any]
     phase: Any
-    crank_angle: Any
-    crank_rate: Any
-    crank_second: Any
+    coordinate: Any
+    coordinate_rate: Any
+    coordinate_second: Any
+
+    @property
+    def crank_angle(self) -> Any:
+        """The angle of the bar that is driven; AttributeError where a slider drives, which has none."""
+        if not self.setting.linkage.drive.coordinate.is_angle:
+            raise AttributeError("a slider drives, which has no crank angle; read coordinate")
+        return self.coordinate
 
     @cached_property
     def angle(self) -> Mapping[str, Any]:
@@ -137,7 +144,7 @@ class Derived(ABC):
         body = self.setting.body(name)
         crank = self.setting.crank_of(body)
         if crank is not None:
-            return _crank_angle(self.crank_angle, *crank) + 0.0 * self.phase  # where there is no phase, NaN
+            return _crank_angle(self.coordinate, *crank) + 0.0 * self.phase  # where there is no phase, NaN
         return self._continuous((body.joints[0], body.joints[1]))
 
     @abstractmethod
@@ -237,7 +244,7 @@ class Motion(Derived):
     input_speed: Any
     input_acceleration: Any
     phase: Array
-    crank_angle: Array
+    coordinate: Array
     position: Mapping[str, Array]
     velocity: Mapping[str, Array]
     acceleration: Mapping[str, Array]
@@ -342,9 +349,9 @@ class Pose(Derived):
     phase: float
     input_speed: float
     input_acceleration: float
-    crank_angle: float
-    crank_rate: float
-    crank_second: float
+    coordinate: float
+    coordinate_rate: float
+    coordinate_second: float
 
     @cached_property
     def per_input(self) -> Pose:

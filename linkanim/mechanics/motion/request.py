@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.drive.path import Path
-from linkanim.mechanics.drive.reach import WaysLeft
+from linkanim.mechanics.drive.input_path import InputPath, LimitDistances
 from linkanim.mechanics.formulas.program import Batch
 from linkanim.mechanics.formulas.winding import turned
 from linkanim.mechanics.motion.columns import Columns, Floats, ResultLayout, read_only
@@ -24,11 +23,11 @@ from linkanim.mechanics.motion.measures import DERIVATIVE_OF, FAMILIES
 Array = NDArray[np.float64]
 
 POSITION = ("position",)
-CRANK = ("crank_angle", "crank_rate", "crank_second")
-"""The crank's angle and its rates, which an input that does not turn fully moves in its own way."""
+COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
+"""The input's angle, or travel, and its rates: one that does not turn fully moves in its own way."""
 LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
 """The quantities of its family with fewer derivatives, of each."""
-ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(CRANK, range(3), strict=True)), "phase": 0}
+ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), strict=True)), "phase": 0}
 
 
 class Variant(NamedTuple):
@@ -47,7 +46,7 @@ class Variant(NamedTuple):
 class Programs:
     """The programs over arrays for one way of asking, compiled when first needed."""
 
-    path: Path
+    path: InputPath
     variant: Variant
     compiled: Callable[[tuple[str, ...]], tuple[Batch, ResultLayout]]
     found: dict[tuple[str, ...], tuple[Batch, ResultLayout]] = field(default_factory=dict)
@@ -67,12 +66,12 @@ class Programs:
 class Request(NamedTuple):
     """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most.
 
-    `reached` tells of angles of an input that swings how far they are from its limits.
+    `distances` are those of angles of an input that swings from its limits.
     """
 
     programs: Programs
     x: Array
-    reached: WaysLeft | None
+    distances: LimitDistances | None
     rates: tuple[Any, Any]
     shape: tuple[int, ...]
     derivatives: int
@@ -108,15 +107,15 @@ class Request(NamedTuple):
 
     def _direction(self, x: Array, ends: tuple[str, str]) -> Array:
         """Return the direction of one joint to another at other instants."""
-        reached = self.reached and self.programs.path.reach(x)
+        distances = self.distances and self.programs.path.distances(x)
         w, a = (np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.rates)
-        request = self._replace(x=x, reached=reached, rates=(w, a), shape=x.shape)
+        request = self._replace(x=x, distances=distances, rates=(w, a), shape=x.shape)
         return np.asarray(direction(between(request.worked_out(POSITION)["position"], ends)))
 
     def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Floats]:
         program, places = self.programs.of(kinds)
         rates = self.rates if self.programs.variant.accelerates else self.rates[:1]
-        ways = self.reached
+        ways = self.distances
         with np.errstate(all="ignore"):
             if ways is None:
                 return places, program(self.x, *rates)
@@ -128,15 +127,15 @@ class Request(NamedTuple):
         return places, results
 
     def _input(self) -> dict[str, Any]:
-        """Return phase, crank angle and its two rates."""
-        x, path, names = self.x.reshape(self.shape), self.programs.path, ("phase", *CRANK)
+        """Return the phase, and the input's coordinate with its two rates."""
+        x, path, names = self.x.reshape(self.shape), self.programs.path, ("phase", *COORDINATE)
         rates = [shaped(rate, self.shape) for rate in self.rates]
         if not self.programs.variant.by_phase:
             with np.errstate(all="ignore"):
-                return dict(zip(names, (read_only(path.phases(x, self.reached)), x, *rates), strict=True))
+                return dict(zip(names, (read_only(path.phases(x, self.distances)), x, *rates), strict=True))
         if path.full_turn:
-            return dict(zip(names, (x, read_only(path.angles(x)), *rates), strict=True))
-        places, results = self._run(CRANK)
+            return dict(zip(names, (x, read_only(path.coordinates(x)), *rates), strict=True))
+        places, results = self._run(COORDINATE)
         results.setflags(write=False)
         return {"phase": x} | {
             kind: row.reshape(self.shape) for kind, row in zip(places.kinds, results, strict=True)

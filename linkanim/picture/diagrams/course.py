@@ -10,7 +10,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.errors import BadInput
 from linkanim.mechanics.facts.symbols import input_symbol
 from linkanim.picture.diagrams.axis import Axis, linear
 from linkanim.picture.diagrams.quantities import Series
@@ -83,8 +82,8 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
     An input that turns is shown over its absolute angle, one that swings over time, unless `over` says.
     BadInput for the angle of an input that is a slider.
     """
-    if over == "angle" and scene.linkage.slides:
-        raise BadInput(f"{scene.name}: its input is a slider, which has no angle; show it over time or phase")
+    if over == "angle":
+        scene.linkage.drive.check_angle(scene.name, "show it over time or phase")
     turns = scene.info.full_turn
     chosen = over or ("angle" if turns else "time")
     period = scene.period
@@ -106,5 +105,5 @@ def input_title(scene: Scene) -> str:
 def _limits(scene: Scene, pace: float) -> Iterator[tuple[float, str]]:
     """Yield when in a period a swing is at its limits, each with its angle."""
     for half in range(round(scene.period / pi) + 1):
-        angle = scene.pose(half * pi, 0).crank_angle
+        angle = scene.pose(half * pi, 0).coordinate
         yield half * pi / abs(pace), driven_words(scene, angle)

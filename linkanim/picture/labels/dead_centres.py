@@ -121,7 +121,7 @@ class DeadCentres:
 
     def _angle(self, phase: float) -> str:
         scene = self.figure.scene
-        angle = scene.pose(phase, 0).crank_angle
+        angle = scene.pose(phase, 0).coordinate
         if not scene.info.full_turn:
             return f"{input_symbol(scene.linkage)} = {driven_words(scene, angle)}"
         return f"{input_symbol(scene.linkage)} = {stepped(round(degrees(angle), 1) % 360, 0.1)}°"

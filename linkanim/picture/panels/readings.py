@@ -65,17 +65,17 @@ def rows_of(scene: Scene) -> tuple[Row, ...]:
 
 
 def _input_rows(scene: Scene) -> Iterator[Row]:
-    info, slides = scene.info, scene.linkage.slides
-    name = f"{scene.info.input_name} {'travel' if slides else 'angle'}"
+    info, drive = scene.info, scene.linkage.drive
+    name = f"{scene.info.input_name} {drive.coordinate.name}"
     if info.full_turn:
-        yield Row(0, name, lambda pose: _turned(pose.crank_angle))
+        yield Row(0, name, lambda pose: _turned(pose.coordinate))
         yield Row(1, "input speed", lambda pose: speed_words(scene, pose.input_speed))
     else:
         across = "…".join(driven_words(scene, end) for end in info.input_range)
-        yield Row(0, name, lambda pose: driven_words(scene, pose.crank_angle))
+        yield Row(0, name, lambda pose: driven_words(scene, pose.coordinate))
         yield Row(5, "input range", lambda _: across)
         yield Row(1, "input rate", lambda pose: speed_words(scene, pose.input_speed))
-        yield Row(3, f"{'slider' if slides else 'angular'} velocity", _live(scene))
+        yield Row(3, " ".join(filter(None, (drive.actuator.noun, drive.coordinate.velocity))), _live(scene))
     if info.true_period != 1:
         turns = f"{info.true_period} turns"
         yield Row(6, "true period", lambda _: turns)
@@ -84,10 +84,11 @@ def _input_rows(scene: Scene) -> Iterator[Row]:
 def _live(scene: Scene) -> Callable[[Pose], str]:
     """Return what tells the driven bar's angular velocity, or the slider's, always with as many decimals."""
     known = register(scene.linkage)
-    if scene.linkage.slides:
-        read = known["input.velocity"].read
+    coordinate = scene.linkage.drive.coordinate
+    read = known[coordinate.rate_token].read
+    if not coordinate.is_angle:
         return lambda pose: f"{stepped(read(pose), 0.1)} {scene.length_unit}/s"
-    unit, read = speed_unit(scene), known["input.angular_velocity"].read
+    unit = speed_unit(scene)
     largest = abs(speed_in(unit, scene.linkage.drive.speed))
     step = 10.0 ** (floor(log10(largest)) - 2)
     return lambda pose: f"{stepped(speed_in(unit, read(pose)), step)} {sign_of(unit)}"
@@ -102,7 +103,7 @@ def _strut_rows(scene: Scene) -> Iterator[Row]:
         yield Row(4, f"{word} {item.name}", _tenths(known[f"{item.name}.{part}"], unit))
         if item.forceful:
             yield Row(2, f"{kind} force", _tenths(known[f"{item.name}.force"], unit))
-    if linkage.drive.cylinder is not None:
+    if linkage.drive.actuator.along is not None:
         yield Row(2, "driving cylinder", _tenths(known["input.length"], unit))
 
 
@@ -173,8 +174,8 @@ def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
     if not info.full_turn:
         for limit, at in zip(info.ends, (0.0, pi), strict=True):
             yield _apart(pose.phase, at), _NEAR_LIMIT, f"near the limit {driven_words(scene, limit)}"
-    for point in info.change_points if not scene.linkage.slides else ():
-        yield _apart(pose.crank_angle, point), _NEAR_CHANGE, f"near the change point {_turned(point)}"
+    for point in info.change_points if scene.linkage.drive.coordinate.is_angle else ():
+        yield _apart(pose.coordinate, point), _NEAR_CHANGE, f"near the change point {_turned(point)}"
 
 
 def _turned(angle: float) -> str:

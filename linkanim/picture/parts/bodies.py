@@ -45,7 +45,7 @@ def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
     drive = figure.linkage.drive.joint
     named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
     first = sorted(named, key=lambda body: not _is_crank(body, figure, drive))
-    count, taken = len(theme.bodies), int(figure.linkage.slides)
+    count, taken = len(theme.bodies), int(figure.linkage.joint(drive).travels)
     colours = {body.name: body.colour or theme.bodies[n % count] for n, body in enumerate(first, taken)}
     return {"": theme.metal, **colours}
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import degrees, pi
+from math import pi
 
-from linkanim.digits import short, stepped, typeset
+from linkanim.digits import short, typeset
 from linkanim.errors import UnitError
 from linkanim.scenes.scene import Scene
 from linkanim.units import SPEED_UNITS, split
@@ -17,9 +17,7 @@ _SPELT = {"°/s": "deg/s"}
 
 def driven_words(scene: Scene, value: float) -> str:
     """Return where the input is in words: its angle, 87.0°; of a slider that drives its travel, 12.5 mm."""
-    if scene.linkage.slides:
-        return f"{stepped(value, 0.1)} {scene.length_unit}"
-    return f"{stepped(degrees(value), 0.1)}°"
+    return scene.linkage.drive.coordinate.text(value, scene.length_unit)
 
 
 def speed_unit(scene: Scene) -> str:
@@ -54,7 +52,7 @@ def speed_words(scene: Scene, speed: float) -> str:
     One there-and-back of a slider is a cycle.
     """
     if not scene.info.full_turn:
-        there_and_back = "cycles" if scene.linkage.slides else "swings"
+        there_and_back = scene.linkage.drive.actuator.cycles
         return f"{short(abs(speed) * _PER_RADIAN['rpm'])} {there_and_back}/min"
     unit = speed_unit(scene)
     return f"{typeset(short(speed_in(unit, speed)))} {sign_of(unit)}"

@@ -49,7 +49,7 @@ class Turning:
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
         """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
-        turning = -pose.crank_rate * rate / self.fastest if self.fastest > 0 else 0.0
+        turning = -pose.coordinate_rate * rate / self.fastest if self.fastest > 0 else 0.0
         sweep = _SWEEP * min(max(turning, -1.0), 1.0)
         if not abs(sweep) > 0.02:
             return []
@@ -110,7 +110,7 @@ class Sliding:
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
         """Return the arrow ahead of the slider, shorter as it slows down; `rate` as of a `Turning`."""
-        share = pose.crank_rate * rate / self.fastest if self.fastest > 0 else 0.0
+        share = pose.coordinate_rate * rate / self.fastest if self.fastest > 0 else 0.0
         reach = self.along * self.longest * min(max(share, -1.0), 1.0)
         if not abs(reach) > 0.02 * self.longest:
             return []
@@ -130,7 +130,7 @@ def motion_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning
     if not isinstance(joint, DrivenSlider):
         return turning_of(figure, view, gauge, theme)
     along = complex(directions(-joint.line.angle))
-    fastest = float(np.nanmax(np.abs(figure.cycle.crank_rate)))
+    fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
     ink = theme.ink, theme.background
     return Sliding(joint.name, along, _CLEAR * gauge.bar, _LONGEST * gauge.bar, fastest, ink, gauge)
 
@@ -144,7 +144,7 @@ def turning_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turnin
     length = view.scale * abs(figure.start(pin) - figure.start(pivot))
     arc = max(0.36 * length, 2.2 * gauge.bar)
     arrow = max(min(0.7 * length, 8 * gauge.bar), arc + 1.6 * gauge.bar)
-    fastest = float(np.nanmax(np.abs(figure.cycle.crank_rate)))
+    fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
     info = figure.scene.info
     middle = pi if info.full_turn else sum(info.input_range) / 2
     return Turning(pivot, pin, arc, arrow, fastest, (theme.ink, theme.background), gauge, middle)

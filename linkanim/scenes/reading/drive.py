@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from linkanim import units
+from linkanim.mechanics.linkage.drive import MOTOR, Cylinder, Drive, Travel
 from linkanim.mechanics.linkage.joint import Joint
-from linkanim.mechanics.linkage.linkage import Cylinder, Drive, Travel
 from linkanim.mechanics.linkage.pins import Crank, DrivenSlider
 from linkanim.mechanics.linkage.rigid_bodies import coincide, frames_of
 from linkanim.scenes.reading.check import Table
@@ -35,7 +35,7 @@ def read_drive(top: Table, joints: tuple[Joint, ...], usual: str | None) -> Driv
         way_out = f"gear it: gear = {{ with = {units.shown(name)}, ratio = -1 }}"
         raise top.table("joints").wrong(f"{other} is a second input beside {name}; {way_out}")
     speed, start = table.speed("speed", DEFAULT_SPEED), table.angle("start", "0 deg")
-    driven = _cylinder(cylinder, joints, name) if "cylinder" in table else None
+    driven = _cylinder(cylinder, joints, name) if "cylinder" in table else MOTOR
     return Drive(name, speed, start, driven, at_zero=start == 0 and "start" in table)
 
 
@@ -65,7 +65,7 @@ def _slider_drive(top: Table, table: Table, joints: tuple[Joint, ...]) -> Drive:
     first, last = slider.offset("from"), slider.offset("to")
     if first == last:
         raise slider.error("to", "is the same place as from, so nothing would move")
-    return Drive(name, table.speed("speed", DEFAULT_SPEED), travel=Travel(first, last))
+    return Drive(name, table.speed("speed", DEFAULT_SPEED), actuator=Travel(first, last))
 
 
 def _cylinder(table: Table, joints: tuple[Joint, ...], driven: str) -> Cylinder:

@@ -47,7 +47,7 @@ def carry(state: State, to: tuple[float, float, float]) -> State:
     if scene is state.scene:
         return replace(state, editing=editing)
     state = replace(exchanged(state, scene), editing=editing)
-    angle = held.scene.pose(held.phase, 0).crank_angle
+    angle = held.scene.pose(held.phase, 0).coordinate
     phase = scene.mechanism.assembly.path.phase_of(angle, state.phase)
     return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
 
