@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from linkanim.bench.chain import Floats, Places, Question
-from linkanim.bench.ours import Orders
+from linkanim.bench.chain import Floats, Orders, Places, Question
 from linkanim.bench.reference import Answer, Exact
 
 Solve = Callable[[Question], Orders]
@@ -20,27 +19,29 @@ APART = 1e-8
 
 @dataclass(frozen=True)
 class Score:
-    """Poses asked; the worst errors among those on the right closure; the others, counted.
+    """How many poses; the worst errors among those on the right closure; the others, counted.
 
-    `errors` are those of position, velocity and acceleration, of the joint that is farthest off: positions in
+    Errors are those of position, velocity and acceleration, of the joint that is farthest off: positions in
     longest links, rates in longest links or the pose's largest rate, whichever is more. NaN where no pose is
     right or the method gives none. A pose is `wrong` where a dyad's joint lies at most half as far from its
-    other closure, `missing` where a position is not a number.
+    other closure, `nan` where a position is not a number.
     """
 
     poses: int
-    errors: tuple[float, float, float]
+    error: float
+    velocity_error: float
+    acceleration_error: float
     wrong: int
-    missing: int
+    nan: int
 
     @property
-    def error(self) -> float:
-        """The worst error of a position."""
-        return self.errors[0]
+    def errors(self) -> tuple[float, float, float]:
+        """The worst errors of position, velocity and acceleration."""
+        return self.error, self.velocity_error, self.acceleration_error
 
 
 def score(solve: Solve, answer: Answer) -> Score:
-    """Ask one method one question."""
+    """Return what one method's answer is worth."""
     with np.errstate(all="ignore"):
         found = solve(answer.question)
         longest = answer.question.longest
@@ -52,7 +53,7 @@ def score(solve: Solve, answer: Answer) -> Score:
             for places, exact in zip(found[1:], answer.orders[1:], strict=False)
         ]
     position, velocity, acceleration = (_worst(values, right) for values in _three(error, rates))
-    return Score(error.size, (position, velocity, acceleration), int(wrong.sum()), int(missing.sum()))
+    return Score(error.size, position, velocity, acceleration, int(wrong.sum()), int(missing.sum()))
 
 
 def together(scores: Sequence[Score]) -> Score:
@@ -61,12 +62,8 @@ def together(scores: Sequence[Score]) -> Score:
     position, velocity, acceleration = (
         max((error for error in order if not np.isnan(error)), default=float("nan")) for order in errors
     )
-    return Score(
-        sum(score.poses for score in scores),
-        (position, velocity, acceleration),
-        sum(score.wrong for score in scores),
-        sum(score.missing for score in scores),
-    )
+    poses, wrong, nan = map(sum, zip(*((one.poses, one.wrong, one.nan) for one in scores), strict=True))
+    return Score(poses, position, velocity, acceleration, wrong, nan)
 
 
 def _three(position: Floats, rates: Sequence[Floats]) -> list[Floats]:

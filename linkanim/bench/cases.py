@@ -10,13 +10,8 @@ from typing import Any
 import numpy as np
 
 from linkanim.bench.chain import TURN, Floats
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RRP, RRR
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Pin, Polar
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes import load
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 Lengths = tuple[float, float, float, float]
@@ -80,33 +75,30 @@ def towards(limit: float) -> Floats:
     return limit - np.logspace(-1, -12, 34)
 
 
-def four_bar(lengths: Lengths, side: int = 1) -> Scene:
+def four_bar(lengths: Lengths, assembly: str = "open") -> Scene:
     """Return a four-bar (ground, crank, coupler, rocker) with a coupler point; it starts at angle 0."""
-    return _scene("four-bar", _loop(lengths, side))
+    names = ("ground", "crank", "coupler", "rocker")
+    point = [0.5 * lengths[2], 0.25 * lengths[2]]
+    table = dict(zip(names, lengths, strict=True))
+    return _scene({"four-bar": {**table, "coupler_point": point, "assembly": assembly}})
 
 
 def slider_crank(crank: float, rod: float, offset: float) -> Scene:
     """Return a slider-crank with a point of its rod; it starts at angle 0, the slider in front."""
-    joints = (
-        Pin("O2", (0.0, 0.0)),
-        Crank("A", "O2", crank),
-        RRP("B", "A", rod, Line("O2", 0.0, offset), 1),
-        Rigid("P", ("A", "B"), (0.5 * rod, 0.25 * rod)),
-    )
-    return _scene("slider-crank", joints)
+    point = [0.5 * rod, 0.25 * rod]
+    table = {"crank": crank, "rod": rod, "offset": offset, "coupler_point": point}
+    return _scene({"slider-crank": table})
 
 
-def six_bar(first: Lengths, second: Lengths, side: int = 1) -> Scene:
+def six_bar(first: Lengths, second: Lengths) -> Scene:
     """Return two four-bars in series: the rocker of the first is the crank of the second."""
     ground, crank, coupler, rocker = second
-    at = (first[0] + ground, 0.0)
-    joints = (
-        *_loop(first, side),
-        Rigid("C", ("O4", "B"), (crank, 0.0)),
-        Pin("O6", at, Polar(at[0], 0.0)),
-        RRR("D", ("C", "O6"), (coupler, rocker), 1),
-    )
-    return _scene("six-bar", joints)
+    return _scene({"six-bar": {"lengths": [*first, ground, crank, coupler, rocker]}})
+
+
+def _scene(document: Mapping[str, Any]) -> Scene:
+    drive = {"speed": "1 rad/s", "start": "0 deg"}
+    return scene_from({"length_unit": "m", "drive": drive, **document}, name="bench", where="bench")
 
 
 def built_in(name: str) -> Scene:
@@ -114,21 +106,6 @@ def built_in(name: str) -> Scene:
     scene = load(name)
     drive = replace(scene.linkage.drive, start=0.0, speed=1.0)
     return replace(scene, linkage=replace(scene.linkage, drive=drive))
-
-
-def _loop(lengths: Lengths, side: int) -> tuple[Any, ...]:
-    ground, crank, coupler, rocker = lengths
-    return (
-        Pin("O2", (0.0, 0.0)),
-        Pin("O4", (ground, 0.0), Polar(ground, 0.0)),
-        Crank("A", "O2", crank),
-        RRR("B", ("A", "O4"), (coupler, rocker), side),
-        Rigid("P", ("A", "B"), (0.5 * coupler, 0.25 * coupler)),
-    )
-
-
-def _scene(name: str, joints: tuple[Any, ...]) -> Scene:
-    return Scene("bench", name, "bench", "m", Linkage(joints, Drive("A", 1.0)), ("P",))
 
 
 def stretched(lengths: Lengths) -> Swing:
@@ -176,12 +153,26 @@ ROCKERS: Lengths = (5.0, 3.5, 2.0, 4.0)
 CHANGES: Lengths = (5.0, 2.0, 4.0, 3.0)
 """r1 + r2 = r3 + r4: a change point at half a turn."""
 
+
+def _limited(scene: Scene, limit: float, swing: Swing) -> tuple[Case, Case]:
+    """Return a swinging input towards a limit, and through both."""
+    return (
+        Case("1e-12 rad before a toggle", scene, towards(limit), AT_LIMITS, swing),
+        Case("through two limits", scene, ONE_TURN, AT_LIMITS, swing, by_phase=True),
+    )
+
+
+def _after(scene: Scene, *powers: int) -> tuple[Case, ...]:
+    """Return one turn after ten to so many turns."""
+    return tuple(Case(f"after 1e{power} turns", scene, turned(10.0**power)) for power in powers)
+
+
 FOUR_BAR = CaseSet(
     "four-bar",
     Case("easy cycle", four_bar(EASY), degrees(0, 360)),
     (
         Case("parallelogram", four_bar(SQUARE), ONE_TURN, AT_BOTH),
-        Case("antiparallelogram", four_bar(SQUARE, -1), ONE_TURN, AT_BOTH),
+        Case("antiparallelogram", four_bar(SQUARE, "crossed"), ONE_TURN, AT_BOTH),
         Case("change point at 0", four_bar((4.0, 2.0, 5.0, 3.0)), TWO_TURNS, {"B": (0, 2)}, periods=2),
         Case("change point at 180 deg", four_bar(CHANGES), TWO_TURNS, {"B": (1, 3)}, periods=2),
         Case(
@@ -193,11 +184,9 @@ FOUR_BAR = CaseSet(
             decimal=True,
         ),
         Case("1e-12 from a change point", four_bar((5.0, 2.0, 4.0, 3.0 + 1e-12)), ONE_TURN),
-        Case("1e-12 rad before a toggle", four_bar(SWINGS), towards(TOGGLE), AT_LIMITS, stretched(SWINGS)),
-        Case("through two limits", four_bar(SWINGS), ONE_TURN, AT_LIMITS, stretched(SWINGS), True),
+        *_limited(four_bar(SWINGS), TOGGLE, stretched(SWINGS)),
         Case("double-rocker", four_bar(ROCKERS), ONE_TURN, AT_LIMITS, between(ROCKERS), True),
-        Case("after 1e6 turns", four_bar(EASY), turned(1e6)),
-        Case("after 1e9 turns", four_bar(EASY), turned(1e9)),
+        *_after(four_bar(EASY), 6, 9),
     ),
 )
 
@@ -209,22 +198,8 @@ SLIDER_CRANK = CaseSet(
     (
         Case("rod as long as the crank", slider_crank(50.0, 50.0, 0.0), QUARTERS, {"B": (0.5, 1.5)}),
         Case("1e-12 from a change point", slider_crank(5.0, 5.0 + 1e-12, 0.0), QUARTERS),
-        Case(
-            "1e-12 rad before a toggle",
-            slider_crank(50.0, 40.0, 0.0),
-            towards(math.asin(0.8)),
-            AT_LIMITS,
-            upright(50.0, 40.0),
-        ),
-        Case(
-            "through two limits",
-            slider_crank(50.0, 40.0, 0.0),
-            ONE_TURN,
-            AT_LIMITS,
-            upright(50.0, 40.0),
-            True,
-        ),
-        Case("after 1e9 turns", slider_crank(40.0, 120.0, 20.0), turned(1e9)),
+        *_limited(slider_crank(50.0, 40.0, 0.0), math.asin(0.8), upright(50.0, 40.0)),
+        *_after(slider_crank(40.0, 120.0, 20.0), 9),
     ),
 )
 
@@ -242,21 +217,15 @@ SIX_BAR = CaseSet(
             {"B": (0, 1, 2, 3), "D": (1, 3)},
             periods=2,
         ),
-        Case("through two limits", six_bar(SWINGS, AFTER), ONE_TURN, AT_LIMITS, stretched(SWINGS), True),
-        Case(
-            "1e-12 rad before a toggle", six_bar(SWINGS, AFTER), towards(TOGGLE), AT_LIMITS, stretched(SWINGS)
-        ),
-        Case("after 1e9 turns", built_in("six-bar"), turned(1e9)),
+        *_limited(six_bar(SWINGS, AFTER), TOGGLE, stretched(SWINGS)),
+        *_after(built_in("six-bar"), 9),
     ),
 )
 
 PRESS = CaseSet(
     "press",
     Case("easy cycle", built_in("press"), degrees(0, 360)),
-    (
-        Case("after 1e6 turns", built_in("press"), turned(1e6)),
-        Case("after 1e9 turns", built_in("press"), turned(1e9)),
-    ),
+    _after(built_in("press"), 6, 9),
 )
 
 MECHANISMS = (FOUR_BAR, SLIDER_CRANK, SIX_BAR, PRESS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Places = Mapping[str, Any]
 """Of each joint where it lies: complex numbers, one or an array; NaN where a method has no answer."""
+Orders = tuple[Places, ...]
+"""Positions, then velocities and accelerations where a method gives them."""
 TURN = 2 * math.pi
 
 
@@ -149,6 +151,31 @@ def longest_of(chain: DyadChain) -> float:
     pins = list(chain.pins.values())
     grounds = (abs(one - other) for one in pins for other in pins)
     return max(*(length for _, length in _bars(list(chain.steps))), *grounds)
+
+
+def placed(
+    chain: DyadChain,
+    angle: Any,
+    close: Callable[[Dyad, Places], Any],
+    exp: Callable[[Any], Any] = np.exp,
+) -> dict[str, Any]:
+    """Return where the joints lie at an input's angle, dyads' as `close` gives them.
+
+    `exp` is that of the numbers: arrays of complex ones, single ones, or those of many digits.
+    """
+    at: dict[str, Any] = dict(chain.pins)
+    for step in chain.steps:
+        if isinstance(step, TurnStep):
+            at[step.name] = at[step.pivot] + step.length * exp(1j * (step.ratio * angle + step.offset))
+        else:
+            at[step.name] = point_on(step, at) if isinstance(step, FixedStep) else close(step, at)
+    return at
+
+
+def point_on(step: FixedStep, at: Places) -> Any:
+    """Return a point of a body by those of its first and second joint, or a derivative of it by theirs."""
+    first, second = (at[name] for name in step.on)
+    return first + (second - first) * (step.at / step.length)
 
 
 def joined(vectors: Floats) -> Complexes:

@@ -6,12 +6,16 @@ import argparse
 import sys
 from argparse import Namespace
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 
 from linkanim.atomic_files import made_folder
+from linkanim.errors import BadInput
 
 CHART = "speed-vs-error.png"
 
+NEEDED = ("mpmath", "pylinkage", "numba", "scipy", "matplotlib")
+"""The packages that only the comparison needs."""
 Progress = Callable[[int, int], None]
 
 
@@ -35,8 +39,6 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     BadInput where the extra is not installed, the folder cannot be one or the chart's name in it is taken,
     before anything is measured.
     """
-    from linkanim.bench.extra import require_extra
-
     require_extra()
     from linkanim.bench import drawing, report, result
     from linkanim.manifest import single
@@ -48,3 +50,13 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     form = report.as_json if options.json else report.as_markdown if options.markdown else report.as_text
     print(form(found))
     print(drawing.draw(found, chart), file=sys.stderr)
+
+
+def require_extra(found: Callable[[str], object] = find_spec) -> None:
+    """Raise BadInput where a package of the extra is not installed, naming what installs it."""
+    missing = [name for name in NEEDED if found(name) is None]
+    if missing:
+        raise BadInput(
+            f"bench compares with {', '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "
+            'installed; install with: pip install "linkanim[bench]"'
+        )

@@ -64,10 +64,10 @@ def _png(result: Result) -> bytes:
 
 def _plot(panel: Any, row: Measured, score: Score, style: int) -> None:
     """Draw the errors of a method, hollow where some of its poses are on the wrong closure or no number."""
-    lost = score.wrong + score.missing > 0
+    lost = score.wrong + score.nan > 0
     colour = COLOURS[style % len(COLOURS)]
     for order, error in enumerate(score.errors):
-        nanos = row.derivatives_ns if order else row.position_ns
+        nanos = row.ns_derivatives if order else row.ns_position
         if math.isnan(error) or nanos is None:
             continue
         panel.plot(
@@ -82,30 +82,20 @@ def _plot(panel: Any, row: Measured, score: Score, style: int) -> None:
 
 
 def _dress(panel: Any, title: str) -> None:
-    panel.set_xscale("log")
-    panel.set_yscale("log")
-    panel.set_ylim(LEAST / 3, MOST * 3)
+    panel.set(xscale="log", yscale="log", ylim=(LEAST / 3, MOST * 3), axisbelow=True)
     panel.set_title(title, fontsize=11)
     panel.grid(visible=True, color="#dddddd")
-    panel.set_axisbelow(True)
 
 
 def _key(figure: Any, rows: list[Measured], styles: dict[str, int]) -> None:
     """Say below which colour is whose, and which mark is what."""
     from matplotlib.lines import Line2D
 
-    named = {row.key: row.name for row in rows}
-    methods = [
-        Line2D(
-            [], [], color=COLOURS[n % len(COLOURS)], marker="o", linestyle="", label=named[key], markersize=8
-        )
-        for key, n in styles.items()
-    ]
-    kinds = [
-        Line2D([], [], color="#444444", marker=mark, linestyle="", label=order)
-        for mark, order in zip(MARKS, ORDERS, strict=True)
-    ]
-    hollow = Line2D(
-        [], [], color="#444444", marker="o", markerfacecolor="none", linestyle="", label="with poses lost"
-    )
+    def mark(label: str, color: str = "#444444", **how: Any) -> Line2D:
+        return Line2D([], [], **{"color": color, "marker": "o", "linestyle": "", "label": label, **how})
+
+    named = {row.key: row.method for row in rows}
+    methods = [mark(named[key], COLOURS[n % len(COLOURS)], markersize=8) for key, n in styles.items()]
+    kinds = [mark(order, marker=shape) for shape, order in zip(MARKS, ORDERS, strict=True)]
+    hollow = mark("with poses lost", markerfacecolor="none")
     figure.legend(handles=[*methods, *kinds, hollow], loc="outside lower center", ncols=5, frameon=False)

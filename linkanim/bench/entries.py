@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from linkanim.bench import methods, others, ours
+from linkanim.bench import methods, others
 from linkanim.bench.accuracy import Solve
-from linkanim.bench.cases import FOUR_BAR, Case, CaseSet
-from linkanim.bench.chain import TURN, Question
+from linkanim.bench.cases import FOUR_BAR, CaseSet
+from linkanim.bench.chain import TURN, Orders, Places, Question
 from linkanim.bench.reference import answer
 
 FEW, MANY = 10_000, 1_000_000
 ONE_BY_ONE = 720
 """Poses to a timing of methods that take one at a time."""
+_DYADS = "each dyad's equations"
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Timed:
 class Entry:
     """A row: the method, its accuracy's `solve`, and the work for positions and with derivatives.
 
-    `key` names it for ratios. Rows that share a `solve` are asked once.
+    `key` names it for ratios. Rows that share a `solve` are solved once.
     """
 
     mechanism: str
@@ -42,107 +44,99 @@ class Entry:
     derivatives: Timed | None = None
 
 
-class Easy:
-    """The easy cycle of a mechanism, in as many poses as are asked for."""
-
-    def __init__(self, case: Case) -> None:
-        self._one = answer(replace(case, inputs=case.inputs[:1])).question
-
-    def in_poses(self, count: int) -> Question:
-        """Return one turn in so many poses."""
-        angles = np.arange(count, dtype=np.float64) * (TURN / count)
-        sides = {name: np.full(count, side[0]) for name, side in self._one.sides.items()}
-        rates = (np.ones(count), np.zeros(count))
-        return replace(self._one, angles=angles, phases=angles, rates=rates, sides=sides)
-
-
 def entries(mechanism: CaseSet) -> tuple[Entry, ...]:
     """Return all rows of a mechanism in the order of the table."""
-    easy, name = Easy(mechanism.easy), mechanism.name
+    first = answer(replace(mechanism.easy, inputs=mechanism.easy.inputs[:1])).question
     counts = (FEW, MANY) if mechanism is FOUR_BAR else (FEW,)
-    rows = (*_own(easy, counts), *_closed_forms(easy), *_from_pose_to_pose(easy), *_tables(easy))
-    return tuple(replace(row, mechanism=name) for row in (*rows, *_packages(easy, counts)))
+    turns = {count: _one_turn(first, count) for count in (*counts, ONE_BY_ONE, 180)}
+    many = [turns[count] for count in counts]
+    rows = (*_own(many, turns[ONE_BY_ONE]), *_usual(turns[FEW], turns[ONE_BY_ONE]))
+    packages = _packages(many, turns[ONE_BY_ONE], turns[180])
+    return tuple(replace(row, mechanism=mechanism.name) for row in (*rows, *packages))
 
 
-def _own(easy: Easy, counts: tuple[int, ...]) -> Iterator[Entry]:
-    here = "linkanim, this solver"
-    for key, count in zip(("batch", "batch, many"), counts, strict=False):
-        runs = (_solved(easy.in_poses(count), derivatives) for derivatives in (0, 2))
-        yield Entry("", key, f"linkanim, {count:,} at once", here, ours.batch, *runs)
-    poses = (_posed(easy.in_poses(ONE_BY_ONE), derivatives) for derivatives in (0, 2))
-    yield Entry("", "single", "linkanim, one pose a call", here, ours.single, *poses)
+def _one_turn(first: Question, count: int) -> Question:
+    """Return one turn of the easy cycle in so many poses."""
+    angles = np.arange(count, dtype=np.float64) * (TURN / count)
+    sides = {name: np.full(count, side[0]) for name, side in first.sides.items()}
+    rates = (np.ones(count), np.zeros(count))
+    return replace(first, angles=angles, phases=angles, rates=rates, sides=sides)
 
 
-def _solved(question: Question, derivatives: int) -> Timed:
-    scene, angles = question.scene, question.angles
-    # Worked out when first read.
-    read = ours.QUANTITIES[derivatives]
-    return Timed(lambda: getattr(scene.solve(angle=angles, derivatives=derivatives), read), angles.size)
-
-
-def _posed(question: Question, derivatives: int) -> Timed:
-    pose, phases = question.scene.pose, question.phases.tolist()
-
-    def run() -> None:
-        for phase in phases:
-            pose(phase, derivatives)
-
-    return Timed(run, len(phases))
-
-
-def _timed(solve: Solve, question: Question) -> Timed:
+def _timed(solve: Callable[[Question], object], question: Question) -> Timed:
     return Timed(lambda: solve(question), question.angles.size)
 
 
-def _closed_forms(easy: Easy) -> Iterator[Entry]:
-    question = easy.in_poses(FEW)
-    for key, name, source, close in (
-        ("half-angle", "half-angle formula", "Norton, Design of Machinery", methods.half_angle_dyad),
-        ("circles", "circle intersection", "Bourke 1997", methods.circle_dyad),
-    ):
-        solve = methods.closed(close)
-        runs = (_timed(way, question) for way in (methods.positions(close), solve))
-        yield Entry("", key, name, source, solve, *runs)
+def _own(turns: list[Question], one: Question) -> Iterator[Entry]:
+    here = "linkanim, this solver"
+    for key, turn in zip(("batch", "batch, many"), turns, strict=False):
+        name, runs = f"linkanim, {turn.angles.size:,} at once", (_timed(_solved(n), turn) for n in (0, 2))
+        yield Entry("", key, name, here, methods.batch, *runs)
+    runs = (_timed(_posed(derivatives), one) for derivatives in (0, 2))
+    yield Entry("", "single", "linkanim, one pose a call", here, methods.single, *runs)
 
 
-def _from_pose_to_pose(easy: Easy) -> Iterator[Entry]:
-    question = easy.in_poses(ONE_BY_ONE)
+def _solved(derivatives: int) -> Callable[[Question], object]:
+    """Return the solver with what it gives read, which is worked out only then."""
+    read = methods.QUANTITIES[derivatives]
+    return lambda question: getattr(
+        question.scene.solve(angle=question.angles, derivatives=derivatives), read
+    )
+
+
+def _posed(derivatives: int) -> Callable[[Question], object]:
+    def run(question: Question) -> None:
+        pose = question.scene.pose
+        for phase in question.phases.tolist():
+            pose(phase, derivatives)
+
+    return run
+
+
+def _usual(few: Question, one: Question) -> Iterator[Entry]:
+    """Yield closed forms, what goes on from pose to pose, and tables."""
+    norton = "Norton, Design of Machinery"
+    yield _rated("half-angle", "half-angle formula", norton, methods.closed(methods.half_angle_dyad), few)
+    yield _rated("circles", "circle intersection", "Bourke 1997", methods.closed(methods.circle_dyad), few)
     for count in (1, 2, 3):
-        solve = methods.newton(count)
-        runs = (_timed(way, question) for way in (methods.newton_positions(count), solve))
         name = f"Newton, {count} iteration{'s' if count > 1 else ''}"
-        yield Entry("", f"newton {count}", name, "each dyad's equations", solve, *runs)
+        yield _rated(f"newton {count}", name, _DYADS, methods.newton(count), one)
     rk4 = methods.runge_kutta
-    source = "each dyad's equations"
-    yield Entry("", "rk4", "RK4 on the velocity", source, rk4, _timed(rk4, question))
-
-
-def _tables(easy: Easy) -> Iterator[Entry]:
-    question = easy.in_poses(FEW)
-    table = methods.table_of(question)
-    for key, name, read in (
+    yield Entry("", "rk4", "RK4 on the velocity", _DYADS, rk4, _timed(rk4, one))
+    table = methods.table_of(few)
+    for key, words, read in (
         ("linear", "straight lines", methods.linear),
         ("cubic", "Hermite's cubics", methods.cubic),
     ):
-        run = Timed(lambda read=read: read(table, question), FEW)  # type: ignore[misc]
-        yield Entry("", key, f"table of 1° steps, {name}", "poses of this solver", _looked_up(read), run)
+        name, looked_up = f"table of 1° steps, {words}", _timed(_reading(read, table), few)
+        yield Entry("", key, name, "poses of this solver", _reading(read), looked_up)
 
 
-def _looked_up(read: Callable[[methods.Samples, Question], ours.Orders]) -> Solve:
-    return lambda question: read(methods.table_of(question), question)
+def _rated(key: str, name: str, source: str, places: Callable[[Question], Places], turn: Question) -> Entry:
+    """Return the row of a method that gives positions, its rates being those of `methods.rated`."""
+    solve = methods.rated(places)
+    return Entry("", key, name, source, solve, _timed(places, turn), _timed(solve, turn))
 
 
-def _packages(easy: Easy, counts: tuple[int, ...]) -> Iterator[Entry]:
-    for key, count in zip(("pylinkage", "pylinkage, many"), counts, strict=False):
-        model = others.pylinkage_model(easy.in_poses(count), TURN / count).linkage
+def _reading(
+    read: Callable[[methods.Samples, Question], Orders], table: methods.Samples | None = None
+) -> Solve:
+    """Return what reads a table, the question's own where none is given."""
+    return lambda question: read(table or methods.table_of(question), question)
+
+
+def _packages(turns: list[Question], one: Question, fewest: Question) -> Iterator[Entry]:
+    for key, turn in zip(("pylinkage", "pylinkage, many"), turns, strict=False):
+        count = turn.angles.size
+        model = others.pylinkage_model(turn, TURN / count).linkage
         runs = (_stepped(work, count) for work in (model.step_fast, model.step_fast_with_kinematics))
-        solve = others.pylinkage_fast(round(count / 360))
-        yield Entry("", key, f"pylinkage step_fast, {count:,} at once", "pylinkage, numba", solve, *runs)
-    one = others.pylinkage_model(easy.in_poses(ONE_BY_ONE), TURN / ONE_BY_ONE).linkage
-    runs = (_walked(work, ONE_BY_ONE) for work in (one.step, one.step_with_derivatives))
+        solve, name = others.pylinkage_fast(round(count / 360)), f"pylinkage step_fast, {count:,} at once"
+        yield Entry("", key, name, "pylinkage, numba", solve, *runs)
+    count = one.angles.size
+    model = others.pylinkage_model(one, TURN / count).linkage
+    runs = (_walked(work, count) for work in (model.step, model.step_with_derivatives))
     yield Entry("", "pylinkage step", "pylinkage step()", "pylinkage", others.pylinkage_step, *runs)
-    timed = _timed(others.fsolve, easy.in_poses(180))
-    yield Entry("", "fsolve", "scipy fsolve", "scipy.optimize", others.fsolve, timed)
+    yield Entry("", "fsolve", "scipy fsolve", "scipy.optimize", others.fsolve, _timed(others.fsolve, fewest))
 
 
 def _stepped(work: Callable[[int], object], count: int) -> Timed:
@@ -150,8 +144,4 @@ def _stepped(work: Callable[[int], object], count: int) -> Timed:
 
 
 def _walked(work: Callable[[int], Iterator[object]], count: int) -> Timed:
-    def run() -> None:
-        for _ in work(count):
-            pass
-
-    return Timed(run, count)
+    return Timed(lambda: deque(work(count), maxlen=0), count)

@@ -1,9 +1,9 @@
-"""The usual ways to solve a chain of dyads, as they are usually written.
+"""The usual ways to solve a chain of dyads, as they are usually written, and this project's own.
 
 Closed forms and tables take whole arrays; what goes on from the previous pose goes pose by pose in plain
-floats, as a frame loop does. None of them is improved here: what they lose near limits and change points is
-what is measured. Rates follow from the differentiated equations of each dyad, solved at the pose found
-(Norton, Design of Machinery, chapters on velocity and acceleration analysis).
+floats, as a frame loop does. None of the usual ones is improved here: what they lose near limits and
+change points is what is measured. Rates follow from the differentiated equations of each dyad, solved at the
+pose found (Norton, Design of Machinery, chapters on velocity and acceleration analysis).
 """
 
 from __future__ import annotations
@@ -24,14 +24,19 @@ from linkanim.bench.chain import (
     FixedStep,
     Floats,
     MeetStep,
+    Orders,
     Places,
     Question,
     TurnStep,
+    joined,
+    placed,
+    point_on,
 )
-from linkanim.bench.ours import Orders, batch
 
 INTERVALS = 360
 """Of a table, to one turn."""
+NOWHERE = complex(math.nan, math.nan)
+QUANTITIES = ("position", "velocity", "acceleration")
 Close = Callable[[Dyad, Places, Any], Any]
 """How a method closes a dyad: from the places before it, and the side at each pose."""
 
@@ -73,68 +78,66 @@ def circle_dyad(dyad: Dyad, at: Places, side: Any) -> Any:
     return dyad.base + dyad.along * (seen.real + side * np.sqrt(dyad.length**2 - seen.imag**2))
 
 
-def closed(close: Close) -> Callable[[Question], Orders]:
-    """Return the method that closes dyad by dyad so, with rates."""
+def closed(close: Close) -> Callable[[Question], Places]:
+    """Return the method that closes dyad by dyad so, all poses at once."""
+
+    def places(question: Question) -> Places:
+        sides = question.sides
+        return placed(question.chain, question.angles, lambda dyad, at: close(dyad, at, sides[dyad.name]))
+
+    return places
+
+
+def rated(places: Callable[[Question], Places]) -> Callable[[Question], Orders]:
+    """Return the method with rates: positions, then their first and second derivatives."""
 
     def solve(question: Question) -> Orders:
-        return with_rates(question, _places(question, close))
+        at, (speed, gain) = places(question), question.rates
+        first = _rates(question.chain, at, lambda r: 1j * r * speed, lambda dyad: (0.0, 0.0))
+        second = _rates(
+            question.chain,
+            at,
+            lambda r: 1j * r * gain - (r * speed) ** 2,
+            lambda dyad: _centripetal(dyad, first),
+        )
+        return at, first, second
 
     return solve
 
 
-def positions(close: Close) -> Callable[[Question], Orders]:
-    """Return the method that closes dyad by dyad so, without rates."""
-    return lambda question: (_places(question, close),)
-
-
-def _places(question: Question, close: Close) -> Places:
-    chain = question.chain
-    at: dict[str, Any] = dict(chain.pins)
+def _rates(
+    chain: DyadChain,
+    at: Places,
+    turning: Callable[[float], Any],
+    loads: Callable[[Dyad], tuple[Any, Any]],
+) -> dict[str, Any]:
+    """Return a derivative of all joints: of a crank's arm its factor by ratio, of dyads what they bear."""
+    found: dict[str, Any] = dict.fromkeys(chain.pins, 0j)
     for step in chain.steps:
-        match step:
-            case TurnStep():
-                turned = np.exp(1j * (step.ratio * question.angles + step.offset))
-                at[step.name] = at[step.pivot] + step.length * turned
-            case FixedStep():
-                at[step.name] = _on(step, at)
-            case _:
-                at[step.name] = close(step, at, question.sides[step.name])
-    return at
-
-
-def _on(step: FixedStep, at: Places) -> Any:
-    first, second = (at[name] for name in step.on)
-    return first + (second - first) * (step.at / step.length)
-
-
-def with_rates(question: Question, at: Places) -> Orders:
-    """Return positions with their first and second derivatives."""
-    first: dict[str, Any] = dict.fromkeys(question.chain.pins, 0.0)
-    second: dict[str, Any] = dict.fromkeys(question.chain.pins, 0.0)
-    speed, gain = question.rates
-    for step in question.chain.steps:
-        name = step.name
-        match step:
-            case TurnStep():
-                arm, w, e = at[name] - at[step.pivot], step.ratio * speed, step.ratio * gain
-                first[name], second[name] = 1j * w * arm, (1j * e - w * w) * arm
-            case FixedStep():
-                first[name], second[name] = _on(step, first), _on(step, second)
-            case _:
-                first[name] = _rate(step, at, first, (0.0, 0.0))
-                second[name] = _rate(step, at, second, _centripetal(step, first))
-    return at, first, second
+        if isinstance(step, TurnStep):
+            found[step.name] = turning(step.ratio) * (at[step.name] - at[step.pivot])
+        elif isinstance(step, FixedStep):
+            found[step.name] = point_on(step, found)
+        else:
+            found[step.name] = _rate(step, at, found, loads(step))
+    return found
 
 
 def _rate(dyad: Dyad, at: Places, ends: Places, loads: tuple[Any, Any]) -> Any:
-    """Return the rate x of a dyad's joint: (B - P)·(x - p) = load for each bar, or x along its line."""
+    """Return the rate x of a dyad's joint: (B - P)·(x - p) = load for each bar, or x along its line.
+
+    Of a single pose whose bars are in line NaN.
+    """
     here = at[dyad.name]
-    if isinstance(dyad, MeetStep):
-        (p, q), (one, other) = dyad.ends, (here - at[end] for end in dyad.ends)
-        right, also = _dot(one, ends[p]) + loads[0], _dot(other, ends[q]) + loads[1]
-        return 1j * (one * also - other * right) / _cross(one, other)
-    bar, end = here - at[dyad.end], ends[dyad.end]
-    return dyad.along * (_dot(bar, end) + loads[0]) / _dot(bar, dyad.along)
+    try:
+        if isinstance(dyad, MeetStep):
+            (p, q), (one, other) = dyad.ends, (here - at[end] for end in dyad.ends)
+            right, also = _dot(one, ends[p]) + loads[0], _dot(other, ends[q]) + loads[1]
+            return 1j * (one * also - other * right) / (one.conjugate() * other).imag
+        bar = here - at[dyad.end]
+        return dyad.along * ((_dot(bar, ends[dyad.end]) + loads[0]) / _dot(bar, dyad.along))
+    except ZeroDivisionError:
+        return NOWHERE
 
 
 def _centripetal(dyad: Dyad, first: Places) -> tuple[Any, Any]:
@@ -143,42 +146,31 @@ def _centripetal(dyad: Dyad, first: Places) -> tuple[Any, Any]:
     return loads[0], loads[-1]
 
 
-def _cross(one: Any, other: Any) -> Any:
-    return one.real * other.imag - one.imag * other.real
-
-
 def _dot(one: Any, other: Any) -> Any:
-    return (np.conj(one) * other).real
+    return (one.conjugate() * other).real
 
 
-def newton(iterations: int) -> Callable[[Question], Orders]:
+def newton(iterations: int) -> Callable[[Question], Places]:
     """Return Newton's method on each dyad's equations, so many iterations from the previous pose."""
-    return lambda question: with_rates(question, _gathered(question, _followed(question, iterations)))
+
+    def poses(question: Question) -> Iterator[dict[str, complex]]:
+        at = dict(question.start)
+        for angle in question.angles.tolist():
+            last = at
+            at = placed(
+                question.chain,
+                angle,
+                lambda dyad, at: _improved(dyad, at, last[dyad.name], iterations),  # noqa: B023
+                cmath.exp,
+            )
+            yield at
+
+    return lambda question: _gathered(poses(question))
 
 
-def newton_positions(iterations: int) -> Callable[[Question], Orders]:
-    """Return the same without rates."""
-    return lambda question: (_gathered(question, _followed(question, iterations)),)
-
-
-def _gathered(question: Question, poses: Iterator[dict[str, complex]]) -> Places:
+def _gathered(poses: Iterator[dict[str, complex]]) -> Places:
     kept = list(poses)
     return {name: np.array([pose[name] for pose in kept]) for name in kept[0]}
-
-
-def _followed(question: Question, iterations: int) -> Iterator[dict[str, complex]]:
-    chain, last = question.chain, dict(question.start)
-    for angle in question.angles.tolist():
-        at = dict(chain.pins)
-        for step in chain.steps:
-            if isinstance(step, TurnStep):
-                at[step.name] = at[step.pivot] + cmath.rect(step.length, step.ratio * angle + step.offset)
-            elif isinstance(step, FixedStep):
-                at[step.name] = _on(step, at)
-            else:
-                at[step.name] = _improved(step, at, last[step.name], iterations)
-        yield at
-        last = at
 
 
 def _improved(dyad: Dyad, at: Places, here: complex, iterations: int) -> complex:
@@ -200,12 +192,12 @@ def _improved(dyad: Dyad, at: Places, here: complex, iterations: int) -> complex
             way -= 0.5 * (x * x + seen.imag * seen.imag - square) / x
         return dyad.base + dyad.along * way
     except ZeroDivisionError:
-        return complex(math.nan, math.nan)
+        return NOWHERE
 
 
 def runge_kutta(question: Question) -> Orders:
     """Integrate the dyads' velocities from pose to pose with the classical method of fourth order."""
-    return (_gathered(question, _integrated(question)),)
+    return (_gathered(_integrated(question)),)
 
 
 def _integrated(question: Question) -> Iterator[dict[str, complex]]:
@@ -213,54 +205,27 @@ def _integrated(question: Question) -> Iterator[dict[str, complex]]:
     state = [question.start[dyad.name] for dyad in chain.dyads]
     before = float(question.angles[0])
     for angle in question.angles.tolist():
-        h = angle - before
-        k1 = _slopes(chain, before, state)
-        k2 = _slopes(chain, before + h / 2, [y + h / 2 * k for y, k in zip(state, k1, strict=True)])
-        k3 = _slopes(chain, before + h / 2, [y + h / 2 * k for y, k in zip(state, k2, strict=True)])
-        k4 = _slopes(chain, angle, [y + h * k for y, k in zip(state, k3, strict=True)])
-        slopes = zip(k1, k2, k3, k4, strict=True)
-        state = [y + h / 6 * (p + 2 * q + 2 * r + s) for y, (p, q, r, s) in zip(state, slopes, strict=True)]
+        h, weighted = angle - before, [0j] * len(state)
+        slopes = weighted
+        for part, weight in ((0.0, 1), (0.5, 2), (0.5, 2), (1.0, 1)):
+            reached = [y + part * h * k for y, k in zip(state, slopes, strict=True)]
+            slopes = _slopes(chain, before + part * h, reached)
+            weighted = [sum_ + weight * k for sum_, k in zip(weighted, slopes, strict=True)]
+        state = [y + h / 6 * sum_ for y, sum_ in zip(state, weighted, strict=True)]
         before = angle
-        yield _at(chain, angle, state)
+        yield _with_dyads(chain, angle, state)
 
 
-def _at(chain: DyadChain, angle: float, state: list[complex]) -> dict[str, complex]:
-    at, dyads = dict(chain.pins), iter(state)
-    for step in chain.steps:
-        if isinstance(step, TurnStep):
-            at[step.name] = at[step.pivot] + cmath.rect(step.length, step.ratio * angle + step.offset)
-        else:
-            at[step.name] = _on(step, at) if isinstance(step, FixedStep) else next(dyads)
-    return at
+def _with_dyads(chain: DyadChain, angle: float, state: list[complex]) -> dict[str, complex]:
+    dyads = iter(state)
+    return placed(chain, angle, lambda dyad, at: next(dyads), cmath.exp)
 
 
 def _slopes(chain: DyadChain, angle: float, state: list[complex]) -> list[complex]:
     """Return the velocities of the dyads' joints per unit input; NaN where bars are in line."""
-    at, first = _at(chain, angle, state), dict.fromkeys(chain.pins, 0j)
-    for step in chain.steps:
-        if isinstance(step, TurnStep):
-            first[step.name] = 1j * step.ratio * (at[step.name] - at[step.pivot])
-        elif isinstance(step, FixedStep):
-            first[step.name] = _on(step, first)
-        else:
-            first[step.name] = _velocity(step, at, first)
-    return [first[dyad.name] for dyad in chain.dyads]
-
-
-def _velocity(dyad: Dyad, at: Places, first: Places) -> Any:
-    here = at[dyad.name]
-    try:
-        if isinstance(dyad, MeetStep):
-            (p, q), (one, other) = dyad.ends, (here - at[end] for end in dyad.ends)
-            right = one.real * first[p].real + one.imag * first[p].imag
-            also = other.real * first[q].real + other.imag * first[q].imag
-            det = one.real * other.imag - one.imag * other.real
-            return complex(other.imag * right - one.imag * also, one.real * also - other.real * right) / det
-        bar, end = here - at[dyad.end], first[dyad.end]
-        rate = (bar.real * end.real + bar.imag * end.imag) / (bar.conjugate() * dyad.along).real
-        return dyad.along * rate
-    except ZeroDivisionError:
-        return complex(math.nan, math.nan)
+    at = _with_dyads(chain, angle, state)
+    rates = _rates(chain, at, lambda ratio: 1j * ratio, lambda dyad: (0.0, 0.0))
+    return [rates[dyad.name] for dyad in chain.dyads]
 
 
 class Samples(NamedTuple):
@@ -304,3 +269,26 @@ def cubic(table: Samples, question: Question) -> Orders:
         return before * value[at] + after * value[at + 1] + rise * slope[at] - fall * slope[at + 1]
 
     return ({name: read(value, table.slopes[name]) for name, value in table.values.items()},)
+
+
+def batch(question: Question) -> Orders:
+    """Solve all inputs in one call, by angle where that is what is given, else by phase."""
+    solve = question.scene.solve
+    by_angle = question.by_angle
+    motion = solve(angle=question.angles, speed=1.0) if by_angle else solve(phase=question.phases, speed=1.0)
+    return tuple(
+        {name: joined(getattr(motion, quantity)[name]) for name in question.shown} for quantity in QUANTITIES
+    )
+
+
+def single(question: Question) -> Orders:
+    """Solve one pose per call in plain floats; rates where they are asked for by phase, as it gives them."""
+    poses = [question.scene.pose(phase, 2) for phase in question.phases.tolist()]
+    scale = question.scene.linkage.drive.speed
+    return tuple(
+        {
+            name: np.array([complex(*getattr(pose, quantity)[name]) for pose in poses]) / scale**order
+            for name in question.shown
+        }
+        for order, quantity in enumerate(QUANTITIES[:1] if question.by_angle else QUANTITIES)
+    )

@@ -8,9 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkanim.bench.chain import Dyad, MeetStep, Places, Question, SlideStep, TurnStep
-from linkanim.bench.methods import positions
-from linkanim.bench.ours import Orders
+from linkanim.bench.chain import Dyad, MeetStep, Orders, Places, Question, SlideStep, TurnStep, placed
+from linkanim.bench.methods import NOWHERE
 
 
 class Model(NamedTuple):
@@ -114,12 +113,12 @@ def _orders(found: Any, model: Model) -> Orders:
 
 def fsolve(question: Question) -> Orders:
     """Solve each dyad's equations from its previous place; NaN where it says it did not converge."""
-    before = dict(question.start)
+    before, rows = dict(question.start), range(question.angles.size)
 
-    def close(dyad: Dyad, at: Places, _: Any) -> Any:
-        return np.array([_found(dyad, at, row, before) for row in range(question.angles.size)])
+    def close(dyad: Dyad, at: Places) -> Any:
+        return np.array([_found(dyad, at, row, before) for row in rows])
 
-    return positions(close)(question)
+    return (placed(question.chain, question.angles, close),)
 
 
 def _found(dyad: Dyad, at: Places, row: int, before: dict[str, complex]) -> complex:
@@ -139,6 +138,6 @@ def _found(dyad: Dyad, at: Places, row: int, before: dict[str, complex]) -> comp
     start = before[dyad.name]
     root, _, flag, _ = find(equations, (start.real, start.imag), full_output=True)
     if flag != 1:
-        return complex(np.nan, np.nan)
+        return NOWHERE
     before[dyad.name] = complex(root[0], root[1])
     return before[dyad.name]

@@ -23,12 +23,14 @@ from linkanim.bench.chain import (
     FixedStep,
     Floats,
     MeetStep,
+    Places,
     Question,
     SlideStep,
     Step,
     TurnStep,
     chain_of,
     longest_of,
+    placed,
 )
 
 DIGITS = 140
@@ -138,7 +140,7 @@ class CasePath:
                 named = {key: self._number(getattr(step, key)) for key in ("length", "ratio", "offset")}
                 return step._replace(**named)
             case FixedStep():
-                return step._replace(at=self._place(step.at) / self._number(step.length))
+                return step._replace(at=self._place(step.at), length=self._number(step.length))
             case MeetStep():
                 a, b = map(self._number, step.lengths)
                 return step._replace(lengths=(a, b))
@@ -170,19 +172,11 @@ class CasePath:
 
     def pose(self, given: Any) -> Pose:
         """Return where every joint lies."""
-        angle, phase = self.angle(given), self.phase(given)
-        pins, steps = self._exact
-        at = dict(pins)
-        for step in steps:
-            match step:
-                case TurnStep():
-                    at[step.name] = at[step.pivot] + step.length * mp.expj(step.ratio * angle + step.offset)
-                case FixedStep():
-                    first, second = (at[name] for name in step.on)
-                    at[step.name] = first + (second - first) * step.at
-                case _:
-                    at[step.name] = closed(step, at, self.side(step, phase))
-        return at
+        phase, (pins, steps) = self.phase(given), self._exact
+        chain = DyadChain(pins, steps)
+        return placed(
+            chain, self.angle(given), lambda dyad, at: closed(dyad, at, self.side(dyad, phase)), mp.exp
+        )
 
     def others(self, at: Pose) -> Pose:
         """Return the other closure of each dyad, whose ends lie where they are."""
@@ -201,7 +195,7 @@ class CasePath:
         return mpf(repr(value)) if self.case.decimal else mpf(value)
 
 
-def closed(dyad: Dyad, at: Pose, side: int) -> Any:
+def closed(dyad: Dyad, at: Places, side: int) -> Any:
     """Return where a dyad's joint lies, its lengths in many digits."""
     if isinstance(dyad, MeetStep):
         p, q = (at[end] for end in dyad.ends)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any
+from dataclasses import asdict
 
 from linkanim.bench.accuracy import Score
 from linkanim.bench.result import Measured, Result, Target
@@ -53,14 +53,14 @@ def _note(result: Result) -> str:
 
 
 def _line(row: Measured) -> Sequence[str]:
-    times = (_time(row.position_ns), "" if row.derivatives_ns is None else _time(row.derivatives_ns))
+    times = (_time(row.ns_position), "" if row.ns_derivatives is None else _time(row.ns_derivatives))
     return (
-        row.name,
+        row.method,
         *times,
         _errors(row.easy),
         _errors(row.hard),
         f"{row.hard.wrong:,}",
-        f"{row.hard.missing:,}",
+        f"{row.hard.nan:,}",
     )
 
 
@@ -95,36 +95,12 @@ def as_json(result: Result) -> str:
     """Return one object: machine, rows with every case, targets; null where there is no number."""
     found = {
         "machine": result.machine._asdict(),
-        "rows": [_row(row) for row in result.rows],
-        "targets": [
-            {
-                "what": target.what,
-                "measured": target.measured,
-                "least" if target.least else "most": target.bound,
-                "unit": target.unit,
-                "met": target.met,
-            }
-            for target in result.targets
-        ],
+        "rows": [asdict(row) for row in result.rows],
+        "targets": [_target(target) for target in result.targets],
     }
     return json_text(found, indent=2)
 
 
-def _row(row: Measured) -> dict[str, Any]:
-    return {
-        "mechanism": row.mechanism,
-        "key": row.key,
-        "method": row.name,
-        "source": row.source,
-        "ns_position": row.position_ns,
-        "ns_derivatives": row.derivatives_ns,
-        "easy": _score(row.easy),
-        "hard": _score(row.hard),
-        "cases": {name: _score(score) for name, score in row.cases.items()},
-    }
-
-
-def _score(score: Score) -> dict[str, Any]:
-    position, velocity, acceleration = score.errors
-    errors = {"error": position, "velocity_error": velocity, "acceleration_error": acceleration}
-    return {"poses": score.poses, **errors, "wrong": score.wrong, "nan": score.missing}
+def _target(target: Target) -> dict[str, object]:
+    bound = {"least" if target.least else "most": target.bound}
+    return {"what": target.what, "measured": target.measured, **bound, "unit": target.unit, "met": target.met}

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
+import os
+import platform
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from linkanim.bench.accuracy import Score, Solve, score, together
 from linkanim.bench.cases import FOUR_BAR, MECHANISMS, CaseSet
 from linkanim.bench.entries import Entry, Timed, entries
-from linkanim.bench.machine import Machine, this_machine
 from linkanim.bench.reference import answer
 from linkanim.bench.timing import nanoseconds
 
@@ -17,8 +22,46 @@ Progress = Callable[[int, int], None]
 Key = tuple[str, str, int]
 """A timed piece of work: mechanism, row, and the number of derivatives."""
 
+_TIMES = (
+    ("positions, 10,000 at once", "batch", None, 0, 15.0, "ns"),
+    ("with derivatives, 10,000 at once", "batch", None, 1, 35.0, "ns"),
+    ("positions, 1,000,000 to 10,000 at once", "batch, many", "batch", 0, 1.6, "×"),
+    ("with derivatives, 1,000,000 to 10,000 at once", "batch, many", "batch", 1, 1.6, "×"),
+    ("positions, one pose a call", "single", None, 0, 2.5, "µs"),
+    ("with derivatives, one pose a call", "single", None, 1, 6.0, "µs"),
+)
+_RATIOS = (
+    ("positions, 10,000 at once", "pylinkage", "batch", 0, 12.0, "×"),
+    ("positions, 1,000,000 at once", "pylinkage, many", "batch, many", 0, 10.0, "×"),
+    ("positions, one pose a call", "pylinkage step", "single", 0, 2.0, "×"),
+    ("with derivatives, 10,000 at once", "pylinkage", "batch", 1, 20.0, "×"),
+    ("with derivatives, 1,000,000 at once", "pylinkage, many", "batch, many", 1, 12.0, "×"),
+    ("with derivatives, one pose a call", "pylinkage step", "single", 1, 2.0, "×"),
+)
+"""What is held to: words, the row, the row beside it, 0 or 1 with derivatives, the bound, the unit."""
+
 BUDGET = 150.0
 """Seconds for the timings on a slow or busy machine."""
+
+
+class Machine(NamedTuple):
+    """Where figures were measured: the processor, how many cores of it there are, the versions that count.
+
+    `features` are the vector units beyond the least that this numpy runs on and uses, by its names.
+    """
+
+    cpu: str
+    cores: int
+    python: str
+    numpy: str
+    features: tuple[str, ...] = ()
+
+    @property
+    def line(self) -> str:
+        """The same in one line."""
+        units = ", ".join(self.features) or "no further vector units"
+        versions = f"Python {self.python}, numpy {self.numpy} with {units}"
+        return f"{self.cpu}, {self.cores} cores, {versions}, one thread"
 
 
 @dataclass(frozen=True)
@@ -27,10 +70,10 @@ class Measured:
 
     mechanism: str
     key: str
-    name: str
+    method: str
     source: str
-    position_ns: float
-    derivatives_ns: float | None
+    ns_position: float
+    ns_derivatives: float | None
     easy: Score
     hard: Score
     cases: Mapping[str, Score]
@@ -106,35 +149,21 @@ def _row(entry: Entry, times: Mapping[Key, float], scores: Mapping[str, Score]) 
 def targets(rows: Sequence[Measured]) -> tuple[Target, ...]:
     """Return the targets with what a run measured: times, ratios to pylinkage in that run, worst errors."""
     by_key = {row.key: row for row in rows if row.mechanism == FOUR_BAR.name}
-    few, many, one = (by_key[key] for key in ("batch", "batch, many", "single"))
-    pairs = [
-        ("10,000 at once", by_key["pylinkage"], few, 12.0, 20.0),
-        ("1,000,000 at once", by_key["pylinkage, many"], many, 10.0, 12.0),
-        ("one pose a call", by_key["pylinkage step"], one, 2.0, 2.0),
+    times = {key: (row.ns_position, row.ns_derivatives) for key, row in by_key.items()}
+    timed = [
+        Target(words + what, _ratio(times, key, beside, order, unit), bound, unit, least=bool(words))
+        for words, whats in (("", _TIMES), ("pylinkage's time to ours: ", _RATIOS))
+        for what, key, beside, order, bound, unit in whats
     ]
-    all_few, all_many, all_one = (row.derivatives_ns or math.nan for row in (few, many, one))
-    return (
-        Target("positions, 10,000 at once", few.position_ns, 15.0, "ns"),
-        Target("with derivatives, 10,000 at once", all_few, 35.0, "ns"),
-        Target("positions, 1,000,000 to 10,000 at once", many.position_ns / few.position_ns, 1.6, "×"),
-        Target("with derivatives, 1,000,000 to 10,000 at once", all_many / all_few, 1.6, "×"),
-        Target("positions, one pose a call", one.position_ns / 1e3, 2.5, "µs"),
-        Target("with derivatives, one pose a call", all_one / 1e3, 6.0, "µs"),
-        *(
-            _beside("positions", what, theirs.position_ns, own.position_ns, bound)
-            for what, theirs, own, bound, _ in pairs
-        ),
-        *(
-            _beside("with derivatives", what, theirs.derivatives_ns, own.derivatives_ns, bound)
-            for what, theirs, own, _, bound in pairs
-        ),
-        *_exact(rows),
-    )
+    return (*timed, *_exact(rows))
 
 
-def _beside(what: str, how: str, theirs: float | None, own: float | None, bound: float) -> Target:
-    share = theirs / own if theirs and own else math.nan
-    return Target(f"pylinkage's time to ours: {what}, {how}", share, bound, "×", least=True)
+def _ratio(
+    times: Mapping[str, Sequence[float | None]], key: str, beside: str | None, order: int, unit: str
+) -> float:
+    """Return a row's time in the unit, or how many times another row's it is; NaN where one is not known."""
+    mine, other = times[key][order], times[beside][order] if beside else 1e3 if unit == "µs" else 1.0
+    return mine / other if mine and other else math.nan
 
 
 def _exact(rows: Sequence[Measured]) -> list[Target]:
@@ -147,3 +176,23 @@ def _exact(rows: Sequence[Measured]) -> list[Target]:
         Target(f"hard cases, {name}", found, bound, "eps")
         for name, found, bound in zip(names, worst, (16.0, 64.0, 64.0), strict=True)
     ]
+
+
+def this_machine() -> Machine:
+    """Return what this process runs on."""
+    return Machine(_cpu(), os.cpu_count() or 1, platform.python_version(), np.__version__, _features())
+
+
+def _features() -> tuple[str, ...]:
+    built: Any = np.show_config(mode="dicts")
+    return tuple(built.get("SIMD Extensions", {}).get("found", ()))
+
+
+def _cpu() -> str:
+    """Return the processor's name, as Linux tells it, else as Python does."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    named = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(named, "") or platform.processor() or platform.machine()

@@ -5,12 +5,11 @@ from __future__ import annotations
 from math import inf, nan
 
 from linkanim.bench.accuracy import Score
-from linkanim.bench.machine import Machine
-from linkanim.bench.result import Measured, Result, Target
+from linkanim.bench.result import Machine, Measured, Result, Target
 
-EASY = Score(360, (3e-16, 4e-16, 5e-16), 0, 0)
-HARD = Score(5198, (8.5e-16, inf, 2.0), 0, 0)
-LOST = Score(5198, (nan, nan, nan), 5000, 198)
+EASY = Score(360, 3e-16, 4e-16, 5e-16, 0, 0)
+HARD = Score(5198, 8.5e-16, inf, 2.0, 0, 0)
+LOST = Score(5198, nan, nan, nan, 5000, 198)
 
 
 def row(
@@ -26,7 +25,7 @@ def row(
 
 
 def result() -> Result:
-    few = Score(360, (1e-12, nan, nan), 0, 0)
+    few = Score(360, 1e-12, nan, nan, 0, 0)
     rows = (
         row("batch", 9.31, 22.5),
         row("newton 1", 1604.0, hard=LOST),

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from made_result import result
 
-from linkanim.bench import command, extra
+from linkanim.bench import command
 from linkanim.bench import result as results
-from linkanim.bench.machine import this_machine
+from linkanim.bench.result import this_machine
 from linkanim.cli import main
 from linkanim.errors import BadInput
 
@@ -26,25 +26,25 @@ def options(*words: str) -> Namespace:
 @pytest.fixture
 def measured(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the extra be there, and the result be one made by hand."""
-    monkeypatch.setattr(extra, "NEEDED", ())
+    monkeypatch.setattr(command, "NEEDED", ())
     monkeypatch.setattr(results, "run", lambda progress: result())
 
 
 @pytest.mark.parametrize("missing", ["mpmath", "pylinkage", "numba", "scipy"])
 def test_what_is_missing_is_named_with_the_way_to_get_it(missing: str) -> None:
     with pytest.raises(BadInput, match=rf'{missing}, which is not .*pip install "linkanim\[bench\]"'):
-        extra.require_extra(lambda name: None if name == missing else object())
+        command.require_extra(lambda name: None if name == missing else object())
 
 
 def test_all_that_is_missing_is_named_at_once() -> None:
     with pytest.raises(BadInput, match="numba, scipy, which are not installed"):
-        extra.require_extra(lambda name: None if name in ("numba", "scipy") else object())
+        command.require_extra(lambda name: None if name in ("numba", "scipy") else object())
 
 
 def test_without_the_extra_bench_ends_in_one_line(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(extra, "NEEDED", ("a_package_that_is_not_there",))
+    monkeypatch.setattr(command, "NEEDED", ("a_package_that_is_not_there",))
     assert main(["bench", "--into", str(tmp_path / "new")]) == 2
     told = capsys.readouterr()
     assert told.out == ""
@@ -112,7 +112,7 @@ def test_the_processor_has_its_name(
 ) -> None:
     if written is not None:
         (tmp_path / "cpuinfo").write_text(written, encoding="utf-8")
-    monkeypatch.setattr("linkanim.bench.machine.Path", lambda _: tmp_path / "cpuinfo")
+    monkeypatch.setattr("linkanim.bench.result.Path", lambda _: tmp_path / "cpuinfo")
     monkeypatch.setattr("platform.processor", lambda: "")
     monkeypatch.setattr("platform.machine", lambda: "a machine")
     assert this_machine().cpu == name

@@ -14,7 +14,7 @@ from linkanim.bench import drawing, report
 from linkanim.bench.accuracy import Score
 from linkanim.bench.cases import FOUR_BAR, MECHANISMS, CaseSet
 from linkanim.bench.entries import Entry, Timed
-from linkanim.bench.ours import batch
+from linkanim.bench.methods import batch
 from linkanim.bench.result import Target, run, targets
 from linkanim.errors import BadInput
 from linkanim.export import columns
@@ -115,7 +115,7 @@ TARGETS = {
 
 def test_each_target_has_its_figure_and_its_bound() -> None:
     eps = 2.0**-52
-    exact, other = (Score(1, errors, 0, 0) for errors in ((eps, 5 * eps, eps), (3 * eps, eps, math.inf)))
+    exact, other = (Score(1, *errors, 0, 0) for errors in ((eps, 5 * eps, eps), (3 * eps, eps, math.inf)))
     rows = (
         row("batch", 10.0, 32.0, exact),
         row("batch, many", 20.0, 40.0),
@@ -146,7 +146,7 @@ def test_a_run_asks_every_method_of_a_mechanism_every_case_and_times_it() -> Non
         assert list(measured.cases) == ["easy cycle", "as hard"]
         assert (measured.easy.poses, measured.hard.poses) == (3, 3)
         assert measured.easy.error < 1e-15
-        assert measured.derivatives_ns is not None
+        assert measured.ns_derivatives is not None
 
 
 def test_the_picture_is_written_whole(tmp_path: Path) -> None:

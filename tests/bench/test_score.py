@@ -10,8 +10,7 @@ import pytest
 
 from linkanim.bench.accuracy import Score, score, together
 from linkanim.bench.cases import FOUR_BAR, degrees
-from linkanim.bench.chain import Complexes, Question
-from linkanim.bench.ours import Orders
+from linkanim.bench.chain import Complexes, Orders, Question
 from linkanim.bench.reference import Answer, answer
 
 
@@ -27,7 +26,7 @@ def exact(posed: Answer) -> list[dict[str, Complexes]]:
 def test_the_exact_pose_has_the_error_of_its_rounding_only(posed: Answer) -> None:
     found = score(lambda question: tuple(exact(posed)), posed)
     assert all(error < 2**-52 for error in found.errors)
-    assert (found.poses, found.wrong, found.missing) == (4, 0, 0)
+    assert (found.poses, found.wrong, found.nan) == (4, 0, 0)
 
 
 def test_errors_are_in_longest_links_and_a_method_without_rates_has_none(posed: Answer) -> None:
@@ -53,7 +52,7 @@ def test_each_pose_is_counted_once(posed: Answer) -> None:
         return (places,)
 
     found = score(mixed, posed)
-    assert (found.poses, found.wrong, found.missing) == (4, 1, 1)
+    assert (found.poses, found.wrong, found.nan) == (4, 1, 1)
     assert found.error == pytest.approx(1e-8)
 
 
@@ -86,5 +85,5 @@ def test_no_right_pose_has_no_error(posed: Answer) -> None:
 
 def test_scores_add_up_and_the_worst_errors_stay() -> None:
     none = (math.nan, math.nan, math.nan)
-    scores = (Score(4, (1e-9, 1e-3, math.nan), 1, 0), Score(3, none, 3, 0), Score(2, (1e-7, 1e-4, 1.0), 0, 2))
-    assert together(scores) == Score(9, (1e-7, 1e-3, 1.0), 4, 2)
+    scores = (Score(4, 1e-9, 1e-3, math.nan, 1, 0), Score(3, *none, 3, 0), Score(2, 1e-7, 1e-4, 1.0, 0, 2))
+    assert together(scores) == Score(9, 1e-7, 1e-3, 1.0, 4, 2)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from animation import animation_seconds
 from cost import FPS, FRAMES, SIZE, Cost, cost
 
-from linkanim.bench.machine import Machine, this_machine
+from linkanim.bench.result import Machine, this_machine
 from linkanim.export import columns
 from linkanim.recorder.plan import Format
 

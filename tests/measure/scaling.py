@@ -15,7 +15,7 @@ from linkanim.atomic_files import checked_target, replacing
 from linkanim.bench.cases import FOUR_BAR
 from linkanim.bench.chain import TURN
 from linkanim.bench.entries import ONE_BY_ONE, Timed
-from linkanim.bench.machine import Machine, this_machine
+from linkanim.bench.result import Machine, this_machine
 from linkanim.bench.timing import nanoseconds
 from linkanim.export import columns
 from linkanim.mechanics.linkage.drive import Drive

@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 
 from fidelity import frame_decibels, jitter
 
-from linkanim.bench.machine import Machine, this_machine
+from linkanim.bench.result import Machine, this_machine
 from linkanim.errors import WorkFailed
 from linkanim.export import columns
 from linkanim.picture.look import Look

@@ -7,7 +7,7 @@ import subprocess
 import sys
 from tempfile import TemporaryDirectory
 
-from linkanim.bench.machine import this_machine
+from linkanim.bench.result import this_machine
 
 
 def main() -> int:

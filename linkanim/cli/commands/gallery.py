@@ -8,8 +8,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from linkanim.bench.command import CHART
-from linkanim.bench.extra import require_extra
+from linkanim.bench.command import CHART, require_extra
 from linkanim.cli.commands.record import advance, bar
 from linkanim.errors import BadInput
 from linkanim.manifest import single
