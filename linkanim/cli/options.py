@@ -44,7 +44,6 @@ def record(parser: Parser) -> None:
     _look(parser, "record")
     parser.add_argument(
         "--noted",
-        dest="near_limits",
         action="store_true",
         help="have the text say where a limit or a change point is near",
     )
