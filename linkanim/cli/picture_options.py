@@ -7,7 +7,7 @@ from pathlib import Path
 
 from linkanim.atomic_files import checked_target
 from linkanim.errors import BadInput
-from linkanim.mechanics.motion.derived import coupler_body
+from linkanim.mechanics.motion.measures import coupler_body
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load

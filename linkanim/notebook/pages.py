@@ -11,7 +11,7 @@ import numpy as np
 from linkanim.digits import significant, typeset
 from linkanim.mechanics.facts.naming import link_names, turning_links
 from linkanim.mechanics.facts.register import Quantity, register
-from linkanim.mechanics.motion.derived import output_body
+from linkanim.mechanics.motion.measures import output_body
 from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.paper.figure import Figured

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.facts.register import register
-from linkanim.mechanics.facts.telling import telling
+from linkanim.mechanics.facts.register import key_quantities, register
 from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
-from linkanim.mechanics.motion.derived import dyads_of
+from linkanim.mechanics.motion.measures import dyads_of
 from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
@@ -185,7 +184,7 @@ def _resting() -> object:
 @pytest.mark.parametrize("name", names())
 def test_six_to_ten_quantities_are_told_first_and_none_stands_still(name: str) -> None:
     scene = load(name)
-    first = telling(scene.cycle(96), scene.trace)
+    first = key_quantities(scene.cycle(96), scene.trace)
     assert 6 <= len(first) <= 10
     assert len(set(first)) == len(first)
     for token in first:
@@ -194,7 +193,7 @@ def test_six_to_ten_quantities_are_told_first_and_none_stands_still(name: str) -
 
 
 def test_the_press_tells_ram_forces_and_links_first() -> None:
-    first = telling(load("press").cycle(96), ("B", "H"))
+    first = key_quantities(load("press").cycle(96), ("B", "H"))
     assert first[:4] == ("5.travel_velocity", "5.travel_acceleration", "return.force", "cushion.force")
     assert first[4:6] == ("3.angular_velocity", "6.angular_velocity")
 
@@ -202,7 +201,7 @@ def test_the_press_tells_ram_forces_and_links_first() -> None:
 def test_a_bare_linkage_tells_what_it_has() -> None:
     linkage = replace(load("crank-rocker").linkage, bodies=())
     cycle = mechanism(linkage).solve(phase=np.linspace(0, 6, 50), speed=1.0)
-    assert len(telling(cycle)) >= 6
+    assert len(key_quantities(cycle)) >= 6
 
 
 def test_a_yoke_has_no_transmission_angle_and_an_advantage() -> None:

@@ -15,7 +15,7 @@ from linkanim.mechanics.linkage.joint import Line
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.derived import transmission_angle
+from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.mechanics.motion.mechanism import mechanism
 
 DRIVE = Drive("A", 1.0)

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from linkanim.mechanics.linkage.linkage import Body
-from linkanim.mechanics.motion.derived import centrodes, coupler_body, pole
+from linkanim.mechanics.motion.measures import centrodes, coupler_body, pole
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene

@@ -16,7 +16,7 @@ from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Joint, Line
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
-from linkanim.mechanics.motion.derived import transmission_angle
+from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.mechanics.motion.motion import Motion
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from linkanim.cli import main
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.facts.naming import GRASHOF, TRIPLE_ROCKERS
-from linkanim.mechanics.motion.derived import transmission_angle
+from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.figure import figure
 from linkanim.player.state.editing import loss_of_turning

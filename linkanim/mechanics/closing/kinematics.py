@@ -47,5 +47,5 @@ def walked(assembly: Assembly, state: InputState) -> Kinematics:
 
 
 def walk_at(assembly: Assembly, phase: Value, pace: Slope) -> Kinematics:
-    """Return the motion of everything at a phase that runs at `pace`: floats, or noted expressions."""
+    """Return the motion of everything at a phase that runs at `pace`: floats, or symbolic expressions."""
     return walked(assembly, assembly.path.state(phase, pace))

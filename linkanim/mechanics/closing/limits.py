@@ -19,11 +19,11 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assemble import resigned
 from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import ChainRoot, End
+from linkanim.mechanics.closing.change_points import through_change_points
 from linkanim.mechanics.closing.fitting import fitted, refined
 from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import ends_of
 from linkanim.mechanics.closing.separation import Separations, separations
-from linkanim.mechanics.closing.touching import through_change_points
 from linkanim.mechanics.drive.input_path import Limit
 from linkanim.mechanics.drive.ranges import ONE_PLACE
 from linkanim.mechanics.drive.swing import Swing

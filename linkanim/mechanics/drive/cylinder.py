@@ -134,7 +134,7 @@ class CylinderStroke(Stroke):
         return half_squares((Sum(low), Sum(high)), reference, ratio)
 
     def state(self, phase: Value, pace: Slope) -> InputState:
-        """Return the input's state at a phase, in plain floats or noted expressions."""
+        """Return the input's state at a phase, in plain floats or symbolic expressions."""
         g, r = self.sides
         running = self.running(phase, pace)
         length, rate, second = running.value, running.rate, running.second

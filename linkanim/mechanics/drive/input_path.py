@@ -116,7 +116,7 @@ class InputPath(ABC):
 
     @abstractmethod
     def state(self, phase: Value, pace: Slope) -> InputState:
-        """Return the input's state at a phase, in plain floats or noted expressions."""
+        """Return the input's state at a phase, in plain floats or symbolic expressions."""
 
     @abstractmethod
     def state_per_input(self, phase: Value) -> InputState:

@@ -70,7 +70,7 @@ class SliderStroke(Stroke):
         return 0.0, 1.0
 
     def state(self, phase: Value, pace: Slope) -> InputState:
-        """Return the input's state at a phase, in plain floats or noted expressions."""
+        """Return the input's state at a phase, in plain floats or symbolic expressions."""
         travel = self.running(phase, pace)
         return TravelState(phase, Sum(0.0), pace.value, pace.rate, pace, travel=travel)
 

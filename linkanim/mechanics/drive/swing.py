@@ -122,7 +122,7 @@ class Swing(ThereAndBack):
         return half_squares((self.low, self.high), reference, ratio)
 
     def state(self, phase: Value, pace: Slope) -> InputState:
-        """Return the input's state at a phase, in plain floats or noted expressions."""
+        """Return the input's state at a phase, in plain floats or symbolic expressions."""
         return swing_by_phase(phase, pace, self.middle, self.amplitude)
 
     def state_per_input(self, phase: Value) -> InputState:

@@ -80,7 +80,7 @@ class Turn(InputPath):
         return 0.0, 1.0
 
     def state(self, phase: Value, pace: Slope) -> InputState:
-        """Return the input's state at a phase, in plain floats or noted expressions."""
+        """Return the input's state at a phase, in plain floats or symbolic expressions."""
         return turn(phase, pace, exact_angle(self.start))
 
     def state_per_input(self, phase: Value) -> InputState:

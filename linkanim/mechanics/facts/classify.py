@@ -1,4 +1,4 @@
-"""What kind of linkage it is, how far its input goes, and what a lecturer tells of it."""
+"""What kind of linkage it is, how far its input goes, and what a lecturer says of it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from linkanim.mechanics.facts.naming import (
 )
 from linkanim.mechanics.facts.symbols import driven_body, input_symbol
 from linkanim.mechanics.facts.transmission import Transmission, transmission
-from linkanim.mechanics.motion.derived import output_slider
+from linkanim.mechanics.motion.measures import output_slider
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.mechanics.motion.motion import Array, Motion
 
@@ -32,11 +32,11 @@ SAME_ANGLE = 1e-9
 
 @dataclass(frozen=True)
 class Info:
-    """What is told of a linkage; angles in radians, lengths in the scene's unit.
+    """What is known of a linkage; angles in radians, lengths in the scene's unit.
 
     Where a slider drives, its travel stands for the input's angle.
 
-    Each fact is worked out when it is first asked for: those of a length that is being changed sixty times
+    Each fact is worked out when it is first read: those of a length that is being changed sixty times
     a second are few.
     """
 
@@ -203,7 +203,7 @@ class Info:
 
 
 def classify(mechanism: Mechanism, length_unit: str) -> Info:
-    """Return what is told of a linkage."""
+    """Return what is known of a linkage."""
     return Info(mechanism, length_unit)
 
 
@@ -279,10 +279,10 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     yield "true period", f"{turns}, {short(info.period_seconds)} s"
 
 
-def _demand_lines(info: Info, asked: Demand) -> Iterator[tuple[str, str]]:
+def _demand_lines(info: Info, found: Demand) -> Iterator[tuple[str, str]]:
     name, unit = info.effort
-    yield "work per period", f"{significant(asked.work, 6)} J"
-    for label, value in ((f"peak {name}", asked.peak), (f"mean {name}", asked.mean)):
+    yield "work per period", f"{significant(found.work, 6)} J"
+    for label, value in ((f"peak {name}", found.peak), (f"mean {name}", found.mean)):
         yield label, "unbounded" if value is None else f"{significant(value, 6)} {unit}"
 
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from linkanim.mechanics.closing.search import highest
 from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
-from linkanim.mechanics.motion.derived import as_complex, between, growth, over, size
+from linkanim.mechanics.motion.measures import as_complex, between, growth, over, size
 
 Array = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.loops.roots import Kind
-from linkanim.mechanics.motion.derived import pivots_of
+from linkanim.mechanics.motion.measures import pivots_of
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.mechanics.motion.motion import Motion
 

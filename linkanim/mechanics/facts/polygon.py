@@ -21,7 +21,7 @@ from linkanim.mechanics.formulas.exact import unit
 from linkanim.mechanics.linkage.joint import Slide
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.derived import as_complex, over
+from linkanim.mechanics.motion.measures import as_complex, over
 
 Order = Literal[1, 2]
 """1 for velocities, 2 for accelerations."""
@@ -67,7 +67,7 @@ def image(motion: Any, joint: str, order: Order) -> Any:
 def chains(motion: Any, linkage: Linkage, order: Order) -> tuple[Chain, ...]:
     """Return a polygon's chains: the absolute vectors, then those of bars and of what slides.
 
-    The point of a guide that lies under what slides on it is told by a dash, B′. Where everything rests no
+    The point of a guide that lies under what slides on it is marked by a dash, B′. Where everything rests no
     side has a length; where rates are unbounded the ends are not finite.
     """
     return tuple(_Images(motion, linkage, order).chains())
@@ -75,7 +75,7 @@ def chains(motion: Any, linkage: Linkage, order: Order) -> tuple[Chain, ...]:
 
 @dataclass(frozen=True)
 class _Images:
-    """A motion, and which polygon of it is wanted."""
+    """A motion, and which polygon of it."""
 
     motion: Any
     linkage: Linkage
@@ -83,9 +83,9 @@ class _Images:
 
     def chains(self) -> Iterator[Chain]:
         relative = tuple(self._relative())
-        told = {chain.end for chain in relative if [side.sort for side in chain.sides] == ["absolute"]}
+        absolute = {chain.end for chain in relative if [side.sort for side in chain.sides] == ["absolute"]}
         for name in dict.fromkeys(name for chain in relative for name in (chain.start, chain.end)):
-            if name is not None and name not in told and not self.linkage.joint(name).fixed:
+            if name is not None and name not in absolute and not self.linkage.joint(name).fixed:
                 yield Chain(None, name, self._laid(0j, name, [("absolute", self._image(name))]))
         yield from relative
 

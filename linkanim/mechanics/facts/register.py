@@ -20,18 +20,8 @@ from linkanim.mechanics.facts.effort import effort_token, input_effort
 from linkanim.mechanics.facts.symbols import called, indexed, link_labels
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.linkage.pins import Pin
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.motion.columns import components
-from linkanim.mechanics.motion.derived import (
-    between,
-    dyads_of,
-    input_rate,
-    mechanical_advantage,
-    output_body,
-    pole,
-    size,
-    transmission_angle,
-    worst_transmission,
-)
 from linkanim.mechanics.motion.measures import (
     CENTRE,
     CENTRE_PATH,
@@ -40,9 +30,21 @@ from linkanim.mechanics.motion.measures import (
     PATH,
     POINT,
     SPRING,
+    TURNING,
     Measure,
+    between,
+    crank_body,
+    dyads_of,
+    input_rate,
     measures_of,
+    mechanical_advantage,
+    output_body,
+    pole,
+    size,
+    transmission_angle,
+    worst_transmission,
 )
+from linkanim.mechanics.motion.motion import Motion
 
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 """Every body by its own name."""
@@ -158,31 +160,31 @@ def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> I
 
 def _of_pole(body: Body, label: str, words: str) -> Iterator[Quantity]:
     """Yield where a body's instant centre to the ground lies, and each coordinate."""
-    token, said, index = f"{body.name}.pole", f"{words}: instant centre to the ground", f"P1{label}"
+    token, centre, index = f"{body.name}.pole", f"{words}: instant centre to the ground", f"P1{label}"
 
     def whole(motion: Any) -> Any:
         found = pole(motion, body)
         return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
 
-    yield Quantity(token, indexed("r", index), said, "{}", 0, whole, ("x", "y"))
+    yield Quantity(token, indexed("r", index), centre, "{}", 0, whole, ("x", "y"))
     for place, axis in enumerate("xy"):
         symbol = indexed(axis, index)
         path = ("bodies", body.name, "pole", place)
-        words, read = f"{said}, {axis}", _component(whole, place)
+        words, read = f"{centre}, {axis}", _component(whole, place)
         yield Quantity(f"{token}.{axis}", symbol, words, "{}", 0, read, path=path)
 
 
 def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
-    """Yield what is told of the linkage as a whole: its input, transmission and advantage."""
+    """Yield what is known of the linkage as a whole: its input, transmission and advantage."""
     yield from map(_keyed, _of_input(linkage))
     dyads = dyads_of(linkage)
     if dyads:
         read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
         yield _keyed(Quantity("transmission_angle", "μ", "Transmission angle", "rad", 0, read))
     for dyad in dyads if len(dyads) > 1 else ():
-        read, said = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
+        read, words = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
         token, path = f"{dyad}.transmission_angle", ("joints", dyad, "transmission_angle")
-        yield Quantity(token, indexed("μ", dyad), said, "rad", 0, read, path=path)
+        yield Quantity(token, indexed("μ", dyad), words, "rad", 0, read, path=path)
     output = output_body(linkage)
     if output is not None and (output.slider or linkage.drive.coordinate.is_angle):
         read = mechanical_advantage(linkage)
@@ -231,19 +233,19 @@ def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Q
 
 def _bound(measure: Measure, part: str, symbol: str, words: str, path: Path) -> Quantity:
     """Return the quantity that a measure is of one part."""
-    token, said = f"{part}.{measure.name}", f"{words}: {measure.words}"
-    known = (token, symbol, said, measure.unit, measure.order)
+    token, words = f"{part}.{measure.name}", f"{words}: {measure.words}"
+    known = (token, symbol, words, measure.unit, measure.order)
     return Quantity(*known, lambda motion: measure.read(motion, part), path=path)
 
 
 def _of_point(measure: Measure, part: str, label: str, words: str, path: Path) -> Iterator[Quantity]:
     """Yield a vector, a position as its two components and else its magnitude, and each component."""
-    token, said = f"{part}.{measure.name}", f"{words}: {measure.words}"
+    token, words = f"{part}.{measure.name}", f"{words}: {measure.words}"
 
     def vector(motion: Any) -> Any:
         return measure.read(motion, part)
 
-    whole = (indexed(measure.symbol, label), said, measure.unit, measure.order)
+    whole = (indexed(measure.symbol, label), words, measure.unit, measure.order)
     if measure.order:
         yield Quantity(token, *whole, lambda motion: _size(vector(motion)))
     else:
@@ -253,7 +255,7 @@ def _of_point(measure: Measure, part: str, label: str, words: str, path: Path) -
         yield Quantity(
             f"{token}.{axis}",
             symbol,
-            f"{said}, {axis}",
+            f"{words}, {axis}",
             measure.unit,
             measure.order,
             _component(vector, index),
@@ -281,3 +283,70 @@ def _of_strut(strut: Spring | Damper, word: str, *, shared: bool, every: bool) -
             symbol = indexed(measure.symbol, f"{word} {strut.name}" if shared else strut.name)
             path = (f"{kind}s", strut.name, measure.key)
             yield _bound(measure, strut.name, symbol, f"{word.capitalize()} {strut.name}", path)
+
+
+_LEAST, _MOST = 6, 10
+_LEVEL = 1e-6
+"""Of a quantity's greatest size; what changes less stands still."""
+
+
+def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the tokens of six to ten quantities that say most of a linkage, the most important first.
+
+    What it is there to move, the forces, how its links turn, the torque at its input, the first of the
+    `traced` joints whose speed changes, how well it transmits; nothing that stands still over the cycle.
+    """
+    linkage = cycle.setting.linkage
+    changing = {token for token, one in register(linkage).items() if _changes(one, cycle)}
+    point = tuple(name for name in traced if f"{name}.velocity" in changing)[:1]
+    candidates = [token for token in _candidates(linkage, point) if token in changing]
+    rest = [token for token in register(linkage) if token in changing and token not in candidates]
+    rest.sort(key=lambda token: token.partition(".")[0] not in traced)
+    return tuple(dict.fromkeys((*candidates[:_MOST], *rest[: max(_LEAST - len(candidates), 0)])))
+
+
+def _changes(one: Quantity, cycle: Motion) -> bool:
+    """Whether a quantity has more than one value, rounding errors aside."""
+    values = np.asarray(one.read(cycle))
+    found = values[np.isfinite(values)]
+    return bool(found.size and np.ptp(found) > max(_LEVEL * np.abs(found).max(), 10 * one.rounding(cycle)))
+
+
+def _candidates(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
+    output = output_body(linkage)
+    bodies = sorted(linkage.bodies, key=lambda body: body is not output)
+    sliders = [body.name for body in bodies if body.slider is not None]
+    for name in sliders:
+        yield from (f"{name}.travel_velocity", f"{name}.travel_acceleration")
+    struts: tuple[Spring | Damper, ...] = (*linkage.springs, *linkage.dampers)
+    for strut in struts:
+        yield f"{strut.name}.{'force' if strut.forceful else 'length'}"
+    if output and not sliders:
+        yield from (f"{output.name}.{measure.name}" for measure in TURNING)
+    for body in _in_chain(linkage):
+        if not crank_body(linkage, body) and not (output and not sliders and _rigid(linkage, body, output)):
+            yield f"{body.name}.angular_velocity"
+    yield effort_token(linkage)
+    for name in traced:
+        yield from (f"{name}.velocity", f"{name}.acceleration")
+    yield from (f"{name}.travel" for name in sliders)
+    yield from ("transmission_angle", "mechanical_advantage")
+
+
+def _in_chain(linkage: Linkage) -> tuple[Body, ...]:
+    """Return the bodies that turn, in the order in which the joints that move them are solved.
+
+    Of those that cannot move against each other it is the first.
+    """
+    moving = [joint.name for joint in linkage.joints if not isinstance(joint, Pin)]
+    bodies = {body.name: body for name in moving for body in linkage.bodies if name in body.joints}
+    found: list[Body] = []
+    for body in bodies.values():
+        if not any(_rigid(linkage, body, other) for other in found):
+            found.append(body)
+    return tuple(found)
+
+
+def _rigid(linkage: Linkage, body: Body, other: Body) -> bool:
+    """Tell whether two bodies that turn cannot move against each other."""
+    return holding(linkage.frames, body.joints) == holding(linkage.frames, other.joints)

@@ -22,7 +22,7 @@ from linkanim.mechanics.closing.search import around, changes_by_row, highest, o
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import Batch, batch
-from linkanim.mechanics.motion.derived import transmission_angle
+from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.mechanics.motion.mechanism import Mechanism
 
 SAMPLES_A_TURN = 1440

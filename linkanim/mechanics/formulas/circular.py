@@ -2,7 +2,7 @@
 
 A C library's functions differ between machines, and numpy's vector versions from both. IEEE 754
 rounds these five operations in one way only, so a float, a batch of any size and every machine get
-the same bits. Each formula is written once, on floats or noted expressions.
+the same bits. Each formula is written once, on floats or symbolic expressions.
 
 An angle is first brought near zero by whole periods, held in parts of which n times each but the last
 is exact up to n = 2³² (W. J. Cody and W. Waite, "Software Manual for the Elementary Functions").

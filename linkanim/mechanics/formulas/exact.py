@@ -60,7 +60,7 @@ def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
     """Return a + b rounded, and what rounding lost, whichever is the larger.
 
     Knuth, The Art of Computer Programming, volume 2, on the accuracy of floating-point arithmetic. Works
-    on floats and on noted expressions alike.
+    on floats and on symbolic expressions alike.
     """
     total = a + b
     back = total - a

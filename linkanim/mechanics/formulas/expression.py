@@ -1,7 +1,7 @@
 """Arithmetic that is written once and run on floats, on arrays and in blocks.
 
 The formulas of a linkage are ordinary Python on `Value`s. Fed with floats they compute; fed with
-`Expr`s they note what they would compute, each distinct operation once and constants folded, for
+`Expr`s they record what they would compute, each distinct operation once and constants folded, for
 `program` to compile. So a single pose and a million of them come from the same formula.
 """
 
@@ -16,7 +16,7 @@ COMMUTES = frozenset({"add", "mul", "minimum", "maximum"})
 
 
 class Graph:
-    """The operations noted so far; equal ones are one node."""
+    """The operations recorded so far; equal ones are one node."""
 
     def __init__(self, *, exact: bool = False) -> None:
         self.exact = exact
@@ -30,7 +30,7 @@ class Graph:
         return found
 
     def node(self, op: str, *args: Expr | float | str) -> Expr:
-        """Return the node for this operation, the one noted before where there is one."""
+        """Return the node for this operation, the one recorded before where there is one."""
         if op in COMMUTES:
             args = tuple(sorted(args, key=_order))
         key = (op, *args)
@@ -42,7 +42,7 @@ class Graph:
 
 
 class Expr:
-    """One noted operation; its arguments are nodes of the same graph or constants.
+    """One recorded operation; its arguments are nodes of the same graph or constants.
 
     A `uniform` one has the same value along an array, so it is worked out once; products draw
     uniform factors together.
@@ -98,12 +98,12 @@ Value = Expr | float
 
 
 def _order(argument: Expr | float | str) -> tuple[int, int]:
-    """Put constants first and nodes in the order in which they were noted."""
+    """Put constants first and nodes in the order in which they were recorded."""
     return (1, argument.index) if isinstance(argument, Expr) else (0, 0)
 
 
 def _negated(value: Value) -> Expr | None:
-    """Return x where the value is noted as -x."""
+    """Return x where the value is recorded as -x."""
     if isinstance(value, Expr) and value.op == "neg" and isinstance(value.args[0], Expr):
         return value.args[0]
     return None
@@ -212,7 +212,7 @@ rint = _unary("rint", nearest_whole)
 
 
 def arctan2(y: Value, x: Value) -> Value:
-    """Return the angle of (x, y) by the C library: for an angle that is told, not for one that is used."""
+    """Return the angle of (x, y) by the C library: for an angle that is shown, not for one that is used."""
     if isinstance(y, Expr):
         return y.graph.node("arctan2", y, x)
     return x.graph.node("arctan2", y, x) if isinstance(x, Expr) else math.atan2(y, x)

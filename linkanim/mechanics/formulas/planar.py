@@ -1,4 +1,4 @@
-"""Plane vectors and moving quantities made of `Value`s: floats, or noted expressions.
+"""Plane vectors and moving quantities made of `Value`s: floats, or symbolic expressions.
 
 A moving quantity is its value with the first and second derivative in time.
 """

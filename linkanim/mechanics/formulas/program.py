@@ -1,4 +1,4 @@
-"""Compile noted expressions into a function of floats and into passes over blocks of arrays.
+"""Compile symbolic expressions into a function of floats and into passes over blocks of arrays.
 
 `scalar` writes straight-line Python on floats, which is how one frame is solved. `Batch` writes the
 same operations as numpy calls into reused buffers, a block of the array at a time, so that the
@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.formulas.buffers import allocated
 from linkanim.mechanics.formulas.expression import WHOLE, Expr, Value
-from linkanim.mechanics.formulas.places import places
 from linkanim.mechanics.formulas.precise import cosine, sine, square_root
 
 Array = NDArray[np.floating[Any]]
@@ -55,7 +55,7 @@ UFUNCS: Mapping[str, Callable[..., Any]] = {
 def needed(outputs: Sequence[Value]) -> list[Expr]:
     """Return the nodes that the outputs depend on, arguments before their users.
 
-    They stand as they were noted, joint by joint: few values wait long for their use, so that what is in
+    They stand as they were recorded, joint by joint: few values wait long for their use, so that what is in
     use stays in the cache.
     """
     found: dict[int, Expr] = {}
@@ -222,24 +222,24 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
     block = _Block([node for node in nodes if not node.uniform], outputs)
     arrays = tuple(name for name, array in inputs.items() if array)
     uniform = [name for name, array in inputs.items() if not array]
-    asked = {_name(node) for node in nodes} & set(uniform)
-    told = [*sorted(asked), *map(_name, fixed)]
+    used = {_name(node) for node in nodes} & set(uniform)
+    numbers = [*sorted(used), *map(_name, fixed)]
     return Batch(
         arrays,
         tuple(outputs),
-        block.function(arrays, told),
-        _prelude(uniform, fixed, told),
+        block.function(arrays, numbers),
+        _prelude(uniform, fixed, numbers),
         tuple(np.array(float.fromhex(digits)) for digits in block.constants),
         block.places.buffers,
     )
 
 
 def _prelude(
-    names: Sequence[str], fixed: Sequence[Expr], told: Sequence[str]
+    names: Sequence[str], fixed: Sequence[Expr], numbers: Sequence[str]
 ) -> Callable[..., tuple[float, ...]]:
     """Return the function that computes from the uniform inputs what is the same along the array."""
     lines = [f"    {_name(node)} = {_formula(node)}" for node in fixed]
-    result = "".join(f"{name}, " for name in told)
+    result = "".join(f"{name}, " for name in numbers)
     source = "\n".join([f"def prelude({', '.join(names)}):", *lines, f"    return ({result})"])
     return _define(source, "prelude", FLOAT_NAMES)
 
@@ -250,7 +250,7 @@ class _Block:
     def __init__(self, nodes: Sequence[Expr], outputs: Sequence[Value]) -> None:
         self.nodes = [node for node in nodes if node.op != "input"]
         self.rows = [f"o{row}" for row in range(len(outputs))]
-        self.places = places(self.nodes, outputs)
+        self.places = allocated(self.nodes, outputs)
         self.constants: dict[str, str] = {}
 
     def function(self, arrays: Sequence[str], uniform: Sequence[str]) -> Callable[..., Any]:

@@ -29,8 +29,8 @@ def frames_of(joints: Iterable[Joint]) -> tuple[Frame, ...]:
 
 def holding(frames: Iterable[Frame], names: Iterable[str]) -> int | None:
     """Return which frame has all these joints; None where they are on different bodies."""
-    wanted = set(names)
-    return next((n for n, frame in enumerate(frames) if wanted <= frame.keys()), None)
+    joints = set(names)
+    return next((n for n, frame in enumerate(frames) if joints <= frame.keys()), None)
 
 
 def coincide(frame: Frame, first: str, second: str) -> bool:

@@ -1,23 +1,238 @@
-"""Measures: what can be told of each joint, centre of mass, body and strut.
+"""Measures: what follows from solved quantities, and what is known of each joint, body and strut.
 
-Motion's attributes, the tables of `solve`, JSON and CSV read from here. Symbols are those of the textbooks
-on mechanisms: ω, α, v, a; h and f for first kinematic coefficients.
+Every function takes a Motion, and works on arrays, or a Pose, and works on floats. What has no value at
+an instant (how a path bends where its point rests) is NaN, what is not bounded is infinite. Motion's
+attributes, the tables of `solve`, JSON and CSV read the tables of measures. Symbols are those of the
+textbooks on mechanisms: ω, α, v, a; h and f for first kinematic coefficients.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from linkanim.mechanics.linkage.drive import ANGLE, TRAVEL, Coordinate
 from linkanim.mechanics.linkage.linkage import Body, Linkage
-from linkanim.mechanics.motion.derived import curvature_radius, normal, tangential
+from linkanim.mechanics.linkage.pins import Crank
+from linkanim.mechanics.linkage.rigid_bodies import holding
+from linkanim.mechanics.motion.columns import components
+
+_STRAIGHT = 1e-12
+"""Below this share a cross product of velocity and acceleration, or of the input's rate, is rounding."""
+
+
+def as_complex(vector: Any) -> Any:
+    """Return a pair of floats, or an array (..., 2), as x + yi."""
+    return complex(*vector) if isinstance(vector, tuple) else vector[..., 0] + 1j * vector[..., 1]
+
+
+def over(dividend: Any, divisor: Any) -> Any:
+    """Return a quotient, infinite or NaN where the divisor is 0."""
+    if type(dividend) is type(divisor) is float and divisor:
+        return dividend / divisor
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return np.true_divide(dividend, divisor)
+
+
+Way = tuple[Any, Any]
+"""The components of a vector from one joint to another, floats or arrays."""
+
+
+def between(vectors: Mapping[str, Any], ends: tuple[str, str]) -> Way:
+    """Return how far one joint's vector is from another's: x and y."""
+    (x0, y0), (x1, y1) = (components(vectors[joint]) for joint in ends)
+    return x1 - x0, y1 - y0
+
+
+def size(way: Way) -> Any:
+    """Return a way's length, by the root that IEEE 754 rounds in one way: the C library has its own hypot."""
+    square = way[0] * way[0] + way[1] * way[1]
+    return math.sqrt(square) if isinstance(square, float) else np.sqrt(square)
+
+
+def cross(way: Way, other: Way) -> Any:
+    """Return the signed area that two ways span."""
+    return way[0] * other[1] - way[1] * other[0]
+
+
+def growth(way: Way, moving: Way) -> Any:
+    """Return how fast the length of a way that moves grows; of one of length 0, how fast it is about to."""
+    length = size(way)
+    rate = over(way[0] * moving[0] + way[1] * moving[1], length)
+    return rate if np.all(length) else np.where(length == 0, size(moving), rate)[()]
+
+
+def direction(way: Way) -> Any:
+    """Return the angle of a way, -π … π; NaN where it has no length."""
+    dx, dy = way
+    if isinstance(dx, float):
+        return math.atan2(dy, dx) if dx or dy else math.nan
+    return np.where((dx == 0) & (dy == 0), np.nan, np.arctan2(dy, dx))[()]
+
+
+def tangential(velocity: Any, acceleration: Any) -> Any:
+    """Return the acceleration along the way a point moves: negative where it slows down."""
+    v, a = as_complex(velocity), as_complex(acceleration)
+    return over((v.conjugate() * a).real, abs(v))
+
+
+def normal(velocity: Any, acceleration: Any) -> Any:
+    """Return the acceleration towards the centre of curvature of a point's path, not negative; 0 at rest."""
+    speed = abs(as_complex(velocity))
+    return np.where(speed == 0, 0.0, over(_bend(velocity, acceleration), speed))[()]
+
+
+def curvature_radius(velocity: Any, acceleration: Any) -> Any:
+    """Return the radius of curvature of a point's path, ρ = |v|³/|v × a|; infinite where it is straight."""
+    return over(abs(as_complex(velocity)) ** 3, _bend(velocity, acceleration))
+
+
+def _bend(velocity: Any, acceleration: Any) -> Any:
+    """Return |v × a|, 0 where it is nothing but rounding errors."""
+    v, a = as_complex(velocity), as_complex(acceleration)
+    bend = abs((v.conjugate() * a).imag)
+    return np.where(bend <= _STRAIGHT * abs(v) * abs(a), 0.0, bend)[()]
+
+
+def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
+    """Return a body's instant centre to another, or to the ground: x and y.
+
+    There both move alike: P = A + i·(v_A - v)/(ω - ω′) with v and ω′ of the other's plane at A, a joint of
+    the body. Those of three bodies lie in one line (Aronhold and Kennedy). Infinite where they turn alike.
+    """
+    joint, rate = body.slider or body.joints[0], _rate(motion, body)
+    place, velocity = as_complex(motion.position[joint]), as_complex(motion.velocity[joint])
+    if other is not None:
+        there, theirs = other.slider or other.joints[0], _rate(motion, other)
+        arm = place - as_complex(motion.position[there])
+        rate, velocity = rate - theirs, velocity - as_complex(motion.velocity[there]) - 1j * theirs * arm
+    turns = abs(rate) > _STRAIGHT * abs(motion.coordinate_rate)
+    found = place.real - over(velocity.imag, rate), place.imag + over(velocity.real, rate)
+    return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
+
+
+def _rate(motion: Any, body: Body) -> Any:
+    """Return a body's angular velocity: of what slides that of its guide."""
+    if body.slider is None:
+        return motion.angular_velocity[body.name]
+    (guide, *_) = motion.setting.linkage.joint(body.slider).slides
+    if guide.axis is None:
+        return 0.0 * motion.coordinate_rate
+    start, end = (as_complex(motion.position[name]) for name in guide.axis)
+    first, second = (as_complex(motion.velocity[name]) for name in guide.axis)
+    return over(second - first, end - start).imag
+
+
+def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
+    """Return the path of a body's instant centre on the ground, and on the body: x + yi (n,), breaks NaN.
+
+    The body moves as if the second curve, fixed to it along its first -> second joint, rolled on the first.
+    There is a break wherever the centre goes through infinity: where the body stops turning.
+    """
+    x, y = pole(motion, body)
+    first, second = (as_complex(motion.position[name]) for name in body.joints[:2])
+    turning = np.sign(motion.angular_velocity[body.name])
+    known = np.isfinite(x) & np.isfinite(y)
+    fixed = np.where(known, x, math.nan) + 1j * np.where(known, y, math.nan)
+    rolling = (fixed - first) * (np.conj(second - first) / abs(second - first))
+    through = np.flatnonzero(turning[1:] * turning[:-1] <= 0) + 1
+    return np.insert(fixed, through, math.nan), np.insert(rolling, through, math.nan)
+
+
+def transmission_angle(motion: Any, dyad: str) -> Any:
+    """Return a dyad's transmission angle, 90° at the most, as its kind of joint defines it."""
+
+    def place(name: str) -> Any:
+        return as_complex(motion.position[name])
+
+    return motion.setting.linkage.joint(dyad).transmission_at(place)
+
+
+def worst_transmission(motion: Any, dyads: tuple[str, ...]) -> Any:
+    """Return the least transmission angle of several dyads."""
+    return np.min([transmission_angle(motion, dyad) for dyad in dyads], axis=0)[()]
+
+
+def dyads_of(linkage: Linkage) -> tuple[str, ...]:
+    """Return the joints of the dyads that have a transmission angle, in the order of solving."""
+    return tuple(joint.name for joint in linkage.joints if joint.transmission(1.0, 1.0) is not None)
+
+
+def crank_body(linkage: Linkage, body: Body) -> bool:
+    """Whether a body is the bar of a crank: of the input, or of one geared to it."""
+    ends = set(body.joints[:2])
+    return any(ends == {crank.pivot, crank.name} for crank in linkage.cranks)
+
+
+def output_body(linkage: Linkage) -> Body | None:
+    """Return the body that a linkage is there to move: its first slider not driven, else its last rocker."""
+    own = (None, linkage.drive.joint)
+    slider = next((body for body in linkage.bodies if body.slider not in own), None)
+    fixed = {pin.name for pin in linkage.pins}
+    rockers = [body for body in linkage.bodies if fixed & set(body.joints) and not crank_body(linkage, body)]
+    return slider or (rockers[-1] if rockers else None)
+
+
+def output_slider(linkage: Linkage) -> Body | None:
+    """Return the slider that a linkage is there to move: the first one not driven, or else the driven."""
+    output = output_body(linkage)
+    if output is not None and output.slider is not None:
+        return output
+    return next((body for body in linkage.bodies if body.slider is not None), None)
+
+
+def coupler_body(linkage: Linkage) -> Body | None:
+    """Return the body that turns about nothing fixed: the first one without a fixed pin, None without one."""
+    turning = (body for body in linkage.bodies if body.slider is None)
+    return next((body for body in turning if not pivots_of(linkage, body)), None)
+
+
+def pivots_of(linkage: Linkage, body: Body) -> tuple[str, ...]:
+    """Return the fixed pins of a body that turns, those of what is rigid with it among them."""
+    frame = holding(linkage.frames, body.joints)
+    return tuple(pin.name for pin in linkage.pins if frame and pin.name in linkage.frames[frame])
+
+
+def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:
+    """Return how to read the output's torque over the input's; of sliders the force, at the crank's pin.
+
+    Without losses both are ratios of speeds (Uicker, Pennock and Shigley, Theory of Machines and
+    Mechanisms); not negative, infinite where the output rests.
+    """
+    output, crank = output_body(linkage), linkage.joint(linkage.drive.joint)
+    assert output is not None
+    if output.slider is None:
+        return lambda motion: _faster(motion, 1.0, ("angular_velocity", "angular_acceleration"), output.name)
+    length = crank.length if isinstance(crank, Crank) else 1.0
+    return lambda motion: _faster(motion, length, ("travel_velocity", "travel_acceleration"), output.name)
+
+
+def _faster(motion: Any, length: float, rates: tuple[str, str], output: str) -> Any:
+    """Return how many times as fast the input moves, at `length` from its pivot, as the output.
+
+    Where both rest for an instant it is how they start to move.
+    """
+    first, other = length * motion.coordinate_rate, getattr(motion, rates[0])[output]
+    found = abs(over(first, other))
+    rests = np.asarray((first == 0) & (other == 0))
+    if not rests.any():
+        return found
+    starting = abs(over(length * motion.coordinate_second, getattr(motion, rates[1])[output]))
+    return np.where(rests, starting, found)[()]
+
+
+def input_rate(motion: Any) -> Any:
+    """Return the input's own velocity, one value an instant: of a swing it is not the phase's."""
+    return motion.coordinate_rate + 0.0 * motion.phase
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """What can be told of each part of one sort, such as the angular velocity of a body.
+    """What is known of each part of one sort, such as the angular velocity of a body.
 
     `name` ends the token, and is Motion's attribute where that holds it; `key` is the name in JSON and
     `heading` in a table of plain letters. In `unit`, `{}` stands for the unit of length. `order` counts

@@ -38,7 +38,7 @@ class Traced(NamedTuple):
 class Mechanism:
     """A linkage with its loops, path and signs, and the programs that solve it.
 
-    One that is `passing` is asked for a few instants only: they come from the program over arrays, which
+    One that is `passing` is solved at a few instants only: they come from the program over arrays, which
     its cycle needs anyway, since a program of their own would cost more than it saves.
     """
 
@@ -96,8 +96,8 @@ class Mechanism:
         """Return a request's motion, its rates by the input's angle, or travel, instead of those in time."""
         by_phase = request.programs.variant.by_phase
         variant = Variant(by_phase, False, per_input=by_phase and not self.assembly.path.full_turn)
-        asked = request._replace(programs=self.programs(variant), rates=(1.0, 0.0))
-        return Motion(self.setting, 1.0, 0.0, asked)
+        paced = request._replace(programs=self.programs(variant), rates=(1.0, 0.0))
+        return Motion(self.setting, 1.0, 0.0, paced)
 
     def _program_of_poses(self, key: tuple[int, bool, bool]) -> Callable[..., dict[str, Any]]:
         derivatives, accelerates, per_input = key
@@ -109,7 +109,7 @@ class Mechanism:
         return found
 
     def _trace(self, variant: Variant) -> Traced:
-        """Note the formulas of all quantities, lengths in the scene's unit."""
+        """Record the formulas of all quantities, lengths in the scene's unit."""
         found = self._traces.get(variant)
         if found is None:
             graph = Graph()

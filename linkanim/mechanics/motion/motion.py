@@ -20,8 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.loops.loop import Gearing
 from linkanim.mechanics.motion.columns import Scaled, read_only
-from linkanim.mechanics.motion.derived import between, cross, direction, growth, over, size
-from linkanim.mechanics.motion.measures import DERIVATIVE_OF
+from linkanim.mechanics.motion.measures import DERIVATIVE_OF, between, cross, direction, growth, over, size
 from linkanim.mechanics.motion.request import ORDER, Request
 
 Array = NDArray[np.float64]

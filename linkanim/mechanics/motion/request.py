@@ -17,8 +17,7 @@ from linkanim.mechanics.drive.input_path import InputPath, LimitDistances
 from linkanim.mechanics.formulas.program import Batch
 from linkanim.mechanics.formulas.winding import turned
 from linkanim.mechanics.motion.columns import Columns, Floats, ResultLayout, read_only
-from linkanim.mechanics.motion.derived import between, direction
-from linkanim.mechanics.motion.measures import DERIVATIVE_OF, FAMILIES
+from linkanim.mechanics.motion.measures import DERIVATIVE_OF, FAMILIES, between, direction
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.mechanics.linkage.linkage import Body
-from linkanim.mechanics.motion.derived import centrodes, coupler_body, pole
+from linkanim.mechanics.motion.measures import centrodes, coupler_body, pole
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo

@@ -12,7 +12,7 @@ import numpy as np
 
 from linkanim.digits import short, stepped, typeset
 from linkanim.mechanics.facts.symbols import input_symbol
-from linkanim.mechanics.motion.derived import output_slider
+from linkanim.mechanics.motion.measures import output_slider
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.layout import Gauge, Layout

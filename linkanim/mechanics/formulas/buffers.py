@@ -14,7 +14,7 @@ from linkanim.mechanics.formulas.expression import Expr, Value
 
 
 @dataclass(frozen=True)
-class Places:
+class Allocation:
     """The variable that holds each node's values, what is left to be copied into rows, how many buffers."""
 
     held: Mapping[int, str]
@@ -22,7 +22,7 @@ class Places:
     buffers: int
 
 
-def places(nodes: Sequence[Expr], outputs: Sequence[Value]) -> Places:
+def allocated(nodes: Sequence[Expr], outputs: Sequence[Value]) -> Allocation:
     """Return where the values of nodes live, which stand in the order in which they are worked out.
 
     Outputs live in their own rows, `o0` on; the others in rows that are not filled yet and in buffers, `b0`
@@ -40,7 +40,7 @@ def places(nodes: Sequence[Expr], outputs: Sequence[Value]) -> Places:
         free.places += [held[index] for index in ending.get(at, ())]
         if node.index in heirs:
             held[node.index] = free.take(at, last[node.index], heirs[node.index])
-    return Places(held, tuple(copies), free.buffers)
+    return Allocation(held, tuple(copies), free.buffers)
 
 
 def _rows(computed: set[int], outputs: Sequence[Value]) -> tuple[dict[int, str], list[tuple[int, Value]]]:
