@@ -33,7 +33,7 @@ def scene(joints: dict[str, Any], **tables: Any) -> Scene:
 
 def links(of: Scene) -> int:
     """Return how many rigid bodies there are, the ground among them, and the blocks of sliders."""
-    return len(of.linkage.frames) + sum(joint.travels for joint in of.linkage.joints)
+    return len(of.linkage.rigid_bodies) + sum(joint.travels for joint in of.linkage.joints)
 
 
 # scene, its links with the ground, and its class
@@ -104,8 +104,8 @@ def test_what_stands_on_a_triangle_is_on_its_body() -> None:
         "U": {"from": ["T", "B"], "length": [50, 40]},
     }
     found = scene(braces, bodies={"plate": {"joints": ["A", "U", "T", "B"]}})
-    assert holding(found.linkage.frames, ("A", "B", "T", "U")) is not None
-    assert len(found.linkage.frames) == 4
+    assert holding(found.linkage.rigid_bodies, ("A", "B", "T", "U")) is not None
+    assert len(found.linkage.rigid_bodies) == 4
 
 
 def test_a_triangles_lengths_are_edited_and_dragged_as_before() -> None:

@@ -84,7 +84,7 @@ def _scale(linkage: Linkage) -> float:
 def _paths(
     linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Arc] | None, unscale: float
 ) -> Iterator[InputPath]:
-    """Yield the paths the input may take, the one asked for first."""
+    """Yield the paths the input may take, the best one first."""
     stroke = STROKES.get(type(linkage.drive.actuator))
     if stroke is not None:
         yield stroke(linkage, unscale, arcs)
@@ -178,7 +178,7 @@ def _just_after_start(loop: Loop | None, path: InputPath) -> int:
 
 
 def _is_as_named(assembly: Assembly) -> bool:
-    """Tell whether dyads that are named by another joint's side lie as asked just after the start."""
+    """Tell whether dyads that are named by another joint's side lie as named just after the start."""
     named = [joint.named_from for joint in assembly.linkage.joints if joint.named_from]
     if not named:
         return True

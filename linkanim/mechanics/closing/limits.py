@@ -1,6 +1,6 @@
 """Limits that a dyad further down the chain puts on the input, found on the cycle.
 
-Both ends of such a dyad move, so there is no closed form: where it closes is told by its separation's
+Both ends of such a dyad move, so there is no closed form: where it closes follows from its separation's
 extremes (`separation`). The zero of its margin U·W next to the start is bracketed and bisected, and the input
 then swings between the limits like any other. Next to a limit U·W itself has only half a float's digits
 left; there its quotient by the way to the limit, which is smooth, is taken from a polynomial (`fitting`).
@@ -49,7 +49,7 @@ Array = NDArray[np.float64]
 def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
     """Return the assembly with its input's path cut back to what every dyad allows.
 
-    `linkage` is the one asked for, with its own lengths, to be named in an AssemblyError.
+    `linkage` is the one that was given, with its own lengths, to be named in an AssemblyError.
     """
     found = separations(assembly)
     if not found.names:

@@ -48,8 +48,8 @@ def highest(
 def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, share: float = FINEST) -> Array:
     """Return the last places at which a condition holds, each between one where it does and one where not.
 
-    `holds` is asked of places (N,), one in each of the N brackets, and answers for each. No bracket is
-    halved below that `share` of its places.
+    `holds` takes places (N,), one in each of the N brackets, and returns whether it holds at each. No
+    bracket is halved below that `share` of its places.
     """
     finest = share * np.maximum(np.abs(inside), np.abs(outside))
     while True:

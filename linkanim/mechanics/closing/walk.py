@@ -40,7 +40,7 @@ class Piece:
 class Walk:
     """What has been found so far; joints add themselves to it in their order.
 
-    `pieces` stand in the order of the linkage's frames.
+    `pieces` stand in the order of the linkage's rigid bodies.
     """
 
     assembly: Assembly
@@ -114,7 +114,7 @@ class Walk:
     def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
         """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""
         n = self._body_of(on, f"joint {name}" if name else "centre of mass")
-        piece, share = self.pieces[n], share_of(self.linkage.frames[n], on, at)
+        piece, share = self.pieces[n], share_of(self.linkage.rigid_bodies[n], on, at)
         arm = self._arm(piece, *on).times(Vec(share.real, share.imag))
         if name is not None:
             piece.arms[on[0], name] = arm
@@ -123,7 +123,7 @@ class Walk:
     def axis(self, on: tuple[str, str]) -> tuple[Vec, Slope]:
         """Return the direction from one joint of a body to another, of length 1, and how the body turns."""
         n = self._body_of(on, "line of travel")
-        start, end = (self.linkage.frames[n][name] for name in on)
+        start, end = (self.linkage.rigid_bodies[n][name] for name in on)
         return self._arm(self.pieces[n], *on).scaled(1.0 / abs(end - start)), self.pieces[n].turning
 
     def _arm(self, piece: Piece, start: str, end: str) -> Vec:
@@ -139,7 +139,7 @@ class Walk:
         return self.pieces[self._body_of(names, owner)].turning
 
     def _body_of(self, names: tuple[str, ...], owner: str) -> int:
-        n = holding(self.linkage.frames, names)
+        n = holding(self.linkage.rigid_bodies, names)
         if n is None:
             raise AssemblyError(f"{owner}: {' and '.join(names)} are not joints of one rigid body")
         return n

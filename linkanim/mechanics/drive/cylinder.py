@@ -200,7 +200,9 @@ def cylinder_stroke(linkage: Linkage, unscale: float, arcs: list[Arc] | None) ->
     fixed, joint = cylinder.between
     ground = ground_between(linkage, crank, fixed)
     assert ground is not None
-    frame = next(frame for frame in linkage.frames[1:] if {crank.pivot, crank.name, joint} <= frame.keys())
+    frame = next(
+        frame for frame in linkage.rigid_bodies[1:] if {crank.pivot, crank.name, joint} <= frame.keys()
+    )
     arm = (frame[joint] - frame[crank.pivot]) / (frame[crank.name] - frame[crank.pivot]) * crank.length
     sides = ground.length, abs(arm)
     _check(cylinder, sides)
@@ -222,15 +224,15 @@ def _with_room(path: CylinderStroke, arcs: list[Arc] | None) -> CylinderStroke:
     within = " or ".join(f"{degrees(float(arc.low))}…{degrees(float(arc.high))}" for arc in arcs)
     raise AssemblyError(
         f"joint {arcs[0].ends[0]}: the cylinder would turn the crank {degrees(low)}…{degrees(high)}, "
-        f"and the bars meet at {within} only; change from and to"
+        f"and the bars meet at {within} only; choose other ends"
     )
 
 
 def _check(cylinder: Cylinder, sides: tuple[float, float]) -> None:
     low, high = abs(sides[0] - sides[1]), sum(sides)
-    for key, length in (("from", cylinder.first), ("to", cylinder.last)):
+    for length in cylinder.lengths:
         if not low < length < high:
             raise AssemblyError(
-                f"cylinder {key} = {length:g}: between {' and '.join(cylinder.between)} it can be "
+                f"a cylinder of length {length:g} between {' and '.join(cylinder.between)}: it can be "
                 f"{low:g} to {high:g} long, ends not included"
             )

@@ -47,7 +47,7 @@ class InputPath(ABC):
 
     Its coordinate is an angle (rad), or of a slider its travel (the scene's unit); its phase is the clock's.
     After `periods` periods of the drive every joint is back, `rounds` times as many as without change
-    points down the chain. What is not told otherwise holds where no dyad limits it.
+    points down the chain. The methods here hold where no dyad limits it.
     """
 
     rounds: int = field(default=1, kw_only=True)

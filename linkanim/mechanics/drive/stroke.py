@@ -53,12 +53,12 @@ class Stroke(ThereAndBack):
         return Moving(length, rate, second)
 
     def cut(self, low: Limit, high: Limit) -> NoReturn:
-        """Refuse to run shorter than asked: AssemblyError with the lengths between which all closes."""
+        """Raise AssemblyError with the lengths between which everything closes: it may not be shorter."""
         dyad = next(name for _, name in (low, high) if name is not None)
         ends = [float(self.lengths(np.array(float(phase)))) * self.unscale for phase, _ in (low, high)]
         least, most = sorted(ends)
         first, last = self.first * self.unscale, self.last * self.unscale
         raise AssemblyError(
             f"joint {dyad}: it lets the {self.runs} run from {least:.6g} to {most:.6g} only, "
-            f"not from {first:g} to {last:g}; change from and to"
+            f"not from {first:g} to {last:g}; choose other ends"
         )

@@ -167,7 +167,7 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
 
 def _turns_about(linkage: Linkage, moving: str) -> tuple[str | None, float]:
     """Return the fixed pin that a joint turns about, and how far from it; None where there is none."""
-    for frame in (frame for frame in linkage.frames[1:] if moving in frame):
+    for frame in (frame for frame in linkage.rigid_bodies[1:] if moving in frame):
         pivot = next((pin.name for pin in linkage.pins if pin.name in frame), None)
         if pivot is not None and pivot != moving:
             return pivot, abs(frame[moving] - frame[pivot])
@@ -258,7 +258,7 @@ def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tupl
     pivoted = bool(pivots_of(linkage, body))
     if pivoted == (own[1] == "coupler"):
         return None, False
-    drives = linkage.drive.joint in linkage.frames[holding(linkage.frames, body.joints) or 0]
+    drives = linkage.drive.joint in linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
     turns = mechanism.assembly.path.full_turn if drives and pivoted else body.name in turning
     return ("crank" if turns else "rocker") if pivoted else "coupler", drives and pivoted
 

@@ -349,4 +349,4 @@ def _in_chain(linkage: Linkage) -> tuple[Body, ...]:
 
 def _rigid(linkage: Linkage, body: Body, other: Body) -> bool:
     """Tell whether two bodies that turn cannot move against each other."""
-    return holding(linkage.frames, body.joints) == holding(linkage.frames, other.joints)
+    return holding(linkage.rigid_bodies, body.joints) == holding(linkage.rigid_bodies, other.joints)

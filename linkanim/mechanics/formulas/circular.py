@@ -88,7 +88,7 @@ class Squares(NamedTuple):
 
 @dataclass(frozen=True)
 class Half:
-    """Half an angle, worked out as far as it is asked for.
+    """Half an angle, worked out as far as it is read.
 
     `sides` gives sine and cosine, signed over two turns, `squares` what is free of that sign, times a factor.
     """

@@ -1,4 +1,4 @@
-"""How far a direction turns from instant to instant, by directions alone: no rate of it is asked for.
+"""How far a direction turns from instant to instant, by directions alone, without their rates.
 
 Between two directions less than half a turn apart the way is known. So instants are put between neighbours
 until they are near, in the input and in direction; rates would do with fewer, but near a dead centre they

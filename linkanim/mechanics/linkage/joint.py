@@ -12,8 +12,8 @@ from typing import Any, ClassVar, Literal, NamedTuple, Self
 
 Point = tuple[float, float]
 
-Frame = dict[str, complex]
-"""Where the joints of one rigid body lie in the body's own frame, as x + yi."""
+RigidBody = dict[str, complex]
+"""Where the joints of one rigid body lie in its own frame, as x + yi."""
 
 
 class Need(NamedTuple):
@@ -138,9 +138,9 @@ class Joint(ABC):
     def scaled(self, factor: float) -> Self:
         """Return the joint with every length times a factor."""
 
-    def placed(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
-        """Return the bodies' frames with the joint in them: a frame of its own for each of its bars."""
-        return (*frames, *({start: 0j, self.name: complex(length)} for start, length in self.bars))
+    def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
+        """Return the rigid bodies with the joint in them: a body of its own for each of its bars."""
+        return (*bodies, *({start: 0j, self.name: complex(length)} for start, length in self.bars))
 
     def why_apart(self, u: float, w: float) -> str:
         """Say in words and numbers why it cannot be assembled at any angle of the input.

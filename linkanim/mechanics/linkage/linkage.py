@@ -11,9 +11,9 @@ from functools import cached_property
 from typing import Literal
 
 from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.joint import Frame, Joint, Point
+from linkanim.mechanics.linkage.joint import Joint, Point, RigidBody
 from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.linkage.rigid_bodies import frames_of
+from linkanim.mechanics.linkage.rigid_bodies import rigid_bodies
 
 Outline = Literal["bar", "plate", "wheel", "slot", "hook", "none"]
 """How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, a bar
@@ -131,9 +131,9 @@ class Linkage:
         return {joint.name: joint for joint in self.joints}
 
     @cached_property
-    def frames(self) -> tuple[Frame, ...]:
+    def rigid_bodies(self) -> tuple[RigidBody, ...]:
         """The rigid bodies, the ground first: where each one's joints lie in its own frame."""
-        return frames_of(self.joints)
+        return rigid_bodies(self.joints)
 
     @property
     def cranks(self) -> Iterator[Crank]:

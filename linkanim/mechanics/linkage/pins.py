@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import ClassVar
 
-from linkanim.mechanics.linkage.joint import Frame, Joint, Line, Need, Point, Slide
+from linkanim.mechanics.linkage.joint import Joint, Line, Need, Point, RigidBody, Slide
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +41,9 @@ class Pin(Joint):
         polar = self.polar and Polar(self.polar.length * factor, self.polar.angle, self.polar.base)
         return Pin(self.name, (self.position[0] * factor, self.position[1] * factor), polar)
 
-    def placed(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
-        """Return the frames with the pin on the ground."""
-        return ({**frames[0], self.name: complex(*self.position)}, *frames[1:])
+    def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
+        """Return the bodies with the pin on the ground."""
+        return ({**bodies[0], self.name: complex(*self.position)}, *bodies[1:])
 
 
 @dataclass(frozen=True, slots=True)

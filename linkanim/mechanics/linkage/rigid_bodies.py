@@ -12,34 +12,34 @@ from fractions import Fraction
 from functools import reduce
 
 from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.joint import Frame, Joint, Need, Point
+from linkanim.mechanics.linkage.joint import Joint, Need, Point, RigidBody
 
 _ONE_POINT = 1e-12
 
 
-def frames_of(joints: Iterable[Joint]) -> tuple[Frame, ...]:
+def rigid_bodies(joints: Iterable[Joint]) -> tuple[RigidBody, ...]:
     """Return the sets of joints that keep their distances, the ground first; joints in solved order.
 
     Each maps its joints to their places: x along its first bar, y to the left. Every bar starts a frame
     of its own, in the order of the joints and of each joint's `bars`.
     """
-    ground: tuple[Frame, ...] = ({},)
-    return reduce(lambda frames, joint: joint.placed(frames), joints, ground)
+    ground: tuple[RigidBody, ...] = ({},)
+    return reduce(lambda bodies, joint: joint.placed(bodies), joints, ground)
 
 
-def holding(frames: Iterable[Frame], names: Iterable[str]) -> int | None:
+def holding(bodies: Iterable[RigidBody], names: Iterable[str]) -> int | None:
     """Return which frame has all these joints; None where they are on different bodies."""
     joints = set(names)
-    return next((n for n, frame in enumerate(frames) if joints <= frame.keys()), None)
+    return next((n for n, frame in enumerate(bodies) if joints <= frame.keys()), None)
 
 
-def coincide(frame: Frame, first: str, second: str) -> bool:
+def coincide(frame: RigidBody, first: str, second: str) -> bool:
     """Tell whether two joints of a body are one point, so that no direction runs from one to the other."""
     size = max(abs(frame[first]), abs(frame[second]))
     return abs(frame[first] - frame[second]) <= _ONE_POINT * size
 
 
-def share_of(frame: Frame, on: tuple[str, str], at: tuple[float, float]) -> complex:
+def share_of(frame: RigidBody, on: tuple[str, str], at: tuple[float, float]) -> complex:
     """Return the point `at` along on[0] -> on[1] and to its left, in lengths of that line."""
     return complex(*at) / abs(frame[on[1]] - frame[on[0]])
 
@@ -75,14 +75,14 @@ class Rigid(Joint):
         """Return the point with its place times a factor."""
         return replace(self, at=(self.at[0] * factor, self.at[1] * factor))
 
-    def placed(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
-        """Return the frames with the point on its body; as they are where the two joints show none."""
-        n = holding(frames, self.on)
-        if n is None or coincide(frames[n], *self.on):
-            return frames
-        start, end = (frames[n][name] for name in self.on)
-        place = start + (end - start) * share_of(frames[n], self.on, self.at)
-        return (*frames[:n], {**frames[n], self.name: place}, *frames[n + 1 :])
+    def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
+        """Return the bodies with the point on its body; as they are where the two joints show none."""
+        n = holding(bodies, self.on)
+        if n is None or coincide(bodies[n], *self.on):
+            return bodies
+        start, end = (bodies[n][name] for name in self.on)
+        place = start + (end - start) * share_of(bodies[n], self.on, self.at)
+        return (*bodies[:n], {**bodies[n], self.name: place}, *bodies[n + 1 :])
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +117,7 @@ class Brace(Rigid):
         return replace(self, at=(self.at[0] * factor, self.at[1] * factor), reach=reach)
 
 
-def brace(dyad: RRR, frame: Frame) -> Brace:
+def brace(dyad: RRR, frame: RigidBody) -> Brace:
     """Return two bars that stand on one body as the corner of a rigid triangle.
 
     With c from the first end to the second, the corner lies (c² + a² - b²)/(2c) along it and

@@ -1,4 +1,4 @@
-"""The input of a linkage, noted: its angle, rates, and the ends of its swing.
+"""The state of the input at one instant: its angle, rates, and the ends of its swing.
 
 A turning input has θ = start + φ. A swinging one has θ = mid - amp·cos φ; with
 u = amp cos²(φ/2) and v = amp sin²(φ/2), half the ways left to its upper and lower limit, the roots

@@ -118,8 +118,7 @@ def gearings(linkage: Linkage) -> dict[str, Gearing]:
             continue
         if crank.gear is None or crank.gear.mate not in found:
             raise AssemblyError(
-                f"joint {crank.name}: this crank turns with nothing; "
-                f'give it a gear, gear = {{ with = "{linkage.drive.joint}", ratio = -1 }}'
+                f"joint {crank.name}: this crank turns with nothing; gear it to {linkage.drive.joint}"
             )
         mate = found[crank.gear.mate]
         offset = mate.offset * crank.gear.ratio + exact_angle(crank.gear.offset)

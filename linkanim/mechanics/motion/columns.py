@@ -58,7 +58,7 @@ def layout(
 
 
 class Columns(Mapping[str, Array]):
-    """One kind of quantity by name: read-only views of the results, made when asked for.
+    """One kind of quantity by name: read-only views of the results, made when they are read.
 
     A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
     """

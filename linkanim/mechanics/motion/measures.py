@@ -193,8 +193,8 @@ def coupler_body(linkage: Linkage) -> Body | None:
 
 def pivots_of(linkage: Linkage, body: Body) -> tuple[str, ...]:
     """Return the fixed pins of a body that turns, those of what is rigid with it among them."""
-    frame = holding(linkage.frames, body.joints)
-    return tuple(pin.name for pin in linkage.pins if frame and pin.name in linkage.frames[frame])
+    frame = holding(linkage.rigid_bodies, body.joints)
+    return tuple(pin.name for pin in linkage.pins if frame and pin.name in linkage.rigid_bodies[frame])
 
 
 def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:

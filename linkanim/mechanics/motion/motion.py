@@ -87,7 +87,7 @@ class Setting:
 
 
 class Lazy(Mapping[str, Any]):
-    """A mapping whose values are worked out when they are first asked for."""
+    """A mapping whose values are worked out when they are first read."""
 
     def __init__(self, names: tuple[str, ...], find: Callable[[str], Any]) -> None:
         self._names, self._find = names, find
@@ -257,7 +257,7 @@ class Motion(Derived):
     travel_acceleration: Mapping[str, Array]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Go through a pickle as what was asked for, which is worked out anew."""
+        """Go through a pickle as its request, which is worked out anew."""
         return Motion, (self.setting, self.input_speed, self.input_acceleration, self.request)
 
     def __getattr__(self, name: str) -> Any:

@@ -1,4 +1,4 @@
-"""What a motion was asked for, and how its quantities are worked out when they are first read.
+"""What a motion is to hold, and how its quantities are worked out when they are first read.
 
 Quantities stand in families: joints, centres of mass, bodies that turn, bodies that slide. One that is read
 brings those of its family with fewer derivatives along, from one pass over the instants.

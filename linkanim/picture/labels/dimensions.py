@@ -93,7 +93,7 @@ def numbered(figure: Figure) -> dict[Body, str]:
 
 def _frame(figure: Figure, body: Body) -> int | str | None:
     """Return which rigid body this one is; the block of a slider is its own."""
-    return body.slider or holding(figure.linkage.frames, body.joints)
+    return body.slider or holding(figure.linkage.rigid_bodies, body.joints)
 
 
 def written(symbol: str, value: float, unit: str) -> str:

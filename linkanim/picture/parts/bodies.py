@@ -57,9 +57,9 @@ def _is_crank(body: Body, figure: Figure, joint: str) -> bool:
 
 def _local(body: Body, figure: Figure, view: View) -> list[complex]:
     """Return the body's joints in pixels, the first at 0 and the second on the positive real axis."""
-    n = holding(figure.linkage.frames, body.joints)
+    n = holding(figure.linkage.rigid_bodies, body.joints)
     assert n is not None
-    places = [view.scale * figure.linkage.frames[n][name].conjugate() for name in body.joints]
+    places = [view.scale * figure.linkage.rigid_bodies[n][name].conjugate() for name in body.joints]
     turn = unit(places[1] - places[0])
     return [(place - places[0]) / turn for place in places]
 

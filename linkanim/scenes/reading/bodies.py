@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 
 from linkanim import units
-from linkanim.mechanics.linkage.joint import Frame, Joint
+from linkanim.mechanics.linkage.joint import Joint, RigidBody
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.linkage.rigid_bodies import coincide, holding
 from linkanim.scenes.reading.check import Table, no_joint
@@ -16,7 +16,7 @@ _HEX = re.compile(r"#[0-9a-f]{6}", re.I | re.A)
 
 
 def read_bodies(
-    top: Table, joints: tuple[Joint, ...], rigid: tuple[Frame, ...], usual: tuple[Body, ...]
+    top: Table, joints: tuple[Joint, ...], rigid: tuple[RigidBody, ...], usual: tuple[Body, ...]
 ) -> tuple[Body, ...]:
     """Return the shorthand's bodies and the file's; the file's takes the place of one of the same name."""
     found = {body.name: body for body in usual}
@@ -36,7 +36,7 @@ def _block(name: str, table: Table, joints: Mapping[str, Joint]) -> Body:
     return Body(name, slider=slider, mass=_mass(table), colour=_colour(table))
 
 
-def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: tuple[Frame, ...]) -> Body:
+def _bar(name: str, table: Table, joints: Mapping[str, Joint], rigid: tuple[RigidBody, ...]) -> Body:
     table.only("joints", "com", "mass", "inertia", "look", "colour")
     members = table.members("joints", joints)
     if len(members) < 2:

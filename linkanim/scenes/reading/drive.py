@@ -6,7 +6,7 @@ from linkanim import units
 from linkanim.mechanics.linkage.drive import MOTOR, Cylinder, Drive, Travel
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.pins import Crank, DrivenSlider
-from linkanim.mechanics.linkage.rigid_bodies import coincide, frames_of
+from linkanim.mechanics.linkage.rigid_bodies import coincide, rigid_bodies
 from linkanim.scenes.reading.check import Table
 
 DEFAULT_SPEED = "20 rpm"
@@ -77,7 +77,7 @@ def _cylinder(table: Table, joints: tuple[Joint, ...], driven: str) -> Cylinder:
     assert isinstance(crank, Crank)
     if not known[fixed].fixed or fixed == crank.pivot:
         raise table.error("between", f"names no fixed pin beside {crank.pivot}; one end stands on the ground")
-    ground, *others = frames_of(joints)
+    ground, *others = rigid_bodies(joints)
     if coincide(ground, fixed, crank.pivot):
         reason = f"{fixed} and {crank.pivot} are one point, about which a cylinder turns nothing"
         raise table.error("between", f"{reason}; name a pin beside it")

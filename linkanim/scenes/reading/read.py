@@ -8,10 +8,10 @@ from typing import Any
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput
 from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.joint import Frame, Joint, Need
+from linkanim.mechanics.linkage.joint import Joint, Need, RigidBody
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.linkage.rigid_bodies import brace, coincide, frames_of, holding
+from linkanim.mechanics.linkage.rigid_bodies import brace, coincide, holding, rigid_bodies
 from linkanim.scenes.reading.bodies import read_bodies
 from linkanim.scenes.reading.check import Table, no_joint
 from linkanim.scenes.reading.drive import read_drive
@@ -46,7 +46,7 @@ def drafted(document: Mapping[str, Any], *, name: str, where: str, towards: Scen
     top.only(*_TOP)
     short = expand(top, _origin(top))
     joints = _rigid(top, _joints(top, short))
-    rigid = frames_of(joints)
+    rigid = rigid_bodies(joints)
     bodies = read_bodies(top, joints, rigid, short.bodies)
     linkage = Linkage(
         joints=joints,
@@ -165,7 +165,7 @@ def _rigid(top: Table, joints: tuple[Joint, ...]) -> tuple[Joint, ...]:
     Refused are points that are not on one body, and bars on one body that do not meet.
     """
     found: list[Joint] = []
-    frames = frames_of(())
+    frames = rigid_bodies(())
     for joint in joints:
         table = top.table("joints").table(joint.name) if joint.body or isinstance(joint, RRR) else top
         if joint.body:
@@ -178,7 +178,7 @@ def _rigid(top: Table, joints: tuple[Joint, ...]) -> tuple[Joint, ...]:
     return tuple(found)
 
 
-def _check_body(table: Table, names: tuple[str, ...], rigid: tuple[Frame, ...]) -> None:
+def _check_body(table: Table, names: tuple[str, ...], rigid: tuple[RigidBody, ...]) -> None:
     first, second, *others = names
     n = holding(rigid, names)
     if n is None:
@@ -190,7 +190,7 @@ def _check_body(table: Table, names: tuple[str, ...], rigid: tuple[Frame, ...]) 
         )
 
 
-def _check_brace(table: Table, joint: RRR, frame: Frame) -> None:
+def _check_brace(table: Table, joint: RRR, frame: RigidBody) -> None:
     """Refuse a dyad between two joints of one body whose bars are too short or too long for it."""
     first, second = joint.ends
     a, b = joint.lengths
