@@ -21,16 +21,48 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 settings.register_profile("linkanim", deadline=None, derandomize=True, database=None)
 settings.load_profile("linkanim")
 
+SAMPLE = {
+    *(
+        "crank-rocker",
+        "rocker-driven",
+        "hoecken",
+        "kite",
+        "double-rocker",
+        "triple-rocker",
+        "grashof-limit-six-bar",
+    ),
+    *(
+        "driven-piston",
+        "inverted-slider-crank",
+        "scotch-yoke",
+        "toggle-press",
+        "elliptic-trammel",
+        "oscillating-cylinder",
+    ),
+    *("press", "jansen", "excavator", "epicyclic-hypocycloid", "andrews"),
+}
+"""Scenes of every drive, dyad and kind of limit: what tests marked `sampled` look at unless asked for more."""
+
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Skip what needs a real window where there is no display; have each test carry what it withstands."""
+    _leave_to_long_runs(items)
     _mark_quick(items)
     no_display = pytest.mark.skip(reason="needs a display; .ci/run starts one")
     for item in items:
         if "window" in item.keywords and not os.environ.get("DISPLAY"):
             item.add_marker(no_display)
         item.user_properties += [(*mark.args, 1)[:2] for mark in item.iter_markers(MARK)]
+
+
+def _leave_to_long_runs(items: list[pytest.Item]) -> None:
+    """Mark the cases of sampled tests about scenes beside the sample as long."""
+    for item in items:
+        if "sampled" in item.keywords and isinstance(item, pytest.Function):
+            about = item.callspec.params
+            if about.get("name", about.get("scene")) not in SAMPLE:
+                item.add_marker(pytest.mark.long)
 
 
 def _mark_quick(items: list[pytest.Item]) -> None:

@@ -50,7 +50,7 @@ def _dyads(case: Case) -> Any:
 @pytest.mark.parametrize("case", SMOOTH, ids=lambda case: case.name)
 def test_the_path_has_no_jump(case: Case) -> None:
     # A jump to the other closure, even where they are a degree apart, would be a step like none beside it.
-    inputs = np.radians(np.arange(60.0, 60.0 + 360 * case.periods, 2.0))
+    inputs = np.radians(np.arange(60.0, 60.0 + 360 * case.periods, 6.0))
     found = answer(replace(case, inputs=inputs.astype(np.float64)))
     for place in found.orders[0].values():
         assert np.abs(np.diff(place.high)).max() < 12 * found.question.longest * (inputs[1] - inputs[0])

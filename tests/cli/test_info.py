@@ -26,6 +26,7 @@ KEYS = {
 
 
 @pytest.mark.parametrize("name", linkanim.names())
+@pytest.mark.sampled
 def test_info_of_every_scene_is_strict_json_with_the_agreed_keys(
     name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -45,14 +45,14 @@ def test_quarter_turns_are_multiples_of_half_pi() -> None:
 
 # scene, sweep: over several turns, through gaps, of the phase; the blocks end within stretches and at gaps
 JOINED = [
-    ("drag-link", "0:1440:7", "angle"),
-    ("double-rocker", "-60:500:1", "angle"),
-    ("double-rocker", "0:1440:5", "phase"),
-    ("press", "360:-360:-11", "angle"),
+    ("drag-link", "0:1440:35", "angle"),
+    ("double-rocker", "-60:500:7", "angle"),
+    ("double-rocker", "0:1440:35", "phase"),
+    ("press", "360:-360:-33", "angle"),
 ]
 
 
-@pytest.mark.parametrize("size", [1, 2, 7, 64])
+@pytest.mark.parametrize("size", [1, 2, 7])
 @pytest.mark.parametrize(("name", "typed", "by"), JOINED)
 def test_blocks_join_without_a_seam(
     name: str, typed: str, by: str, size: int, monkeypatch: pytest.MonkeyPatch

@@ -29,7 +29,7 @@ EPS = 2.0**-52
 POSITION = 16 * EPS
 RATE = 128 * EPS
 
-AROUND = np.linspace(0.013, 12.5, 32)
+AROUND = np.linspace(0.013, 12.5, 16)
 AT_LIMITS = [
     0.0,
     *(10.0**-k for k in (3, 6, 9, 12)),
@@ -37,7 +37,7 @@ AT_LIMITS = [
     math.pi,
 ]
 CLOSE = np.geomspace(1e-9, 3.0, 1500)
-DENSE = np.concatenate([np.linspace(0, 4 * np.pi, 6001), CLOSE, np.pi - CLOSE])
+DENSE = np.concatenate([np.linspace(0, 4 * np.pi, 3001), CLOSE, np.pi - CLOSE])
 
 
 @pytest.fixture(autouse=True)

@@ -75,6 +75,7 @@ def test_a_parallelogram_s_coupler_has_its_pole_at_infinity() -> None:
 
 
 @pytest.mark.parametrize("name", [name for name in names() if dyads_of(load(name).linkage)])
+@pytest.mark.sampled
 def test_the_chart_of_the_transmission_angle_goes_down_to_what_info_tells(name: str) -> None:
     scene = load(name)
     found = register(scene.linkage)["transmission_angle"].read(scene.cycle(7200))
@@ -182,6 +183,7 @@ def _resting() -> object:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_six_to_ten_quantities_are_told_first_and_none_stands_still(name: str) -> None:
     scene = load(name)
     first = key_quantities(scene.cycle(96), scene.trace)

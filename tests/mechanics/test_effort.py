@@ -115,6 +115,7 @@ def netted(scene: Scene, linkage: Linkage, count: int = 2880) -> tuple[float, fl
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_masses_and_gravity_give_back_over_a_period_what_they_took(name: str) -> None:
     scene = load(name)
     free, lifted = (netted(scene, heavy(scene, gravity=gravity)) for gravity in (0.0, 9.81))

@@ -97,6 +97,7 @@ def check_ends(solved: Mechanism) -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_ends_of_a_scenes_range_are_in_it_and_beyond_is_not_a_number(name: str) -> None:
     solved = load(name).mechanism
     if isinstance(solved.assembly.path, SliderStroke):

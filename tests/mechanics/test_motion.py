@@ -241,6 +241,7 @@ def test_coefficients_at_a_turning_point_are_those_beside_it(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_coefficients_do_not_depend_on_speed(name: str) -> None:
     scene = load(name)
     phases = np.array([0.0, 0.7, math.pi, 5.0])

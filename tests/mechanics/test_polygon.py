@@ -40,6 +40,7 @@ def closes(scene: Scene, order: Order) -> None:
 
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_chain_ends_in_the_image_that_solve_gives(name: str, order: Order) -> None:
     closes(load(name), order)
 

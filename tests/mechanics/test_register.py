@@ -53,6 +53,7 @@ def test_a_quantity_has_symbol_words_and_unit(
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_no_two_quantities_are_called_the_same(name: str) -> None:
     known = register(load(name).linkage).values()
     assert len({quantity.words for quantity in known}) == len(known)
@@ -60,6 +61,7 @@ def test_no_two_quantities_are_called_the_same(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_order_says_how_a_quantity_grows_with_the_speed(name: str) -> None:
     scene = load(name)
     slow, quick = (scene.solve(phase=[0.7, 2.5, 4.0], speed=speed) for speed in (0.5, -1.5))
@@ -74,6 +76,7 @@ def test_the_order_says_how_a_quantity_grows_with_the_speed(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_a_pose_and_a_motion_are_read_alike(name: str) -> None:
     scene = load(name)
     pose, motion = scene.pose(1.3), scene.solve(phase=[1.3])

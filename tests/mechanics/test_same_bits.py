@@ -27,6 +27,7 @@ def same(found: object, other: object) -> bool:
 
 
 @every_scene
+@pytest.mark.sampled
 def test_batches_of_any_size_hold_the_same_bits(scene: str) -> None:
     solved = load(scene)
     whole = dict(rows(solved.solve(phase=MANY)))
@@ -56,6 +57,7 @@ def test_fewer_derivatives_change_no_bit(scene: str) -> None:
 
 
 @every_scene
+@pytest.mark.sampled
 def test_an_input_that_turns_from_zero_holds_the_same_bits_by_its_angle(scene: str) -> None:
     solved = load(scene)
     path = solved.mechanism.assembly.path

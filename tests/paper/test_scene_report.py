@@ -138,6 +138,7 @@ def test_the_press_notes_where_the_printed_report_errs(press: Path) -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_tables_say_what_is_solved_at_every_speed(name: str) -> None:
     scene = load(name)
     for instant in usual_instants(scene):

@@ -45,6 +45,7 @@ def type_of_words() -> Type:
         for chart in (False, True)
     ],
 )
+@pytest.mark.sampled
 def test_what_a_scene_sweeps_fills_the_height_or_the_width(
     name: str, chart: bool, size: tuple[int, int]
 ) -> None:
@@ -68,6 +69,7 @@ def _moments(name: str, count: int) -> Iterator[float]:
 @pytest.mark.parametrize(
     ("name", "size"), [(name, [(480, 270), (320, 180)][k % 2]) for k, name in enumerate(names())]
 )
+@pytest.mark.sampled
 def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, int]) -> None:
     scene, look = load(name), Look(chart=None)
     painter, surface = Painter(scene, size, look), offscreen(size)
@@ -81,6 +83,7 @@ def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, 
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_all_that_is_drawn_lies_in_the_window(name: str) -> None:
     scene, size = load(name), (480, 270)
     painter, surface = Painter(scene, size, Look(hud=False)), offscreen(size)
@@ -98,6 +101,7 @@ def _part(surface: pygame.Surface, rect: Rect) -> np.ndarray:
 
 @pytest.mark.parametrize("size", [(320, 180), (1280, 720), (720, 1280)])
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int, int]) -> None:
     scene = load(name)
     block = staged(scene, None, Staged(size, False, 0, True, False), type_of_words()).arrangement.block
@@ -116,6 +120,7 @@ def test_a_title_is_in_one_line_where_it_finds_room(name: str) -> None:
 
 @pytest.mark.parametrize("size", [(480, 270)])
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
     name: str, size: tuple[int, int]
 ) -> None:

@@ -60,6 +60,7 @@ def test_the_curves_touch_in_the_coupler_s_centre(phase: float) -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_no_curve_runs_across_the_picture(name: str) -> None:
     centres = found(name)
     places = drawing(name, 2).places(load(name).pose(0.4))

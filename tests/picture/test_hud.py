@@ -119,6 +119,7 @@ def test_a_linkage_that_needs_two_turns_says_so() -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_names_of_the_rows_stay_while_the_values_move(name: str) -> None:
     scene = load(name)
     told = [[row.label for row in rows(scene, scene.pose(phase))] for phase in (0.0, 1.0, math.pi, 5.0)]
@@ -152,6 +153,7 @@ SIZES = [(320, 180), (480, 270), (640, 360), (1280, 720), (400, 800)]
     ("name", "size"),
     [(name, size) for k, name in enumerate(names()) for size in (SIZES[k % 2], SIZES[2 + k % 3])],
 )
+@pytest.mark.sampled
 def test_names_and_values_never_touch_at_any_speed(name: str, size: tuple[int, int]) -> None:
     scene, type_ = load(name), Type()
     arrangement = staged(scene, None, Staged(size, True, 2, True, False), type_).arrangement

@@ -37,6 +37,7 @@ def _gap(one: Rect, other: Rect) -> float:
     [(name, SIZES[1]) for name in names()]
     + [(name, size) for name in ("crank-rocker", "press", "kite", "jansen") for size in SIZES[::2]],
 )
+@pytest.mark.sampled
 def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size: tuple[int, int]) -> None:
     scene = load(name)
     painter = Painter(scene, size, Look(names=1, chart="A.velocity" if name == "press" else None))

@@ -41,6 +41,7 @@ def _bytes(surface: pygame.Surface) -> bytes:
 @pytest.mark.parametrize(
     ("name", "theme"), [(name, ("light", "dark")[k % 2]) for k, name in enumerate(names())]
 )
+@pytest.mark.sampled
 def test_every_scene_is_painted_on_its_theme(name: str, theme: ThemeName) -> None:
     surface = painted(load(name), 1.0, Look(theme=theme, vectors=frozenset("va")))
     assert surface.get_at((SMALL[0] - 1, 0))[:3] == theme_of(theme).background

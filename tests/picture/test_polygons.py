@@ -138,6 +138,7 @@ def test_what_rests_says_so() -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_scene_has_both_at_any_pose(name: str) -> None:
     for panel in panels(name):
         for phase in (0.0, 0.7, 3.0, np.pi):

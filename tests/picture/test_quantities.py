@@ -13,6 +13,7 @@ from linkanim.scenes import load, names
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_quantity_has_a_value_at_every_phase(name: str) -> None:
     scene = load(name)
     assert quantities(scene)

@@ -187,6 +187,7 @@ def test_a_tape_keeps_a_drag() -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_span_is_the_bar_that_its_dimension_measures(name: str) -> None:
     scene = load(name)
     pose = scene.pose(0.7, 0)
