@@ -21,11 +21,26 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 settings.register_profile("linkanim", deadline=None, derandomize=True, database=None)
 settings.load_profile("linkanim")
 
-SAMPLE = set(
-    "crank-rocker rocker-driven hoecken kite double-rocker triple-rocker grashof-limit-six-bar driven-piston "
-    "inverted-slider-crank scotch-yoke toggle-press elliptic-trammel oscillating-cylinder press jansen "
-    "excavator epicyclic-hypocycloid andrews".split()
-)
+SAMPLE = {
+    "crank-rocker",
+    "rocker-driven",
+    "hoecken",
+    "kite",
+    "double-rocker",
+    "triple-rocker",
+    "grashof-limit-six-bar",
+    "driven-piston",
+    "inverted-slider-crank",
+    "scotch-yoke",
+    "toggle-press",
+    "elliptic-trammel",
+    "oscillating-cylinder",
+    "press",
+    "jansen",
+    "excavator",
+    "epicyclic-hypocycloid",
+    "andrews",
+}
 """Scenes of every drive, dyad and kind of limit: what tests marked `sampled` look at."""
 
 
