@@ -47,11 +47,6 @@ def three_digits(value: float) -> str:
     return f"{value:.{max(2 - floor(log10(value)), 0)}f}"
 
 
-def power_of_ten(power: int) -> str:
-    """Return 10 to a whole power as it is written on an axis."""
-    return str(10**power) if 0 <= power <= 3 else typeset(f"1e{power}")
-
-
 def typeset(text: str) -> str:
     """Return the text with true minus signs, as it is set on a picture."""
     return text.replace("-", "−")

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from linkanim.digits import degrees, power_of_ten, rpm, short, significant, stepped, three_digits, typeset
+from linkanim.digits import degrees, rpm, short, significant, stepped, three_digits, typeset
 
 
 @pytest.mark.parametrize(
@@ -79,11 +79,6 @@ def test_numbers_have_the_decimals_their_steps_need(value: float, step: float, t
 )
 def test_numbers_keep_three_digits(value: float, words: str) -> None:
     assert three_digits(value) == words
-
-
-@pytest.mark.parametrize(("power", "words"), [(0, "1"), (3, "1000"), (4, "1e4"), (-16, "1e−16")])
-def test_a_power_of_ten(power: int, words: str) -> None:
-    assert power_of_ten(power) == words
 
 
 def test_a_set_text_has_true_minus_signs() -> None:

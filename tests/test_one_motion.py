@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 
 from linkanim.cli import main
-from linkanim.cli.tree import leaves, tree
-from linkanim.cli.tree import rows as rows_of_tree
+from linkanim.cli.solved import leaves, tree
+from linkanim.cli.solved import rows as rows_of_tree
 from linkanim.export import csv_head, csv_rows, json_text
 from linkanim.mechanics.facts.register import Quantity, register
 from linkanim.mechanics.motion.motion import Pose

@@ -7,14 +7,15 @@ from argparse import Namespace
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
 from typing import cast
 
 from linkanim import __version__
 from linkanim.bench.command import add_arguments
 from linkanim.cli import options
 from linkanim.cli.parser import Parser, join_negative
-from linkanim.cli.pygame_installed import refuse_mixed_pygame
-from linkanim.errors import BadInput
+from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
 from linkanim.units import shown
 
@@ -102,6 +103,26 @@ def _refuse_misspelt(word: str) -> None:
         f"{shown(word)} is neither a command ({', '.join(COMMANDS)}), a scene (`linkanim scenes` lists them) "
         f"nor a file{meant(word, known)}"
     )
+
+
+def refuse_mixed_pygame() -> None:
+    """Raise `WorkFailed` where pygame and pygame-ce lie in one folder, or what is there is not whole.
+
+    Whichever came last works until the other is removed or renewed, which takes files of both.
+    """
+    spec = find_spec("pygame")
+    if spec is None:
+        raise WorkFailed(f"pygame is not installed; `{sys.executable} -m pip install pygame-ce` mends it")
+    folder = Path(next(iter(spec.submodule_search_locations or ())))
+    if all(any(folder.parent.glob(f"{name}-*.dist-info")) for name in ("pygame", "pygame_ce")):
+        raise WorkFailed(f"pygame and pygame-ce are both installed, in one folder: {folder}; {_way_out()}")
+    if spec.origin is None:
+        raise WorkFailed(f"pygame is not whole in {folder}; {_way_out()}")
+
+
+def _way_out() -> str:
+    pip = f"{sys.executable} -m pip"
+    return f"`{pip} uninstall -y pygame pygame-ce`, then `{pip} install pygame-ce` (or pygame) mends it"
 
 
 COMMANDS = {

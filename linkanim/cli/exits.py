@@ -25,12 +25,8 @@ _ONE_AND_THE_SAME = 3.0
 """Seconds in which further signals say what the first did: a terminal that closes sends several."""
 
 
-class Terminated(BaseException):
-    """SIGTERM arrived; not an Exception, so that only clean-up runs on its way out."""
-
-
-class HungUp(BaseException):
-    """SIGHUP arrived: the terminal was closed; handled as `Terminated`."""
+class Ended(BaseException):
+    """A signal that ends us arrived, with its exit code; no Exception: on its way only clean-up runs."""
 
 
 def guarded(work: Callable[[], None]) -> int:
@@ -56,10 +52,8 @@ def _code_of(error: BaseException) -> int:
             return DONE
         case KeyboardInterrupt():
             return _say("interrupted", INTERRUPTED)
-        case Terminated():
-            return _say("terminated", TERMINATED)
-        case HungUp():
-            return _say("the terminal was closed", HUNG_UP)
+        case Ended(args=(code,)):
+            return _say("the terminal was closed" if code == HUNG_UP else "terminated", code)
         case LinkanimError():
             return _say(str(error), error.exit_code)
         case MemoryError() | ImportError() if _lacks_memory(error):
@@ -158,7 +152,7 @@ def _signals_raise() -> Iterator[None]:
     def arrived(number: int, frame: FrameType | None) -> None:
         if time.monotonic() - raised[0] >= _ONE_AND_THE_SAME:
             raised[0] = time.monotonic()
-            raise _exception(number)
+            raise KeyboardInterrupt if number == signal.SIGINT else Ended(128 + number)
 
     before = {number: signal.getsignal(number) for number in _ENDING}
     ours = {number: old for number, old in before.items() if old not in (signal.SIG_IGN, None)}
@@ -169,9 +163,3 @@ def _signals_raise() -> Iterator[None]:
     finally:
         for number, old in ours.items():
             signal.signal(number, old)
-
-
-def _exception(number: int) -> BaseException:
-    if number == signal.SIGINT:
-        return KeyboardInterrupt()
-    return Terminated() if number == signal.SIGTERM else HungUp()

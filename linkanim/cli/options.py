@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
-from argparse import Action, BooleanOptionalAction, Namespace
+from argparse import Action, BooleanOptionalAction, Namespace, _ActionsContainer
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from linkanim import units
 from linkanim.cli import values
 from linkanim.cli.parser import Parser, valued
-from linkanim.cli.presets import PRESETS
 from linkanim.picture.look import TOGGLES, Look, Option, Toggle
 
 IN_SCENE = "a built-in scene's name (see `linkanim scenes`), or the path of a scene file"
 EVERY_ANGLE = object()
 """What `--phase` without a value stands for: each angle of the sweep."""
+
+
+@dataclass(frozen=True)
+class Preset:
+    """What `record --for` stands for: size in pixels, frames a second, the suffix of the format."""
+
+    size: tuple[int, int]
+    fps: float
+    suffix: str
+
+
+DEFAULT = Preset((1280, 720), 25.0, ".gif")
+
+PRESETS = {
+    "slides": DEFAULT,
+    "beamer": Preset((1280, 720), 25.0, ".png"),
+    "web": Preset((640, 360), 20.0, ".gif"),
+}
 
 
 def play(parser: Parser) -> None:
@@ -30,13 +48,7 @@ def play(parser: Parser) -> None:
 def record(parser: Parser) -> None:
     """Add what a recording takes."""
     parser.add_argument("scene", metavar="SCENE", help=f"{IN_SCENE}, or of a tape")
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="OUT",
-        help="OUT.gif, OUT.mp4 or OUT.png (default: SCENE.gif here)",
-    )
+    _output(parser, "OUT.gif, OUT.mp4 or OUT.png (default: SCENE.gif here)")
     parser.add_argument(
         "--for", dest="preset", choices=tuple(PRESETS), help="size, fps and format for a purpose"
     )
@@ -52,7 +64,7 @@ def record(parser: Parser) -> None:
 
 def _clip(parser: Parser) -> None:
     """How long, how fast and how large."""
-    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    _size(parser)
     parser.add_argument(
         "--fps", type=valued(values.positive), metavar="N", help="frames a second (default: 25)"
     )
@@ -63,6 +75,24 @@ def _clip(parser: Parser) -> None:
         "--seconds", type=valued(values.positive), metavar="S", help="the clip's length; it need not close"
     )
     parser.add_argument("--reverse", action="store_true", help="run backwards")
+
+
+def _size(parser: Parser) -> None:
+    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+
+
+def _output(parser: Parser, text: str) -> None:
+    parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=text)
+
+
+def _angle(parser: _ActionsContainer) -> None:
+    words = 'crank angle, such as "87 deg"'
+    parser.add_argument("--angle", type=valued(units.angle), metavar="ANGLE", help=words)
+
+
+def _speeds(parser: Parser, what: str) -> None:
+    words = f'{what}, such as "5 rad/s,10 rad/s" (default: the scene\'s)'
+    parser.add_argument("--speeds", type=valued(values.speeds), metavar="SPEED[,SPEED...]", help=words)
 
 
 def _look(parser: Parser, command: str) -> None:
@@ -100,9 +130,7 @@ class Further(Action):
 def solve(parser: Parser) -> None:
     """Add what solving takes."""
     parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
-    parser.add_argument(
-        "--angle", type=valued(units.angle), metavar="ANGLE", help='crank angle, such as "87 deg"'
-    )
+    _angle(parser)
     parser.add_argument(
         "--phase",
         type=valued(units.angle),
@@ -172,51 +200,33 @@ def chart(parser: Parser) -> None:
         metavar="Q[,Q...]",
         help="such as rocker.angular_velocity or B.velocity.x; a wrong one is answered with the list",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="OUT",
-        help="OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png here)",
-    )
+    _output(parser, "OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png here)")
     parser.add_argument(
         "--over",
         choices=("angle", "time", "phase"),
         help="default: the driven bar's angle, of an input that swings the time",
     )
-    parser.add_argument(
-        "--speeds",
-        metavar="SPEED[,SPEED...]",
-        help='a curve for each, such as "5 rad/s,10 rad/s" (default: the scene\'s)',
-    )
+    _speeds(parser, "a curve for each")
     parser.add_argument(
         "--data", type=Path, metavar="OTHER.csv", help="lay a table over it: angle in degrees, value"
     )
     parser.add_argument(
         "--label", metavar="TEXT", help="what that table is called (default: its file's name)"
     )
-    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    _size(parser)
     _look(parser, "chart")
 
 
 def draw(parser: Parser) -> None:
     """Add what a figure takes."""
     parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="OUT",
-        help="OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg here)",
-    )
+    _output(parser, "OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg here)")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument(
-        "--angle", type=valued(units.angle), metavar="ANGLE", help='crank angle, such as "87 deg"'
-    )
+    _angle(where)
     where.add_argument(
         "--phase", type=valued(units.angle), metavar="PHASE", help="phase instead (default: the start)"
     )
-    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    _size(parser)
     _look(parser, "draw")
     parser.add_argument(
         "--poses", type=valued(values.poses), metavar="N", help="N faint poses over the period behind it"
@@ -232,14 +242,11 @@ def report(parser: Parser) -> None:
     )
     parser.add_argument(
         "--angles",
+        type=valued(values.angles),
         metavar="ANGLE[,ANGLE...]",
         help='where to tell every quantity, such as "87 deg,306 deg" (default: the start and the extremes)',
     )
-    parser.add_argument(
-        "--speeds",
-        metavar="SPEED[,SPEED...]",
-        help='for tables and charts, such as "5 rad/s,10 rad/s" (default: the scene\'s)',
-    )
+    _speeds(parser, "for tables and charts")
 
 
 def gallery(parser: Parser) -> None:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Container, Iterable, Iterator
 from typing import Any
 
-from linkanim.cli.tree import Tree
+from linkanim.cli.solved import Tree
 from linkanim.digits import significant
 from linkanim.export import columns
 from linkanim.mechanics.facts.register import recorded

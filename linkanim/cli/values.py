@@ -8,8 +8,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
+from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_POSES
-from linkanim.errors import BadInput, UnitError
+from linkanim.errors import BadInput
 from linkanim.picture.look import TOGGLES
 
 MOST_ROWS = 1_000_000
@@ -76,12 +77,24 @@ def count(text: str) -> int:
     return int(text)
 
 
-def listed(option: str, read: Callable[[str], float], part: str) -> float:
-    """Read one of the values that an option lists; `BadInput` that names the option, too."""
-    try:
-        return read(part)
-    except UnitError as error:
-        raise BadInput(f"{option}: {error}") from None
+def speeds(text: str) -> dict[str, float]:
+    """Read angular speeds with commas between (rad/s), by their words; none is zero."""
+    found = _several(text, units.angular_speed)
+    if not found or not all(found.values()):
+        raise BadInput(f'{text!r}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
+    return found
+
+
+def angles(text: str) -> tuple[float, ...]:
+    """Read angles with commas between, in radians."""
+    found = _several(text, units.angle)
+    if not found:
+        raise BadInput(f'{text!r}: give angles with their unit, such as "87 deg,306 deg"')
+    return tuple(found.values())
+
+
+def _several(text: str, read: Callable[[str], float]) -> dict[str, float]:
+    return {" ".join(part.split()): read(part.strip()) for part in text.split(",") if part.strip()}
 
 
 def poses(text: str) -> int:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from linkanim.cli import main
-from linkanim.cli.exits import HungUp, Terminated, guarded
+from linkanim.cli.exits import HUNG_UP, TERMINATED, Ended, guarded
 from linkanim.errors import BadInput, NoDisplay, RecordingFailed, SceneError
 
 
@@ -47,8 +47,8 @@ def raising(error: BaseException) -> Callable[[], None]:
         (BadInput("a \x1b[31m\u202e"), 2, "linkanim: a ?[31m?"),
         # from outside
         (KeyboardInterrupt(), 130, "linkanim: interrupted"),
-        (Terminated(), 143, "linkanim: terminated"),
-        (HungUp(), 129, "linkanim: the terminal was closed"),
+        (Ended(TERMINATED), 143, "linkanim: terminated"),
+        (Ended(HUNG_UP), 129, "linkanim: the terminal was closed"),
     ],
 )
 def test_what_ends_the_work_is_one_line_and_a_code(

@@ -46,7 +46,7 @@ def test_a_pygame_that_cannot_be_trusted_is_refused_in_one_line(
 # either of them alone is as it should be, and what draws nothing needs neither
 @pytest.mark.parametrize("metadata", [_CE, _PLAIN])
 def test_one_pygame_is_enough(metadata: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from linkanim.cli.pygame_installed import refuse_mixed_pygame
+    from linkanim.cli.command_table import refuse_mixed_pygame
 
     (tmp_path / "pygame").mkdir()
     (tmp_path / _WHOLE).touch()

@@ -11,9 +11,8 @@ import pytest
 
 import linkanim
 from linkanim import units
-from linkanim.cli import main, sweeping
-from linkanim.cli.sweeping import Steps, blocks
-from linkanim.cli.tree import leaves
+from linkanim.cli import main, solved
+from linkanim.cli.solved import Steps, blocks, leaves
 from linkanim.cli.values import sweep
 from linkanim.scenes.scene import Scene
 
@@ -60,7 +59,7 @@ def test_blocks_join_without_a_seam(
     scene, steps = linkanim.load(name), Steps.of(sweep(typed))
 
     def joined(block: int) -> dict[str, np.ndarray[tuple[int, ...], np.dtype[np.float64]]]:
-        monkeypatch.setattr(sweeping, "BLOCK", block)
+        monkeypatch.setattr(solved, "BLOCK", block)
         found = [
             dict(leaves(part.found))
             for part in blocks(scene, steps, by, 2.0, lambda x: scene.solve(**{by: x}, speed=2.0))  # type: ignore[arg-type]
@@ -86,7 +85,7 @@ def test_a_long_sweep_is_solved_in_blocks(tmp_path: Path, monkeypatch: pytest.Mo
     target = tmp_path / "out.csv"
     assert main(["solve", "crank-rocker", "--sweep", "0:360:0.02", "--csv", str(target)]) == 0
     assert len(target.read_text().splitlines()) == 18002
-    assert max(sizes) <= sweeping.BLOCK + 1
+    assert max(sizes) <= solved.BLOCK + 1
     assert sum(sizes) >= 18001
 
 

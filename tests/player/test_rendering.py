@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from linkanim.cli import tapes
+from linkanim.cli.commands import record as tapes
 from linkanim.cli.exits import TERMINATED
 from linkanim.errors import WorkFailed
 from linkanim.player.state.state import begin
@@ -137,7 +137,7 @@ def test_what_waits_when_the_window_closes_is_left_to_one_process(
     queue.close()
     (_, (command, _)) = started
     rest = [str(Path("recordings", f"kite-{n}{end}")) for n in (2, 3) for end in (".tape.json", ".gif")]
-    assert command[2:] == ["-m", "linkanim.cli.tapes", *rest]
+    assert command[2:] == ["-m", "linkanim.cli.commands.record", *rest]
     recorded: list[list[str]] = []
 
     def main(words: list[str]) -> int:

@@ -5,9 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 
-from linkanim import units
 from linkanim.cli.picture_options import scene_size_target
-from linkanim.cli.values import listed
 from linkanim.digits import stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
@@ -21,7 +19,7 @@ def run(options: Namespace) -> None:
     """Write the chart that was asked for; print its path, and of a table beside it the largest difference."""
     scene, size, target = scene_size_target(options, SUFFIXES, ".png")
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
-    curves = curves_of(scene, ChartRequest(tokens, paces(scene, options.speeds), options.over))
+    curves = curves_of(scene, ChartRequest(tokens, paces(scene, options), options.over))
     measured = _measured(curves, options)
     write(Page(curves, size, options.theme, measured), target)
     if measured:
@@ -29,15 +27,10 @@ def run(options: Namespace) -> None:
     print(target)
 
 
-def paces(scene: Scene, text: str | None) -> tuple[Pace, ...]:
-    """Return the speeds asked for, the scene's own where none is; `BadInput` for one that moves nothing."""
-    if text is None:
-        return (Pace(scene.linkage.drive.speed, "the scene's speed"),)
-    words = [" ".join(part.split()) for part in text.split(",") if part.strip()]
-    paces = tuple(dict.fromkeys(Pace(listed("--speeds", units.angular_speed, part), part) for part in words))
-    if not paces or any(pace.speed == 0 for pace in paces):
-        raise BadInput(f'--speeds {text!r}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
-    return paces
+def paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:
+    """Return the speeds of the options, the scene's own where there are none."""
+    speeds = options.speeds or {"the scene's speed": scene.linkage.drive.speed}
+    return tuple(Pace(speed, label) for label, speed in speeds.items())
 
 
 def _measured(curves: Curves, options: Namespace) -> MeasuredCurve | None:

@@ -8,6 +8,14 @@ from linkanim.export import json_text
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
+_OF_A_SCENE = ("title", "chapter", "source", "look_at", "length_unit")
+_OF_ITS_MOTION = (
+    *("class", "grashof", "circuits", "turning_links", "links", "full_turn", "input_range", "toggles"),
+    *("change_points", "true_period", "period_seconds", "transmission_angle"),
+)
+_CALLED = {"class": "class_name", "links": "link_names"}
+"""What JSON has under another name."""
+
 
 def run(options: Namespace) -> None:
     """Print the scene's class, limits and what follows from them, in words or as one JSON object."""
@@ -34,26 +42,9 @@ def as_object(scene: Scene) -> dict[str, object]:
     null where they are unbounded.
     """
     info = scene.info
-    facts: dict[str, object] = {
-        "scene": scene.name,
-        "title": scene.title,
-        "chapter": scene.chapter,
-        "source": scene.source,
-        "look_at": scene.look_at,
-        "length_unit": scene.length_unit,
-        "class": info.class_name,
-        "grashof": info.grashof,
-        "circuits": info.circuits,
-        "turning_links": info.turning_links,
-        "links": info.link_names,
-        "full_turn": info.full_turn,
-        "input_range": info.input_range,
-        "toggles": info.toggles,
-        "change_points": info.change_points,
-        "true_period": info.true_period,
-        "period_seconds": info.period_seconds,
-        "transmission_angle": info.transmission_angle,
-    }
+    facts: dict[str, object] = {"scene": scene.name}
+    facts |= {name: getattr(scene, name) for name in _OF_A_SCENE}
+    facts |= {name: getattr(info, _CALLED.get(name, name)) for name in _OF_ITS_MOTION}
     if info.transmission:
         facts["worst_transmission"] = {"joint": info.transmission.dyad, "phase": info.transmission.phase}
     if any(body.slider for body in scene.linkage.bodies):

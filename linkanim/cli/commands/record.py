@@ -12,9 +12,11 @@ from typing import NoReturn
 
 from tqdm import tqdm
 
+from linkanim.cli import main
 from linkanim.cli.command_table import parse
+from linkanim.cli.exits import DONE, FAILED
+from linkanim.cli.options import DEFAULT, PRESETS
 from linkanim.cli.picture_options import look_of
-from linkanim.cli.presets import DEFAULT, PRESETS
 from linkanim.errors import BadInput
 from linkanim.picture.look import TOGGLES
 from linkanim.recorder.recording import Progress, Recording
@@ -91,3 +93,20 @@ def advance(drawn: tqdm[NoReturn], done: int, total: int) -> None:
     """Draw a bar at `done` of `total`."""
     drawn.total = total
     drawn.update(done - drawn.n)
+
+
+def record_all(words: list[str]) -> int:
+    """Record TAPE TARGET TAPE TARGET ... in turn, what a window that closes leaves to be done.
+
+    A tape that cannot be recorded does not keep the others from it; a signal does. Returns the last code.
+    """
+    code = DONE
+    for tape, target in zip(words[::2], words[1::2], strict=True):
+        code = main(["record", tape, "-o", target])
+        if code not in (DONE, FAILED, BadInput.exit_code):
+            break
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(record_all(sys.argv[1:]))

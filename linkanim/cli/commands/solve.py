@@ -15,8 +15,7 @@ import numpy as np
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.cli import table
 from linkanim.cli.options import EVERY_ANGLE
-from linkanim.cli.sweeping import RowBlock, Steps, blocks
-from linkanim.cli.tree import Leaf, Tree, input_key, leaves, mapped, rows, tree
+from linkanim.cli.solved import Leaf, RowBlock, Steps, Tree, blocks, input_key, leaves, mapped, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import csv_head, csv_rows, json_text, lines

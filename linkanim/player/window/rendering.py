@@ -103,7 +103,7 @@ class Queue:
             self._running.close()
         if self._waiting:
             rest = [str(path) for kept in self._waiting for path in kept]
-            _start(child.python("-m", "linkanim.cli.tapes", *rest), subprocess.DEVNULL)
+            _start(child.python("-m", "linkanim.cli.commands.record", *rest), subprocess.DEVNULL)
 
     def _go_on(self) -> None:
         if self._running is None and self._waiting:
