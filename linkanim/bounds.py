@@ -8,6 +8,8 @@ MOST_TURNS = 1_000
 """Turns of the input, or ways there and back, after which every joint is back."""
 MOST_DYAD_TURNS = 2_000
 """The same times the dyads, each of which is looked at all along."""
+MOST_PROBLEMS = 100
+"""Problems of one scene file that are printed."""
 LONGEST_TEXT = 1_000
 """Characters of a title or any other text that is shown on a line."""
 MOST_FRAMES = 100_000

@@ -11,7 +11,7 @@ from linkanim.mechanics.motion.measures import coupler_body
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
-from linkanim.scenes.reading.closure import other_closure
+from linkanim.scenes.editing.closures import other_closure
 from linkanim.scenes.scene import Scene
 
 _SIZE = (1280, 720)

@@ -27,7 +27,7 @@ from linkanim.picture.raster.offscreen import offscreen, png_bytes
 from linkanim.picture.raster.raster import Layer, paint
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
-from linkanim.scenes.reading.closure import ghost_of
+from linkanim.scenes.editing.closures import ghost_of
 from linkanim.scenes.scene import Scene
 
 SUFFIXES = (".svg", ".png", ".pdf")

@@ -10,7 +10,7 @@ from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.look import Look
 from linkanim.picture.painter import Painter
 from linkanim.picture.panels.overlay import Overlay
-from linkanim.scenes.reading.closure import ghost_of
+from linkanim.scenes.editing.closures import ghost_of
 from linkanim.scenes.scene import Scene
 
 

@@ -41,7 +41,7 @@ class Scene:
     towards: Scene | None = field(default=None, repr=False, compare=False)
     """The scene that this one, shown for an instant, is on the way to; what is told of that holds for it."""
 
-    own_title: tuple[str, str] | None = field(default=None, repr=False, compare=False)
+    original_title: tuple[str, str] | None = field(default=None, repr=False, compare=False)
     """The title, and the class that it says, of a scene that was changed into another class."""
 
     @cached_property

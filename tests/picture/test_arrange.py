@@ -24,8 +24,8 @@ from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
-from linkanim.scenes.own_title import unsaid
-from linkanim.scenes.reading.closure import ghost_of
+from linkanim.scenes.editing.closures import ghost_of
+from linkanim.scenes.editing.titles import beyond_title
 
 FORMATS = ((1280, 720), (1024, 768), (720, 1280), (320, 180))
 BACKGROUND = theme_of("light").background
@@ -278,7 +278,7 @@ def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) ->
     ],
 )
 def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, rest: str) -> None:
-    assert unsaid(title, class_name) == rest
+    assert beyond_title(title, class_name) == rest
 
 
 @pytest.mark.slow

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
 
 from linkanim.errors import SceneError
+from linkanim.mechanics.linkage.linkage import Outline
 from linkanim.picture.arrangement.sweep import sweep_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import Gauge
@@ -16,7 +17,6 @@ from linkanim.picture.parts.body_shapes import SHAPES, wheel_radius
 from linkanim.picture.theme import DARK, LIGHT
 from linkanim.picture.view import View
 from linkanim.scenes import load
-from linkanim.scenes.reading.joints import LOOKS
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -40,11 +40,11 @@ def covered(look: str, points: list[complex]) -> tuple[float, float, float, floa
 
 
 def test_every_look_is_drawn() -> None:
-    assert set(SHAPES) == set(LOOKS)
+    assert set(SHAPES) == set(get_args(Outline))
 
 
 @pytest.mark.parametrize("points", [CORNERS, CORNERS[:2]], ids=["three joints", "two"])
-@pytest.mark.parametrize("look", [look for look in LOOKS if look not in ("none", "wheel")])
+@pytest.mark.parametrize("look", [look for look in get_args(Outline) if look not in ("none", "wheel")])
 def test_a_look_reaches_from_joint_to_joint_and_little_further(look: str, points: list[complex]) -> None:
     left, right, top, bottom = covered(look, points)
     bar = GAUGE.bar

@@ -18,8 +18,8 @@ from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load
+from linkanim.scenes.editing.closures import ghost_of
 from linkanim.scenes.editing.edit import passing
-from linkanim.scenes.reading.closure import ghost_of
 from linkanim.scenes.scene import Scene
 
 HAUNTED = replace(BARE, ghost=True)

@@ -30,7 +30,7 @@ from linkanim.picture.raster.parts import Part, placed
 from linkanim.picture.raster.raster import Layer
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load
-from linkanim.scenes.reading.closure import ghost_of
+from linkanim.scenes.editing.closures import ghost_of
 from linkanim.scenes.scene import Scene
 
 SIZE = (320, 180)

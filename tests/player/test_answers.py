@@ -19,7 +19,7 @@ from linkanim.player.window.fade import Fade
 from linkanim.player.window.show import kept, overlay
 from linkanim.player.window.window import Window
 from linkanim.scenes import load, names
-from linkanim.scenes.reading.closure import closure_name
+from linkanim.scenes.editing.closures import closure_name
 
 
 def after(state: State, *asked: Action | str) -> State:

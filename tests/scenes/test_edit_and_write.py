@@ -19,7 +19,7 @@ from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions, with_dimensions
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.editing.write import save, text
-from linkanim.scenes.reading.joints import Key
+from linkanim.scenes.fields.form import Key
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 

@@ -18,9 +18,9 @@ from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes import load
+from linkanim.scenes.editing.closures import closure_name
 from linkanim.scenes.editing.edit import dimensions, with_dimensions
 from linkanim.scenes.editing.handles import handles, span
-from linkanim.scenes.reading.closure import closure_name
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 

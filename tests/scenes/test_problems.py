@@ -14,11 +14,12 @@ from test_refusals import FOUR_BAR, GEARED, LONG, REFUSED
 from linkanim.errors import BadInput
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.lines import lines_of
+from linkanim.scenes.fields.joints import JOINTS
+from linkanim.scenes.fields.schema import SCHEMA, schema_of
+from linkanim.scenes.fields.shorthands import SHORTHANDS
+from linkanim.scenes.reading.line_numbers import line_numbers
 from linkanim.scenes.reading.problems import Problem, problems
 from linkanim.scenes.reading.read import scene_from
-from linkanim.scenes.reading.schema import JOINTS, SCHEMA
-from linkanim.scenes.reading.shorthand import SHORTHANDS
 
 MANY = """\
 title = "x"
@@ -115,7 +116,7 @@ SPOILT: dict[str, tuple[dict[str, Any], list[str]]] = {
     "a joint that others stand on": ({"joints.K.at": 3.5}, ["joints.K.at"]),
     "a table that must go whole": (
         {"source": 3, "drive.cylinder.joint": "Z"},
-        ["source", "drive.joint"],
+        ["source", "drive.cylinder.joint"],
     ),
 }
 
@@ -155,7 +156,7 @@ l = 2
 
 def test_every_key_has_the_line_it_begins_at() -> None:
     assert tomllib.loads(TEXT)
-    assert lines_of(TEXT) == {
+    assert line_numbers(TEXT) == {
         ("title",): 2,
         ("a",): 5,
         ("a", "b c"): 6,
@@ -177,7 +178,7 @@ def test_of_very_many_problems_the_first_hundred_are_told() -> None:
 
 
 def test_a_list_over_very_many_lines_ends_the_search_for_lines() -> None:
-    found = lines_of("a = 1\nb = [\n" + "[1],\n" * 20_000 + "]\nc = 1\n")
+    found = line_numbers("a = 1\nb = [\n" + "[1],\n" * 20_000 + "]\nc = 1\n")
     assert (("a",) in found, ("c",) in found) == (True, False)
 
 
@@ -262,15 +263,15 @@ TABLES: dict[str, tuple[str, Any]] = {
     "spring": ("[springs.s]\n", SCHEMA["properties"]["springs"]["additionalProperties"]),
     "damper": ("[dampers.d]\n", SCHEMA["properties"]["dampers"]["additionalProperties"]),
     "trace": ("[trace]\n", SCHEMA["properties"]["trace"]),
-    "bar": ("[bodies.b]\n", SCHEMA["properties"]["bodies"]["additionalProperties"]["anyOf"][0]),
+    "bar": ("[bodies.b]\n", SCHEMA["properties"]["bodies"]["additionalProperties"]["anyOf"][1]),
     "slider": (
         "[bodies.b]\nslider = 'B'\n",
-        SCHEMA["properties"]["bodies"]["additionalProperties"]["anyOf"][1],
+        SCHEMA["properties"]["bodies"]["additionalProperties"]["anyOf"][0],
     ),
     **{
-        f"joint {mark}": (f"[joints.J]\n{mark} = ''\n", table)
-        for mark, table in JOINTS.items()
-        if mark != "line"
+        f"joint {form.mark}": (f"[joints.J]\n{form.mark} = ''\n", schema_of(form))
+        for form in JOINTS.forms
+        if form.mark != "line"
     },
 }
 

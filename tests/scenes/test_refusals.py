@@ -41,7 +41,12 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("misspelt top table", FOUR_BAR + "[drve]\n", "drve", 'did you mean "drive"'),
     ("misspelt top key", "titel = 'x'\n" + FOUR_BAR, "titel", 'did you mean "title"'),
     ("misspelt length", FOUR_BAR.replace("coupler", "cuopler"), "four-bar.cuopler", 'did you mean "coupler"'),
-    ("key of another kind", LONG + "line = 3\n", "joints.B.line", "must be a table"),
+    (
+        "a number as a line",
+        LONG + "[joints.C]\nfrom = 'B'\nlength = 99\nline = 3\n",
+        "joints.C.line",
+        "must be a table",
+    ),
     (
         "a list where a slider has one end",
         LONG + "line = { through = 'O2', angle = '0 deg' }\n",

@@ -19,8 +19,8 @@ from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.figure import figure
 from linkanim.player.state.editing import loss_of_turning
 from linkanim.scenes import load, names
+from linkanim.scenes.editing.closures import other_closure
 from linkanim.scenes.editing.edit import dimensions, with_dimensions
-from linkanim.scenes.reading.closure import other_closure
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -197,7 +197,7 @@ def test_a_title_that_says_the_class_goes_with_it(
     assert with_dimensions(edited, {key: before[key] for key in changes}).title == scene.title
 
 
-def test_the_other_closure_has_its_own_title() -> None:
+def test_the_other_closure_has_its_original_title() -> None:
     other = other_closure(load("parallelogram"))
     assert (other.title, other.info.class_name) == ("Antiparallelogram", "antiparallelogram")
     assert other_closure(other).title == "Parallelogram"

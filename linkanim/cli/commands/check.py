@@ -12,8 +12,8 @@ from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.scenes import load
 from linkanim.scenes.editing.toml import SCENE_FILE
+from linkanim.scenes.fields.schema import SCHEMA
 from linkanim.scenes.reading.problems import Problem, problems
-from linkanim.scenes.reading.schema import SCHEMA
 from linkanim.scenes.scene import Scene
 
 

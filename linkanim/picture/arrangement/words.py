@@ -12,7 +12,7 @@ from linkanim.picture.layout import Layout
 from linkanim.picture.panels.readings import Reading, notes, ranked, rows_of
 from linkanim.picture.text.text import Type
 from linkanim.picture.view import Rect
-from linkanim.scenes.own_title import unsaid
+from linkanim.scenes.editing.titles import beyond_title
 from linkanim.scenes.scene import Scene
 
 STEP = 1.4
@@ -138,7 +138,7 @@ class _Setter:
         self._scene, self._layout, self._arrows, self._type = scenes[0], layout, arrows, type_
         shown = type_.width(self._scene.title, round(_TITLE * layout.text_size))
         self._title = self._scene.title if shown and self._scene.title.strip() else self._scene.name
-        self._classes = [unsaid(self._title, scene.info.class_name) for scene in scenes]
+        self._classes = [beyond_title(self._title, scene.info.class_name) for scene in scenes]
         self._notes = [words for scene in scenes for words in notes(scene)]
 
     def group(self, size: int, said: tuple[Said, ...], classed: bool) -> list[WordBlock]:

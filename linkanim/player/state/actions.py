@@ -13,7 +13,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.clock import Clock
 from linkanim.player.state.handlers import edits, looks, outside, shelf
 from linkanim.player.state.state import State
-from linkanim.scenes.reading.closure import closure_name
+from linkanim.scenes.editing.closures import closure_name
 
 
 class Rule(NamedTuple):

@@ -16,7 +16,7 @@ from linkanim.errors import LinkanimError
 from linkanim.mechanics.facts.classify import Info
 from linkanim.scenes.editing.edit import Dimension, dimensions, with_dimensions
 from linkanim.scenes.editing.handles import dragged, handles
-from linkanim.scenes.reading.joints import Key
+from linkanim.scenes.fields.form import Key
 from linkanim.scenes.scene import Scene
 
 _KEY = re.compile(r"^[\w.\[\]-]+( =|:) ")

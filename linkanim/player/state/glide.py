@@ -8,7 +8,7 @@ import numpy as np
 
 from linkanim.errors import LinkanimError
 from linkanim.scenes.editing.edit import dimensions, passing
-from linkanim.scenes.reading.joints import Key
+from linkanim.scenes.fields.form import Key
 from linkanim.scenes.scene import Scene
 
 FRAMES = 16

@@ -23,7 +23,7 @@ from linkanim.player.state.editing import Editing
 from linkanim.player.state.state import State
 from linkanim.player.tape.tape import Tape
 from linkanim.scenes import names
-from linkanim.scenes.reading.joints import Key
+from linkanim.scenes.fields.form import Key
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown

@@ -1,169 +1,192 @@
-"""The long form of a scene file: fixed pins and joints, each a table of [ground] or [joints].
-
-`READERS` is the one table of how each kind of joint is written.
-"""
+"""The joints of a file in the order in which they are solved, those with a fault left out."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
-from typing import Any, Literal, NamedTuple, get_args
+import heapq
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any
 
-from linkanim.mechanics.formulas.exact import unit
-from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Line, Point
-from linkanim.mechanics.linkage.linkage import Outline
-from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Gear, Pin, Polar
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.scenes.reading.check import Table
+from linkanim.errors import AssemblyError, BadInput
+from linkanim.mechanics.linkage.dyads import RRR
+from linkanim.mechanics.linkage.joint import Joint, RigidBody
+from linkanim.mechanics.linkage.pins import Crank
+from linkanim.mechanics.linkage.rigid_bodies import brace, coincide, holding, rigid_bodies
+from linkanim.scenes.fields.form import Field, Key, fields_in
+from linkanim.scenes.fields.joints import JOINTS
+from linkanim.scenes.fields.table import Table
 
-Key = tuple[str | int, ...]
-DimensionKind = Literal[
-    "length", "angle", "speed", "offset", "ratio", "stiffness", "damping", "mass", "inertia", "gravity"
-]
-"""What a number of a scene file measures; an "offset" is a length of either sign."""
-
-_LEAST_SLOT = 1e-6
-"""Sine of the least angle between a slot and its line of travel."""
-
-LOOKS: tuple[Outline, ...] = get_args(Outline)
-OPEN = ("open", "crossed")
+Stated = Mapping[str, Joint | None]
+"""Joints by their names, None where one has a fault."""
 
 
-class Reader(NamedTuple):
-    """How a kind of joint is read from its table, and which of its numbers can be edited."""
+def solved(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> Table:
+    """Return the file's table with its sound joints known, in solved order: a shorthand's and the file's.
 
-    read: Callable[[str, Table], Joint]
-    numbers: Mapping[Key, DimensionKind]
-
-
-def side(table: Table, key: str, options: tuple[str, str]) -> int:
-    """Return +1 for the first option (or a missing key) and -1 for the second."""
-    return 1 if table.choice(key, options) == options[0] else -1
-
-
-def on_circle(length: float, angle: float) -> Point:
-    """Return the point at `length` and `angle` (rad) from the origin, exact at multiples of pi/2."""
-    along, left = unit(angle)
-    return along * length, left * length
-
-
-def polar_pin(name: str, base: Pin | None, length: float, angle: float) -> Pin:
-    """Return the fixed pin at `length` and `angle` (rad) from `base`, or from the origin."""
-    x, y = base.position if base else (0.0, 0.0)
-    dx, dy = on_circle(length, angle)
-    return Pin(name, (x + dx, y + dy), Polar(length, angle, base.name if base else None))
+    A joint that depends on one with a fault is left out, and not looked at any further.
+    """
+    stated = _together(top, expanded, pins, moving)
+    for name in moving:
+        joint = stated[name]
+        stated[name] = joint and top.attempt(_with_fit_references, top, joint, stated)
+    order = _solved_order(stated)
+    if len(order) < len(stated):
+        first, *others = _circle(stated, stated.keys() - set(order))
+        chain = " -> ".join([first, *others[:12], *["..."] * (len(others) > 12)])
+        reason = f"{chain}: a joint cannot depend on itself; start from a crank"
+        top.context.problems.append(top.table("joints").wrong(reason))
+    return _rigid(top, [stated[name] for name in order])
 
 
-def read_pin(name: str, ground: Table) -> Pin:
-    """Read a fixed pin: [x, y], or { length, angle } from the origin."""
-    if not isinstance(ground.values[name], Mapping):
-        return Pin(name, ground.point(name))
-    table = ground.table(name)
-    table.only("length", "angle")
-    return polar_pin(name, None, table.length("length"), table.angle("angle"))
+def _together(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> dict[str, Joint | None]:
+    """Return all joints, pins given by coordinates first: so TOML writers order tables too."""
+    listed = sorted(pins, key=lambda name: isinstance(top.values["ground"][name], Mapping))
+    stated = dict(expanded)
+    own = {name: pins[name] for name in listed if not (name == "O2" and expanded)}
+    for section, added in (("ground", own), ("joints", moving)):
+        for name, joint in added.items():
+            if name in stated:
+                error = top.table(section).error(name, "there is already a joint of that name")
+                top.context.problems.append(error)
+            stated[name] = None if name in stated else joint
+    return stated
 
 
-def read_joint(name: str, table: Table) -> Joint:
-    """Read a joint; which kind it is shows in its keys."""
-    reader = reader_of(table.values)
-    if reader is not None:
-        return reader.read(name, table)
-    table.only(*READERS, "length", "side", "gear", "at")
-    raise table.wrong(f"says no way to find the joint; give it one of {', '.join(READERS)}")
+def _with_fit_references(top: Table, joint: Joint, stated: Stated) -> Joint:
+    """Return a joint, refused where those that it is found from are itself, or not what they must be."""
+    table = top.table("joints").table(joint.name)
+    found = dict[str, Joint | None]()
+    moving: tuple[Key, str] | None = None
+    for key, one, holder in fields_in(JOINTS.form(table.values), table.values):
+        names = _references(one, holder)
+        found |= {name: stated.get(name) for name in names}
+        for name in names:
+            if reason := _unfit(joint, name, "" if one.unless in holder else one.must, stated):
+                raise _at(table, key, reason)
+        if one.must == "moving":
+            moving = key, names[0]
+    if moving and all(other and other.fixed for other in found.values()):
+        raise _at(table, moving[0], f"{moving[1]} is fixed, so nothing would move; name a joint that moves")
+    return joint
 
 
-def reader_of(values: Mapping[str, Any]) -> Reader | None:
-    """Return how a joint's table is read, by the first key that marks a kind; None where none does."""
-    return next((reader for mark, reader in READERS.items() if mark in values), None)
+def _references(one: Field, holder: Mapping[str, Any]) -> list[str]:
+    """Return the joints that a field names."""
+    value = holder[one.key] if one.plain and one.plain.refers else []
+    return [value] if isinstance(value, str) else value
 
 
-def _crank(name: str, table: Table) -> Crank:
-    table.only("crank", "length", "gear")
-    gear = _gear(table.table("gear")) if "gear" in table else None
-    return Crank(name, table.text("crank"), table.length("length"), gear)
+def _unfit(joint: Joint, name: str, must: str, stated: Stated) -> str | None:
+    """Say why a joint cannot be what another one needs; None where it can, or has a fault itself."""
+    found = stated.get(name)
+    if name == joint.name:
+        return "a joint cannot be found from itself"
+    if must == "fixed" and found and not found.fixed:
+        pins = ", ".join(other.name for other in stated.values() if other and other.fixed)
+        return f"{name} moves; name a fixed pin ({pins})"
+    if must == "crank" and found and not isinstance(found, Crank):
+        return f"{name} is not a crank"
+    return None
 
 
-def _gear(table: Table) -> Gear:
-    table.only("with", "ratio", "offset")
-    return Gear(table.text("with"), table.ratio("ratio"), table.angle("offset", "0 deg"))
+def _at(table: Table, key: Key, reason: str) -> BadInput:
+    """Return the error about what a joint is found from, which stands at a key under its table."""
+    steps = [str(step) for step in key]
+    return table.at(f"{table.path}.{'.'.join(steps)}: {reason}", *steps)
 
 
-def _slider(name: str, table: Table) -> RRP | DrivenSlider:
-    """Read a slider that a bar moves, or one that drives: declared by its line alone."""
-    if "from" not in table and "length" not in table:
-        return _driven_slider(name, table)
-    table.only("from", "length", "line", "side")
-    line = _line(table.table("line"))
-    return RRP(name, table.text("from"), table.length("length"), line, side(table, "side", RRP.sides))
+def _needs(stated: Stated, name: str) -> list[str]:
+    """Return the joints that one is found from; none of one that has a fault."""
+    joint = stated[name]
+    return [need.joint for need in joint.needs if need.joint in stated] if joint else []
 
 
-def _driven_slider(name: str, table: Table) -> DrivenSlider:
-    table.only("line", "from", "length", "side")
-    line = _line(table.table("line"))
-    if line.on is not None:
-        raise table.table("line").error(
-            "on",
-            "a slider without a bar is driven along a fixed line; leave it out, or give the slider its bar",
+def _solved_order(stated: Stated) -> list[str]:
+    """Return the joints so that each names only joints before it, otherwise as they stood.
+
+    Those that depend on themselves are left out.
+    """
+    names = list(stated)
+    rank = {name: i for i, name in enumerate(names)}
+    waiting = {name: set(_needs(stated, name)) for name in names}
+    leads_to: dict[str, list[str]] = {name: [] for name in names}
+    for name, others in waiting.items():
+        for other in others:
+            leads_to[other].append(name)
+    ready = [rank[name] for name in names if not waiting[name]]
+    order = []
+    while ready:
+        name = names[heapq.heappop(ready)]
+        order.append(name)
+        for later in leads_to[name]:
+            waiting[later].discard(name)
+            if not waiting[later]:
+                heapq.heappush(ready, rank[later])
+    return order
+
+
+def _circle(stated: Stated, stuck: set[str]) -> tuple[str, ...]:
+    """Return a chain of joints that ends where it began, among the `stuck` ones (each needs a stuck one)."""
+    name = min(stuck)
+    path = [name]
+    while True:
+        name = next(need for need in _needs(stated, name) if need in stuck)
+        if name in path:
+            return (*path[path.index(name) :], name)
+        path.append(name)
+
+
+def _rigid(top: Table, joints: Iterable[Joint | None]) -> Table:
+    """Return the file's table with its joints known, a dyad whose bars stand on one body as a point of it."""
+    found: dict[str, Joint] = {}
+    bodies = rigid_bodies(())
+    for joint in joints:
+        if joint is None or any(need.joint not in found for need in joint.needs):
+            continue
+        placed = top.attempt(_on_one_body, top, joint, bodies)
+        if placed is not None:
+            found[joint.name] = placed
+            bodies = placed.placed(bodies)
+    return replace(top, context=replace(top.context, joints=found, rigid=bodies))
+
+
+def _on_one_body(top: Table, joint: Joint, bodies: tuple[RigidBody, ...]) -> Joint:
+    """Return a joint, refused where it is a point of no body, or its bars stand on one and do not meet."""
+    if joint.body:
+        _refuse_apart(top.table("joints").table(joint.name), joint.body, bodies)
+    elif isinstance(joint, RRR) and (n := holding(bodies, joint.ends)) is not None:
+        _refuse_loose(top.table("joints").table(joint.name), joint, bodies[n])
+        return brace(joint, bodies[n])
+    return joint
+
+
+def _refuse_apart(table: Table, names: tuple[str, ...], bodies: tuple[RigidBody, ...]) -> None:
+    first, second, *_ = names
+    n = holding(bodies, names)
+    if n is None:
+        listed = f"{', '.join(names[:-1])} and {names[-1]}"
+        raise table.wrong(f"{listed} are not on one rigid body; name joints of one bar")
+    if coincide(bodies[n], first, second):
+        raise table.wrong(
+            f"{first} and {second} are one point, so no direction leads from {first} to {second}"
         )
-    if "side" in table:
-        raise table.error("side", "a slider without a bar has no second closure; leave it out")
-    return DrivenSlider(name, line)
 
 
-def _line(line: Table) -> Line:
-    line.only("through", "angle", "offset", "on")
-    on = line.names("on", 2) if "on" in line else None
-    through = line.text("through", on[0] if on else None)
-    carried = (on[0], on[1]) if on else None
-    return Line(through, line.angle("angle", "0 deg"), line.offset("offset"), carried)
+def _refuse_loose(table: Table, joint: RRR, frame: RigidBody) -> None:
+    """Refuse a dyad between two joints of one body whose bars are too short or too long for it."""
+    first, second = joint.ends
+    a, b = joint.lengths
+    distance = abs(frame[first] - frame[second])
+    if coincide(frame, first, second) or not abs(a - b) <= distance <= a + b:
+        raise unassembled(
+            table,
+            f"the bars of {a:g} and {b:g} cannot meet: {first} and {second} are "
+            f"{distance:g} apart on one rigid body, and {abs(a - b):g} to {a + b:g} would do",
+        )
 
 
-def _yoke(name: str, table: Table) -> RPP:
-    table.only("slide")
-    slide = table.table("slide")
-    slide.only("pin", "line", "slot")
-    slot = slide.angle("slot", "90 deg")
-    if abs(math.sin(slot)) < _LEAST_SLOT:
-        raise slide.error("slot", 'lies along the line of travel, so it never crosses it; write "90 deg"')
-    return RPP(name, slide.text("pin"), _line(slide.table("line")), slot)
-
-
-def _dyad(name: str, table: Table) -> RRR:
-    table.only("from", "length", "side")
-    start, end = table.names("from", 2)
-    first, second = table.lengths("length", 2)
-    return RRR(name, (start, end), (first, second), side(table, "side", RRR.sides))
-
-
-def _slot(name: str, table: Table) -> RPR:
-    table.only("slot", "length")
-    slot = table.table("slot")
-    slot.only("pivot", "through", "offset")
-    return RPR(name, slot.text("pivot"), slot.text("through"), table.length("length"), slot.offset("offset"))
-
-
-def _point(name: str, table: Table) -> Rigid:
-    table.only("on", "at")
-    first, second = table.names("on", 2)
-    at = table.point("at")
-    if at == (0.0, 0.0):
-        raise table.error("at", f"is the joint {first} itself; give a point beside it, such as [10, 5]")
-    return Rigid(name, (first, second), at)
-
-
-_LINE_OF_SLIDE: Mapping[Key, DimensionKind] = {
-    ("slide", "line", "angle"): "angle",
-    ("slide", "line", "offset"): "offset",
-}
-_BAR: Mapping[Key, DimensionKind] = {("length",): "length"}
-
-READERS: Mapping[str, Reader] = {
-    "crank": Reader(_crank, {**_BAR, ("gear", "ratio"): "ratio", ("gear", "offset"): "angle"}),
-    "line": Reader(_slider, {**_BAR, ("line", "angle"): "angle", ("line", "offset"): "offset"}),
-    "from": Reader(_dyad, _BAR),
-    "slot": Reader(_slot, {**_BAR, ("slot", "offset"): "offset"}),
-    "slide": Reader(_yoke, {("slide", "slot"): "angle", **_LINE_OF_SLIDE}),
-    "on": Reader(_point, {("at",): "offset"}),
-}
-"""How each kind of joint is written, by the key that marks it."""
+def unassembled(table: Table, reason: str) -> AssemblyError:
+    """Return the error about lengths that do not go together."""
+    error = AssemblyError(f"{table.where}: {table.path}: {reason}")
+    error.keys = table.keys
+    return error

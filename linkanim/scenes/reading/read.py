@@ -1,30 +1,23 @@
-"""The document in a scene file to a checked `Scene`."""
+"""The document in a scene file to a checked `Scene`, or to all that is wrong with it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput
-from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.joint import Joint, Need, RigidBody
-from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
-from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.linkage.rigid_bodies import brace, coincide, holding, rigid_bodies
-from linkanim.scenes.reading.bodies import read_bodies
-from linkanim.scenes.reading.check import Table, no_joint
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.linkage import Body, Linkage
+from linkanim.mechanics.linkage.pins import Pin
+from linkanim.scenes.fields.scene_file import SCENE_FILE, SECTIONS
+from linkanim.scenes.fields.shorthands import SHORTHANDS, Expansion, names_of
+from linkanim.scenes.fields.table import Context, Table
 from linkanim.scenes.reading.drive import read_drive
-from linkanim.scenes.reading.joints import read_joint, read_pin
-from linkanim.scenes.reading.order import circle, solved_order
-from linkanim.scenes.reading.shorthand import SHORTHANDS, Expansion, expand
+from linkanim.scenes.reading.joints import solved, unassembled
+from linkanim.scenes.reading.sizes import refuse_apart
 from linkanim.scenes.scene import Scene
-from linkanim.scenes.sizes import refuse_apart
-
-_TOP = (
-    "title", "source", "chapter", "look_at", "notes", "length_unit",
-    "gravity", "drive", "ground", "joints", "bodies", "springs", "dampers", "trace", *SHORTHANDS,
-)  # fmt: skip
 
 
 def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
@@ -35,42 +28,118 @@ def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: S
     missing or contradictory; AssemblyError for lengths that cannot be assembled. `towards` is the scene that
     this one is on the way to, where it is shown for an instant.
     """
-    scene = drafted(document, name=name, where=where, towards=towards)
-    _check_assembly(Table(where, document), scene)
+    scene, problems = read(document, name=name, where=where, towards=towards)
+    if scene is None or problems:
+        raise problems[0]
     return scene
 
 
-def drafted(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
-    """Return the scene that a document describes before it is known whether it can be put together."""
-    top = Table(where, document, unit=_length_unit(Table(where, document)))
-    top.only(*_TOP)
-    short = expand(top, _origin(top))
-    joints = _rigid(top, _joints(top, short))
-    rigid = rigid_bodies(joints)
-    bodies = read_bodies(top, joints, rigid, short.bodies)
+def read(
+    document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None
+) -> tuple[Scene | None, list[BadInput]]:
+    """Return the scene that a document describes, None where it describes none, and all its problems.
+
+    What can only follow from another problem is not among them: of what hangs on a joint with a fault only
+    its own table is looked at, and what is put together only where every joint is sound.
+    """
+    top = _opened(document, where)
+    top, short = _with_joints(top)
+    parts = {
+        "linkage": _linkage(top, short),
+        "title": _part(top, "title") if "title" in top else name,
+        **{key: _part(top, key) for key in ("source", "chapter", "look_at", "notes")},
+        "trace": _trace(top, short),
+    }
+    if any(part is None for part in parts.values()):
+        return None, top.context.problems
+    scene = Scene(name=name, length_unit=top.context.unit, document=document, towards=towards, **parts)
+    top.attempt(_check_assembly, top, scene)
+    return scene, top.context.problems
+
+
+def _part(top: Table, key: str) -> Any:
+    """Return what one of the file's tables or values comes to; None where it has a fault."""
+    return top.attempt(SECTIONS[key].read, top)
+
+
+def _opened(document: Mapping[str, Any], where: str) -> Table:
+    """Return the file's table, its unit and the names of its joints known; unknown keys are problems."""
+    top = Table(where, document)
+    unit = _part(top, "length_unit") or "mm"
+    top.refuse_unknown(SCENE_FILE.keys)
+    names = [*_shorthand_names(top), *_names(document.get("ground")), *_names(document.get("joints"))]
+    context = Context(unit, tuple(dict.fromkeys(names)), problems=top.context.problems)
+    return replace(top, context=context)
+
+
+def _names(section: object) -> list[str]:
+    return list(section) if isinstance(section, Mapping) else []
+
+
+def _shorthand_names(top: Table) -> list[str]:
+    tables = {key: top.values[key] for key in SHORTHANDS if isinstance(top.values.get(key), Mapping)}
+    return [name for key, table in tables.items() for name in names_of(key, table)]
+
+
+def _with_joints(top: Table) -> tuple[Table, Expansion]:
+    """Return the file's table with its sound joints known, and what its shorthand stands for."""
+    pins, moving = _part(top, "ground") or {}, _part(top, "joints") or {}
+    short = top.attempt(_expansion, top, pins.get("O2", Pin("O2", (0.0, 0.0))))
+    if not (any(key in top for key in SHORTHANDS) or "joints" in top):
+        reason = f"describes no linkage; give it [joints], or one of {', '.join(SHORTHANDS)}"
+        top.context.problems.append(top.wrong(reason))
+    expanded: dict[str, Joint | None] = dict.fromkeys(_shorthand_names(top))
+    if short:
+        expanded = {joint.name: joint for joint in short.joints}
+    return solved(top, expanded, pins, moving), short or Expansion()
+
+
+def _expansion(top: Table, o2: Pin | None) -> Expansion | None:
+    """Return what the file's shorthand stands for about its first pin; nothing of a file that has none."""
+    found = [key for key in SHORTHANDS if key in top]
+    if len(found) > 1:
+        raise top.wrong(f"has both [{found[0]}] and [{found[1]}]; keep one, write the other as [joints]")
+    if not found:
+        return Expansion()
+    expansion: Expansion | None = SHORTHANDS[found[0]].made(top.table(found[0]), o2 or Pin("O2", (0.0, 0.0)))
+    return expansion if o2 else None
+
+
+def _linkage(top: Table, short: Expansion) -> Linkage | None:
+    """Return the linkage; None where any part of it has a fault."""
+    context = top.context
+    bodies = {body.name: body for body in short.bodies} | (_part(top, "bodies") or {})
+    drive = top.attempt(read_drive, top, short.drive)
+    springs, dampers = _part(top, "springs") or {}, _part(top, "dampers") or {}
+    gravity = top.attempt(_gravity, top, bodies)
+    parts = (*bodies.values(), *springs.values(), *dampers.values())
+    if not context.sound or drive is None or gravity is None or None in parts:
+        return None
     linkage = Linkage(
-        joints=joints,
-        drive=read_drive(top, joints, short.drive),
-        bodies=bodies,
-        springs=tuple(_spring(name, table, joints) for name, table in top.tables("springs")),
-        dampers=tuple(_damper(name, table, joints) for name, table in top.tables("dampers")),
-        metre=units.metre(top.unit),
-        gravity=_gravity(top, bodies),
+        joints=tuple(context.joints.values()),
+        drive=drive,
+        bodies=tuple(bodies.values()),
+        springs=tuple(springs.values()),
+        dampers=tuple(dampers.values()),
+        metre=units.metre(context.unit),
+        gravity=gravity,
     )
-    refuse_apart(top, linkage)
-    return Scene(
-        name=name,
-        title=top.text("title", name),
-        source=top.text("source", ""),
-        length_unit=top.unit,
-        linkage=linkage,
-        trace=_trace(top, joints, short.trace),
-        chapter=top.text("chapter", ""),
-        look_at=top.text("look_at", ""),
-        notes=top.texts("notes"),
-        document=document,
-        towards=towards,
-    )
+    return top.attempt(refuse_apart, top, linkage)
+
+
+def _gravity(top: Table, bodies: Mapping[str, Body | None]) -> float | None:
+    """Return the scene's gravity in m/s², 0 where it states none; refused where it could pull at nothing."""
+    if "gravity" not in top:
+        return 0.0
+    gravity: float | None = SECTIONS["gravity"].read(top)
+    if all(body and body.mass is None for body in bodies.values()):
+        raise top.error("gravity", 'pulls at nothing; give a body its mass, such as mass = "3 kg"')
+    return gravity
+
+
+def _trace(top: Table, short: Expansion) -> tuple[str, ...] | None:
+    trace: Mapping[str, tuple[str, ...]] | None = _part(top, "trace")
+    return None if trace is None else trace.get("joints", short.trace)
 
 
 def _check_assembly(top: Table, scene: Scene) -> None:
@@ -79,159 +148,4 @@ def _check_assembly(top: Table, scene: Scene) -> None:
         _ = scene.mechanism
     except AssemblyError as error:
         section = next((key for key in SHORTHANDS if key in top), "joints")
-        raise _unassembled(top.table(section), str(error)) from None
-
-
-def _unassembled(table: Table, reason: str) -> AssemblyError:
-    error = AssemblyError(f"{table.where}: {table.path}: {reason}")
-    error.keys = table.keys
-    return error
-
-
-def _length_unit(top: Table) -> str:
-    return top.choice("length_unit", units.LENGTH_UNITS)
-
-
-def _origin(top: Table) -> Pin:
-    """Return the pin O2 that a shorthand starts from: the file's own, or the origin."""
-    ground = top.table("ground")
-    return read_pin("O2", ground) if "O2" in ground else Pin("O2", (0.0, 0.0))
-
-
-def _pins(ground: Table, short: Expansion) -> list[Pin]:
-    """Return the file's fixed pins, those given by coordinates first: so TOML writers order tables too."""
-    names = [name for name in ground.names_given() if not (short.joints and name == "O2")]
-    return [read_pin(name, ground) for name in sorted(names, key=lambda name: name in ground.subtables())]
-
-
-def _joints(top: Table, short: Expansion) -> tuple[Joint, ...]:
-    """Return all joints in solved order: the shorthand's and the file's."""
-    pins = _pins(top.table("ground"), short)
-    moving = [read_joint(name, table) for name, table in top.tables("joints")]
-    if not (short.joints or moving):
-        raise top.wrong(f"describes no linkage; give it [joints], or one of {', '.join(SHORTHANDS)}")
-    joints: dict[str, Joint] = {joint.name: joint for joint in short.joints}
-    for section, added in (("ground", pins), ("joints", moving)):
-        for joint in added:
-            if joint.name in joints:
-                raise top.table(section).error(joint.name, "there is already a joint of that name")
-            joints[joint.name] = joint
-    for joint in moving:
-        _check_needs(top, joint, joints)
-    order = solved_order(joints)
-    if len(order) < len(joints):
-        first, *others = circle(joints, joints.keys() - {joint.name for joint in order})
-        chain = " -> ".join([first, *others[:12], *["..."] * (len(others) > 12)])
-        raise top.table("joints").wrong(f"{chain}: a joint cannot depend on itself; start from a crank")
-    return order
-
-
-def _check_needs(top: Table, joint: Joint, joints: Mapping[str, Joint]) -> None:
-    """Refuse a joint found from one that is not there, from itself, or held by one that is not fixed."""
-    table = top.table("joints").table(joint.name)
-    for need in joint.needs:
-        if need.joint not in joints:
-            raise _at(table, need.key, no_joint(need.joint, joints))
-        if need.joint == joint.name:
-            raise _at(table, need.key, "a joint cannot be found from itself")
-    for need in joint.needs:
-        if (reason := _unfit(need, joints)) is not None:
-            raise _at(table, need.key, reason)
-    if joint.moved_by and all(joints[need.joint].fixed for need in joint.moved_by):
-        key, still, _ = joint.moved_by[0]
-        reason = f"{still} is fixed, so nothing would move; name a joint that moves"
-        raise _at(table, key, reason)
-
-
-def _at(table: Table, way: str, reason: str) -> BadInput:
-    """Return the error about what a joint is found from; `way` is the key in its table, as "gear.with"."""
-    return table.at(f"{table.path}.{way}: {reason}", *way.split("."))
-
-
-def _unfit(need: Need, joints: Mapping[str, Joint]) -> str | None:
-    """Say why a joint cannot be what another one needs it to be; None where it can."""
-    found = joints[need.joint]
-    if need.must == "fixed" and not found.fixed:
-        pins = ", ".join(joint.name for joint in joints.values() if joint.fixed)
-        return f"{need.joint} moves; name a fixed pin ({pins})"
-    if need.must == "crank" and not isinstance(found, Crank):
-        return f"{need.joint} is not a crank"
-    return None
-
-
-def _rigid(top: Table, joints: tuple[Joint, ...]) -> tuple[Joint, ...]:
-    """Return the joints, a dyad whose bars stand on one body as a point of it.
-
-    Refused are points that are not on one body, and bars on one body that do not meet.
-    """
-    found: list[Joint] = []
-    frames = rigid_bodies(())
-    for joint in joints:
-        table = top.table("joints").table(joint.name) if joint.body or isinstance(joint, RRR) else top
-        if joint.body:
-            _check_body(table, joint.body, frames)
-        elif isinstance(joint, RRR) and (n := holding(frames, joint.ends)) is not None:
-            _check_brace(table, joint, frames[n])
-            joint = brace(joint, frames[n])
-        found.append(joint)
-        frames = joint.placed(frames)
-    return tuple(found)
-
-
-def _check_body(table: Table, names: tuple[str, ...], rigid: tuple[RigidBody, ...]) -> None:
-    first, second, *others = names
-    n = holding(rigid, names)
-    if n is None:
-        listed = f"{', '.join([first, second, *others][:-1])} and {names[-1]}"
-        raise table.wrong(f"{listed} are not on one rigid body; name joints of one bar")
-    if coincide(rigid[n], first, second):
-        raise table.wrong(
-            f"{first} and {second} are one point, so no direction leads from {first} to {second}"
-        )
-
-
-def _check_brace(table: Table, joint: RRR, frame: RigidBody) -> None:
-    """Refuse a dyad between two joints of one body whose bars are too short or too long for it."""
-    first, second = joint.ends
-    a, b = joint.lengths
-    distance = abs(frame[first] - frame[second])
-    if coincide(frame, first, second) or not abs(a - b) <= distance <= a + b:
-        raise _unassembled(
-            table,
-            f"the bars of {a:g} and {b:g} cannot meet: {first} and {second} are "
-            f"{distance:g} apart on one rigid body, and {abs(a - b):g} to {a + b:g} would do",
-        )
-
-
-def _gravity(top: Table, bodies: tuple[Body, ...]) -> float:
-    """Return the scene's gravity in m/s², 0 where it states none; refused where it could pull at nothing."""
-    if "gravity" not in top:
-        return 0.0
-    gravity = top.positive("gravity", units.acceleration)
-    if all(body.mass is None for body in bodies):
-        raise top.error("gravity", 'pulls at nothing; give a body its mass, such as mass = "3 kg"')
-    return gravity
-
-
-def _spring(name: str, table: Table, joints: tuple[Joint, ...]) -> Spring:
-    table.only("between", "stiffness", "free_length")
-    start, end = table.members("between", [joint.name for joint in joints], 2)
-    if ("stiffness" in table) != ("free_length" in table):
-        raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
-    if "stiffness" not in table:
-        return Spring(name, (start, end))
-    stiffness = table.positive("stiffness", units.stiffness)
-    return Spring(name, (start, end), stiffness, table.length("free_length"))
-
-
-def _damper(name: str, table: Table, joints: tuple[Joint, ...]) -> Damper:
-    table.only("between", "coefficient")
-    start, end = table.members("between", [joint.name for joint in joints], 2)
-    known = "coefficient" in table
-    return Damper(name, (start, end), table.positive("coefficient", units.damping) if known else None)
-
-
-def _trace(top: Table, joints: tuple[Joint, ...], usual: tuple[str, ...]) -> tuple[str, ...]:
-    table = top.table("trace")
-    table.only("joints")
-    return table.members("joints", [joint.name for joint in joints]) if "joints" in table else usual
+        raise unassembled(top.table(section), str(error)) from None

@@ -10,7 +10,7 @@ from linkanim.errors import LinkanimError
 from linkanim.picture.diagrams.quantities import telling
 from linkanim.picture.look import Look, toggled
 from linkanim.player.state.state import State, with_toast
-from linkanim.scenes.reading.closure import other_closure
+from linkanim.scenes.editing.closures import other_closure
 
 _NOTCH = 1.25
 _NOTCHES = (-8, 16)

@@ -13,7 +13,7 @@ from linkanim.player.state.editing import Editing
 from linkanim.player.state.fault import proved
 from linkanim.player.state.state import State, fresh, with_toast
 from linkanim.scenes import chapter_of, chapters, load
-from linkanim.scenes.reading.closure import other_closure
+from linkanim.scenes.editing.closures import other_closure
 from linkanim.scenes.scene import Scene
 
 

@@ -12,7 +12,7 @@ _BOUND = frozenset({"a", "an", "and", "at", "by", "its", "of", "the", "with"})
 """Words that need what comes before them."""
 
 
-def unsaid(title: str, class_name: str) -> str:
+def beyond_title(title: str, class_name: str) -> str:
     """Return what of a class the title does not say: "Grashof" of a crank-rocker that is called one."""
     if set(_words(class_name)) <= set(_words(title)):
         return ""
@@ -30,13 +30,13 @@ def retitled(before: Scene, after: Scene) -> Scene:
     A title that says the class is its own as long as it does: else the class stands in its place. Any other
     title stays.
     """
-    title, phrase = before.own_title or (before.title, _phrase(before.title, before.info.class_name))
+    title, phrase = before.original_title or (before.title, _phrase(before.title, before.info.class_name))
     if not phrase:
         return after
     class_name = after.info.class_name
     if f" {phrase} " not in f" {' '.join(_words(class_name))} ":
         own, title = title, class_name[:1].upper() + class_name[1:]
-        after = replace(after, own_title=(own, phrase))
+        after = replace(after, original_title=(own, phrase))
     document = {**after.document, "title": title} if "title" in after.document else after.document
     return replace(after, title=title, document=document)
 

@@ -16,7 +16,7 @@ _ENDS = re.compile(r"[\]}]|\"{3}|'{3}")
 """What a statement over several lines has in its last."""
 
 
-def lines_of(text: str) -> dict[Keys, int]:
+def line_numbers(text: str) -> dict[Keys, int]:
     """Return the line, from 1, of every table and key of a TOML text; few of one that is very long."""
     found: dict[Keys, int] = {}
     table: Keys = ()

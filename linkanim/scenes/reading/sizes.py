@@ -8,15 +8,15 @@ from math import hypot
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.scenes.reading.check import Table
-from linkanim.scenes.reading.shorthand import SHORTHANDS
+from linkanim.scenes.fields.shorthands import SHORTHANDS
+from linkanim.scenes.fields.table import Table
 
 MOST_APART = 1e9
 """How many times as long as its shortest bar anything in a scene may be."""
 
 
-def refuse_apart(top: Table, linkage: Linkage) -> None:
-    """Refuse a length, a place or a travel that is too long beside the shortest bar."""
+def refuse_apart(top: Table, linkage: Linkage) -> Linkage:
+    """Return the linkage, refused where anything in it is too long beside its shortest bar."""
     bars = [(size, joint.name) for joint in linkage.joints for size in _bars(joint)]
     shortest, name = min(bars, default=(1.0, ""))
     longest, what = max(_sizes(linkage))
@@ -27,6 +27,7 @@ def refuse_apart(top: Table, linkage: Linkage) -> None:
             f"a bar of {shortest:g} is too short beside the {longest:g} of {what}; "
             f"nothing may be more than {MOST_APART:g} times as long as the shortest bar"
         )
+    return linkage
 
 
 def _bars(joint: Joint) -> Iterator[float]:

@@ -1,0 +1,177 @@
+"""The whole scene file: its tables, and the fields of those that are not joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, get_args
+
+from linkanim import units
+from linkanim.mechanics.linkage.linkage import Body, Damper, Outline, Spring
+from linkanim.mechanics.linkage.rigid_bodies import coincide, holding
+from linkanim.scenes.fields.form import Field, Form, Named
+from linkanim.scenes.fields.joints import JOINTS, PINS, aside
+from linkanim.scenes.fields.shorthands import SHORTHANDS
+from linkanim.scenes.fields.table import Table
+from linkanim.scenes.fields.types import (
+    ANGLE,
+    COLOUR,
+    DAMPING,
+    GRAVITY,
+    INERTIA,
+    JOINT,
+    LENGTH,
+    MASS,
+    NAME,
+    OFFSET,
+    PAIR,
+    POINT,
+    SPEED,
+    STIFFNESS,
+    TEXT,
+    TEXTS,
+    choice,
+)
+from linkanim.scenes.fields.types import JOINTS as MEMBERS
+
+
+def _refuse_block(table: Table, values: Mapping[str, Any]) -> None:
+    slider = table.context.joints.get(values["slider"])
+    if slider and not slider.travels:
+        raise table.error("slider", "does not travel on a line; name a joint that has one")
+
+
+def _refuse_bar(table: Table, values: Mapping[str, Any]) -> None:
+    """Refuse a body that is none: too few joints, not on one rigid body, or two in one point."""
+    members, frames = values["joints"], table.context.rigid
+    if len(members) < 2:
+        raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
+    if not all(name in table.context.joints for name in members):
+        return
+    n = holding(frames, members)
+    if n is None:
+        raise table.error("joints", f"{', '.join(members)} are not joints of one rigid body")
+    first, second, *_ = members
+    if coincide(frames[n], first, second):
+        raise table.error("joints", f"{first} and {second} are one point; name another first or second")
+    if "mass" in values and "com" not in values:
+        half = abs(frames[n][second] - frames[n][first]) / 2
+        halfway = f"com = [{half:g}, 0] is halfway from {first} to {second}"
+        raise table.error("mass", f"needs to be known where it is; {halfway}")
+
+
+def _refuse_half(table: Table, values: Mapping[str, Any]) -> None:
+    if ("stiffness" in values) != ("free_length" in values):
+        raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
+
+
+_MASS = Field("mass", MASS, "its mass", None, label="mass")
+_COLOUR = Field("colour", COLOUR, "its colour", None)
+_BETWEEN = Field("between", PAIR, "its two ends")
+
+BLOCK = Form(
+    (Field("slider", JOINT, "the joint that it travels with"), _MASS, _COLOUR),
+    Body,
+    "the block of a slider",
+    mark="slider",
+    refuse=_refuse_block,
+)
+BAR = Form(
+    (
+        Field("joints", MEMBERS, "the joints on it; its angle is that of the first to the second"),
+        Field(
+            "com",
+            POINT,
+            "its centre of mass along first–second, and to the left",
+            None,
+            label=aside("{name} centre of mass"),
+        ),
+        _MASS,
+        Field("inertia", INERTIA, "about the centre of mass", None, label="moment of inertia"),
+        Field("look", choice(*get_args(Outline)), "how it is drawn", None),
+        _COLOUR,
+    ),
+    Body,
+    "a body",
+    refuse=_refuse_bar,
+    together={"mass": "com"},
+)
+SPRING = Form(
+    (
+        _BETWEEN,
+        Field("stiffness", STIFFNESS, "its stiffness", None, label="stiffness"),
+        Field("free_length", LENGTH, "its length without force", None, label="free length"),
+    ),
+    Spring,
+    "a spring",
+    refuse=_refuse_half,
+    together={"stiffness": "free_length", "free_length": "stiffness"},
+)
+DAMPER = Form(
+    (_BETWEEN, Field("coefficient", DAMPING, "force by rate", None, label="damping")),
+    Damper,
+    "a damper",
+)
+
+CYLINDER = Form(
+    (
+        Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body"),
+        Field("from", LENGTH, "its length at one end", label="Cylinder, from"),
+        Field("to", LENGTH, "its length at the other end", label="Cylinder, to"),
+        Field("joint", NAME, "the crank that it turns", None),
+    ),
+    words="a cylinder that drives",
+)
+SLIDER = Form(
+    (
+        Field("joint", NAME, "the slider, declared by its line alone"),
+        Field("from", OFFSET, "its travel at one end", label="Slider, from"),
+        Field("to", OFFSET, "its travel at the other end", label="Slider, to"),
+    ),
+    words="a slider that drives",
+)
+DRIVE = Form(
+    (
+        Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
+        Field("slider", SLIDER, "what drives instead of a crank", None),
+        Field("joint", NAME, "the crank that is driven: the first one without a gear", None),
+        Field(
+            "speed",
+            SPEED,
+            "of the crank, or there and back; negative is clockwise",
+            "20 rpm",
+            label="Input speed",
+        ),
+        Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
+    ),
+    words="the input",
+)
+
+TRACE = Form((Field("joints", MEMBERS, "the joints whose curves are drawn", None),), words="the curves")
+
+SCENE_FILE = Form(
+    (
+        Field("title", TEXT, "what it is called: the file's name", None),
+        Field("source", TEXT, "where its dimensions come from", ""),
+        Field("chapter", TEXT, "the part of a collection that it belongs to", ""),
+        Field("look_at", TEXT, "what to look at, in a sentence", ""),
+        Field("notes", TEXTS, "what a reader of its figures should know", []),
+        Field("length_unit", choice(*units.LENGTH_UNITS), "the unit of bare lengths", units.LENGTH_UNITS[0]),
+        *(Field(key, form, form.words, None) for key, form in SHORTHANDS.items()),
+        Field("joints", JOINTS, "the joints", {}),
+        Field("ground", PINS, "the fixed pins", {}),
+        Field("bodies", Named((BLOCK, BAR)), "what is drawn and named", {}),
+        Field("springs", Named((SPRING,)), "the springs", {}),
+        Field("dampers", Named((DAMPER,)), "the dampers", {}),
+        Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
+        Field("drive", DRIVE, "the input", {}),
+        Field(
+            "trace",
+            Form((Field("joints", MEMBERS, "the joints whose curves are drawn", None),)),
+            "the traces",
+            {},
+        ),
+    ),
+    words="the file",
+)
+"""The form of a scene file."""
+SECTIONS: Mapping[str, Field] = {one.key: one for one in SCENE_FILE.fields}
