@@ -126,6 +126,22 @@ def gearings(linkage: Linkage) -> dict[str, Gearing]:
     return found
 
 
+def pin_against_pin(
+    linkage: Linkage, gears: Mapping[str, Gearing], ends: tuple[str, str]
+) -> tuple[Crank, Ground, bool] | None:
+    """Return a crank whose pin is one of two joints, and the ground link from its pivot to the other one.
+
+    Last, whether the pin is the second of the two. None where the other one, or the pivot, is not fixed, or
+    both are one point.
+    """
+    for swapped, (moving, fixed) in enumerate((ends, ends[::-1])):
+        crank = linkage.crank(moving) if moving in gears else None
+        if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
+            ground = ground_between(linkage, crank, fixed)
+            return (crank, ground, bool(swapped)) if ground else None
+    return None
+
+
 def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     """Return the ground link from a crank's pivot to another fixed pin, as exactly as it was written.
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -57,50 +58,50 @@ def layout(
     return ResultLayout(places, tuple(outputs), tuple(kinds))
 
 
-class Columns(Mapping[str, Array]):
-    """One kind of quantity by name: read-only views of the results, made when they are read.
+class Lazy(Mapping[str, Any]):
+    """A mapping whose values are worked out when they are first read; nobody can change them."""
+
+    def __init__(self, names: Iterable[str], find: Callable[[str], Any]) -> None:
+        self._names, self._find = dict.fromkeys(names), find
+        self._found: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._found:
+            if name not in self._names:
+                raise KeyError(name)
+            self._found[name] = read_only(self._find(name))
+        return self._found[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+def columns(places: Mapping[str, Place], results: Floats, shape: tuple[int, ...]) -> Mapping[str, Array]:
+    """Return one kind of quantity by name: views of the results.
 
     A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
     """
-
-    __slots__ = ("_places", "_results", "_shape")
-
-    def __init__(self, places: Mapping[str, Place], results: Floats, shape: tuple[int, ...]) -> None:
-        self._places, self._results, self._shape = places, results, shape
-
-    def __getitem__(self, name: str) -> Array:
-        place, shape = self._places[name], self._shape
-        if place.fixed is not None:
-            return np.broadcast_to(np.array(place.fixed), (*shape, 2))
-        rows: Any = self._results[place.row : place.row + place.count]
-        values: Array = rows[0].reshape(shape) if place.count == 1 else rows.T.reshape((*shape, 2))
-        return values
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._places)
-
-    def __len__(self) -> int:
-        return len(self._places)
+    return Lazy(places, partial(_column, places, results, shape))
 
 
-class Scaled(Mapping[str, Array]):
-    """The same columns, each times a factor."""
+def _column(places: Mapping[str, Place], results: Any, shape: tuple[int, ...], name: str) -> Any:
+    place = places[name]
+    if place.fixed is not None:
+        return np.broadcast_to(np.array(place.fixed), (*shape, 2))
+    rows = results[place.row : place.row + place.count]
+    return rows[0].reshape(shape) if place.count == 1 else rows.T.reshape((*shape, 2))
 
-    __slots__ = ("_columns", "_factor")
 
-    def __init__(self, columns: Mapping[str, Array], factor: float) -> None:
-        self._columns, self._factor = columns, factor
+def scaled(values: Mapping[str, Array], factor: float) -> Mapping[str, Array]:
+    """Return the same columns, each times a factor."""
+    return Lazy(values, partial(_scaled, values, factor))
 
-    def __getitem__(self, name: str) -> Array:
-        scaled: Array = self._columns[name] * self._factor
-        scaled.flags.writeable = False
-        return scaled
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
+def _scaled(values: Mapping[str, Array], factor: float, name: str) -> Any:
+    return values[name] * factor
 
 
 def read_only(found: Any) -> Any:

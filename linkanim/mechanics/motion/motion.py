@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import FrozenInstanceError, dataclass, field
 from functools import cached_property
 from types import MappingProxyType
@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.loops.loop import Gearing
-from linkanim.mechanics.motion.columns import Scaled, read_only
+from linkanim.mechanics.motion.columns import Lazy, read_only, scaled
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, between, cross, direction, growth, over, size
 from linkanim.mechanics.motion.request import ORDER, Request
 
@@ -84,27 +84,6 @@ class Setting:
     def body(self, name: str) -> Body:
         """Return the body of that name; KeyError where there is none."""
         return next(body for body in self.linkage.bodies if body.name == name)
-
-
-class Lazy(Mapping[str, Any]):
-    """A mapping whose values are worked out when they are first read."""
-
-    def __init__(self, names: tuple[str, ...], find: Callable[[str], Any]) -> None:
-        self._names, self._find = names, find
-        self._found: dict[str, Any] = {}
-
-    def __getitem__(self, name: str) -> Any:
-        if name not in self._found:
-            if name not in self._names:
-                raise KeyError(name)
-            self._found[name] = read_only(self._find(name))
-        return self._found[name]
-
-    def __iter__(self) -> Any:
-        return iter(self._names)
-
-    def __len__(self) -> int:
-        return len(self._names)
 
 
 class Derived(ABC):
@@ -222,7 +201,7 @@ class Paced:
         found, power = getattr(self.motion, name), self.factor ** ORDER[name]
         if not ORDER[name]:
             return {name: found}
-        return {name: Scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
+        return {name: scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
 
 
 class Motion(Derived):

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from linkanim.mechanics.drive.input_path import InputPath, LimitDistances
 from linkanim.mechanics.formulas.program import Batch
 from linkanim.mechanics.formulas.winding import turned
-from linkanim.mechanics.motion.columns import Columns, Floats, ResultLayout, read_only
+from linkanim.mechanics.motion.columns import Floats, ResultLayout, columns, read_only
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, FAMILIES, between, direction
 
 Array = NDArray[np.float64]
@@ -95,7 +95,7 @@ class Request(NamedTuple):
         """Return these quantities."""
         places, results = self._run(kinds)
         results.setflags(write=False)
-        return {kind: Columns(names, results, self.shape) for kind, names in places.places.items()}
+        return {kind: columns(names, results, self.shape) for kind, names in places.places.items()}
 
     def turned(self, angles: Array, ends: tuple[str, str], ratio: float) -> Array:
         """Return how far the way from one joint to another turns from row to row of its angles."""

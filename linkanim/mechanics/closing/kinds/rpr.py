@@ -10,7 +10,7 @@ from linkanim.mechanics.formulas.expression import Value
 from linkanim.mechanics.formulas.planar import Slope, Vec, carried
 from linkanim.mechanics.linkage.dyads import RPR
 from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.loops.loop import Gearing, Loop, ground_between
+from linkanim.mechanics.loops.loop import Gearing, Loop, pin_against_pin
 from linkanim.mechanics.loops.roots import slot_root
 from linkanim.mechanics.loops.signed import Reduced, SignedRoot
 from linkanim.mechanics.loops.triangle import PinLoop, moving_triangle, pin_triangle
@@ -18,15 +18,12 @@ from linkanim.mechanics.loops.triangle import PinLoop, moving_triangle, pin_tria
 
 def loop(joint: RPR, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
     """Return the loop of a crank pin and a fixed pin, one in the slot and one the pivot."""
-    for swapped, (moving, fixed) in enumerate(((joint.through, joint.pivot), (joint.pivot, joint.through))):
-        crank = linkage.crank(moving) if moving in gears else None
-        if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
-            ground = ground_between(linkage, crank, fixed)
-            if ground is None:
-                return None
-            root = slot_root(ground.exact, crank.length, joint.offset, ground.angle)
-            return Loop(moving, crank, gears[moving], ground, root, bool(swapped))
-    return None
+    found = pin_against_pin(linkage, gears, (joint.through, joint.pivot))
+    if found is None:
+        return None
+    crank, ground, swapped = found
+    root = slot_root(ground.exact, crank.length, joint.offset, ground.angle)
+    return Loop(crank.name, crank, gears[crank.name], ground, root, swapped)
 
 
 def close(joint: RPR, walk: Walk) -> None:

@@ -18,23 +18,19 @@ from linkanim.mechanics.closing.walk import Walk
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope, Vec, carried
 from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.loops.loop import Gearing, Loop, ground_between
+from linkanim.mechanics.loops.loop import Gearing, Loop, pin_against_pin
 from linkanim.mechanics.loops.roots import four_bar_root
 from linkanim.mechanics.loops.triangle import Triangle, moving_triangle, pin_triangle
 
 
 def loop(joint: RRR, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
     """Return the loop of a crank pin against a fixed pin."""
-    for swapped in (False, True):
-        (moving, fixed), bars = _turned(joint, swapped)
-        crank = linkage.crank(moving) if moving in gears else None
-        if crank and linkage.joint(crank.pivot).fixed and linkage.joint(fixed).fixed:
-            ground = ground_between(linkage, crank, fixed)
-            if ground is None:
-                return None
-            root = four_bar_root(ground.exact, crank.length, bars, ground.angle)
-            return Loop(moving, crank, gears[moving], ground, root, swapped)
-    return None
+    found = pin_against_pin(linkage, gears, joint.ends)
+    if found is None:
+        return None
+    crank, ground, swapped = found
+    root = four_bar_root(ground.exact, crank.length, _turned(joint, swapped)[1], ground.angle)
+    return Loop(crank.name, crank, gears[crank.name], ground, root, swapped)
 
 
 def close(joint: RRR, walk: Walk) -> None:
