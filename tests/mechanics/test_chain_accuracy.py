@@ -206,3 +206,21 @@ def test_an_acceleration_near_a_limit_has_all_its_digits(by: str) -> None:
         second = -rate * rate / math.tan(phase)
         found = float(solved.solve(phase=phase, speed=rate, acceleration=second).angular_acceleration["4"])
     assert found == pytest.approx(ALPHA_4, rel=1e-14 if by == "angle" else 3e-14)
+
+
+def test_bars_at_right_angles_turn_as_exactly_as_elsewhere() -> None:
+    # There q is at its greatest, though the dyad's next limit may be what its rates are worked out from.
+    dyad = of_geared(geared((2.0, 3.0), 6.0, Gear("A", Fraction(-2), math.radians(50)), (2.0, 6.0), 1))
+    square, angle = sum(mpf(length) ** 2 for length in dyad.lengths), dyad.angle()
+
+    def off(phase: Any) -> Any:
+        p, q = dyad.ends(angle(phase))
+        return abs(p - q) ** 2 - square
+
+    pose, place = dyad.pose(), mp.findroot(off, mpf("2.6276"), tol=1e-30)
+    for way in (0.0, 1e-12, 1e-9, 1e-6):
+        phase = float(place) + way
+        motion = dyad.solved.solve(phase=phase, speed=1.0)
+        _, velocity, acceleration = derivatives(pose, mpf(phase))
+        for values, true in ((motion.velocity, velocity["D"]), (motion.acceleration, acceleration["D"])):
+            assert abs(mp.mpc(*values["D"].tolist()) - true) <= 64 * EPS * max(dyad.lengths)

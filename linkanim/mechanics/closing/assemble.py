@@ -19,6 +19,7 @@ from linkanim.mechanics.drive.ranges import Arc, arcs_of, open_arcs
 from linkanim.mechanics.drive.slider import slider_stroke
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.drive.turn import Turn
+from linkanim.mechanics.formulas.constant import Constant
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope
 from linkanim.mechanics.formulas.program import batch
@@ -53,6 +54,12 @@ def _find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loo
     found = ((joint.name, CLOSERS[type(joint)].loop(joint, linkage, gears)) for joint in linkage.joints)
     own = linkage.drive.joint
     return {name: loop for name, loop in found if loop and (loop.pin == own or not loop.limits)}
+
+
+def precise(assembly: Assembly) -> Assembly:
+    """Return the assembly with lengths that stand for themselves in what is made of them, for many digits."""
+    linkage = assembly.linkage.scaled(Constant(1.0))
+    return replace(assembly, linkage=linkage, loops=_find_loops(linkage, gearings(linkage)))
 
 
 def resigned(assembly: Assembly) -> Assembly:

@@ -206,12 +206,22 @@ class Closing(NamedTuple):
         return minimum(self.u / maximum(distance + most, SMALLEST), folded)
 
     def rates(self, q: Moving) -> Slope:
-        """Return ρ of a root that is known with its rates."""
-        half = self.half_difference
-        ratio = q.rate / half
+        """Return ρ of a root that is known with its rates: from q', or where U and W are alike from (L²)'.
+
+        There q is at its greatest, and q'/((U - W)/2) nothing over nothing.
+        """
+        half, (rate, second) = self.half_difference, (self.separation.rate, self.separation.second)
+        if self.single:
+            return Slope(q.rate / half, q.second / half)
+
+        def chosen(alike: Value, otherwise: Value) -> Value:
+            return select(half * half * 16.0, self.size, alike, otherwise)
+
+        divisor = chosen(q.value, half)
+        ratio = chosen(rate, q.rate) / divisor
         # (U - W)' is -2 (L²)'.
-        bent = q.second if self.single else q.second + ratio * self.separation.rate
-        return Slope(ratio, bent / half)
+        bent = chosen(second - ratio * ratio * half, q.second + ratio * rate)
+        return Slope(ratio, bent / divisor)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from decimal import Decimal, localcontext
 from typing import NamedTuple
 
 from linkanim.errors import AssemblyError
+from linkanim.mechanics.closing.assemble import precise
 from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import ChainRoot, Closing, End, Fit, Near, Zero
 from linkanim.mechanics.closing.kinematics import walk_at, walked
@@ -115,7 +116,7 @@ def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
 
 
 def _closing(assembly: Assembly, name: str) -> Closing:
-    return walk_at(assembly, Graph(exact=True).input("x"), Slope(1.0)).closings[name]
+    return walk_at(precise(assembly), Graph(exact=True).input("x"), Slope(1.0)).closings[name]
 
 
 def _by_phase(assembly: Assembly, name: str) -> tuple[Value, ...]:
@@ -264,7 +265,7 @@ def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[D
     graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
     state = swing_by_angle((v - u, u, v), Slope(0.0), path.middle, path.amplitude)
-    run = decimals(("u", "v"), _outputs(walked(assembly, state).closings[name])[:1])
+    run = decimals(("u", "v"), _outputs(walked(precise(assembly), state).closings[name])[:1])
     amplitude = (exactly(path.high) - exactly(path.low)) / 2
 
     def sampled(way: Decimal) -> Sample:

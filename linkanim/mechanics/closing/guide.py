@@ -15,8 +15,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from linkanim.mechanics.closing.walk import Walk
-from linkanim.mechanics.formulas.exact import unit
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec, carried
+from linkanim.mechanics.formulas.precise import direction
 from linkanim.mechanics.linkage.joint import Line
 
 
@@ -64,7 +64,7 @@ class Guide:
 
 def guide(line: Line, walk: Walk) -> Guide:
     """Return where a line of travel lies at the walk's instant, and how it moves."""
-    along = Vec(*unit(line.angle))
+    along = Vec(*direction(line.angle))
     if line.on is None:
         return Guide(walk.points[line.through], along, Slope(0.0), line.offset)
     axis, turning = walk.axis(line.on)

@@ -12,13 +12,15 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.formulas.circular import Half
-from linkanim.mechanics.formulas.expression import sqrt
+from linkanim.mechanics.formulas.constant import Constant
+from linkanim.mechanics.formulas.expression import Expr, Value, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec, carried
 from linkanim.mechanics.linkage.joint import Point
 from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.rigid_bodies import holding, share_of
+from linkanim.mechanics.linkage.pins import Pin
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.loops.input_state import InputState
-from linkanim.mechanics.loops.loop import Gearing, Loop
+from linkanim.mechanics.loops.loop import Gearing, Loop, place
 from linkanim.mechanics.loops.signed import SignedRoot, plain_root
 from linkanim.mechanics.loops.triangle import PinLoop, moving_factors, moving_square
 
@@ -49,6 +51,11 @@ class Walk:
     pieces: list[Piece] = field(default_factory=lambda: [Piece()])
     travels: dict[str, Moving] = field(default_factory=dict)
     closings: dict[str, Closing] = field(default_factory=dict)
+
+    @property
+    def exact(self) -> bool:
+        """Whether what is noted will be run in many digits."""
+        return isinstance(self.state.angle, Expr) and self.state.angle.graph.exact
 
     @property
     def linkage(self) -> Linkage:
@@ -111,11 +118,17 @@ class Walk:
             return AT_ITS_LIMIT
         return self.linkage.joint(name).why_apart(u, w)
 
+    def place_of(self, pin: Pin) -> Vec:
+        """Return where a fixed pin stands."""
+        if not self.exact:
+            return Vec(*pin.position)
+        return Vec(*map(Constant, pin.position, place(self.linkage, pin)))
+
     def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
         """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""
         n = self._body_of(on, f"joint {name}" if name else "centre of mass")
-        piece, share = self.pieces[n], share_of(self.linkage.rigid_bodies[n], on, at)
-        arm = self._arm(piece, *on).times(Vec(share.real, share.imag))
+        piece, length = self.pieces[n], self._length(n, on)
+        arm = self._arm(piece, *on).times(Vec(at[0] / length, at[1] / length))
         if name is not None:
             piece.arms[on[0], name] = arm
         return self.points[on[0]] + carried(arm, piece.turning)
@@ -123,8 +136,15 @@ class Walk:
     def axis(self, on: tuple[str, str]) -> tuple[Vec, Slope]:
         """Return the direction from one joint of a body to another, of length 1, and how the body turns."""
         n = self._body_of(on, "line of travel")
-        start, end = (self.linkage.rigid_bodies[n][name] for name in on)
-        return self._arm(self.pieces[n], *on).scaled(1.0 / abs(end - start)), self.pieces[n].turning
+        return self._arm(self.pieces[n], *on).scaled(1.0 / self._length(n, on)), self.pieces[n].turning
+
+    def _length(self, n: int, ends: tuple[str, str]) -> Value:
+        """Return how far two joints of one body are apart: known, or for many digits worked out."""
+        if self.exact:
+            arm = self._arm(self.pieces[n], *ends)
+            return sqrt(arm.dot(arm))
+        start, end = (self.linkage.rigid_bodies[n][name] for name in ends)
+        return abs(end - start)
 
     def _arm(self, piece: Piece, start: str, end: str) -> Vec:
         """Return the vector from one joint of a rigid body to another."""

@@ -59,7 +59,7 @@ class Swing(ThereAndBack):
     @property
     def amplitude(self) -> float:
         """Half the angle of the swing."""
-        return float((self.high - self.low).times(0.5))
+        return (self.high - self.low).times(0.5).constant
 
     @property
     def limits(self) -> tuple[float, ...]:

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from linkanim.mechanics.formulas.circular import direction
+from linkanim.mechanics.formulas.constant import Constant
 from linkanim.units import PI_REST, Angle
 
 QUARTER_TURN_HIGH = math.pi / 2
@@ -49,7 +50,12 @@ class Sum:
         return Sum(high, float(exact - Fraction(high)))
 
     def __float__(self) -> float:
-        return self.high + self.low
+        return float(self.high + self.low)
+
+    @property
+    def constant(self) -> Constant:
+        """The number as a constant of the formulas."""
+        return Constant(float(self), lambda: self.fraction)
 
 
 def _renormalised(high: float, low: float) -> Sum:
@@ -127,6 +133,10 @@ def gap(*lengths: float) -> float:
     Decimal lengths with s + l = p + q are rarely exact in binary: a gap within 2⁻⁵³ of the
     perimeter is the rounding of the lengths, not a gap.
     """
-    total = math.fsum(lengths)
-    perimeter = math.fsum(abs(length) for length in lengths)
-    return 0.0 if abs(total) <= perimeter * 2.0**-53 else total
+    rest, perimeter = total(*lengths), math.fsum(abs(length) for length in lengths)
+    return 0.0 if abs(float(rest)) <= perimeter * 2.0**-53 else rest
+
+
+def total(*lengths: float) -> Constant:
+    """Return the sum of lengths."""
+    return Constant(math.fsum(lengths), lambda: sum(map(Fraction, lengths), Fraction(0)))

@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from linkanim.mechanics.formulas.constant import Constant, root
+
 WHOLE = 1.5 * 2.0**52
 """Added to a number below 2⁵¹ in size, it leaves no room for a fraction."""
 COMMUTES = frozenset({"add", "mul", "minimum", "maximum"})
@@ -28,6 +30,10 @@ class Graph:
         found = self.node("input", name)
         found.uniform = uniform
         return found
+
+    def constant(self, number: float) -> float:
+        """Return a number as it is noted: with the one that it stands for where the digits are to be many."""
+        return Constant(number) if self.exact else float(number)
 
     def node(self, op: str, *args: Expr | float | str) -> Expr:
         """Return the node for this operation, the one recorded before where there is one."""
@@ -124,8 +130,10 @@ def _is_uniform(value: Expr | float | str) -> bool:
 
 
 def _add(a: Expr, b: Value) -> Value:
-    if isinstance(b, (int, float)) and b == 0:
-        return a
+    if isinstance(b, (int, float)):
+        b = a.graph.constant(b)
+        if b == 0:
+            return a
     for x, y in ((a, b), (b, a)):
         positive = _negated(y)
         if positive is not None:
@@ -134,9 +142,11 @@ def _add(a: Expr, b: Value) -> Value:
 
 
 def _subtract(a: Value, b: Value) -> Value:
-    if isinstance(b, (int, float)) and b == 0:
+    graph = _graph_of(a, b)
+    a, b = _noted(graph, a), _noted(graph, b)
+    if not isinstance(b, Expr) and b == 0:
         return a
-    if isinstance(a, (int, float)) and a == 0:
+    if not isinstance(a, Expr) and a == 0:
         return -b
     positive = _negated(b)
     if positive is not None:
@@ -144,13 +154,20 @@ def _subtract(a: Value, b: Value) -> Value:
     negative = _negated(a)
     if negative is not None:
         return -(negative + b)
-    graph = b.graph if isinstance(b, Expr) else a.graph if isinstance(a, Expr) else Graph()
     return graph.node("sub", a, b)
+
+
+def _graph_of(a: Value, b: Value) -> Graph:
+    return b.graph if isinstance(b, Expr) else a.graph if isinstance(a, Expr) else Graph()
+
+
+def _noted(graph: Graph, value: Value) -> Value:
+    return value if isinstance(value, Expr) else graph.constant(value)
 
 
 def _multiply(a: Expr, b: Value) -> Value:
     if isinstance(b, (int, float)):
-        return _scale(a, float(b))
+        return _scale(a, a.graph.constant(b))
     for x, y in ((a, b), (b, a)):
         if x.uniform and not y.uniform:
             factor, rest = _factored(y)
@@ -182,17 +199,19 @@ def _scale(a: Expr, factor: float) -> Value:
 
 
 def _divide(a: Value, b: Value) -> Value:
-    if isinstance(b, (int, float)):
-        return a * (1.0 / b) if math.frexp(b)[0] in (0.5, -0.5) else _quotient(a, float(b))
-    if isinstance(a, (int, float)) and a == 0:
+    graph = _graph_of(a, b)
+    a, b = _noted(graph, a), _noted(graph, b)
+    if not isinstance(b, Expr):
+        return a * (1.0 / b) if math.frexp(b)[0] in (0.5, -0.5) else graph.node("div", a, b)
+    if not isinstance(a, Expr) and a == 0:
         return 0.0
     positive = _negated(b)
-    return -(a / positive) if positive is not None else _quotient(a, b)
+    return -(a / positive) if positive is not None else graph.node("div", a, b)
 
 
-def _quotient(a: Value, b: Value) -> Value:
-    graph = b.graph if isinstance(b, Expr) else a.graph if isinstance(a, Expr) else Graph()
-    return graph.node("div", a, b)
+def beside(number: float, value: Value) -> float:
+    """Return a number as it is noted with a value; with a float that computes, as a float."""
+    return value.graph.constant(number) if isinstance(value, Expr) else float(number)
 
 
 def _unary(op: str, plain: Callable[[float], float]) -> Callable[[Value], Value]:
@@ -207,7 +226,7 @@ def nearest_whole(x: float) -> float:
     return (x + WHOLE) - WHOLE or x * 0.0
 
 
-sqrt = _unary("sqrt", math.sqrt)
+sqrt = _unary("sqrt", root)
 rint = _unary("rint", nearest_whole)
 
 

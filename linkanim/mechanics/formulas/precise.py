@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from decimal import Context, Decimal
+from decimal import Context, Decimal, localcontext
 
-from linkanim.mechanics.formulas.exact import Sum
+from linkanim.mechanics.formulas.constant import DIGITS, Constant, digits_of
+from linkanim.mechanics.formulas.exact import Sum, exact_angle, unit
 
-DIGITS = 50
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
 
 
@@ -18,7 +18,7 @@ def context() -> Context:
 
 def exactly(number: Sum | float) -> Decimal:
     """Return the number with all its digits."""
-    return Decimal(number.high) + Decimal(number.low) if isinstance(number, Sum) else Decimal(number)
+    return digits_of(number.high) + digits_of(number.low) if isinstance(number, Sum) else digits_of(number)
 
 
 def nearest_sum(number: Decimal) -> Sum:
@@ -55,6 +55,21 @@ def sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
         term = term * rest / n
     cosine, sine = sums
     return ((sine, cosine), (cosine, -sine), (-sine, -cosine), (-cosine, sine))[count % 4]
+
+
+def sides(angle: float) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine of an angle as it was written, exact at multiples of a right angle."""
+    along, left = unit(angle)
+    if 0.0 in (along, left):
+        return Decimal(left), Decimal(along)
+    with localcontext(context()):
+        return sine_and_cosine(exactly(exact_angle(angle)))
+
+
+def direction(angle: float) -> tuple[Constant, Constant]:
+    """Return (cos, sin) of an angle as it was written."""
+    along, left = unit(angle)
+    return Constant(along, lambda: sides(angle)[1]), Constant(left, lambda: sides(angle)[0])
 
 
 def interpolated(places: list[Decimal], values: list[Decimal]) -> list[float]:

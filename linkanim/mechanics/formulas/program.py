@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.mechanics.formulas.buffers import allocated
+from linkanim.mechanics.formulas.constant import digits_of
 from linkanim.mechanics.formulas.expression import WHOLE, Expr, Value
 from linkanim.mechanics.formulas.precise import cosine, sine, square_root
 
@@ -139,7 +140,7 @@ def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., t
         if isinstance(value, (Expr, str)):
             return _name(value)
         key = f"k{len(constants)}"
-        constants[key] = Decimal(value)
+        constants[key] = digits_of(value)
         return key
 
     lines = [

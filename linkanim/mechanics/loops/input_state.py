@@ -14,8 +14,9 @@ from fractions import Fraction
 from typing import Protocol
 
 from linkanim.mechanics.formulas.circular import Half, cosine_of, half_angle, sharp_half_angle
+from linkanim.mechanics.formulas.constant import root
 from linkanim.mechanics.formulas.exact import Sum, quarter_turns, two_product, two_sum
-from linkanim.mechanics.formulas.expression import Value, sqrt
+from linkanim.mechanics.formulas.expression import Value, beside, sqrt
 from linkanim.mechanics.formulas.planar import Moving, Slope
 
 HalfForm = Callable[..., Half]
@@ -152,8 +153,8 @@ def turn(x: Value, pace: Slope, origin: Sum) -> InputState:
 
 def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> InputState:
     """Return the state of a swing driven by its phase."""
-    half = sharp_half_angle(phase)
-    scale = math.sqrt(amplitude)
+    half, amplitude = sharp_half_angle(phase), beside(amplitude, phase)
+    scale = root(amplitude)
     root_u, root_v = half.cosine * scale, half.sine * scale
     half_rate, bend = pace.value * 0.5, pace.rate * 0.5
     square = half_rate * half_rate

@@ -11,10 +11,12 @@ from functools import partial
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.formulas.circular import Half, half_angle, sharp_half_angle, signed_half_angle
-from linkanim.mechanics.formulas.exact import HALF_TURN, Sum, exact_angle, gap, unit
+from linkanim.mechanics.formulas.constant import Constant
+from linkanim.mechanics.formulas.exact import HALF_TURN, Sum, exact_angle, gap
 from linkanim.mechanics.formulas.expression import Value
 from linkanim.mechanics.formulas.planar import Slope, Vec
-from linkanim.mechanics.formulas.precise import context, exactly, nearest_sum, sine_and_cosine
+from linkanim.mechanics.formulas.precise import context, exactly, nearest_sum, sides, sine_and_cosine
+from linkanim.mechanics.formulas.precise import direction as direction_of
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.loops.input_state import InputPlaces, InputState
@@ -157,8 +159,11 @@ def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     length = math.hypot(dx, dy)
     if not length:
         return None
-    direction = Vec(dx / length, dy / length)
-    exact, angle = _way(_place(linkage, first), _place(linkage, second))
+    places = place(linkage, first), place(linkage, second)
+    exact, angle = _way(*places)
+    with localcontext(context()):
+        along, left = ((b - a) / exactly(exact) for a, b in zip(*places, strict=True))
+    direction = Vec(Constant(dx / length, along), Constant(dy / length, left))
     if not (dx and dy):
         angle = exact_angle(math.atan2(dy, dx))
     if gap(exact.high, exact.low, -crank.length) == 0:
@@ -168,28 +173,19 @@ def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
 
 def aside_of(linkage: Linkage, pin: Pin, base: Pin, angle: float) -> Sum:
     """Return how far a fixed pin lies left of the line through another at an angle."""
-    (x0, y0), (x1, y1) = _place(linkage, base), _place(linkage, pin)
-    sine, cosine = _sides(angle)
+    (x0, y0), (x1, y1) = place(linkage, base), place(linkage, pin)
+    sine, cosine = sides(angle)
     with localcontext(context()):
         return nearest_sum((y1 - y0) * cosine - (x1 - x0) * sine)
 
 
-def _sides(angle: float) -> tuple[Decimal, Decimal]:
-    """Return sine and cosine of an angle as it was written, exact at multiples of a right angle."""
-    along, left = unit(angle)
-    if 0.0 in (along, left):
-        return Decimal(left), Decimal(along)
-    with localcontext(context()):
-        return sine_and_cosine(exactly(exact_angle(angle)))
-
-
-def _place(linkage: Linkage, pin: Pin) -> tuple[Decimal, Decimal]:
+def place(linkage: Linkage, pin: Pin) -> tuple[Decimal, Decimal]:
     """Return where a fixed pin lies, as it was written."""
     if pin.polar is None:
         return Decimal(pin.position[0]), Decimal(pin.position[1])
     base, length = pin.polar.base, Decimal(pin.polar.length)
-    x, y = _place(linkage, linkage.pin(base)) if base else (Decimal(0), Decimal(0))
-    sine, cosine = _sides(pin.polar.angle)
+    x, y = place(linkage, linkage.pin(base)) if base else (Decimal(0), Decimal(0))
+    sine, cosine = sides(pin.polar.angle)
     with localcontext(context()):
         return x + length * cosine, y + length * sine
 
@@ -214,7 +210,7 @@ def _written_from(pin: Pin, base: Pin) -> bool:
 
 def _written(pin: Pin, *, turned: bool) -> Ground:
     assert pin.polar is not None
-    direction = Vec(*unit(pin.polar.angle))
+    direction = Vec(*direction_of(pin.polar.angle))
     angle = exact_angle(pin.polar.angle)
     if turned:
         # At most half a turn, as that of coordinates: the input's range counts from it.

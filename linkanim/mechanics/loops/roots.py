@@ -14,7 +14,8 @@ from decimal import Decimal, localcontext
 from enum import Enum
 from fractions import Fraction
 
-from linkanim.mechanics.formulas.exact import HALF_TURN, Sum, gap, quarter_turns
+from linkanim.mechanics.formulas.constant import Constant, nearest
+from linkanim.mechanics.formulas.exact import HALF_TURN, Sum, gap, quarter_turns, total
 from linkanim.mechanics.formulas.precise import context, nearest_sum, sine_and_cosine
 
 WIDE = 1 / 16
@@ -112,18 +113,19 @@ def four_bar_root(ground: Sum, crank: float, bars: tuple[float, float], referenc
     g, r, a, b = ground.fraction, *(Fraction(length) for length in (crank, coupler, rocker))
     longer, shorter = (ground.high, ground.low), (-ground.high, -ground.low)
     u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2
-    u_least = gap(coupler, rocker, *shorter, -crank) * math.fsum((coupler, rocker, *longer, crank))
+    u_least = gap(coupler, rocker, *shorter, -crank) * total(coupler, rocker, *longer, crank)
     w_least = gap(*longer, -crank, -coupler, rocker) * gap(*longer, -crank, coupler, -rocker)
     touching_u = gap(coupler, rocker, *shorter, crank) == 0
     touching_w = 0 in (gap(*longer, crank, -coupler, rocker), gap(*longer, crank, coupler, -rocker))
     spread = 2 * r if u_least > 0 and w_least > 0 else Fraction(1)
-    unit = 4 * g * r / spread
+    unit = nearest(4 * g * r / spread)
+    u_most, w_most = u_most / unit.number, w_most / unit.number
     return LoopRoot(
-        float(spread),
-        factor(u_least / float(unit), _unless(touching_u, u_most / unit), spread, u_most / unit),
-        factor(w_least / float(unit), _unless(touching_w, w_most / unit), spread, w_most / unit),
+        nearest(spread),
+        factor(u_least / unit, _unless(touching_u, u_most), spread, u_most),
+        factor(w_least / unit, _unless(touching_w, w_most), spread, w_most),
         reference,
-        float(unit),
+        unit,
     )
 
 
@@ -150,9 +152,10 @@ def slot_root(ground: Sum, crank: float, offset: float, reference: Sum) -> LoopR
     most = (g + r) ** 2 - o**2
     touching = 0 in (gap(*length, crank, -offset), gap(*length, crank, offset))
     only = factor(least, _unless(touching, most), 4 * g * r, most)
-    return LoopRoot(4.0 * ground.high * crank, ALWAYS, only, reference)
+    spread = Constant(4.0 * ground.high * crank, 4 * g * r)
+    return LoopRoot(spread, ALWAYS, only, reference)
 
 
 def _unless(touching: bool, most: Fraction) -> float:
     """Return the greatest value of a factor; none where the bars just reach each other, once a turn."""
-    return 0.0 if touching else float(most)
+    return 0.0 if touching else nearest(most)

@@ -53,6 +53,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from linkanim.mechanics.formulas.circular import Half, cosine_within, half_of, sine_within
+from linkanim.mechanics.formulas.constant import root as root_of
 from linkanim.mechanics.formulas.exact import FULL_TURN, HALF_TURN, Sum
 from linkanim.mechanics.formulas.expression import Value, maximum, minimum, select, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope
@@ -205,7 +206,7 @@ def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | Non
     middle = float(swing.low + swing.high) / 2
     turns = round((middle - float(best)) / (2 * math.pi))
     best = best + FULL_TURN.times(float(turns))
-    upper, lower = float(best + factor.reach - swing.high), float(swing.low - (best - factor.reach))
+    upper, lower = (best + factor.reach - swing.high).constant, (swing.low - (best - factor.reach)).constant
     at_upper, at_lower = upper <= OWN_LIMIT, lower <= OWN_LIMIT
     u, v = swing.ends.u, swing.ends.v
     return _Ways(
@@ -214,7 +215,7 @@ def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | Non
         v if at_lower else Slope(v.value + 0.5 * lower, v.rate),
         at_upper,
         at_lower,
-        float(factor.short),
+        factor.short.constant,
         -1.0 if turns % 2 else 1.0,
     )
 
@@ -232,7 +233,7 @@ def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | Non
     """Return q as the product of its two signed roots, and ρ with what vanishes in both divided out."""
     if swing is not None and not swing.ends.by_phase:
         return _root_by_angle(root, half, pace, swing)
-    half_rate, scale = pace.value * 0.5, math.sqrt(root.spread)
+    half_rate, scale = pace.value * 0.5, root_of(root.spread)
     first = half.squares(root.spread).product * pace.value
     u, w = factor_values(root, half)
     sine = Slope(half.sine, half.cosine * half_rate)
@@ -255,7 +256,7 @@ def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Swinging) -> 
     ρ = K s c ψ'/(√U √W) with s, c of ψ/2, and at a steady pace ρ' = ρ ψ' (cW c/(s W) - cU s/(c U))/2: of what
     U, W, s and c change by, nearly all cancels next to a change point, and is not formed.
     """
-    scale, (u, w) = math.sqrt(root.spread), factor_values(root, half)
+    scale, (u, w) = root_of(root.spread), factor_values(root, half)
     part_u = _part_by_angle(root.u, _ways(root, root.u, swing), u, (half.cosine, half.sine), scale)
     part_w = _part_by_angle(root.w, _ways(root, root.w, swing), w, (half.sine, half.cosine), scale)
     share = root.spread / (part_u.regular * part_w.regular)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from linkanim.mechanics.formulas.circular import Half
+from linkanim.mechanics.formulas.constant import Constant
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Value, select, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec
@@ -61,7 +62,7 @@ class PinLoop:
     @property
     def short(self) -> float:
         """How much longer the ground is than the crank, rounded once."""
-        return float(self.ground - Sum(self.crank))
+        return (self.ground - Sum(float(self.crank))).constant
 
     def across(self) -> Vec:
         """Return D from the crank pin to the fixed pin, exact where the two nearly meet."""
@@ -135,8 +136,9 @@ def _kite(loop: PinLoop, root: SignedRoot) -> Triangle:
 
 
 def _near_constant(gap: float, near: float, far: float) -> float:
-    """Return gap² + near² - far², rounded once."""
-    return float(Fraction(gap) ** 2 + Fraction(near) ** 2 - Fraction(far) ** 2)
+    """Return gap² + near² - far², that of the rounded gap rounded once."""
+    excess = Fraction(near) ** 2 - Fraction(far) ** 2
+    return Constant(float(Fraction(float(gap)) ** 2 + excess), Fraction(gap) ** 2 + excess)
 
 
 def moving_triangle(across: MovingPoint, lengths: tuple[float, float], signed: SignedRoot) -> Triangle:

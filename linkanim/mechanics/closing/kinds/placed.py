@@ -16,7 +16,7 @@ from linkanim.mechanics.loops.loop import own_loop
 
 def place_pin(pin: Pin, walk: Walk) -> None:
     """Put the pin where it stands."""
-    walk.points[pin.name] = MovingPoint(Vec(*pin.position))
+    walk.points[pin.name] = MovingPoint(walk.place_of(pin))
 
 
 def place_crank(crank: Crank, walk: Walk) -> None:

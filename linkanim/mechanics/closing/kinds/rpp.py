@@ -11,13 +11,14 @@ from linkanim.mechanics.closing.guide import guide
 from linkanim.mechanics.closing.walk import Walk
 from linkanim.mechanics.formulas.exact import unit
 from linkanim.mechanics.formulas.planar import Moving
+from linkanim.mechanics.formulas.precise import direction
 from linkanim.mechanics.linkage.dyads import RPP
 
 
 def close(joint: RPP, walk: Walk) -> None:
     """Add where the slot crosses the line: s = f - e cot σ, and its derivatives alike."""
     rail, point = guide(joint.line, walk), walk.points[joint.pin]
-    cosine, sine = unit(joint.slot)
+    cosine, sine = direction(joint.slot)
     forward, aside, lean = rail.forward(point), rail.aside(point), cosine / sine
     travel = Moving(
         forward.value - aside.value * lean,
