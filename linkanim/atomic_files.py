@@ -105,7 +105,10 @@ def replacing(target: Path) -> Iterator[Path]:
     A file that is there keeps its mode. Whatever ends the block otherwise, the new file goes and an old
     one stays as it was. `BadInput` as `refuse_taken`.
     """
-    with _beginning(target) as part:
+    refuse_taken(target)
+    with scratch(target.parent, target) as folder:
+        part = folder / "new"
+        part.touch()
         yield part
         settle(part)
         take_place(part, target)
@@ -145,16 +148,6 @@ def _moved(part: Path, target: Path) -> bool:
         return False
     part.replace(target)
     return True
-
-
-@contextmanager
-def _beginning(target: Path) -> Iterator[Path]:
-    """Give an empty file in a scratch folder; `BadInput` where it could not take the target's name."""
-    refuse_taken(target)
-    with scratch(target.parent, target) as folder:
-        part = folder / "new"
-        part.touch()
-        yield part
 
 
 def take_place(part: Path, target: Path) -> None:

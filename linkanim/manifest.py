@@ -13,10 +13,9 @@ import json
 import os
 import re
 import shutil
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from linkanim.atomic_files import checked_folder, hold, refuse_taken, scratch, settle, take_place
@@ -116,59 +115,46 @@ def replacing(files: FileSet, names: Iterable[str] = (), *, others_go: bool = Tr
 def _take_places(files: FileSet, room: Path, sums: Sums, *, others_go: bool) -> None:
     """Put the new files in place, one by one, and take away what goes; undo it all where one fails."""
     files.refuse_foreign(sums)
-    before, steps = files.sums(), _Steps(room / "old")
+    before, old = files.sums(), room / "old"
+    old.mkdir()
     both = {name: before.get(name, frozenset()) | sums.get(name, frozenset()) for name in {**before, **sums}}
-    with steps.undone_where_one_fails():
-        steps.put(_write_list(room / "both", both), files.list_path)
+    with ExitStack() as undo:
+        _put(_write_list(room / "both", both), files.list_path, old, undo)
         for name in sums:
-            steps.put(room / "new" / name, files.folder / name)
+            _put(room / "new" / name, files.folder / name, old, undo)
         for name in before.keys() - sums.keys() if others_go else ():
             if is_ours(files.folder / name, before):
-                steps.take(files.folder / name)
+                _take(files.folder / name, old, undo)
         after = sums if others_go else {**before, **sums}
-        steps.put(_write_list(room / "after", after), files.list_path)
+        _put(_write_list(room / "after", after), files.list_path, old, undo)
+        undo.pop_all()
 
 
-class _Steps:
-    """Files put in place and taken away, each in one step, and what is needed to undo them."""
+def _put(part: Path, target: Path, old: Path, undo: ExitStack) -> None:
+    """Have a file take the name; what is there is kept."""
+    kept = _kept(target, old) if target.exists() else None
+    undo.callback(_put_back, part, target, kept)
+    take_place(part, target)
 
-    def __init__(self, old: Path) -> None:
-        self._old = old
-        self._undo: list[Callable[[], None]] = []
-        old.mkdir()
 
-    def put(self, part: Path, target: Path) -> None:
-        """Have a file take the name; what is there is kept."""
-        kept = self._kept(target) if target.exists() else None
-        self._undo.append(partial(_put_back, part, target, kept))
-        take_place(part, target)
+def _take(target: Path, old: Path, undo: ExitStack) -> None:
+    """Take a file away, and keep it."""
+    kept = _next(old)
+    undo.callback(_give_back, kept, target)
+    target.rename(kept)
 
-    def take(self, target: Path) -> None:
-        """Take a file away, and keep it."""
-        kept = self._next()
-        self._undo.append(partial(_give_back, kept, target))
-        target.rename(kept)
 
-    @contextmanager
-    def undone_where_one_fails(self) -> Iterator[None]:
-        """Undo the steps, the last first, where the block fails."""
-        try:
-            yield
-        except BaseException:
-            for undo in reversed(self._undo):
-                undo()
-            raise
+def _next(old: Path) -> Path:
+    return old / os.urandom(8).hex()
 
-    def _next(self) -> Path:
-        return self._old / str(len(self._undo))
 
-    def _kept(self, target: Path) -> Path:
-        kept = self._next()
-        try:
-            kept.hardlink_to(target)
-        except OSError:  # a file system that knows no links
-            shutil.copy2(target, kept)
-        return kept
+def _kept(target: Path, old: Path) -> Path:
+    kept = _next(old)
+    try:
+        kept.hardlink_to(target)
+    except OSError:  # a file system that knows no links
+        shutil.copy2(target, kept)
+    return kept
 
 
 def _put_back(part: Path, target: Path, kept: Path | None) -> None:
