@@ -6,6 +6,7 @@ import math
 import sys
 from argparse import Namespace
 from collections.abc import Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -62,20 +63,17 @@ def run(options: Namespace) -> None:
 
 
 def _inputs(options: Namespace) -> Inputs:
-    sweep, angle, phase = options.sweep, options.angle, options.phase
-    if sweep is None:
-        return _one(angle, phase, options.csv)
-    if angle is not None or phase not in (None, EVERY_ANGLE):
-        raise BadInput("--sweep goes with no other angle; write --phase alone to sweep the phase")
-    return Inputs("phase" if phase is EVERY_ANGLE else "angle", steps=Steps.of(sweep))
-
-
-def _one(angle: float | None, phase: float | None, csv_name: str | None) -> Inputs:
-    if csv_name:
-        raise BadInput("--csv is for a sweep; add --sweep 0:360:1, or take --json")
-    if phase is EVERY_ANGLE:
-        raise BadInput('--phase has no value; write it with its unit, such as --phase "87 deg"')
+    angle, phase = options.angle, options.phase
+    every = phase is EVERY_ANGLE
     given = [(by, value) for by, value in (("angle", angle), ("phase", phase)) if value is not None]
+    if options.sweep is not None:
+        if given and not (every and angle is None):
+            raise BadInput("--sweep goes with no other angle; write --phase alone to sweep the phase")
+        return Inputs("phase" if every else "angle", steps=Steps.of(options.sweep))
+    if options.csv:
+        raise BadInput("--csv is for a sweep; add --sweep 0:360:1, or take --json")
+    if every:
+        raise BadInput('--phase has no value; write it with its unit, such as --phase "87 deg"')
     if len(given) != 1:
         raise BadInput('say where to solve: one of --angle "87 deg", --phase "87 deg" and --sweep 0:360:1')
     return Inputs(*given[0])
@@ -133,17 +131,14 @@ def _target(name: str | None) -> Path | None:
 
 
 def _write_csv(target: Path | None, by: str, found: Iterator[RowBlock]) -> None:
-    if target is None:
-        _csv_rows(sys.stdout, by, found)
-        return
-    with replacing(target) as part, part.open("w", encoding="utf-8", newline="") as file:
-        _csv_rows(file, by, found)
-
-
-def _csv_rows(file: TextIO, by: str, found: Iterator[RowBlock]) -> None:
     """Write the input in degrees and then every quantity; what is not known is an empty cell."""
-    for number, block in enumerate(found):
-        names, columns = zip(*leaves(block.found), strict=True)
-        if number == 0:
-            file.write(csv_head([f"{by}_deg", *names]))
-        file.write(csv_rows([block.degrees, *columns]))
+    with ExitStack() as stack:
+        file: TextIO = sys.stdout
+        if target is not None:
+            part = stack.enter_context(replacing(target))
+            file = stack.enter_context(part.open("w", encoding="utf-8", newline=""))
+        for number, block in enumerate(found):
+            names, columns = zip(*leaves(block.found), strict=True)
+            if number == 0:
+                file.write(csv_head([f"{by}_deg", *names]))
+            file.write(csv_rows([block.degrees, *columns]))

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from linkanim.picture.look import TOGGLES
-from linkanim.player.state.action import Action, Mode
+from linkanim.player.state.action import Action, Mode, Value
 
 
 class Bind(NamedTuple):
@@ -30,22 +30,16 @@ class KeyRow(NamedTuple):
     binds: tuple[Bind, ...] = ()
 
 
-def _on(key: str, name: str, value: int | str | tuple[float, ...] | None = None) -> Bind:
-    return Bind(key, Action(name, value))
-
-
-def _held(key: str, name: str, value: int | tuple[float, ...] | None = None) -> Bind:
-    return Bind(key, Action(name, value), repeats=True)
-
-
-def _every(keys: str, name: str, value: str | None = None) -> tuple[Bind, ...]:
-    return tuple(_on(key, name, value) for key in keys.split())
+def _on(keys: str, name: str, value: Value = None, *, held: bool = False) -> tuple[Bind, ...]:
+    """Return what each of the keys asks for; `held` where holding it goes on asking."""
+    return tuple(Bind(key, Action(name, value), held) for key in keys.split())
 
 
 def _of_look(name: str) -> tuple[Bind, ...]:
     """Return the keys of a field of the look."""
     toggle = TOGGLES[name]
-    return tuple(map(_on, toggle.keys, [name] * len(toggle.keys), toggle.members))
+    members = zip(toggle.keys, toggle.members, strict=True)
+    return tuple(Bind(key, Action(name, member)) for key, member in members)
 
 
 def _looks(subject: str) -> tuple[KeyRow, ...]:
@@ -57,109 +51,84 @@ def _looks(subject: str) -> tuple[KeyRow, ...]:
     )
 
 
-def _both(less: str, more: str, name: str, by: int = 1) -> tuple[Bind, Bind]:
-    return _held(less, name, -by), _held(more, name, by)
+def _both(less: str, more: str, name: str, by: int = 1) -> tuple[Bind, ...]:
+    return _on(less, name, -by, held=True) + _on(more, name, by, held=True)
+
+
+def _steps(name: str) -> tuple[Bind, ...]:
+    """Return the arrows to the left and right, ten times as far with Shift."""
+    return _both("left", "right", name) + _both("shift+left", "shift+right", name, 10)
 
 
 _IN, _OUT = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
+_DIGITS = tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", "select", n))
 
 KEYS: tuple[KeyRow, ...] = (
-    KeyRow("play", "Space", "play / pause", _every("space", "pause")),
-    KeyRow(
-        "play",
-        "← → (Shift: ×10)",
-        "pause, and step the crank",
-        (*_both("left", "right", "step"), *_both("shift+left", "shift+right", "step", 10)),
-    ),
+    KeyRow("play", "Space", "play / pause", _on("space", "pause")),
+    KeyRow("play", "← → (Shift: ×10)", "pause, and step the crank", _steps("step")),
     KeyRow("play", "↑ ↓", "speed", _both("down", "up", "speed")),
-    KeyRow("play", "D", "direction", _every("d", "direction")),
-    KeyRow("play", "R", "back to the start", _every("r", "start")),
+    KeyRow("play", "D", "direction", _on("d", "direction")),
+    KeyRow("play", "R", "back to the start", _on("r", "start")),
     KeyRow(
         "play",
         "Tab, Shift+Tab, 1–9",
         "mechanism, of its chapter",
-        (
-            _on("tab", "mechanism", 1),
-            _on("shift+tab", "mechanism", -1),
-            *(_on(str(place + 1), "select", place) for place in range(9)),
-            *(_on(f"kp{place + 1}", "select", place) for place in range(9)),
-        ),
+        _on("tab", "mechanism", 1) + _on("shift+tab", "mechanism", -1) + _DIGITS,
     ),
-    KeyRow("play", "O", "the shelf: all mechanisms", _every("o", "shelf")),
+    KeyRow("play", "O", "the shelf: all mechanisms", _on("o", "shelf")),
     KeyRow("play", "drag pin, drag cursor", "move the crank; the chart's cursor, too"),
     *_looks("look"),
     KeyRow(
         "look",
         "+, −, wheel, drag",
         "zoom, pan",
-        (
-            *(_held(key, "zoom", _IN) for key in ("+", "=", "kp_plus")),
-            *(_held(key, "zoom", _OUT) for key in ("-", "kp_minus")),
-        ),
+        _on("+ = kp_plus", "zoom", _IN, held=True) + _on("- kp_minus", "zoom", _OUT, held=True),
     ),
-    KeyRow("look", "0, Home", "fit", _every("0 kp0 home", "fit")),
+    KeyRow("look", "0, Home", "fit", _on("0 kp0 home", "fit")),
     KeyRow("look", "L", "light / dark", _of_look("theme")),
-    KeyRow("look", "F11", "full screen", _every("f11", "fullscreen")),
-    KeyRow("look", "H, F1, ?", "help", _every("h f1 ? shift+/", "help")),
-    KeyRow(
-        "look",
-        "Esc, Q",
-        "close an open overlay (Esc); quit",
-        (_on("escape", "back"), _on("q", "quit")),
-    ),
+    KeyRow("look", "F11", "full screen", _on("f11", "fullscreen")),
+    KeyRow("look", "H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
+    KeyRow("look", "Esc, Q", "close an open overlay (Esc); quit", _on("escape", "back") + _on("q", "quit")),
     *_looks("measure"),
     KeyRow(
         "measure",
         "C (Shift: back)",
         "chart: next quantity, off",
-        (_on("c", "chart", 1), _on("shift+c", "chart", -1)),
+        _on("c", "chart", 1) + _on("shift+c", "chart", -1),
     ),
-    KeyRow("measure", "K", "the list of quantities", _every("k", "list")),
-    KeyRow("edit", "E", "edit dimensions (H there: how)", _every("e", "edit")),
+    KeyRow("measure", "K", "the list of quantities", _on("k", "list")),
+    KeyRow("edit", "E", "edit dimensions (H there: how)", _on("e", "edit")),
     KeyRow(
-        "edit",
-        "B (Shift: ghost)",
-        "assembly: the other closure",
-        (_on("b", "closure"), *_of_look("ghost")),
+        "edit", "B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")
     ),
     KeyRow(
         "edit",
         "Ctrl+Z, Ctrl+Y",
         "undo, redo",
-        (_held("ctrl+z", "undo"), _held("ctrl+y", "redo"), _held("ctrl+shift+z", "redo")),
+        _on("ctrl+z", "undo", held=True) + _on("ctrl+y ctrl+shift+z", "redo", held=True),
     ),
-    KeyRow(
-        "keep",
-        "S, F12 (Shift+S: SVG)",
-        "screenshot",
-        (*_every("s f12", "screenshot"), _on("shift+s", "svg")),
-    ),
-    KeyRow("keep", "G", "record GIF: start, stop", _every("g", "record", "gif")),
-    KeyRow("keep", "M", "record MP4: start, stop", _every("m", "record", "mp4")),
-    KeyRow("keep", "Ctrl+S", "write the scene as a new file", _every("ctrl+s", "save")),
-    KeyRow("keep", "F5", "load the scene file again", _every("f5", "reload")),
+    KeyRow("keep", "S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
+    KeyRow("keep", "G", "record GIF: start, stop", _on("g", "record", "gif")),
+    KeyRow("keep", "M", "record MP4: start, stop", _on("m", "record", "mp4")),
+    KeyRow("keep", "Ctrl+S", "write the scene as a new file", _on("ctrl+s", "save")),
+    KeyRow("keep", "F5", "load the scene file again", _on("f5", "reload")),
 )
 """Every key of the window, by subject, in the order in which the help shows them."""
 
 EDIT_KEYS: tuple[KeyRow, ...] = (
     KeyRow("in E", "↑ ↓", "choose a dimension", _both("up", "down", "choose")),
-    KeyRow(
-        "in E",
-        "← → (Shift: ×10)",
-        "nudge it",
-        (*_both("left", "right", "nudge"), *_both("shift+left", "shift+right", "nudge", 10)),
-    ),
+    KeyRow("in E", "← → (Shift: ×10)", "nudge it", _steps("nudge")),
     KeyRow(
         "in E",
         "Tab, Shift+Tab",
         "on with the value typed, to be judged with the others",
-        (_on("tab", "pass_on", 1), _on("shift+tab", "pass_on", -1)),
+        _on("tab", "pass_on", 1) + _on("shift+tab", "pass_on", -1),
     ),
     KeyRow(
         "in E",
         "digits, Enter",
         "type a value, with or without a unit; take all that is typed",
-        (*_every("return kp_enter", "take"), _held("backspace", "erase")),
+        _on("return kp_enter", "take") + _on("backspace", "erase", held=True),
     ),
     KeyRow("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
 )
@@ -170,10 +139,10 @@ LIST_KEYS: tuple[KeyRow, ...] = (
         "in K",
         "↑ ↓",
         "choose a quantity",
-        (*_both("up", "down", "move"), *_both("pageup", "pagedown", "move", 10)),
+        _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
     ),
-    KeyRow("in K", "letters", "show what has them in its name", (_held("backspace", "unsift"),)),
-    KeyRow("in K", "Enter", "chart it", _every("return kp_enter", "pick")),
+    KeyRow("in K", "letters", "show what has them in its name", _on("backspace", "unsift", held=True)),
+    KeyRow("in K", "Enter", "chart it", _on("return kp_enter", "pick")),
 )
 """What the keys do while the list of quantities is open."""
 
@@ -182,9 +151,9 @@ SHELF_KEYS: tuple[KeyRow, ...] = (
         "in O",
         "arrows, mouse",
         "choose a mechanism",
-        (*_both("left", "right", "move"), *_both("up", "down", "row")),
+        _both("left", "right", "move") + _both("up", "down", "row"),
     ),
-    KeyRow("in O", "Enter, click", "put it on", _every("return kp_enter", "pick")),
+    KeyRow("in O", "Enter, click", "put it on", _on("return kp_enter", "pick")),
 )
 """What the keys do while the shelf is open."""
 

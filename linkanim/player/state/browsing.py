@@ -14,8 +14,6 @@ from linkanim.scenes.scene import Scene
 RESOLVED = frozenset({"pick", "row"})
 """What a key asks for in an open list or shelf; the window asks for what it means there instead."""
 
-_LONGEST = 40
-
 
 @dataclass(frozen=True)
 class Listing:
@@ -44,19 +42,3 @@ def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
 def _searched(scene: Scene, token: str) -> str:
     found = quantity(scene, token)
     return f"{token} {found.words} {found.symbol}".casefold()
-
-
-def moved(listing: Listing, scene: Scene, further: int) -> Listing:
-    """Return the list so many rows further; its ends are ends."""
-    last = max(len(listed(scene, listing.sieve)) - 1, 0)
-    return Listing(min(max(listing.chosen + further, 0), last), listing.sieve)
-
-
-def sifted(listing: Listing, text: str) -> Listing:
-    """Return the list with more letters in its sieve, from its top."""
-    return Listing(0, (listing.sieve + text)[:_LONGEST])
-
-
-def unsifted(listing: Listing) -> Listing:
-    """Return the list with one letter less in its sieve, from its top."""
-    return Listing(0, listing.sieve[:-1])

@@ -8,13 +8,15 @@ from linkanim.errors import LinkanimError
 from linkanim.mechanics.facts.classify import Info
 from linkanim.picture.diagrams.quantities import quantities
 from linkanim.player.state import editing as edit
-from linkanim.player.state.browsing import Browsing, Listing, listed, moved, sifted, unsifted
+from linkanim.player.state.browsing import Browsing, Listing, listed
 from linkanim.player.state.editing import Editing
 from linkanim.player.state.fault import proved
 from linkanim.player.state.state import State, fresh, with_toast
 from linkanim.scenes import chapter_of, chapters, load
 from linkanim.scenes.editing.closures import other_closure
 from linkanim.scenes.scene import Scene
+
+_LONGEST = 40
 
 
 def mechanism(state: State, further: int) -> State:
@@ -105,7 +107,11 @@ def move(state: State, further: int) -> State:
     if state.browsing:
         chosen = (state.browsing.chosen + further) % len(state.browsing.entries)
         return replace(state, browsing=replace(state.browsing, chosen=chosen))
-    return replace(state, listing=moved(state.listing, state.scene, further) if state.listing else None)
+    if state.listing is None:
+        return state
+    last = max(len(listed(state.scene, state.listing.sieve)) - 1, 0)
+    chosen = min(max(state.listing.chosen + further, 0), last)
+    return replace(state, listing=replace(state.listing, chosen=chosen))
 
 
 def point(state: State, place: int) -> State:
@@ -116,13 +122,13 @@ def point(state: State, place: int) -> State:
 
 
 def sift(state: State, text: str) -> State:
-    """Add letters to the list's sieve."""
-    return replace(state, listing=sifted(state.listing, text) if state.listing else None)
+    """Add letters to the list's sieve, and go to its top."""
+    return replace(state, listing=state.listing and Listing(0, (state.listing.sieve + text)[:_LONGEST]))
 
 
 def unsift(state: State, _: None) -> State:
-    """Take the last letter off the list's sieve."""
-    return replace(state, listing=unsifted(state.listing) if state.listing else None)
+    """Take the last letter off the list's sieve, and go to its top."""
+    return replace(state, listing=state.listing and Listing(0, state.listing.sieve[:-1]))
 
 
 def plot(state: State, token: str) -> State:
