@@ -27,6 +27,7 @@ from linkanim.mechanics.closing.separation import Separations, separations
 from linkanim.mechanics.drive.input_path import Limit
 from linkanim.mechanics.drive.ranges import ONE_PLACE
 from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
@@ -42,8 +43,6 @@ STOPPED_SHORT = 1 / 64
 """Share of its range by which a swing stops short of a limit that it cannot pass."""
 CUTS = 8
 """A dyad may show where it does not close only when the one before it no longer leaves its own range."""
-
-Array = NDArray[np.float64]
 
 
 def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:

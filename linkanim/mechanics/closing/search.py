@@ -12,10 +12,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from linkanim.mechanics.formulas.arrays import Array, Bools
+
 Indices = NDArray[np.intp]
 
+SAMPLES_A_TURN = 1440
+"""At which a true period is looked at, for each drive period."""
 BLOCK = 1024
 """Places worked out at a time where a function has many rows."""
 

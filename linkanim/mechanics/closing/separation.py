@@ -22,15 +22,15 @@ from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.closing.fitting import extreme
 from linkanim.mechanics.closing.kinematics import walk_at
-from linkanim.mechanics.closing.search import around, ends_of
+from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, ends_of
 from linkanim.mechanics.closing.walk import AT_ITS_LIMIT
 from linkanim.mechanics.drive.input_path import InputPath
+from linkanim.mechanics.formulas.arrays import Array, Bools
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import batch
 
-SAMPLES_A_TURN = 1440
 SAMPLES_A_GEARED_TURN = 96
 """Of the crank that turns most while the input turns once."""
 TOUCHING = 1e-12
@@ -45,9 +45,6 @@ FINEST = 2.0**-40
 HALVINGS = 32
 AT_END = 1e-6
 """At its own limit, where the input turns back, a separation is extreme by phase: that is no touching."""
-
-Array = NDArray[np.float64]
-Bools = NDArray[np.bool_]
 
 
 class Sampled(NamedTuple):

@@ -15,13 +15,12 @@ from typing import Any, ClassVar, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, two_product, two_sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.loops.input_state import InputState, turn
 from linkanim.mechanics.loops.signed import Swinging
-
-Array = NDArray[np.float64]
 
 NEARLY_ZERO = 1e-8
 """Half a last digit of this is more than a limit is off by."""

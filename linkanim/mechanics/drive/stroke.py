@@ -12,7 +12,8 @@ from typing import ClassVar, NoReturn
 import numpy as np
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.drive.input_path import Array, Limit, ThereAndBack
+from linkanim.mechanics.drive.input_path import Limit, ThereAndBack
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.circular import sharp_half_angle
 from linkanim.mechanics.formulas.expression import Value
 from linkanim.mechanics.formulas.planar import Moving, Slope

@@ -10,7 +10,6 @@ from fractions import Fraction
 import numpy as np
 
 from linkanim.mechanics.drive.input_path import (
-    Array,
     Limit,
     LimitDistances,
     Shortened,
@@ -19,6 +18,7 @@ from linkanim.mechanics.drive.input_path import (
     limit_distances,
     nearer_way,
 )
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope

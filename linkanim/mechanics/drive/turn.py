@@ -10,7 +10,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.drive.input_path import Array, InputPath, Limit, LimitDistances, Shortened
+from linkanim.mechanics.drive.input_path import InputPath, Limit, LimitDistances, Shortened
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.exact import Sum, exact_angle
 from linkanim.mechanics.formulas.expression import Value
 from linkanim.mechanics.formulas.planar import Slope

@@ -11,10 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.digits import degrees, short, significant
-from linkanim.mechanics.closing.search import around, sign_changes
+from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, sign_changes
 from linkanim.mechanics.facts.effort import Demand, demand, usual_effort
 from linkanim.mechanics.facts.naming import (
-    SAMPLES,
     FourBar,
     class_name,
     four_bar_of,
@@ -23,9 +22,10 @@ from linkanim.mechanics.facts.naming import (
 )
 from linkanim.mechanics.facts.symbols import driven_body, input_symbol
 from linkanim.mechanics.facts.transmission import Transmission, transmission
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.motion.measures import output_slider
 from linkanim.mechanics.motion.mechanism import Mechanism
-from linkanim.mechanics.motion.motion import Array, Motion
+from linkanim.mechanics.motion.motion import Motion
 
 SAME_ANGLE = 1e-9
 
@@ -36,8 +36,7 @@ class Info:
 
     Where a slider drives, its travel stands for the input's angle.
 
-    Each fact is worked out when it is first read: those of a length that is being changed sixty times
-    a second are few.
+    Each fact is worked out when it is first read: a length that is dragged changes sixty times a second.
     """
 
     mechanism: Mechanism
@@ -238,7 +237,7 @@ def _stroke(mechanism: Mechanism) -> _Slider | None:
     name, whole = slider.name, 2 * math.pi * mechanism.periods
     reversals = sign_changes(
         lambda phase: mechanism.solve(phase=phase, speed=1.0, derivatives=1).travel_velocity[name],
-        around(mechanism.periods, SAMPLES),
+        around(mechanism.periods, SAMPLES_A_TURN),
     )
     travel = mechanism.solve(phase=reversals, speed=1.0, derivatives=0).travel[name]
     span = float(np.ptp(travel)) if len(travel) else 0.0

@@ -19,16 +19,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.closing.search import highest
+from linkanim.mechanics.closing.search import SAMPLES_A_TURN, highest
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
 from linkanim.mechanics.motion.measures import as_complex, between, growth, over, size
 
-Array = NDArray[np.float64]
-
-_SAMPLES = 1440
-"""For each period of the drive."""
 _FINE = 24.0
-"""Up to that gear ratio so many are enough."""
+"""The gear ratio up to which the usual number of samples is enough."""
 _ROUNDING = 1e-13
 """A mean below this share of what it is the mean of is rounding."""
 _BOUNDED = 1e-9
@@ -36,9 +33,9 @@ _BOUNDED = 1e-9
 _TURNING, _IDLE = 1e-10, 1e-9
 """Within that phase of where the input turns back, power below that share of its terms is rounding."""
 _ASIDE = 1e-4
-"""So far to either side, in radians of phase, a torque is read that is rounding over rounding."""
+"""Where power and pace are nothing but rounding, the torque is read this far to either side, in phase."""
 _TOPS = 8
-"""So many of the highest samples may stand beside the highest peak."""
+"""How many of the highest samples are followed to a peak of their own."""
 
 
 class _Way(NamedTuple):
@@ -219,7 +216,7 @@ def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> floa
 
 def _phases(periods: int) -> Array:
     """Return phases at which a true period is looked at."""
-    count = _SAMPLES * periods
+    count = SAMPLES_A_TURN * periods
     phases: Array = np.arange(count, dtype=np.float64) * (math.tau * periods / count)
     return phases
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkanim.mechanics.closing.kinds import CLOSERS
+from linkanim.mechanics.closing.search import SAMPLES_A_TURN
 from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Body, Linkage
@@ -19,9 +20,8 @@ from linkanim.mechanics.motion.measures import pivots_of
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.mechanics.motion.motion import Motion
 
-SAMPLES = 1440
-_TOLD = 4
-"""Of so many four-bars in a row each is named; of more only the first."""
+_EACH_NAMED = 4
+"""Up to this many four-bars in a row each is named, beyond that only the first."""
 TRIPLE_ROCKERS = {
     "ground": "outward/outward",
     "input": "outward/inward",
@@ -137,7 +137,7 @@ def _bars(dyads: int) -> str:
 
 def _rest(mechanism: Mechanism, dyads: int) -> str:
     """Name the loops after the first, as far as they are four-bars; else say how many dyads follow."""
-    if dyads <= _TOLD:
+    if dyads <= _EACH_NAMED:
         further = [_four_bar_name(bar) for bar in _further_loops(mechanism)]
         if len(further) == dyads - 1:
             return "".join(f", then {name}" for name in further)
@@ -206,7 +206,7 @@ def _change_point_name(bar: FourBar) -> str:
 
 def one_cycle(mechanism: Mechanism, derivatives: int) -> Motion:
     """Return the motion over one true period, at equal steps of phase and at one radian a second."""
-    phases = np.linspace(0.0, 2 * math.pi * mechanism.periods, SAMPLES, endpoint=False)
+    phases = np.linspace(0.0, 2 * math.pi * mechanism.periods, SAMPLES_A_TURN, endpoint=False)
     return mechanism.solve(phase=phases, speed=1.0, derivatives=derivatives)
 
 

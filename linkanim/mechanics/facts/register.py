@@ -33,7 +33,6 @@ from linkanim.mechanics.motion.measures import (
     TURNING,
     Measure,
     between,
-    crank_body,
     dyads_of,
     input_rate,
     measures_of,
@@ -324,7 +323,7 @@ def _candidates(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
     if output and not sliders:
         yield from (f"{output.name}.{measure.name}" for measure in TURNING)
     for body in _in_chain(linkage):
-        if not crank_body(linkage, body) and not (output and not sliders and _rigid(linkage, body, output)):
+        if not linkage.crank_of(body) and not (output and not sliders and _rigid(linkage, body, output)):
             yield f"{body.name}.angular_velocity"
     yield effort_token(linkage)
     for name in traced:

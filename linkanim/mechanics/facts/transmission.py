@@ -15,25 +15,22 @@ from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkanim.mechanics.closing.kinematics import walk_at
-from linkanim.mechanics.closing.search import around, changes_by_row, highest, own_rows
+from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, changes_by_row, highest, own_rows
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import Batch, batch
 from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.mechanics.motion.mechanism import Mechanism
 
-SAMPLES_A_TURN = 1440
 NEARLY = 2.0**-40
 """How near to an extreme, as a share of the phase: the angle there is off by the square of that."""
 NONE_LEFT = 1e-12
 """A factor below this share of its greatest value, in a dyad whose bars fall into one line, is none."""
 RIGID = 2.0**-44
 """A rate below this share of its separation is rounding."""
-
-Array = NDArray[np.float64]
 
 
 class Transmission(NamedTuple):

@@ -17,14 +17,12 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkanim.mechanics.formulas.arrays import Floats
 from linkanim.mechanics.formulas.buffers import allocated
 from linkanim.mechanics.formulas.constant import digits_of
 from linkanim.mechanics.formulas.expression import WHOLE, Expr, Value
 from linkanim.mechanics.formulas.precise import cosine, sine, square_root
-
-Array = NDArray[np.floating[Any]]
 
 BLOCK = 16384
 CACHE_LINE = 64
@@ -161,12 +159,12 @@ class Batch:
     outputs: tuple[Value, ...]
     block: Callable[..., Any]
     prelude: Callable[..., tuple[float, ...]]
-    constants: tuple[Array, ...]
+    constants: tuple[Floats, ...]
     buffers: int
-    spare: list[list[Array]] = field(default_factory=list, compare=False, repr=False)
+    spare: list[list[Floats]] = field(default_factory=list, compare=False, repr=False)
     """Buffers of calls that are over; a call takes its own, so that threads do not share any."""
 
-    def __call__(self, *values: Array | float) -> Array:
+    def __call__(self, *values: Floats | float) -> Floats:
         """Return the outputs as rows (outputs, N)."""
         several = len(self.arrays)
         arrays: Sequence[Any] = values[:several]
@@ -184,11 +182,11 @@ class Batch:
         self.spare.append(work)
         return results
 
-    def _numbers(self, values: Sequence[Any]) -> list[Array]:
+    def _numbers(self, values: Sequence[Any]) -> list[Floats]:
         """Return what is the same along the array, without a dimension."""
         return [*(np.array(value, np.float64) for value in self.prelude(*values)), *self.constants]
 
-    def _buffers(self, size: int) -> list[Array]:
+    def _buffers(self, size: int) -> list[Floats]:
         """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
         work = self.spare.pop() if self.spare else []
         if work and len(work[0]) == size:
@@ -196,7 +194,7 @@ class Batch:
         return list(aligned_rows(self.buffers, size))
 
 
-def aligned_rows(rows: int, count: int) -> Array:
+def aligned_rows(rows: int, count: int) -> Floats:
     """Return an array (rows, count) to be filled, each row from a cache line's begin on.
 
     Vector units take whole cache lines; a row that begins elsewhere costs them two for each.

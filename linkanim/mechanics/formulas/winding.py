@@ -11,9 +11,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from linkanim.mechanics.formulas.arrays import Array
+
 Pair = tuple[Array, Array]
 
 _NEAR = math.pi / 2

@@ -140,6 +140,11 @@ class Linkage:
         """The cranks in the order of the joints, the input among them."""
         return (joint for joint in self.joints if isinstance(joint, Crank))
 
+    def crank_of(self, body: Body) -> Crank | None:
+        """Return the crank whose bar a body is: of the input, or of one geared to it; None of others."""
+        ends = set(body.joints[:2])
+        return next((crank for crank in self.cranks if ends == {crank.pivot, crank.name}), None)
+
     @property
     def pins(self) -> Iterator[Pin]:
         """The fixed pins in the order of the joints."""

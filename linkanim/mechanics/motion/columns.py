@@ -8,12 +8,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from linkanim.mechanics.formulas.arrays import Array, Floats
 from linkanim.mechanics.formulas.expression import Value
 
-Array = NDArray[np.float64]
-Floats = NDArray[np.floating[Any]]
 Pair = tuple[float, float]
 
 

@@ -162,18 +162,12 @@ def dyads_of(linkage: Linkage) -> tuple[str, ...]:
     return tuple(joint.name for joint in linkage.joints if joint.transmission(1.0, 1.0) is not None)
 
 
-def crank_body(linkage: Linkage, body: Body) -> bool:
-    """Whether a body is the bar of a crank: of the input, or of one geared to it."""
-    ends = set(body.joints[:2])
-    return any(ends == {crank.pivot, crank.name} for crank in linkage.cranks)
-
-
 def output_body(linkage: Linkage) -> Body | None:
     """Return the body that a linkage is there to move: its first slider not driven, else its last rocker."""
     own = (None, linkage.drive.joint)
     slider = next((body for body in linkage.bodies if body.slider not in own), None)
     fixed = {pin.name for pin in linkage.pins}
-    rockers = [body for body in linkage.bodies if fixed & set(body.joints) and not crank_body(linkage, body)]
+    rockers = [body for body in linkage.bodies if fixed & set(body.joints) and not linkage.crank_of(body)]
     return slider or (rockers[-1] if rockers else None)
 
 

@@ -14,6 +14,7 @@ from linkanim.mechanics.closing.assemble import assemble
 from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.kinematics import Kinematics, walked
 from linkanim.mechanics.closing.limits import restricted
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope
 from linkanim.mechanics.formulas.program import Batch, batch, scalar
@@ -21,7 +22,7 @@ from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.input_state import InputState
 from linkanim.mechanics.motion.columns import ResultLayout, layout
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, NUMBERS, VECTORS
-from linkanim.mechanics.motion.motion import Array, Motion, Pose, Setting
+from linkanim.mechanics.motion.motion import Motion, Pose, Setting
 from linkanim.mechanics.motion.request import COORDINATE, Programs, Request, Variant, shaped
 
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]

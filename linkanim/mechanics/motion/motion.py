@@ -17,13 +17,13 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.loops.loop import Gearing
 from linkanim.mechanics.motion.columns import Lazy, read_only, scaled
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, between, cross, direction, growth, over, size
 from linkanim.mechanics.motion.request import ORDER, Request
 
-Array = NDArray[np.float64]
 Pair = tuple[float, float]
 
 NOTHING: Mapping[str, Any] = MappingProxyType({})
@@ -60,7 +60,7 @@ class Solver(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What a motion needs of its linkage to tell angles, coefficients and forces."""
+    """What a motion needs of its linkage for angles, coefficients and forces."""
 
     linkage: Linkage
     gears: Mapping[str, Gearing]
@@ -73,13 +73,8 @@ class Setting:
 
     def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
         """Return how a crank's body turns with the input, and whether it is named from its pin."""
-        for crank in self.linkage.cranks:
-            if crank.name in self.gears and body.joints[:2] in (
-                (crank.pivot, crank.name),
-                (crank.name, crank.pivot),
-            ):
-                return self.gears[crank.name], body.joints[0] == crank.name
-        return None
+        crank = self.linkage.crank_of(body)
+        return (self.gears[crank.name], body.joints[0] == crank.name) if crank else None
 
     def body(self, name: str) -> Body:
         """Return the body of that name; KeyError where there is none."""

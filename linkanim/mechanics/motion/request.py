@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.mechanics.drive.input_path import InputPath, LimitDistances
+from linkanim.mechanics.formulas.arrays import Array, Floats
 from linkanim.mechanics.formulas.program import Batch
 from linkanim.mechanics.formulas.winding import turned
-from linkanim.mechanics.motion.columns import Floats, ResultLayout, columns, read_only
+from linkanim.mechanics.motion.columns import ResultLayout, columns, read_only
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, FAMILIES, between, direction
-
-Array = NDArray[np.float64]
 
 POSITION = ("position",)
 COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
