@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from mpmath import mp, mpf
-from reference import derivatives, sign_of, unit
+from reference import HIGHEST_FIRST, derivatives, sign_of, unit
 
 from linkanim.bench.reference import crossing
 from linkanim.errors import BadInput
@@ -33,7 +33,6 @@ NUDGE = mpf(10) ** -25
 PHASES = (0.0, 1e-9, 1e-5, math.pi, math.pi - 1e-7, math.pi / 2, 1.2, 4.0, 5.5)
 SHARES = (0.3, 0.01, 1e-4, 1e-6, 1e-8)
 """Distances from a limit, as shares of the swing."""
-QUANTITIES = ("position", "velocity", "acceleration")
 
 
 @dataclass(frozen=True)
@@ -292,7 +291,7 @@ def by_phase(bars: Bars, solved: Mechanism) -> Error:
     cycle = solved.solve(phase=np.linspace(0, 2 * math.pi, 801), speed=1.0)
     found = [exact.by_phase(mpf(phase) + NUDGE) for phase in PHASES]
     errors = [float(max(exact.sizes)), 0.0, 0.0]
-    for order, kind in enumerate(QUANTITIES):
+    for order, kind in HIGHEST_FIRST:
         worst = 0.0
         for joint, name in enumerate("AJ"):
             size = float(max(exact.sizes)) if not order else _greatest(getattr(cycle, kind)[name])
@@ -309,7 +308,7 @@ def by_angle(bars: Bars, solved: Mechanism) -> Error:
     exact, angles = _Exact(bars, path), _angles(path)
     motion = solved.solve(angle=np.array(angles), speed=1.0)
     found, longest, errors = [exact.by_angle(mpf(angle)) for angle in angles], float(max(exact.sizes)), []
-    for order, kind in enumerate(QUANTITIES):
+    for order, kind in HIGHEST_FIRST:
         reference = [
             (
                 one[order][1] + (order == 0) * bars.pivot,
@@ -318,7 +317,7 @@ def by_angle(bars: Bars, solved: Mechanism) -> Error:
             for one in found
         ]
         errors.append(_worst(getattr(motion, kind)["J"], reference))
-    return Error(errors[0], max(errors[1:]))
+    return Error(errors[-1], max(errors[:-1]))
 
 
 def guided_by_angle(guided: Guided, solved: Mechanism) -> Error:
@@ -329,11 +328,11 @@ def guided_by_angle(guided: Guided, solved: Mechanism) -> Error:
     motion = solved.solve(angle=np.array(angles), speed=1.0)
     found = [derivatives(lambda angle: {"J": guided.place(angle)}, mpf(angle)) for angle in angles]
     errors = []
-    for order, kind in enumerate(QUANTITIES):
+    for order, kind in HIGHEST_FIRST:
         true = [one[order]["J"] for one in found]
         sizes = [max(guided.longest, float(abs(one)) if order else 0.0) for one in true]
         errors.append(_worst(getattr(motion, kind)["J"], list(zip(true, sizes, strict=True))))
-    return Error(errors[0], max(errors[1:]))
+    return Error(errors[-1], max(errors[:-1]))
 
 
 def _angles(path: Swing) -> list[float]:

@@ -129,7 +129,7 @@ def rows(solved: Mechanism, angle: float) -> Array:
     whole = np.linspace(0.0, 2 * math.pi * solved.periods, 100)
     middle = solved.assembly.path.phase_of(angle, 0.0)
     motion = solved.solve(phase=np.concatenate([whole, middle + BESIDE, middle - BESIDE]), speed=1.0)
-    kinds = ("position", "velocity", "acceleration")
+    kinds = ("acceleration", "velocity", "position")
     return np.concatenate([values.T for kind in kinds for values in getattr(motion, kind).values()])
 
 

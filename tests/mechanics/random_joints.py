@@ -21,7 +21,7 @@ import numpy as np
 from build import four_bar, with_joints
 from chain_reference import places
 from mpmath import mp, mpf
-from reference import DIGITS, NUDGE, derivatives, sign_of
+from reference import DIGITS, HIGHEST_FIRST, NUDGE, derivatives, sign_of
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.chain import Touch
@@ -206,7 +206,7 @@ def worst(linkage: Linkage, solved: Mechanism) -> Error:
     longest = max(length for joint in linkage.joints for _, length in joint.bars)
     errors: list[list[float]] = [[], []]
     for name in ("J", "K") if "K" in linkage.by_name else ("J",):
-        for order, kind in enumerate(("position", "velocity", "acceleration")):
+        for order, kind in HIGHEST_FIRST:
             size = float(np.hypot(*getattr(cycle, kind)[name].T).max()) if order else longest
             errors[order > 0] += [
                 float(abs(mp.mpc(*map(float, row)) - found[order][name])) / size

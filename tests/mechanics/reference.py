@@ -14,6 +14,8 @@ from mpmath import mp, mpf
 
 from linkanim.bench.reference import crossing
 
+HIGHEST_FIRST = ((2, "acceleration"), (1, "velocity"), (0, "position"))
+"""Orders of rates and their names: what works out the highest works out all."""
 DIGITS = 140
 STEP = mpf(10) ** -22
 NUDGE = mpf(10) ** -40

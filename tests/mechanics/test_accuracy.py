@@ -13,7 +13,7 @@ import pytest
 from build import four_bar, six_bar, slider_crank, slotted
 from mpmath import mp, mpf
 from numpy.typing import NDArray
-from reference import DIGITS, NUDGE, FourBar, Points, Pose, derivatives, on_line, sign_of, unit
+from reference import DIGITS, HIGHEST_FIRST, NUDGE, FourBar, Points, Pose, derivatives, on_line, sign_of, unit
 
 from linkanim.bench.reference import crossing
 from linkanim.mechanics.closing.chain import Touch
@@ -132,7 +132,7 @@ def check(
     motion = solved.solve(phase=np.array(phases), speed=1.0)
     cycle = solved.solve(phase=DENSE, speed=1.0)
     found = [derivatives(pose, mpf(float(phase)) + NUDGE) for phase in phases]
-    for order, kind in enumerate(("position", "velocity", "acceleration")):
+    for order, kind in HIGHEST_FIRST:
         for name in found[0][0]:
             reference = [derivative[order][name] for derivative in found]
             scale = longest if order == 0 else greatest(getattr(cycle, kind)[name])

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from chain_reference import places
 from mpmath import mp, mpf
-from reference import DIGITS, derivatives
+from reference import DIGITS, HIGHEST_FIRST, derivatives
 
 from linkanim.errors import AssemblyError, SceneError
 from linkanim.mechanics.linkage.drive import Cylinder, Drive
@@ -66,7 +66,7 @@ def check(linkage: Linkage, side: int, names: str) -> None:
     cycle = solved.solve(phase=np.linspace(0, 2 * np.pi, 500), speed=1.0)
     exact = [derivatives(partial(posed, linkage, side), mpf(float(phase))) for phase in PHASES]
     for name in names:
-        for order, kind in enumerate(("position", "velocity", "acceleration")):
+        for order, kind in HIGHEST_FIRST:
             size = float(np.hypot(*getattr(cycle, kind)[name].T).max()) if order else 400.0
             found = getattr(motion, kind)[name]
             errors = [

@@ -11,7 +11,7 @@ import pytest
 from chain_reference import places
 from limits import Limits
 from mpmath import mp, mpf
-from reference import DIGITS, NUDGE, derivatives
+from reference import DIGITS, HIGHEST_FIRST, NUDGE, derivatives
 
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.mechanics.facts.effort import input_effort
@@ -75,7 +75,7 @@ def worst(linkage: Linkage, touched: str = "", turns: int = 1) -> tuple[float, f
     size = max(abs(length) for joint in linkage.joints for _, length in joint.bars)
     errors: list[list[float]] = [[], []]
     for name in (joint.name for joint in linkage.joints if not joint.fixed):
-        for order, kind in enumerate(("position", "velocity", "acceleration")):
+        for order, kind in HIGHEST_FIRST:
             greatest = float(np.hypot(*getattr(cycle, kind)[name].T).max()) if order else size
             errors[order > 0] += [
                 float(abs(mp.mpc(*map(float, row)) - pose[order][name])) / greatest
