@@ -1,8 +1,8 @@
 """An arcade-style player for planar linkages.
 
 `load` gives a scene by name or path, `names` the catalogue, `record` turns a scene into a GIF, MP4
-or numbered PNG. Everything is imported when first asked for: `import linkanim` alone brings in
-neither a window nor an encoder.
+or numbered PNG, `path` a drawn curve into linkages that follow it. Everything is imported when first
+asked for: `import linkanim` alone brings in neither a window nor an encoder.
 
 `mechanics`, from the ground up; each room imports from those before it only:
 
@@ -26,13 +26,14 @@ if TYPE_CHECKING:
     from linkanim.recorder import record
     from linkanim.scenes import load, names
     from linkanim.scenes.scene import Scene
+    from linkanim.synthesis.request import path
 
 # Here, because every import of pygame comes after it: its greeting would stand among a command's output.
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 __version__ = "0.3.0"
 
-__all__ = ["LinkanimError", "Look", "Scene", "__version__", "load", "names", "record"]
+__all__ = ["LinkanimError", "Look", "Scene", "__version__", "load", "names", "path", "record"]
 
 _HOME = {
     "LinkanimError": "linkanim.errors",
@@ -40,6 +41,7 @@ _HOME = {
     "Scene": "linkanim.scenes.scene",
     "load": "linkanim.scenes",
     "names": "linkanim.scenes",
+    "path": "linkanim.synthesis.request",
     "record": "linkanim.recorder",
 }
 

@@ -19,7 +19,7 @@ from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
 from linkanim.units import shown
 
-_WITHOUT_PYGAME = ("solve", "info", "scenes", "check")
+_WITHOUT_PYGAME = ("solve", "info", "scenes", "check", "path")
 
 
 @dataclass(frozen=True)
@@ -188,6 +188,15 @@ COMMANDS = {
             "linkanim draw crank-rocker --names --names",
             'linkanim draw press -o press.png --angle "87 deg" --vectors v --instant-centres',
             "linkanim draw kite -o kite.svg --poses 12 --no-trace",
+        ),
+    ),
+    "path": Command(
+        "find linkages whose coupler point follows a drawn curve, and write them as scenes",
+        options.path,
+        (
+            "linkanim path curve.csv -o follower.toml",
+            'linkanim path stroke.svg --open --kind slider-crank --least-angle "30 deg" --json',
+            'linkanim path points.csv --timing "20 deg" --box 0,0,200,100 --round "0.1 mm"',
         ),
     ),
     "gallery": Command(

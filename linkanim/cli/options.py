@@ -249,6 +249,51 @@ def report(parser: Parser) -> None:
     _speeds(parser, "for tables and charts")
 
 
+def path(parser: Parser) -> None:
+    """Add what finding linkages for a path takes."""
+    parser.add_argument(
+        "curve", type=Path, metavar="CURVE", help="two columns x and y (a third with angles), or an SVG"
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="NAME.toml",
+        help="the best one's file (default: CURVE.toml here)",
+    )
+    parser.add_argument(
+        "--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"
+    )
+    parser.add_argument("--open", action="store_true", help="the curve does not close")
+    parser.add_argument(
+        "--timing", metavar="STEP", help='the crank\'s angle from point to point, "20 deg", or `column`'
+    )
+    parser.add_argument(
+        "--count", type=valued(values.count), default=5, metavar="N", help="answers (default: 5)"
+    )
+    parser.add_argument(
+        "--box", type=valued(values.box), metavar="X,Y,W,H", help="in which all fixed pins lie"
+    )
+    parser.add_argument(
+        "--largest",
+        type=valued(values.positive),
+        default=8.0,
+        metavar="F",
+        help="link, in curve sizes (default: 8)",
+    )
+    parser.add_argument(
+        "--least-angle", type=valued(units.angle), default=0.0, metavar="ANGLE", help="of transmission"
+    )
+    parser.add_argument("--cognates", action="store_true", help="each four-bar's two Roberts cognates, too")
+    parser.add_argument(
+        "--round",
+        type=valued(values.step),
+        metavar="LENGTH",
+        help='round lengths, such as "0.1 mm", fitting the rest again each time',
+    )
+    parser.add_argument("--json", action="store_true", help="a list of objects; angles in radians")
+
+
 def gallery(parser: Parser) -> None:
     """Add what the gallery takes."""
     parser.add_argument(

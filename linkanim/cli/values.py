@@ -105,6 +105,25 @@ def poses(text: str) -> int:
     return found
 
 
+def box(text: str) -> tuple[float, ...]:
+    """Read four numbers with commas between: x, y, width and height."""
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        found = ()
+    if len(found) != 4 or not all(map(math.isfinite, found)):
+        raise BadInput(f"{text!r} is not X,Y,W,H: four numbers with commas between, such as 0,0,200,100")
+    return found
+
+
+def step(text: str) -> float:
+    """Read a length above zero in mm, such as `0.1 mm`."""
+    found = units.length(text, unit="mm")
+    if found <= 0:
+        raise BadInput(f"{text!r} is no length to round to; give one above zero, such as 0.1 mm")
+    return found
+
+
 def vectors(text: str) -> frozenset[str]:
     """Read a list such as `v,a`: which of velocity and acceleration are drawn."""
     chosen = frozenset(part.strip() for part in text.split(","))

@@ -1,0 +1,117 @@
+"""`linkanim path`: a drawn curve to the linkages that follow it, as scene files and a table."""
+
+from __future__ import annotations
+
+import math
+import sys
+from argparse import Namespace
+from collections.abc import Sequence
+from pathlib import Path
+
+from linkanim import units
+from linkanim.cli.commands.record import bar
+from linkanim.cli.strict import json_text
+from linkanim.cli.table import columns
+from linkanim.cli.values import listed
+from linkanim.digits import significant
+from linkanim.errors import BadInput
+from linkanim.intake import named
+from linkanim.synthesis.files import file_set, write
+from linkanim.synthesis.fit import Fit
+from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.reading import CurveFile, read_curve
+from linkanim.synthesis.request import path
+from linkanim.whole import checked_target
+
+_UNIT = "mm"
+_POOR = 5.0
+"""Percent of the curve's size, beyond which an answer hardly follows it."""
+_TITLES = ("file", f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longest link", "class")
+
+
+def run(options: Namespace) -> None:
+    """Find the linkages, write their files, and print the table or JSON; what is worth a remark on stderr."""
+    curve = read_curve(options.curve)
+    stem = options.curve.stem
+    target = checked_target(options.output or Path(f"{stem}.toml"), (".toml",))
+    file_set(target).refuse_foreign([target.name])
+    with bar(unit=" steps") as progress:
+        fits = path(
+            curve.points,
+            not options.open,
+            kind=options.kind,
+            timing=_timing(options.timing, curve, named(options.curve)),
+            count=options.count,
+            box=options.box,
+            largest=options.largest,
+            least_angle=options.least_angle,
+            cognates=options.cognates,
+            rounding=options.round,
+            name=target.stem,
+            source=f"linkanim path for {named(options.curve.name)}",
+            progress=progress,
+        )
+    files = write(fits, target)
+    print(_json(fits, files) if options.json else _table(fits, files))
+    _remark(fits)
+
+
+def _timing(text: str | None, curve: CurveFile, where: str) -> float | Real | None:
+    if text != "column":
+        return None if text is None else listed("--timing", units.angle, text)
+    if curve.angles is None:
+        raise BadInput(f'{where}: has no third column; give the crank\'s angles in it, or --timing "20 deg"')
+    return curve.angles
+
+
+def _percent(distance: float, fit: Fit) -> float:
+    return 100 * distance / fit.curve_size
+
+
+def _table(fits: Sequence[Fit], files: Sequence[Path]) -> str:
+    rows = [_cells(fit, file) for fit, file in zip(fits, files, strict=True)]
+    return columns([_TITLES, *rows])
+
+
+def _cells(fit: Fit, file: Path) -> tuple[str, ...]:
+    distances = [
+        significant(value, 3)
+        for distance in (fit.rms, fit.largest)
+        for value in (distance, _percent(distance, fit))
+    ]
+    angle = f"{significant(math.degrees(fit.transmission_angle), 3)} deg"
+    return (str(file), *distances, angle, significant(fit.size, 4), fit.class_name)
+
+
+def _json(fits: Sequence[Fit], files: Sequence[Path]) -> str:
+    return json_text([_object(fit, file) for fit, file in zip(fits, files, strict=True)], indent=2)
+
+
+def _object(fit: Fit, file: Path) -> dict[str, object]:
+    """Return what `--json` prints of an answer; see DESIGN's contract for its keys."""
+    found: dict[str, object] = {
+        "file": str(file),
+        "rms": fit.rms,
+        "largest": fit.largest,
+        "rms_percent": _percent(fit.rms, fit),
+        "largest_percent": _percent(fit.largest, fit),
+        "stray": fit.stray,
+        "transmission_angle": fit.transmission_angle,
+        "largest_link": fit.size,
+        "class": fit.class_name,
+        "parameters": {"kind": fit.kind, **fit.parameters, "closure": fit.closure},
+    }
+    if fit.exact is not None:
+        found["rms_before_rounding"] = fit.exact.rms
+    return found
+
+
+def _remark(fits: Sequence[Fit]) -> None:
+    """Say on stderr where nothing follows the curve well, and what rounding costs."""
+    best = fits[0]
+    if _percent(best.rms, best) > _POOR:
+        found = significant(_percent(best.rms, best), 3)
+        print(f"nothing follows it better than {found} % of its size; this is the best", file=sys.stderr)
+    if best.exact is not None:
+        before, after = (significant(_percent(fit.rms, fit), 3) for fit in (best.exact, best))
+        print(f"rounding takes the best from {before} % to {after} %", file=sys.stderr)

@@ -1,0 +1,1 @@
+"""A drawn path to the linkages that follow it."""

@@ -1,0 +1,163 @@
+"""Every answer as the solver runs it: its whole turn, one closure, the points in order, true distances."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+
+from linkanim.errors import AssemblyError, SceneError
+from linkanim.mechanics.motion.derived import as_complex, transmission_angle
+from linkanim.scenes.scene import Scene
+from linkanim.synthesis.curve import DrawnCurve
+from linkanim.synthesis.fit import Fit, parameters_of, rounded, scene_of
+from linkanim.synthesis.kinds import Complex, Real
+from linkanim.synthesis.task import PathTask
+
+_POSES = 1440
+"""Over the turn, or between the first and the last point, at which the way is compared with the polyline."""
+_FOOT_STEPS = 6
+_FARTHEST_STEP = 0.1
+_SLACK = 1e-9
+
+
+def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
+    """Return the answer as written and as the solver runs it; None where it is none after all.
+
+    That is where it does not assemble, does not turn fully or not all the way along an open curve, passes
+    the points out of order, or breaks a limit.
+    """
+    row = rounded(task, row)
+    if not keeps(task, row):
+        return None
+    try:
+        scene = scene_of(task, row, closure, angles)
+        full = scene.info.full_turn
+    except (AssemblyError, SceneError):
+        return None
+    if task.requirements.full_turn and not full:
+        return None
+    angles = _feet(scene, task, angles)
+    least = _least_transmission(scene, angles, full=full)
+    off = np.abs(_traced(scene, angles) - task.curve.points)
+    if not (np.isfinite(off).all() and _in_order(task, angles)):
+        return None
+    if least < task.requirements.least_angle - _SLACK:
+        return None
+    stray = _stray(_traced(scene, _between(task.curve, angles)), task.curve)
+    return _fit(task, scene, row, closure, angles, (off, stray, least))
+
+
+def _fit(
+    task: PathTask, scene: Scene, row: Real, closure: float, angles: Real, found: tuple[Real, float, float]
+) -> Fit:
+    """Return the answer with its points' distances, how far it strays, and its least transmission angle."""
+    off, stray, least = found
+    return Fit(
+        scene=scene,
+        kind=task.kind.name,
+        parameters=parameters_of(task, row),
+        closure=task.kind.sides[closure < 0],
+        angles=angles,
+        rms=float(np.sqrt((off**2).mean())),
+        largest=float(off.max()),
+        stray=stray,
+        transmission_angle=least,
+        size=float(task.kind.link_lengths(row[None])[0].max()),
+        curve_size=task.curve.size,
+        task=task,
+    )
+
+
+def checked_by_phase(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
+    """Return an answer that may swing through its limits, the points at their nearest over the true period.
+
+    None where it does not assemble. The row is written as it is; `angles` are those of its crank.
+    """
+    try:
+        scene = scene_of(task, row, closure, angles)
+        phases = np.linspace(0.0, scene.period, _POSES)
+    except (AssemblyError, SceneError):
+        return None
+    way = _traced(scene, phases, "phase")
+    start = phases[[int(np.abs(way - point).argmin()) for point in task.curve.points]]
+    nearest = _nearest(scene, task.curve.points, start, "phase")
+    off = np.abs(_traced(scene, nearest, "phase") - task.curve.points)
+    least = scene.info.transmission.least if scene.info.transmission else math.pi / 2
+    return _fit(task, scene, row, closure, angles, (off, _stray(way, task.curve), least))
+
+
+def keeps(task: PathTask, row: Real) -> bool:
+    """Return whether a linkage keeps to all limits, to rounding."""
+    slack = task.requirements.slack(task.kind, row[None])
+    mask, values = task.requirements.held(task.kind)
+    given = np.abs(row - values) * mask
+    return bool((slack >= -_SLACK * task.curve.size).all() and (given <= _SLACK * task.curve.size).all())
+
+
+def _traced(scene: Scene, places: Real, by: str = "angle") -> Complex:
+    """Return the coupler point at crank angles, or at phases."""
+    motion = scene.solve(**{by: places}, derivatives=0)
+    return np.asarray(as_complex(motion.position["P"]))
+
+
+def _feet(scene: Scene, task: PathTask, angles: Real) -> Real:
+    """Return the crank angles at which the coupler point is nearest to each point, in order."""
+    if task.timing is not None:
+        return angles
+    best = _nearest(scene, task.curve.points, angles, "angle")
+    return best if _in_order(task, best) else angles
+
+
+def _nearest(scene: Scene, points: Complex, places: Real, by: str) -> Real:
+    """Return where, near to given places, the coupler point is nearest to each point."""
+    best, least = places, np.abs(_traced(scene, places, by) - points)
+    for _ in range(_FOOT_STEPS):
+        motion = scene.solve(**{by: best}, speed=1.0, derivatives=1)
+        way = points - as_complex(motion.position["P"])
+        rate = as_complex(motion.velocity["P"])
+        with np.errstate(all="ignore"):
+            step = np.nan_to_num((np.conj(rate) * way).real / np.abs(rate) ** 2)
+        trial = best + np.clip(step, -_FARTHEST_STEP, _FARTHEST_STEP)
+        off = np.abs(_traced(scene, trial, by) - points)
+        nearer = off < least
+        best, least = np.where(nearer, trial, best), np.where(nearer, off, least)
+    return np.asarray(best)
+
+
+def _in_order(task: PathTask, angles: Real) -> bool:
+    """Return whether the points are passed one after the other, a closed curve in one turn."""
+    steps = np.diff(angles) * (1 if angles[-1] > angles[0] else -1)
+    whole = abs(angles[-1] - angles[0]) < 2 * math.pi + _SLACK
+    return task.timing is not None or bool((steps > -_SLACK).all() and whole)
+
+
+def _least_transmission(scene: Scene, angles: Real, *, full: bool) -> float:
+    """Return the least transmission angle: over the turn, of an input that swings over the points' range."""
+    if full:
+        return scene.info.transmission.least if scene.info.transmission else math.pi / 2
+    motion = scene.solve(angle=np.linspace(angles.min(), angles.max(), _POSES), derivatives=0)
+    return float(np.min(transmission_angle(motion, "B")))
+
+
+def _between(curve: DrawnCurve, angles: Real) -> Real:
+    """Return crank angles all along the curve, of an open one between its ends."""
+    last = angles[0] + math.copysign(2 * math.pi, angles[-1] - angles[0]) if curve.closed else angles[-1]
+    return np.linspace(angles[0], last, _POSES)
+
+
+def _stray(way: Complex, curve: DrawnCurve) -> float:
+    """Return how far the coupler point goes from the points' polyline."""
+    return float(_distances(way, curve.polyline).max())
+
+
+def _distances(points: Complex, polyline: Complex) -> Real:
+    """Return each point's distance to the nearest of the polyline's segments."""
+    least = np.full(len(points), np.inf)
+    for start, end in pairwise(polyline):
+        side = end - start
+        square = abs(side) ** 2
+        share = np.clip((np.conj(side) * (points - start)).real / square, 0, 1) if square else 0.0
+        np.minimum(least, np.abs(points - start - share * side), out=least)
+    return least

@@ -1,0 +1,101 @@
+"""An answer: a linkage as a scene, and how well it follows the curve, as the solver says."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.task import PathTask
+
+FEW = 12
+"""Points that say nothing about the way between them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A linkage beside the drawn curve; distances in the curve's unit, angles in radians."""
+
+    scene: Scene
+    kind: str
+    parameters: Mapping[str, float]
+    """Pivots x, y, x4, y4, lengths, and the coupler point along A -> B and across, to its left."""
+    closure: str
+    angles: Real
+    """Of the crank, where the coupler point passes each point of the curve."""
+    rms: float
+    """Root mean square of the points' distances; with prescribed timing, to where the point is then."""
+    largest: float
+    """The largest of those distances."""
+    stray: float
+    """How far the coupler point goes from the points' polyline at the most."""
+    transmission_angle: float
+    size: float
+    """The longest link."""
+    curve_size: float
+    task: PathTask = field(repr=False)
+    exact: Fit | None = field(default=None, repr=False)
+    """The answer before its lengths were rounded."""
+
+    @property
+    def class_name(self) -> str:
+        """The linkage's class, in words."""
+        return self.scene.info.class_name
+
+    @property
+    def row(self) -> Real:
+        """The parameters as a row of its kind."""
+        return np.array([self.parameters[name] for name in self.task.kind.parameters])
+
+    @property
+    def closure_sign(self) -> float:
+        """The closure as +1 or -1."""
+        return 1.0 if self.closure == self.task.kind.sides[0] else -1.0
+
+    @property
+    def sense(self) -> float:
+        """+1 where the crank's angle grows from point to point, else -1."""
+        return 1.0 if self.angles[-1] > self.angles[0] else -1.0
+
+    @property
+    def error(self) -> float:
+        """By what answers are ranked: the root mean square, and a way between the points that strays."""
+        if len(self.angles) <= FEW:
+            return self.rms
+        return math.hypot(self.rms, max(0.0, self.stray - self.task.curve.longest_step / 2))
+
+
+def scene_of(task: PathTask, row: Real, closure: float, angles: Real) -> Scene:
+    """Return the scene of a linkage, its crank starting at the first point and turning the points' way."""
+    document = {
+        "title": f"{task.kind.name.capitalize()} along a drawn path",
+        "source": task.source,
+        "length_unit": task.unit,
+        "drive": {
+            "joint": "A",
+            "speed": "-20 rpm" if angles[-1] < angles[0] else "20 rpm",
+            "start": f"{round(math.degrees(angles[0]) % 360, 9)!r} deg",
+        },
+        **task.kind.document(parameters_of(task, row), closure),
+        "trace": {"joints": ["P"]},
+    }
+    return scene_from(document, name=task.name, where=task.name)
+
+
+def parameters_of(task: PathTask, row: Real) -> dict[str, float]:
+    """Return a row's parameters by name, as plain numbers."""
+    return dict(zip(task.kind.parameters, (float(value) for value in row), strict=True))
+
+
+def rounded(task: PathTask, row: Real) -> Real:
+    """Return a row as it is written, to twelve digits after the curve's first: one input gives one file."""
+    found = [
+        round(float(value), 13 if name == "line_angle" else task.quantum) + 0.0
+        for name, value in zip(task.kind.parameters, row, strict=True)
+    ]
+    return np.array(found)

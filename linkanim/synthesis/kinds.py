@@ -1,0 +1,285 @@
+"""The linkages whose coupler point is to run along a path: a four-bar and a slider-crank, many at once.
+
+A row of parameters is a linkage; a closure is +1 (B left of A -> O4, or forward along the line) or -1. The
+pin is A = O2 + crank·e^(iθ), and B closes on the ground: N·B = c, where N is the normal of the way that B
+is held to (a circle about O4, or a line). What a small change of A, the rod or the ground does to the
+coupler's angle, and so to the coupler point, follows from that one line for both kinds.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Real = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Indices = NDArray[np.intp]
+
+
+class Traced(NamedTuple):
+    """Coupler points (B, n) as x + yi, their rate with the crank's angle, and with each parameter (B, n, p).
+
+    NaN where the linkage cannot be closed.
+    """
+
+    point: Complex
+    rate: Complex
+    slopes: Complex
+
+
+class _Closed(NamedTuple):
+    """The coupler's direction, the normal of B's way, and what B is moved by: each (B, n)."""
+
+    direction: Complex
+    normal: Complex
+    grounds: tuple[Complex | Real, ...]
+
+
+class LinkageKind(ABC):
+    """A kind of linkage by its parameters, the first six of which all kinds have."""
+
+    name: str
+    parameters: tuple[str, ...]
+    links: tuple[str, ...]
+    """Those that are lengths of links, above zero."""
+    pins: tuple[int, ...]
+    """Where the x of each fixed pin stands."""
+    carried = False
+    """Whether the ground of B moves with the pin O2."""
+    sides: tuple[str, str]
+    """What the closures +1 and -1 are called in a scene."""
+
+    @abstractmethod
+    def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
+        """Close the coupler on the ground, with the pins A (B, n)."""
+
+    @abstractmethod
+    def slack(self, rows: Real, least_angle: float) -> Real:
+        """Return (B, 2), both positive where the crank turns fully above a least transmission angle."""
+
+    @abstractmethod
+    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
+        """Return the tables [ground], [joints] and [bodies] of a scene with that linkage."""
+
+    @abstractmethod
+    def random_rows(self, random: np.random.Generator, count: int) -> Real:
+        """Return linkages of all proportions with O2 at the origin, some of which turn fully."""
+
+    @abstractmethod
+    def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
+        """Return the linkages turned and scaled by complex factors about the origin, then shifted."""
+
+    @abstractmethod
+    def mirrored(self, rows: Real, closure: Real) -> tuple[Real, Real]:
+        """Return the linkages and closures mirrored in the x axis; crank angles change their sign."""
+
+    @abstractmethod
+    def link_lengths(self, rows: Real) -> Real:
+        """Return the lengths of all links (B, m), the coupler point's arm among them."""
+
+    def pivots(self, rows: Real) -> Complex:
+        """Return the fixed pins (B, m)."""
+        return np.stack([rows[:, x] + 1j * rows[:, x + 1] for x in self.pins], axis=1)
+
+    def points(self, rows: Real, closure: Real, angles: Real) -> Complex:
+        """Return the coupler points (B, n) at crank angles (B, n), NaN where there are none."""
+        pin, _ = _pins(rows, angles)
+        return pin + _arm(rows) * self.close(rows, closure[:, None], pin).direction
+
+    def trace(self, rows: Real, closure: Real, angles: Real) -> Traced:
+        """Return the coupler points at crank angles, and all their first derivatives."""
+        pin, spoke = _pins(rows, angles)
+        direction, normal, grounds = self.close(rows, closure[:, None], pin)
+        arm = _arm(rows)
+        turn = 1j * arm * direction / (rows[:, 3:4] * _dot(normal, 1j * direction))
+
+        def moved(way: Complex | complex) -> Complex:
+            """Return how the point goes when the pin goes a way and B's own way stays."""
+            return way - turn * _dot(normal, way)
+
+        one = np.ones_like(pin)
+        base = (one, 1j * one) if self.carried else (moved(1.0), moved(1j))
+        own = (moved(spoke), -turn * _dot(normal, direction), direction, 1j * direction)
+        slopes = np.stack([*base, *own, *(turn * ground for ground in grounds)], axis=-1)
+        return Traced(pin + arm * direction, moved(1j * rows[:, 2:3] * spoke), slopes)
+
+
+def _pins(rows: Real, angles: Real) -> tuple[Complex, Complex]:
+    """Return the crank's pins and its directions."""
+    spoke = np.cos(angles) + 1j * np.sin(angles)
+    return rows[:, 0:1] + 1j * rows[:, 1:2] + rows[:, 2:3] * spoke, spoke
+
+
+def _arm(rows: Real) -> Complex:
+    return rows[:, 4:5] + 1j * rows[:, 5:6]
+
+
+def _dot(a: Complex, b: Complex | complex) -> Real:
+    return np.real(np.conj(a) * b)
+
+
+def _moved_points(rows: Real, columns: tuple[int, ...], turn: Complex, shift: Complex) -> Real:
+    """Return a copy in which points, given by the columns of their x, are turned, scaled and shifted."""
+    out = rows * np.abs(turn)[:, None]
+    for x in columns:
+        point = (rows[:, x] + 1j * rows[:, x + 1]) * turn + shift
+        out[:, x], out[:, x + 1] = point.real, point.imag
+    return out
+
+
+def _assembled(random: np.random.Generator, crank: Real, coupler: Real, grounds: tuple[Real, ...]) -> Real:
+    """Return rows about the origin with a coupler point somewhere about the coupler's middle."""
+    reach = 2.0 * np.sqrt(random.random(len(crank))) * np.maximum(coupler, crank)
+    turn = random.uniform(-np.pi, np.pi, len(crank))
+    along, across = coupler / 2 + reach * np.cos(turn), reach * np.sin(turn)
+    nothing = np.zeros(len(crank))
+    return np.stack([nothing, nothing, crank, coupler, along, across, *grounds], axis=1)
+
+
+class FourBarKind(LinkageKind):
+    """Crank, coupler and rocker, with a coupler point along A -> B and to its left."""
+
+    name = "four-bar"
+    parameters = ("x", "y", "crank", "coupler", "along", "across", "x4", "y4", "rocker")
+    links = ("crank", "coupler", "rocker")
+    pins = (0, 6)
+    sides = ("left", "right")
+
+    def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
+        """Close two bars on the pin and the pivot O4, by the signed root of both factors."""
+        pivot = rows[:, 6:7] + 1j * rows[:, 7:8]
+        a, b = rows[:, 3:4], rows[:, 8:9]
+        way = pivot - pin
+        square = way.real**2 + way.imag**2
+        with np.errstate(all="ignore"):
+            root = closure * np.sqrt(((a + b) ** 2 - square) * (square - (a - b) ** 2))
+            direction = way * (square + (a - b) * (a + b) + 1j * root) / (2 * square * a)
+        normal = a * direction - way
+        return _Closed(direction, normal, (normal.real, normal.imag, b))
+
+    def link_lengths(self, rows: Real) -> Real:
+        """Return crank, coupler, arm, rocker and ground."""
+        ground = np.hypot(rows[:, 6] - rows[:, 0], rows[:, 7] - rows[:, 1])
+        arm = np.hypot(rows[:, 4], rows[:, 5])
+        return np.stack([rows[:, 2], rows[:, 3], arm, rows[:, 8], ground], axis=1)
+
+    def slack(self, rows: Real, least_angle: float) -> Real:
+        """Return how far the two extremes of the transmission angle are from the least."""
+        crank, a, b = rows[:, 2], rows[:, 3], rows[:, 8]
+        ground = np.hypot(rows[:, 6] - rows[:, 0], rows[:, 7] - rows[:, 1])
+        share = 4 * a * b * np.sin(least_angle / 2) ** 2
+        inner = (ground - crank) ** 2 - (a - b) ** 2 - share
+        outer = (a + b) ** 2 - (ground + crank) ** 2 - share
+        return np.stack([inner, outer], axis=-1)
+
+    def random_rows(self, random: np.random.Generator, count: int) -> Real:
+        """Return crank-rockers and drag-links: the crank or the ground the shortest of four lengths."""
+        lengths = random.uniform(0.05, 1.0, (count, 4))
+        lengths.sort(axis=1)
+        order = 1 + random.permuted(np.tile(np.arange(3), (count, 1)), axis=1)
+        longer = np.take_along_axis(lengths, order, axis=1)
+        drags = random.random(count) < 0.35
+        ground, crank = np.where(drags, (lengths[:, 0], longer[:, 0]), (longer[:, 0], lengths[:, 0]))
+        return _assembled(random, crank, longer[:, 1], (ground, np.zeros(count), longer[:, 2]))
+
+    def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
+        """Turn, scale and shift both pivots, scale the lengths."""
+        return _moved_points(rows, self.pins, turn, shift)
+
+    def mirrored(self, rows: Real, closure: Real) -> tuple[Real, Real]:
+        """Mirror the pivots and the coupler point; left becomes right."""
+        return rows * (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, 1.0, -1.0, 1.0), -closure
+
+    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
+        """Return the tables of a four-bar, its pivots by their coordinates."""
+        return {
+            "ground": {"O2": [row["x"], row["y"]], "O4": [row["x4"], row["y4"]]},
+            "joints": {
+                "A": {"crank": "O2", "length": row["crank"]},
+                "B": {
+                    "from": ["A", "O4"],
+                    "length": [row["coupler"], row["rocker"]],
+                    "side": self.sides[closure < 0],
+                },
+                "P": {"on": ["A", "B"], "at": [row["along"], row["across"]]},
+            },
+            "bodies": {
+                "crank": {"joints": ["O2", "A"]},
+                "coupler": {"joints": ["A", "B", "P"]},
+                "rocker": {"joints": ["O4", "B"]},
+            },
+        }
+
+
+class SliderCrankKind(LinkageKind):
+    """Crank and rod, the rod's end on a line at an offset from O2, with a point of the rod."""
+
+    name = "slider-crank"
+    parameters = ("x", "y", "crank", "rod", "along", "across", "line_angle", "offset")
+    links = ("crank", "rod")
+    pins = (0,)
+    carried = True
+    sides = ("forward", "backward")
+
+    def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
+        """Close a rod on the pin and the line."""
+        line = np.exp(1j * rows[:, 6:7])
+        origin, rod = rows[:, 0:1] + 1j * rows[:, 1:2], rows[:, 3:4]
+        place = (pin - origin) / line
+        rise = rows[:, 7:8] - place.imag
+        with np.errstate(all="ignore"):
+            root = closure * np.sqrt((rod - rise) * (rod + rise))
+        direction = line * (root + 1j * rise) / rod
+        normal = np.broadcast_to(1j * line, pin.shape)
+        return _Closed(direction, normal, (place.real + root, np.ones_like(root)))
+
+    def link_lengths(self, rows: Real) -> Real:
+        """Return crank, rod and arm."""
+        return np.stack([rows[:, 2], rows[:, 3], np.hypot(rows[:, 4], rows[:, 5])], axis=1)
+
+    def slack(self, rows: Real, least_angle: float) -> Real:
+        """Return how far the rod is from too steep, on either side of the line."""
+        reach, offset = rows[:, 3] * np.cos(least_angle) - rows[:, 2], rows[:, 7]
+        return np.stack([reach - offset, reach + offset], axis=-1)
+
+    def random_rows(self, random: np.random.Generator, count: int) -> Real:
+        """Return slider-cranks with rods of up to five cranks, along the x axis."""
+        rod = random.uniform(1.0, 5.0, count)
+        offset = random.uniform(-1.0, 1.0, count) * (rod - 1.0)
+        return _assembled(random, np.ones(count), rod, (np.zeros(count), offset))
+
+    def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
+        """Turn, scale and shift the pivot, turn the line, scale the lengths."""
+        out = _moved_points(rows, self.pins, turn, shift)
+        out[:, 6] = rows[:, 6] + np.angle(turn)
+        return out
+
+    def mirrored(self, rows: Real, closure: Real) -> tuple[Real, Real]:
+        """Mirror the pivot, the line and the coupler point; forward stays forward."""
+        return rows * (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0), closure
+
+    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
+        """Return the tables of a slider-crank."""
+        line = {"through": "O2", "angle": f"{row['line_angle']!r} rad", "offset": row["offset"]}
+        return {
+            "ground": {"O2": [row["x"], row["y"]]},
+            "joints": {
+                "A": {"crank": "O2", "length": row["crank"]},
+                "B": {"from": "A", "length": row["rod"], "line": line, "side": self.sides[closure < 0]},
+                "P": {"on": ["A", "B"], "at": [row["along"], row["across"]]},
+            },
+            "bodies": {
+                "crank": {"joints": ["O2", "A"]},
+                "rod": {"joints": ["A", "B", "P"]},
+                "slider": {"slider": "B"},
+            },
+        }
+
+
+FOUR_BAR, SLIDER_CRANK = FourBarKind(), SliderCrankKind()
+KINDS: Mapping[str, LinkageKind] = {kind.name: kind for kind in (FOUR_BAR, SLIDER_CRANK)}
+"""The kinds by what `--kind` calls them."""

@@ -1,0 +1,194 @@
+"""Least squares over many candidates at once: Levenberg and Marquardt's steps, each point's crank angle free.
+
+A point counts by its distance to the curve, orthogonal distance regression: the crank's angle at a point is
+eliminated by projecting on the curve's normal there (Boggs, Byrd and Schnabel), and follows after each step.
+With prescribed timing both components count. Limits that a step would break hold in it as equations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.synthesis.kinds import Complex, LinkageKind, Real, Traced
+from linkanim.synthesis.match import Candidates
+from linkanim.synthesis.requirements import Requirements
+
+_FIRST_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-3, 1e-15, 1e8
+_NEARER = 0.1
+"""What a step leaves of the slack of a limit that it would break otherwise."""
+_OF_GAP = 0.45
+"""Of the gap to its neighbour a crank angle goes in a step, so that points keep their order."""
+_BROKEN = 1e3
+"""What a limit broken by one curve size weighs beside one point that is as far off."""
+_DIFFERENCE = 1e-7
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Points (n,) of size 1 about the origin, their weights, how their crank angles are found, and limits.
+
+    `timing` is None where angles are free, else the crank's angle at each point; with `free_start` all of
+    those may be shifted by one angle.
+    """
+
+    kind: LinkageKind
+    points: Complex
+    weights: Real
+    requirements: Requirements
+    closed: bool
+    timing: Real | None = None
+    free_start: bool = True
+
+
+class _State(NamedTuple):
+    """Candidates with what is known at them: traced points, slack of the limits, and the merit."""
+
+    found: Candidates
+    traced: Traced
+    slack: Real
+    broken: Real
+    cost: Real
+
+
+def _merged(mine: _State, other: _State, where: NDArray[np.bool_]) -> _State:
+    """Return a state, the rows of another one where said."""
+
+    def part(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
+        return np.where(where.reshape(-1, *[1] * (a.ndim - 1)), b, a)
+
+    return _State(
+        Candidates(*map(part, mine.found, other.found)),
+        Traced(*map(part, mine.traced, other.traced)),
+        *map(part, mine[2:], other[2:]),
+    )
+
+
+def refined(problem: Problem, candidates: Candidates, steps: int) -> tuple[Candidates, Real]:
+    """Return the candidates after so many steps at the most, and each one's merit: its mean square error.
+
+    Infinite where a candidate cannot be closed; limits that are broken weigh on it.
+    """
+    state = _state(problem, candidates)
+    damping = np.full(len(state.cost), _FIRST_DAMPING)
+    for _ in range(steps):
+        trial = _state(problem, _stepped(problem, state, damping))
+        better = trial.cost < state.cost
+        if not better.any() and (damping > _MOST_DAMPING).all():
+            break
+        state = _merged(state, trial, better)
+        damping = np.where(better, np.maximum(damping * 0.2, _LEAST_DAMPING), damping * 6)
+    return state.found, state.cost
+
+
+def _state(problem: Problem, found: Candidates) -> _State:
+    with np.errstate(all="ignore"):
+        traced = problem.kind.trace(found.rows, found.closure, found.angles)
+        slack = problem.requirements.slack(problem.kind, found.rows)
+        mask, values = problem.requirements.held(problem.kind)
+        missing = (found.rows - values) * mask
+        off = np.abs(problem.points - traced.point) ** 2 * problem.weights
+        turning = 2 if problem.requirements.full_turn else 0
+        broken = np.minimum(slack[:, turning:], 0.0)
+        cost = off.mean(axis=1) + _BROKEN * ((broken**2).sum(axis=1) + (missing**2).sum(axis=1))
+        cost = np.where(np.isfinite(cost) & (slack[:, :turning] > 0).all(axis=1), cost, np.inf)
+    return _State(found, traced, slack, missing, cost)
+
+
+def _stepped(problem: Problem, state: _State, damping: Real) -> Candidates:
+    """Return where one step leads from every candidate."""
+    with np.errstate(all="ignore"):
+        residual, slopes = _equations(problem, state)
+        change = _change(problem, state, residual, slopes, damping)
+        angles = state.found.angles + _turned(problem, state, change)
+    rows = state.found.rows + change[:, : state.found.rows.shape[1]]
+    return state.found._replace(rows=rows, angles=angles)
+
+
+def _equations(problem: Problem, state: _State) -> tuple[Real, Real]:
+    """Return residuals (B, m) and their slopes (B, m, p), by a free start's angle, too."""
+    root = np.sqrt(problem.weights)
+    off = (problem.points - state.traced.point) * root
+    slopes = state.traced.slopes * root[:, None]
+    if problem.timing is None:
+        back = np.conj(state.traced.rate) / np.abs(state.traced.rate)
+        return (off * back).imag, (slopes * back[..., None]).imag
+    if problem.free_start:
+        slopes = np.concatenate([slopes, (state.traced.rate * root)[..., None]], axis=2)
+    return (
+        np.concatenate([off.real, off.imag], axis=1),
+        np.concatenate([slopes.real, slopes.imag], axis=1),
+    )
+
+
+def _change(problem: Problem, state: _State, residual: Real, slopes: Real, damping: Real) -> Real:
+    """Return the damped step, with the limits that it would break and the given values as equations."""
+    across = slopes.transpose(0, 2, 1)
+    normal, right = across @ slopes, (across @ residual[..., None])[..., 0]
+    count = normal.shape[1]
+    diagonal = np.einsum("bii->bi", normal)
+    scale = diagonal.mean(axis=1, keepdims=True)
+    diagonal += damping[:, None] * (diagonal + 1e-3 * scale) + 1e-15 * scale
+    normal, right = np.nan_to_num(normal), np.nan_to_num(right)
+    mask, _ = problem.requirements.held(problem.kind)
+    equations = np.zeros((len(right), len(mask), count))
+    equations[:, range(len(mask)), range(len(mask))] = mask
+    step = _solved(normal, right, equations, -state.broken)
+    slack, rows = state.slack, state.found.rows
+    moved = problem.requirements.slack(problem.kind, rows + step[:, : rows.shape[1]])
+    breaking = ~(moved >= np.minimum(_NEARER * slack, 0.9 * slack + 1e-12))
+    if not breaking.any():
+        return step
+    limits = np.zeros((*slack.shape, count))
+    limits[..., : rows.shape[1]] = _slack_slopes(problem, rows, slack) * breaking[..., None]
+    return _solved(
+        normal,
+        right,
+        np.concatenate([equations, limits], axis=1),
+        np.concatenate([-state.broken, (_NEARER - 1.0) * slack * breaking], axis=1),
+    )
+
+
+def _slack_slopes(problem: Problem, rows: Real, slack: Real) -> Real:
+    """Return how each slack changes with each parameter (B, m, p)."""
+    count, size = rows.shape
+    moved = (rows[:, None, :] + _DIFFERENCE * np.eye(size)).reshape(-1, size)
+    after = problem.requirements.slack(problem.kind, moved).reshape(count, size, -1)
+    return np.asarray((after - slack[:, None, :]).transpose(0, 2, 1) / _DIFFERENCE)
+
+
+def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
+    """Return the least squares' step (B, p) that keeps to equations (B, m, p); rows of zeros are none."""
+    used = np.abs(equations).max(axis=(0, 2)) > 0
+    equations, targets = equations[:, used], targets[:, used]
+    count, extra = normal.shape[1], equations.shape[1]
+    if not extra:
+        return np.asarray(np.linalg.solve(normal, right[..., None])[..., 0])
+    whole = np.zeros((len(right), count + extra, count + extra))
+    whole[:, :count, :count] = normal
+    whole[:, count:, :count] = equations
+    whole[:, :count, count:] = equations.transpose(0, 2, 1)
+    size = np.einsum("bii->b", normal) / count
+    none = np.abs(equations).max(axis=2) == 0
+    own = np.arange(count, count + extra)
+    whole[:, own, own] = np.where(none, -1.0, -1e-12 / size[:, None])
+    both = np.concatenate([right, np.where(none, 0.0, targets)], axis=1)
+    return np.asarray(np.linalg.solve(whole, both[..., None])[:, :count, 0])
+
+
+def _turned(problem: Problem, state: _State, change: Real) -> Real:
+    """Return how far the crank turns on at each point (B, n)."""
+    if problem.timing is not None:
+        return change[:, -1:] if problem.free_start else np.zeros((len(change), 1))
+    traced, size = state.traced, state.found.rows.shape[1]
+    left = problem.points - traced.point - (traced.slopes @ change[:, :size, None])[..., 0]
+    turn = (np.conj(traced.rate) * left).real / np.abs(traced.rate) ** 2
+    gap = np.diff(state.found.angles, axis=1) * state.found.sense[:, None]
+    last = 2 * np.pi - gap.sum(axis=1, keepdims=True) if problem.closed else np.full((len(gap), 1), np.pi)
+    before = np.concatenate([last, gap], axis=1) * _OF_GAP
+    after = np.concatenate([gap, last], axis=1) * _OF_GAP
+    forward = turn * state.found.sense[:, None]
+    return np.asarray(np.nan_to_num(np.clip(forward, -before, after) * state.found.sense[:, None]))

@@ -1,0 +1,194 @@
+"""`linkanim.path`: points to linkages, with everything that may be asked of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkanim import units
+from linkanim.document import meant
+from linkanim.errors import BadInput
+from linkanim.synthesis.cognates import with_cognates
+from linkanim.synthesis.curve import DrawnCurve, drawn
+from linkanim.synthesis.fit import Fit
+from linkanim.synthesis.kinds import KINDS, LinkageKind, Real
+from linkanim.synthesis.requirements import LEAST_ANGLE, SHORTEST, Requirements
+from linkanim.synthesis.rounding import with_round_lengths
+from linkanim.synthesis.search import Progress, found
+from linkanim.synthesis.task import PathTask
+from linkanim.units import shown
+
+LARGEST = 8.0
+"""Of a link, in curve sizes."""
+COUNT = 5
+MOST_ANSWERS = 50
+_EXACTLY = 1e10
+"""What a point that is to be passed through exactly weighs beside another one."""
+
+Pair = Sequence[float]
+
+
+def path(
+    points: ArrayLike,
+    closed: bool = True,
+    *,
+    count: int = COUNT,
+    cognates: bool = False,
+    rounding: float | None = None,
+    progress: Progress | None = None,
+    **options: object,
+) -> tuple[Fit, ...]:
+    """Return the best few linkages that differ whose coupler point follows points (n, 2), the best first.
+
+    A closed curve is passed in one turn of the crank, its points in their order; an open one within the
+    input's range. `cognates` adds each four-bar's two Roberts cognates after it; `rounding` rounds all
+    lengths to that step, each time fitting the rest again. `options` are those of `task_of`. BadInput for
+    points or limits that make no sense, and where nothing was found that keeps to the limits.
+    """
+    if not 1 <= count <= MOST_ANSWERS:
+        raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
+    if cognates and options.get("kind", "four-bar") != "four-bar":
+        raise BadInput(f"a {options['kind']} has no cognates; leave them out, or take a four-bar")
+    fits = found(task_of(points, closed, **options), count, progress)  # type: ignore[arg-type]
+    if rounding is not None:
+        fits = with_round_lengths(fits, rounding)
+    return with_cognates(fits) if cognates else fits
+
+
+def task_of(
+    points: ArrayLike,
+    closed: bool = True,
+    *,
+    kind: str = "four-bar",
+    timing: float | ArrayLike | None = None,
+    free_start: bool | None = None,
+    box: Sequence[float] | None = None,
+    largest: float = LARGEST,
+    least_angle: float = 0.0,
+    pivots: Sequence[Pair | None] = (),
+    lengths: Mapping[str, float] | None = None,
+    weights: ArrayLike | None = None,
+    exactly: Sequence[int] = (),
+    unit: str = "mm",
+    name: str = "path",
+    source: str = "made by linkanim for a drawn path",
+) -> PathTask:
+    """Return what is asked for, checked.
+
+    `kind` is "four-bar" or "slider-crank". `timing` is the crank's angle at each point, in radians, or one
+    step from each point to the next; with `free_start`, the default for a step, all may be shifted by one
+    angle. `box` is x, y, width and height for the pivots, `largest` the longest link in curve sizes,
+    `least_angle` the least transmission angle in radians. `pivots` are O2 and O4, None for one that is
+    free; `lengths` gives some of the kind's parameters. `weights` (n,) say how much points count,
+    `exactly` which are to be passed through exactly.
+    """
+    if kind not in KINDS:
+        raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
+    units.metre(unit)
+    chosen = KINDS[kind]
+    curve = drawn(points, closed=closed, timed=timing is not None)
+    requirements = Requirements(
+        largest=_largest(largest) * curve.size,
+        shortest=SHORTEST * curve.size,
+        least_angle=max(_least_angle(least_angle), LEAST_ANGLE),
+        box=None if box is None else _box(box),
+        given=_given(chosen, pivots, lengths or {}),
+    )
+    _refuse_contradictions(chosen, requirements)
+    angles, free = _timing(timing, free_start, len(curve.points))
+    return PathTask(
+        curve, chosen, requirements, _weights(weights, exactly, curve), angles, free, unit, name, source
+    )
+
+
+def _largest(value: float) -> float:
+    if not (math.isfinite(value) and value > 0):
+        raise BadInput(f"largest={value!r}: give the longest link in curve sizes, a number such as 3")
+    return value
+
+
+def _least_angle(value: float) -> float:
+    if not 0 <= value < math.pi / 2:
+        raise BadInput(f"a least transmission angle of {math.degrees(value):g} deg: give 0 to 90 deg")
+    return value
+
+
+def _box(box: Sequence[float]) -> tuple[float, float, float, float]:
+    values = tuple(float(value) for value in box)
+    if len(values) != 4 or not all(map(math.isfinite, values)):
+        raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, four numbers")
+    x, y, width, height = values
+    if width <= 0 or height <= 0:
+        raise BadInput(f"the box is {width:g} wide and {height:g} high: nothing fits in it")
+    return x, y, width, height
+
+
+def _given(
+    kind: LinkageKind, pivots: Sequence[Pair | None], lengths: Mapping[str, float]
+) -> dict[str, float]:
+    """Return the given parameters by name."""
+    given: dict[str, float] = {}
+    if len(pivots) > len(kind.pins):
+        raise BadInput(f"a {kind.name} has {len(kind.pins)} fixed pins; {len(pivots)} are given")
+    for start, pivot in zip(kind.pins, pivots, strict=False):
+        if pivot is not None:
+            given |= {kind.parameters[start]: float(pivot[0]), kind.parameters[start + 1]: float(pivot[1])}
+    own = [name for name in kind.parameters if name not in ("x", "y", "x4", "y4")]
+    for name, value in lengths.items():
+        if name not in own:
+            known = f"{', '.join(own)}{meant(name, own)}"
+            raise BadInput(f"{shown(name)} is no length of a {kind.name}; take {known}")
+        given[name] = float(value)
+    for name, value in given.items():
+        if not math.isfinite(value) or (name in kind.links and value <= 0):
+            raise BadInput(f"{name}={value!r}: give a finite number, for a link's length above zero")
+    return given
+
+
+def _refuse_contradictions(kind: LinkageKind, limits: Requirements) -> None:
+    """Refuse given values that break a limit whatever the others are."""
+    given = limits.given
+    for name in kind.links:
+        if given.get(name, 0.0) > limits.largest:
+            raise BadInput(
+                f"the given {name} of {given[name]:g} is longer than the longest link, {limits.largest:g}; "
+                "raise that, or give a shorter one"
+            )
+    for start in kind.pins:
+        x, y = (given.get(name) for name in kind.parameters[start : start + 2])
+        if limits.box is None or x is None or y is None:
+            continue
+        left, below, width, height = limits.box
+        if not (left <= x <= left + width and below <= y <= below + height):
+            raise BadInput(f"the given pivot at {x:g}, {y:g} lies outside of the box; move one of them")
+
+
+def _timing(timing: float | ArrayLike | None, free: bool | None, count: int) -> tuple[Real | None, bool]:
+    """Return the crank's angle at each point, and whether one angle more is free."""
+    if timing is None:
+        return None, True
+    angles = np.asarray(timing, dtype=np.float64)
+    if angles.ndim == 0:
+        if not np.isfinite(angles) or angles == 0:
+            raise BadInput("the step of the timing is zero or not finite; give an angle such as 20 deg")
+        return angles * np.arange(count), free is not False
+    if angles.shape != (count,) or not np.isfinite(angles).all():
+        raise BadInput(f"timing has {angles.size} angles for {count} points; give each point a finite one")
+    return angles, bool(free)
+
+
+def _weights(weights: ArrayLike | None, exactly: Sequence[int], curve: DrawnCurve) -> Real:
+    """Return the points' weights, their mean 1 before the exact ones are raised."""
+    count = len(curve.points)
+    found: Real = np.ones(count) if weights is None else np.array(weights, dtype=np.float64)
+    if found.shape != (count,) or not (np.isfinite(found) & (found >= 0)).all() or not found.any():
+        raise BadInput(f"weights: give {count} numbers of zero or more, not all zero, one for each point")
+    found /= found.mean()
+    for point in exactly:
+        if not 0 <= point < count:
+            raise BadInput(f"exactly: there is no point {point}; the points are 0 to {count - 1}")
+        found[point] = _EXACTLY
+    return found

@@ -1,0 +1,69 @@
+"""What an answer has to keep to: where pivots lie, how long links are, which values are given."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkanim.synthesis.kinds import LinkageKind, Real
+
+LEAST_ANGLE = math.radians(0.1)
+"""Below this transmission angle a linkage is all but at a change point: no answer goes there."""
+SHORTEST = 1e-3
+"""Of a link, in curve sizes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Requirements:
+    """Limits in the units of the points they go with.
+
+    `box` is x, y, width and height, in which all pivots lie; `given` are values of parameters that stay;
+    `full_turn` says whether the crank has to turn fully.
+    """
+
+    largest: float
+    shortest: float
+    least_angle: float = LEAST_ANGLE
+    box: tuple[float, float, float, float] | None = None
+    given: Mapping[str, float] = field(default_factory=dict)
+    full_turn: bool = True
+
+    def slack(self, kind: LinkageKind, rows: Real) -> Real:
+        """Return (B, m), negative for each limit that is broken; the two of a full turn come first."""
+        turning = [kind.slack(rows, self.least_angle)] if self.full_turn else []
+        lengths = kind.link_lengths(rows)
+        limits = [self.largest - lengths, lengths - self.shortest]
+        if self.box is not None:
+            x, y, width, height = self.box
+            pivots = kind.pivots(rows)
+            limits += [pivots.real - x, x + width - pivots.real, pivots.imag - y, y + height - pivots.imag]
+        return np.concatenate([*turning, *limits], axis=1)
+
+    def held(self, kind: LinkageKind) -> tuple[Real, Real]:
+        """Return which parameters are given, as a mask, and their values (0 for the others)."""
+        mask = np.array([float(name in self.given) for name in kind.parameters])
+        return mask, np.array([float(self.given.get(name, 0.0)) for name in kind.parameters])
+
+    def placed(self, shift: complex, scale: float) -> Requirements:
+        """Return the same in coordinates whose origin is `shift` and whose unit is `scale`."""
+        box = self.box and (
+            (self.box[0] - shift.real) / scale,
+            (self.box[1] - shift.imag) / scale,
+            self.box[2] / scale,
+            self.box[3] / scale,
+        )
+        given = {name: _placed(name, value, shift, scale) for name, value in self.given.items()}
+        return Requirements(
+            self.largest / scale, self.shortest / scale, self.least_angle, box, given, self.full_turn
+        )
+
+
+def _placed(name: str, value: float, shift: complex, scale: float) -> float:
+    """Return a parameter's value in other coordinates."""
+    if name == "line_angle":
+        return value
+    origin = shift.real if name.startswith("x") else shift.imag if name.startswith("y") else 0.0
+    return (value - origin) / scale

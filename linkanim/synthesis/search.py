@@ -1,0 +1,156 @@
+"""From a drawn curve to the linkages that follow it: atlas, refinement, check."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.synthesis.atlas import atlas
+from linkanim.synthesis.check import checked
+from linkanim.synthesis.fit import FEW, Fit
+from linkanim.synthesis.kinds import Indices, Real
+from linkanim.synthesis.match import Candidates, joined, matched, matched_few, matched_in_time
+from linkanim.synthesis.refine import refined
+from linkanim.synthesis.task import PathTask
+
+Progress = Callable[[int, int], None]
+
+
+class _Stage(NamedTuple):
+    """So many candidates, over so many points, for so many steps."""
+
+    candidates: int
+    points: int
+    steps: int
+
+
+_FEW_STAGES = (_Stage(300, FEW, 25), _Stage(80, FEW, 60), _Stage(12, FEW, 200))
+_STAGES = (_Stage(80, 32, 12), _Stage(24, 64, 40), _Stage(8, 200, 150))
+_REFIT_STEPS = 30
+_GOOD = 1e-3
+"""Of the curve's size: where an open curve is followed no better by a crank that turns, it may swing."""
+_SAME = 1e-4
+"""Of the curve's size: parameters that differ by less are one answer."""
+_FITTED = 1e-6
+"""Of the curve's size: answers better than this are equally good, and the one that turns best comes first."""
+
+
+def found(task: PathTask, count: int, progress: Progress | None = None) -> tuple[Fit, ...]:
+    """Return the best few answers that differ, the best first; BadInput where there is none."""
+    fits = _searched(task, count, progress)
+    if not task.curve.closed and (not fits or fits[0].error > _GOOD * task.curve.size):
+        fits = _best([*fits, *_searched(task.swinging(), count, progress)], count)
+    if not fits:
+        raise BadInput(_none_fits(task))
+    return fits
+
+
+def _none_fits(task: PathTask) -> str:
+    limits = ["the box"] if task.requirements.box else []
+    limits += [f"the given {name}" for name in task.requirements.given]
+    kept = f"{', '.join(limits)}, the longest link and the least transmission angle"
+    return f"no {task.kind.name} was found that keeps to {kept}; give it more room"
+
+
+def glimpsed(task: PathTask) -> Fit | None:
+    """Return the atlas's best as it is, in a tenth of a second, once the atlas is made."""
+    start = started(task, _STAGES[0].candidates)
+    everything, points = task.scaled(start), task.normal.points
+    off = np.abs(task.kind.points(start.rows, start.closure, start.angles) - points).max(axis=1)
+    for n in np.argsort(off):
+        if fit := checked(task, everything.rows[n], everything.closure[n], everything.angles[n]):
+            return fit
+    return None
+
+
+def _stages(task: PathTask) -> tuple[_Stage, ...]:
+    return _FEW_STAGES if len(task.curve.points) <= FEW else _STAGES
+
+
+def started(task: PathTask, count: int) -> Candidates:
+    """Return the best candidates of the atlas, at size 1."""
+    known, points = atlas(task.kind), task.normal
+    if task.timing is None and len(points.points) <= FEW:
+        return joined([matched(known, points, count // 4), matched_few(known, points, count)])
+    if task.timing is None:
+        return matched(known, points, count)
+    return matched_in_time(known, points.points, task.timing, count, free_start=task.free_start)
+
+
+def _searched(task: PathTask, count: int, progress: Progress | None) -> tuple[Fit, ...]:
+    start = started(task, _stages(task)[0].candidates)
+    return _best(_checked(task, refined_through(task, start, progress)), count)
+
+
+def refined_through(task: PathTask, start: Candidates, progress: Progress | None = None) -> Candidates:
+    """Return the best candidates after all stages, at size 1, the best first, at all points' angles."""
+    chosen = np.arange(len(task.normal.points))
+    now, cost = start, np.zeros(len(start.rows))
+    for number, stage in enumerate(_stages(task)):
+        if progress:
+            progress(number, len(_STAGES))
+        now = now.take(np.argsort(cost, kind="stable")[: stage.candidates])
+        before, chosen = chosen, task.normal.thinned(stage.points)
+        now = now._replace(angles=_spread(task, now, before, chosen))
+        now, cost = refined(task.problem(chosen), now, stage.steps)
+    if progress:
+        progress(len(_STAGES), len(_STAGES))
+    now = now._replace(angles=_spread(task, now, chosen, np.arange(len(task.normal.points))))
+    return now.take(np.argsort(cost, kind="stable")[: int(np.isfinite(cost).sum())])
+
+
+def refitted(task: PathTask, fit: Fit) -> Fit | None:
+    """Return an answer fitted again to a task that may have other points, weights or given values.
+
+    The task's points are as many as the answer's. None where it ends nowhere.
+    """
+    start = Candidates(fit.row[None], np.array([fit.closure_sign]), fit.angles[None], np.array([fit.sense]))
+    chosen = task.normal.thinned(_STAGES[-1].points)
+    now = task.normalised(start)
+    now = now._replace(angles=_spread(task, now, np.arange(len(task.normal.points)), chosen))
+    now, _ = refined(task.problem(chosen), now, _REFIT_STEPS)
+    now = now._replace(angles=_spread(task, now, chosen, np.arange(len(task.normal.points))))
+    return next(_checked(task, now), None)
+
+
+def _spread(task: PathTask, found: Candidates, before: Indices, after: Indices) -> Real:
+    """Return the crank angles at some points from those at others."""
+    if len(before) == len(after):
+        return found.angles
+    if task.timing is not None:
+        return np.asarray(found.angles[:, :1] + (task.timing[after] - task.timing[before[0]]))
+    places, angles = task.normal.places[before], found.angles
+    if task.curve.closed:
+        places = np.append(places, places[0] + 1.0)
+        angles = np.concatenate([angles, angles[:, :1] + 2 * math.pi * found.sense[:, None]], axis=1)
+    return np.stack([np.interp(task.normal.places[after], places, row) for row in angles])
+
+
+def _checked(task: PathTask, normal: Candidates) -> Iterator[Fit]:
+    scaled = task.scaled(normal)
+    for row, closure, angles, _ in zip(*scaled, strict=True):
+        if fit := checked(task, row, float(closure), angles):
+            yield fit
+
+
+def _best(fits: list[Fit] | Iterator[Fit], count: int) -> tuple[Fit, ...]:
+    """Return the best of those that differ by more than rounding."""
+    kept: list[Fit] = []
+    for fit in sorted(fits, key=_rank):
+        if not any(_same(fit, other) for other in kept):
+            kept.append(fit)
+    return tuple(kept[:count])
+
+
+def _rank(fit: Fit) -> tuple[float, float]:
+    return max(fit.error, _FITTED * fit.curve_size), -fit.transmission_angle
+
+
+def _same(one: Fit, other: Fit) -> bool:
+    return one.closure == other.closure and bool(
+        (np.abs(one.row - other.row) <= _SAME * one.curve_size).all()
+    )

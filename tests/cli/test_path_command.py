@@ -1,0 +1,102 @@
+"""`linkanim path`: scene files that run, the table and the JSON beside them, and how it ends."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import linkanim
+from linkanim.cli import main
+
+TURN = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+OVAL = "\n".join(f"{30 * np.cos(t) + 4 * np.cos(2 * t)},{12 * np.sin(t)}" for t in TURN)
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "oval.csv").write_text(OVAL)
+    return tmp_path
+
+
+def printed_json(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[str, Any]]:
+    assert main(["path", *words, "--json"]) == 0
+    found: list[dict[str, Any]] = json.loads(capsys.readouterr().out)
+    return found
+
+
+def test_each_answer_is_a_scene_that_runs_along_the_curve(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found = printed_json(capsys, "oval.csv", "-o", "oval.toml", "--count", "2")
+    assert [row["file"] for row in found] == ["oval.toml", "oval-2.toml"]
+    assert [row["rms"] for row in found] == sorted(row["rms"] for row in found)
+    points = np.array([[float(cell) for cell in line.split(",")] for line in OVAL.splitlines()])
+    for row in found:
+        scene = linkanim.load(here / row["file"])
+        way = scene.cycle(7200).position[scene.trace[0]]
+        off = np.sqrt(((way[:, None] - points) ** 2).sum(axis=2)).min(axis=0)
+        assert row["rms"] == pytest.approx(np.sqrt((off**2).mean()), rel=0.05, abs=0.01)
+        assert row["rms_percent"] == pytest.approx(100 * row["rms"] / np.hypot(*np.ptp(points, axis=0)))
+        assert row["class"] == scene.info.class_name
+        assert row["transmission_angle"] == scene.info.transmission_angle[0]
+        assert scene.source == "linkanim path for oval.csv"
+
+
+def test_the_table_has_a_line_for_each_answer(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["path", "oval.csv", "--count", "2", "--kind", "slider-crank"]) == 0
+    titles, *rows = capsys.readouterr().out.splitlines()
+    assert titles.split("  ")[0] == "file"
+    assert [row.split()[0] for row in rows] == ["oval.toml", "oval-2.toml"]
+
+
+def test_what_an_older_run_wrote_is_replaced_and_nothing_else(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["path", "oval.csv", "--count", "3"]) == 0
+    assert main(["path", "oval.csv", "--count", "1"]) == 0
+    assert sorted(path.name for path in here.glob("*.toml")) == ["oval.toml"]
+    (here / "oval.toml").write_text("mine")
+    capsys.readouterr()
+    assert main(["path", "oval.csv"]) == 2
+    assert "was changed after linkanim wrote it" in capsys.readouterr().err
+    assert (here / "oval.toml").read_text() == "mine"
+
+
+def test_what_rounding_costs_is_printed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["path", "oval.csv", "--round", "1 mm", "--count", "1", "--json"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err.startswith("rounding takes the best from ")
+    (row,) = json.loads(printed.out)
+    assert all(value == round(value) for value in row["parameters"].values() if isinstance(value, float))
+    assert row["rms_before_rounding"] < row["rms"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["none.csv"], "none.csv: no such file"),
+        (["oval.csv", "--timing", "column"], "oval.csv: has no third column"),
+        (["oval.csv", "--timing", "20"], '--timing: "20" has no unit'),
+        (["oval.csv", "--box", "1,2,3"], "'1,2,3' is not X,Y,W,H"),
+        (["oval.csv", "--box", "0,0,0,9"], "nothing fits in it"),
+        (["oval.csv", "--round", "-1 mm"], "no length to round to"),
+        (["oval.csv", "-o", "oval.gif"], "use one of .toml"),
+        (["oval.csv", "-o", "nowhere/oval.toml"], "there is no folder nowhere"),
+        (["oval.csv", "--kind", "slider-crank", "--cognates"], "has no cognates"),
+        (["oval.csv", "--largest", "0"], "not a number greater than zero"),
+    ],
+)
+def test_bad_input_is_one_line(
+    words: list[str], said: str, here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["path", *words]) == 2
+    printed = capsys.readouterr()
+    assert said in printed.err
+    assert printed.err.count("\n") == 1
+    assert printed.out == ""
+    assert list(here.glob("*.toml")) == []

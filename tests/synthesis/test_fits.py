@@ -1,0 +1,214 @@
+"""Points to linkages: exact where a linkage is behind them, published problems, limits, what is refused."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from random_curves import curves
+
+import linkanim
+from linkanim.synthesis.fit import Fit
+from linkanim.synthesis.kinds import Complex, Real
+
+PERCENT = 0.01
+KUNJUR = [
+    (0.5, 1.1), (0.4, 1.1), (0.3, 1.1), (0.2, 1.0), (0.1, 0.9), (0.05, 0.75), (0.02, 0.6), (0, 0.5), (0, 0.4),
+    (0.03, 0.3), (0.1, 0.25), (0.15, 0.2), (0.2, 0.3), (0.3, 0.4), (0.4, 0.5), (0.5, 0.7), (0.6, 0.9),
+    (0.6, 1.0),
+]  # fmt: skip
+"""S. Kunjur and S. Krishnamurty, Genetic algorithms in mechanism synthesis, 1997: the crank turns by 20°."""
+LINE = [(20, 20 + 5 * step) for step in range(6)]
+SQUARE = [(x, 0) for x in range(10)] + [(10, y) for y in range(10)]
+SQUARE += [(10 - x, 10) for x in range(10)] + [(0, 10 - y) for y in range(10)]
+
+
+def traced(fit: Fit, **places: Any) -> Complex:
+    """Return the coupler point as the solver has it."""
+    return np.asarray(fit.scene.solve(**places, derivatives=0).position["P"] @ np.array([1.0, 1j]))
+
+
+def as_pairs(points: Complex) -> Real:
+    return np.stack([points.real, points.imag], axis=1)
+
+
+def verify(fit: Fit, points: Complex, *, closed: bool = True) -> None:
+    """Hold what a fit says of itself against the solver's own motion."""
+    off = np.abs(traced(fit, angle=fit.angles) - points)
+    size = np.hypot(np.ptp(points.real), np.ptp(points.imag))
+    assert fit.rms == pytest.approx(math.sqrt(np.mean(off**2)), abs=1e-15 * size)
+    assert fit.largest == pytest.approx(off.max(), abs=1e-15 * size)
+    steps = np.diff(fit.angles) * fit.sense
+    assert (steps > 0).all()
+    assert fit.scene.trace == ("P",)
+    if closed:
+        assert steps.sum() < 2 * math.pi
+        assert fit.scene.info.full_turn
+    if fit.scene.info.full_turn:
+        least = fit.scene.info.transmission
+        assert least is not None
+        assert fit.transmission_angle == pytest.approx(least.least, abs=1e-12)
+
+
+def squares(fit: Fit) -> float:
+    return float(fit.rms**2 * len(fit.angles))
+
+
+@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
+def test_a_coupler_curve_is_found_again(kind: str, closed: bool) -> None:
+    for points in curves(kind, 2, seed=11, turn=1.0 if closed else 0.4):
+        best = linkanim.path(as_pairs(points), closed, kind=kind, count=1)[0]
+        verify(best, points, closed=closed)
+        assert best.rms < 0.01 * PERCENT * best.curve_size
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("kind", "seed"), [("four-bar", 101), ("four-bar", 202), ("slider-crank", 303)])
+def test_two_hundred_coupler_curves_are_found_again(kind: str, seed: int) -> None:
+    errors = []
+    for points in curves(kind, 200, seed=seed):
+        best = linkanim.path(points, kind=kind, count=1)[0]
+        errors.append(best.rms / best.curve_size / PERCENT)
+    assert np.mean(np.array(errors) <= 0.01) >= 0.99
+    assert max(errors) <= 0.05
+
+
+@pytest.mark.long
+def test_every_answer_of_a_thousand_is_what_it_says() -> None:
+    for points in curves("four-bar", 200, seed=404):
+        for fit in linkanim.path(points):
+            verify(fit, points)
+
+
+def test_answers_differ_and_the_best_come_first() -> None:
+    fits = linkanim.path(SQUARE, count=4)
+    assert len(fits) == 4
+    assert [fit.error for fit in fits] == sorted(fit.error for fit in fits)
+    points = np.array(SQUARE) @ np.array([1.0, 1j])
+    for fit in fits:
+        verify(fit, points)
+    for one, other in pairwise(fits):
+        assert np.abs(one.row - other.row).max() > 1e-4 * one.curve_size
+
+
+def test_kunjurs_eighteen_points_are_passed_better_than_published() -> None:
+    best = linkanim.path(KUNJUR, timing=math.radians(20))[0]
+    assert squares(best) <= 9.03e-3
+    assert np.diff(best.angles) == pytest.approx(best.sense * math.radians(20))
+    off = np.abs(traced(best, angle=best.angles) - np.array(KUNJUR) @ np.array([1.0, 1j]))
+    assert best.rms == pytest.approx(math.sqrt(np.mean(off**2)))
+
+
+def test_six_points_of_a_line_are_passed_exactly() -> None:
+    fits = linkanim.path(LINE)
+    within = [fit for fit in fits if max(map(abs, fit.parameters.values())) <= 60]
+    assert min(map(squares, within)) <= 1e-20
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_five_points_at_random_are_passed_exactly(seed: int) -> None:
+    points = np.random.default_rng(seed).uniform(0, 50, (5, 2))
+    best = linkanim.path(points, count=1)[0]
+    assert squares(best) <= 1e-20
+    verify(best, points @ np.array([1.0, 1j]))
+
+
+def test_a_point_has_the_crank_angle_that_it_is_given() -> None:
+    points, angles = curves("four-bar", 1, seed=21, points=12)[0], np.linspace(0.4, 5.0, 12)
+    best = linkanim.path(points, timing=angles, count=1)[0]
+    assert best.angles == pytest.approx(angles, abs=1e-12)
+    free = linkanim.path(points, timing=angles, free_start=True, count=1)[0]
+    assert np.diff(free.angles) == pytest.approx(np.diff(angles))
+    assert free.rms <= best.rms * (1 + 1e-6)
+
+
+def test_cognates_trace_the_same_curve() -> None:
+    points = curves("four-bar", 1, seed=31)[0]
+    first, *others = linkanim.path(points, count=1, cognates=True)
+    assert len(others) == 2
+    way = traced(first, phase=np.linspace(0, 2 * math.pi, 400, endpoint=False))
+    for other in others:
+        dense = np.linspace(0, other.scene.period, 20_000)
+        start = dense[np.abs(traced(other, phase=dense)[:, None] - way[::40]).argmin(axis=0)]
+        for _ in range(6):
+            motion = other.scene.solve(phase=start, speed=1.0, derivatives=1)
+            left = way[::40] - motion.position["P"] @ np.array([1.0, 1j])
+            rate = motion.velocity["P"] @ np.array([1.0, 1j])
+            start = start + (np.conj(rate) * left).real / np.abs(rate) ** 2
+        assert np.abs(traced(other, phase=start) - way[::40]).max() <= 1e-13 * first.curve_size
+
+
+def test_round_lengths_are_round_and_the_cost_is_known() -> None:
+    points = curves("four-bar", 1, seed=41)[0]
+    points = points * (100 / np.ptp(points.real))
+    best = linkanim.path(points, count=1, rounding=0.5)[0]
+    assert {value * 2 % 1 for value in best.parameters.values()} == {0.0}
+    assert best.exact is not None
+    assert best.exact.rms < best.rms < 0.01 * best.curve_size
+    verify(best, points)
+
+
+# Each limit, and what shows that it is kept.
+LIMITS = {
+    "largest": ({"largest": 1.2}, lambda fit: fit.size <= 1.2 * fit.curve_size * (1 + 1e-9)),
+    "least_angle": ({"least_angle": 0.7}, lambda fit: fit.transmission_angle >= 0.7 - 1e-9),
+    "box": ({"box": (12, -2, 10, 10)}, lambda fit: all(12 <= fit.parameters[x] <= 22 for x in ("x", "x4"))),
+    "pivot": ({"pivots": [(14, 3)]}, lambda fit: (fit.parameters["x"], fit.parameters["y"]) == (14, 3)),
+    "length": ({"lengths": {"crank": 4.5}}, lambda fit: fit.parameters["crank"] == 4.5),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("options", "holds"), LIMITS.values(), ids=LIMITS)
+def test_limits_are_kept(options: dict[str, Any], holds: Any) -> None:
+    fits = linkanim.path(SQUARE, **options)
+    assert fits
+    for fit in fits:
+        assert holds(fit)
+        verify(fit, np.array(SQUARE) @ np.array([1.0, 1j]))
+
+
+def test_a_point_may_be_passed_exactly() -> None:
+    best = linkanim.path(SQUARE, exactly=[0], count=1)[0]
+    assert abs(traced(best, angle=best.angles)[0]) < 1e-6
+    assert best.rms > 0.01
+
+
+def test_one_input_gives_one_answer() -> None:
+    one, other = (linkanim.path(SQUARE, count=2) for _ in range(2))
+    assert [fit.scene.document for fit in one] == [fit.scene.document for fit in other]
+
+
+# What is refused, by the word that says which.
+REFUSED: dict[str, tuple[Any, dict[str, Any]]] = {
+    "3 points at least": ([(0, 0), (1, 1)], {}),
+    "points 2 and 3 coincide": ([(0, 0), (1, 1), (1, 1), (2, 0)], {}),
+    "point 2 is not finite": ([(0, 0), (math.nan, 1), (2, 0)], {}),
+    "no extent": ([(3, 3), (3, 3), (3, 3), (3, 3)], {"closed": False}),
+    "pairs of numbers": ([(0, 0, 0), (1, 1, 1), (2, 0, 0)], {}),
+    "nothing fits in it": (SQUARE, {"box": (0, 0, 0, 5)}),
+    "lies outside of the box": (SQUARE, {"box": (0, 0, 5, 5), "pivots": [(9, 9)]}),
+    "longer than the longest link": (SQUARE, {"lengths": {"crank": 500}}),
+    "no length of a four-bar": (SQUARE, {"lengths": {"rod": 5}}),
+    "0 to 90 deg": (SQUARE, {"least_angle": 2.0}),
+    "longest link in curve sizes": (SQUARE, {"largest": 0.0}),
+    "4 points": (SQUARE[:4], {"timing": [0.0, 1.0]}),
+    "step of the timing": (SQUARE, {"timing": 0.0}),
+    "take four-bar or slider-crank": (SQUARE, {"kind": "six-bar"}),
+    "has no cognates": (SQUARE, {"kind": "slider-crank", "cognates": True}),
+    "no point 99": (SQUARE, {"exactly": [99]}),
+    "rounding to -1": (SQUARE, {"rounding": -1.0}),
+    "1 to 50": (SQUARE, {"count": 0}),
+    "keeps to the box": (SQUARE, {"box": (1e6, 1e6, 1.0, 1.0)}),
+}
+
+
+@pytest.mark.parametrize(("words", "points", "options"), [(words, *case) for words, case in REFUSED.items()])
+def test_what_makes_no_sense_is_refused(words: str, points: Any, options: dict[str, Any]) -> None:
+    with pytest.raises(linkanim.LinkanimError, match=words) as error:
+        linkanim.path(points, **options)
+    assert "\n" not in str(error.value)
+    assert error.value.exit_code == 2

@@ -1,0 +1,87 @@
+"""Files of curves: tables as people write them, paths as drawing programs do."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from linkanim.errors import BadInput
+from linkanim.synthesis.reading import read_curve
+
+TABLES = {
+    "commas": "1,2\n3,4\n5,6\n",
+    "titles": "x,y\n1,2\n3,4\n5,6\n",
+    "blanks": "  1 2\n3   4\n5 6",
+    "tabs": "1\t2\n3\t4\n5\t6\n",
+    "semicolons": "1;2\r\n3;4\r\n5;6\r\n",
+    "comments and empty lines": "# drawn\n\n1, 2\n3, 4  # here\n\n5, 6\n",
+}
+
+
+@pytest.mark.parametrize("text", TABLES.values(), ids=TABLES)
+def test_a_table_is_read(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "curve.csv"
+    path.write_bytes(text.encode())
+    found = read_curve(path)
+    assert found.points.tolist() == [1 + 2j, 3 + 4j, 5 + 6j]
+    assert found.angles is None
+
+
+def test_a_third_column_is_the_cranks_angle(tmp_path: Path) -> None:
+    path = tmp_path / "curve.csv"
+    path.write_text("0 0 0\n1 0 90\n1 1 180\n")
+    angles = read_curve(path).angles
+    assert angles is not None
+    assert angles.tolist() == [0.0, math.pi / 2, math.pi]
+
+
+# A path's data, and points that are among those along it (the y axis turned up), the last one its end.
+PATHS = {
+    "lines": ("M 10,20 L 30,20 V 40 h-20 z", [10 - 20j, 30 - 20j, 30 - 40j, 10 - 40j, 10 - 20j]),
+    "lines that follow a move": ("m1-2 3,4-1.5.5", [1 + 2j, 4 - 2j, 2.5 - 2.5j]),
+    "cubic": ("M0 0C0 10 10 10 10 0", [0j, 5 - 7.5j, 10 + 0j]),
+    "smooth cubic": ("M0 0C0 10 10 10 10 0S20-10 20 0", [0j, 5 - 7.5j, 15 + 7.5j, 20 + 0j]),
+    "quadratic": ("M0 0Q5 10 10 0T20 0", [0j, 5 - 5j, 15 + 5j, 20 + 0j]),
+    "half circles": ("M0 0A5 5 0 0 1 10 0a5 5 0 0010 0", [0j, 5 + 5j, 15 - 5j, 20 + 0j]),
+    "radii too short": ("M0 0A1 1 0 0 0 10 0", [0j, 5 - 5j, 10 + 0j]),
+    "large arc": ("M0 0A5 5 0 1 1 5 5", [0j, 5 + 5j, 10 + 0j, 5 - 5j]),
+    "a second stroke": ("M0 0L1 0L1 1M9 9L8 8", [0j, 1 + 0j, 1 - 1j]),
+}
+
+
+@pytest.mark.parametrize(("data", "expected"), PATHS.values(), ids=PATHS)
+def test_a_path_is_read(data: str, expected: list[complex], tmp_path: Path) -> None:
+    path = tmp_path / "curve.svg"
+    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg"><rect/><path d="{data}"/></svg>')
+    points = read_curve(path).points
+    assert abs(points[-1] - expected[-1]) < 1e-9
+    for point in expected:
+        assert np.abs(points - point).min() < 1e-9
+
+
+REFUSED = {
+    "line 2": ("c.csv", "1,2\n3,4,5,6\n5,6\n"),
+    "line 2 is not finite": ("c.csv", "1,2\n3,nan\n5,6\n"),
+    "has no points": ("c.csv", "# nothing\n"),
+    "1 of 3 rows have an angle": ("c.csv", "1,2\n3,4,5\n5,6\n"),
+    "no such file": ("c.csv", None),
+    "is not SVG": ("c.svg", "<svg"),
+    "has no path": ("c.svg", "<svg><rect/></svg>"),
+    "does not begin with a move": ("c.svg", '<svg><path d="L 1 2"/></svg>'),
+    "cannot be read at 'fish'": ("c.svg", '<svg><path d="M 1 2 fish"/></svg>'),
+    "L has too few numbers": ("c.svg", '<svg><path d="M 1 2 L 3"/></svg>'),
+    "declares entities": ("c.svg", '<!DOCTYPE svg [<!ENTITY a "b">]><svg><path d="M 1 2"/></svg>'),
+}
+
+
+@pytest.mark.parametrize(("words", "name", "text"), [(words, *case) for words, case in REFUSED.items()])
+def test_what_is_no_curve_is_refused(words: str, name: str, text: str | None, tmp_path: Path) -> None:
+    path = tmp_path / name
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(BadInput, match=words) as error:
+        read_curve(path)
+    assert "\n" not in str(error.value)
