@@ -20,7 +20,7 @@ Complex = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
 
-class Traced(NamedTuple):
+class TracedPoints(NamedTuple):
     """Coupler points (B, n) as x + yi, their rate with the crank's angle, and with each parameter (B, n, p).
 
     NaN where the linkage cannot be closed.
@@ -90,7 +90,7 @@ class LinkageKind(ABC):
         pin, _ = _pins(rows, angles)
         return pin + _arm(rows) * self.close(rows, closure[:, None], pin).direction
 
-    def trace(self, rows: Real, closure: Real, angles: Real) -> Traced:
+    def trace(self, rows: Real, closure: Real, angles: Real) -> TracedPoints:
         """Return the coupler points at crank angles, and all their first derivatives."""
         pin, spoke = _pins(rows, angles)
         direction, normal, grounds = self.close(rows, closure[:, None], pin)
@@ -105,7 +105,7 @@ class LinkageKind(ABC):
         base = (one, 1j * one) if self.carried else (moved(1.0), moved(1j))
         own = (moved(spoke), -turn * _dot(normal, direction), direction, 1j * direction)
         slopes = np.stack([*base, *own, *(turn * ground for ground in grounds)], axis=-1)
-        return Traced(pin + arm * direction, moved(1j * rows[:, 2:3] * spoke), slopes)
+        return TracedPoints(pin + arm * direction, moved(1j * rows[:, 2:3] * spoke), slopes)
 
 
 def _pins(rows: Real, angles: Real) -> tuple[Complex, Complex]:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.synthesis.kinds import Complex, LinkageKind, Real, Traced
+from linkanim.synthesis.kinds import Complex, LinkageKind, Real, TracedPoints
 from linkanim.synthesis.match import Candidates
 from linkanim.synthesis.requirements import Requirements
 
@@ -28,7 +28,7 @@ _DIFFERENCE = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class LeastSquares:
     """Points (n,) of size 1 about the origin, their weights, how their crank angles are found, and limits.
 
     `timing` is None where angles are free, else the crank's angle at each point; with `free_start` all of
@@ -48,7 +48,7 @@ class _State(NamedTuple):
     """Candidates with what is known at them: traced points, slack of the limits, and the merit."""
 
     found: Candidates
-    traced: Traced
+    traced: TracedPoints
     slack: Real
     broken: Real
     cost: Real
@@ -62,12 +62,12 @@ def _merged(mine: _State, other: _State, where: NDArray[np.bool_]) -> _State:
 
     return _State(
         Candidates(*map(part, mine.found, other.found)),
-        Traced(*map(part, mine.traced, other.traced)),
+        TracedPoints(*map(part, mine.traced, other.traced)),
         *map(part, mine[2:], other[2:]),
     )
 
 
-def refined(problem: Problem, candidates: Candidates, steps: int) -> tuple[Candidates, Real]:
+def refined(problem: LeastSquares, candidates: Candidates, steps: int) -> tuple[Candidates, Real]:
     """Return the candidates after so many steps at the most, and each one's merit: its mean square error.
 
     Infinite where a candidate cannot be closed; limits that are broken weigh on it.
@@ -84,7 +84,7 @@ def refined(problem: Problem, candidates: Candidates, steps: int) -> tuple[Candi
     return state.found, state.cost
 
 
-def _state(problem: Problem, found: Candidates) -> _State:
+def _state(problem: LeastSquares, found: Candidates) -> _State:
     with np.errstate(all="ignore"):
         traced = problem.kind.trace(found.rows, found.closure, found.angles)
         slack = problem.requirements.slack(problem.kind, found.rows)
@@ -98,7 +98,7 @@ def _state(problem: Problem, found: Candidates) -> _State:
     return _State(found, traced, slack, missing, cost)
 
 
-def _stepped(problem: Problem, state: _State, damping: Real) -> Candidates:
+def _stepped(problem: LeastSquares, state: _State, damping: Real) -> Candidates:
     """Return where one step leads from every candidate."""
     with np.errstate(all="ignore"):
         residual, slopes = _equations(problem, state)
@@ -108,7 +108,7 @@ def _stepped(problem: Problem, state: _State, damping: Real) -> Candidates:
     return state.found._replace(rows=rows, angles=angles)
 
 
-def _equations(problem: Problem, state: _State) -> tuple[Real, Real]:
+def _equations(problem: LeastSquares, state: _State) -> tuple[Real, Real]:
     """Return residuals (B, m) and their slopes (B, m, p), by a free start's angle, too."""
     root = np.sqrt(problem.weights)
     off = (problem.points - state.traced.point) * root
@@ -124,7 +124,7 @@ def _equations(problem: Problem, state: _State) -> tuple[Real, Real]:
     )
 
 
-def _change(problem: Problem, state: _State, residual: Real, slopes: Real, damping: Real) -> Real:
+def _change(problem: LeastSquares, state: _State, residual: Real, slopes: Real, damping: Real) -> Real:
     """Return the damped step, with the limits that it would break and the given values as equations."""
     across = slopes.transpose(0, 2, 1)
     normal, right = across @ slopes, (across @ residual[..., None])[..., 0]
@@ -152,7 +152,7 @@ def _change(problem: Problem, state: _State, residual: Real, slopes: Real, dampi
     )
 
 
-def _slack_slopes(problem: Problem, rows: Real, slack: Real) -> Real:
+def _slack_slopes(problem: LeastSquares, rows: Real, slack: Real) -> Real:
     """Return how each slack changes with each parameter (B, m, p)."""
     count, size = rows.shape
     moved = (rows[:, None, :] + _DIFFERENCE * np.eye(size)).reshape(-1, size)
@@ -179,7 +179,7 @@ def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
     return np.asarray(np.linalg.solve(whole, both[..., None])[:, :count, 0])
 
 
-def _turned(problem: Problem, state: _State, change: Real) -> Real:
+def _turned(problem: LeastSquares, state: _State, change: Real) -> Real:
     """Return how far the crank turns on at each point (B, n)."""
     if problem.timing is not None:
         return change[:, -1:] if problem.free_start else np.zeros((len(change), 1))

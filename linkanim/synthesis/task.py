@@ -11,13 +11,13 @@ import numpy as np
 from linkanim.synthesis.curve import DrawnCurve
 from linkanim.synthesis.kinds import Indices, LinkageKind, Real
 from linkanim.synthesis.match import Candidates
-from linkanim.synthesis.refine import Problem
+from linkanim.synthesis.refine import LeastSquares
 from linkanim.synthesis.requirements import Requirements
 
 
 @dataclass(frozen=True, eq=False)
 class PathTask:
-    """A curve in the unit of lengths, with what its linkages have to be; see `Problem` for the timing."""
+    """A curve in its unit, with what its linkages have to be; the timing is as in `LeastSquares`."""
 
     curve: DrawnCurve
     kind: LinkageKind
@@ -34,9 +34,9 @@ class PathTask:
         """The curve about the origin, its size 1."""
         return DrawnCurve((self.curve.points - self.curve.centre) / self.curve.size, self.curve.closed)
 
-    def problem(self, chosen: Indices) -> Problem:
+    def problem(self, chosen: Indices) -> LeastSquares:
         """Return the least squares over some of the points, at size 1."""
-        return Problem(
+        return LeastSquares(
             self.kind,
             self.normal.points[chosen],
             self.weights[chosen],

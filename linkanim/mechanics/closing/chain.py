@@ -28,7 +28,7 @@ from linkanim.mechanics.loops.signed import SMALLEST, Reduced, SignedRoot, plain
 
 
 @dataclass(frozen=True, slots=True)
-class Fit:
+class PolynomialFit:
     """A smooth function for arguments up to `width`: a polynomial in (x - centre)/half."""
 
     width: float
@@ -65,8 +65,8 @@ class Way(NamedTuple):
 class Near:
     """What is fitted next to a zero: R, and D over the argument where the ends of equal bars meet there."""
 
-    root: Fit
-    across: tuple[Fit, Fit] | None = None
+    root: PolynomialFit
+    across: tuple[PolynomialFit, PolynomialFit] | None = None
 
 
 @dataclass(frozen=True, slots=True)

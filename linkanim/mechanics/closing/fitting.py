@@ -15,7 +15,7 @@ from typing import NamedTuple
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assemble import precise
 from linkanim.mechanics.closing.assembly import Assembly
-from linkanim.mechanics.closing.chain import ChainRoot, Closing, End, Fit, Near, Zero
+from linkanim.mechanics.closing.chain import ChainRoot, Closing, End, Near, PolynomialFit, Zero
 from linkanim.mechanics.closing.kinematics import walk_at, walked
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.formulas.exact import Sum
@@ -211,10 +211,10 @@ class _Stretch:
     centre: float
     half: float
 
-    def fit(self, samples: list[Sample], values: list[Decimal]) -> Fit:
+    def fit(self, samples: list[Sample], values: list[Decimal]) -> PolynomialFit:
         """Return the polynomial through the values at the samples' ways."""
         places = [(sample.argument - Decimal(self.centre)) / Decimal(self.half) for sample in samples]
-        return Fit(self.width, self.centre, self.half, tuple(interpolated(places, values)))
+        return PolynomialFit(self.width, self.centre, self.half, tuple(interpolated(places, values)))
 
 
 def _roots(samples: list[Sample], rest: Decimal) -> list[Decimal]:
@@ -235,7 +235,7 @@ def _meet(across: Decimals, samples: list[Sample]) -> bool:
     return bool(across) and all(abs(value) <= around * Decimal(NEARBY) for value in across)
 
 
-def _last(fits: list[Fit]) -> float:
+def _last(fits: list[PolynomialFit]) -> float:
     """Return the last coefficients beside the greatest first one, as they stand to Chebyshev polynomials."""
     size = max((abs(c) for fit in fits for c in fit.coefficients[:2]), default=1.0)
     last = max((abs(c) for fit in fits for c in fit.coefficients[-2:]), default=0.0) / 2.0 ** (POINTS - 2)
