@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import Action, BooleanOptionalAction, Namespace, _ActionsContainer
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -251,47 +252,27 @@ def report(parser: Parser) -> None:
 
 def path(parser: Parser) -> None:
     """Add what finding linkages for a path takes."""
-    parser.add_argument(
-        "curve", type=Path, metavar="CURVE", help="two columns x and y (a third with angles), or an SVG"
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="NAME.toml",
-        help="the best one's file (default: CURVE.toml here)",
-    )
-    parser.add_argument(
-        "--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"
-    )
+    text = "two columns x and y (a third with the crank's angles), or an SVG"
+    parser.add_argument("curve", type=Path, metavar="CURVE", help=text)
+    _output(parser, "NAME.toml of the best; the others are NAME-2.toml, ... (default: CURVE.toml here)")
+    kinds = ("four-bar", "slider-crank")
+    parser.add_argument("--kind", choices=kinds, default=kinds[0], help=f"default: {kinds[0]}")
+    for name, read, usual, metavar, text in _PATH:
+        parser.add_argument(name, type=valued(read), default=usual, metavar=metavar, help=text)
     parser.add_argument("--open", action="store_true", help="the curve does not close")
-    parser.add_argument(
-        "--timing", metavar="STEP", help='the crank\'s angle from point to point, "20 deg", or `column`'
-    )
-    parser.add_argument(
-        "--count", type=valued(values.count), default=5, metavar="N", help="answers (default: 5)"
-    )
-    parser.add_argument(
-        "--box", type=valued(values.box), metavar="X,Y,W,H", help="in which all fixed pins lie"
-    )
-    parser.add_argument(
-        "--largest",
-        type=valued(values.positive),
-        default=8.0,
-        metavar="F",
-        help="link, in curve sizes (default: 8)",
-    )
-    parser.add_argument(
-        "--least-angle", type=valued(units.angle), default=0.0, metavar="ANGLE", help="of transmission"
-    )
     parser.add_argument("--cognates", action="store_true", help="each four-bar's two Roberts cognates, too")
-    parser.add_argument(
-        "--round",
-        type=valued(values.step),
-        metavar="LENGTH",
-        help='round lengths, such as "0.1 mm", fitting the rest again each time',
-    )
     parser.add_argument("--json", action="store_true", help="a list of objects; angles in radians")
+
+
+_PATH: tuple[tuple[str, Callable[[str], object], object, str, str], ...] = (
+    ("--timing", values.timing, None, "STEP", 'the crank\'s angle a point, "20 deg", or `column`'),
+    ("--count", values.count, 5, "N", "answers (default: 5)"),
+    ("--box", values.box, None, "X,Y,W,H", "in which all fixed pins lie"),
+    ("--largest", values.positive, 8.0, "F", "link, in sizes of the curve (default: 8)"),
+    ("--least-angle", units.angle, 0.0, "ANGLE", "of transmission"),
+    ("--round", values.step, None, "LENGTH", 'round lengths to, such as "0.1 mm", and fit the rest again'),
+)
+"""Options of `path` that take a value: how it is read, its default, what help calls it."""
 
 
 def gallery(parser: Parser) -> None:

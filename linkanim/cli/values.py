@@ -124,6 +124,11 @@ def step(text: str) -> float:
     return found
 
 
+def timing(text: str) -> float | str:
+    """Read an angle, or `column`."""
+    return "column" if text.strip() == "column" else units.angle(text)
+
+
 def vectors(text: str) -> frozenset[str]:
     """Read a list such as `v,a`: which of velocity and acceleration are drawn."""
     chosen = frozenset(part.strip() for part in text.split(","))

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.mechanics.motion.derived import as_complex, transmission_angle
+from linkanim.mechanics.motion.measures import as_complex, transmission_angle
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.curve import DrawnCurve
 from linkanim.synthesis.fit import Fit, parameters_of, rounded, scene_of

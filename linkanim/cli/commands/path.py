@@ -8,20 +8,17 @@ from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
-from linkanim import units
+from linkanim.atomic_files import checked_target
 from linkanim.cli.commands.record import bar
-from linkanim.cli.strict import json_text
-from linkanim.cli.table import columns
-from linkanim.cli.values import listed
 from linkanim.digits import significant
 from linkanim.errors import BadInput
+from linkanim.export import columns, json_text
 from linkanim.intake import named
 from linkanim.synthesis.files import file_set, write
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import Real
 from linkanim.synthesis.reading import CurveFile, read_curve
 from linkanim.synthesis.request import path
-from linkanim.whole import checked_target
 
 _UNIT = "mm"
 _POOR = 5.0
@@ -56,9 +53,9 @@ def run(options: Namespace) -> None:
     _remark(fits)
 
 
-def _timing(text: str | None, curve: CurveFile, where: str) -> float | Real | None:
-    if text != "column":
-        return None if text is None else listed("--timing", units.angle, text)
+def _timing(timing: float | str | None, curve: CurveFile, where: str) -> float | Real | None:
+    if not isinstance(timing, str):
+        return timing
     if curve.angles is None:
         raise BadInput(f'{where}: has no third column; give the crank\'s angles in it, or --timing "20 deg"')
     return curve.angles
