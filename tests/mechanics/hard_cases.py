@@ -22,6 +22,7 @@ from reference import HIGHEST_FIRST, derivatives, sign_of, unit
 from linkanim.bench.reference import crossing
 from linkanim.errors import BadInput
 from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.scenes.reading.read import scene_from
 
@@ -61,6 +62,9 @@ class Error(NamedTuple):
 
     position: float
     rate: float
+
+
+SIDES = {1: "left", -1: "right"}
 
 
 def near_a_toggle(rng: Random) -> Bars:
@@ -114,12 +118,9 @@ def slider_on_a_tilted_line(rng: Random) -> Guided:
     joint = {"from": "A", "length": b, "line": line, "side": "forward"}
     with mp.workdps(DIGITS):
         start, base = (mp.mpc(*map(mpf, at)) for at in pins)
-        along = unit(mpf(tilt) * mp.pi / 180)
 
     def place(angle: Any) -> Any:
-        end = (start + mpf(r) * unit(angle) - base) / along
-        square = mpf(b) ** 2 - (end.imag - mpf(offset)) ** 2
-        return base + along * mp.mpc(end.real + mp.sqrt(square), mpf(offset)) if square > 0 else mp.nan
+        return _on_line(start + mpf(r) * unit(angle), base, (b, offset, tilt))
 
     return Guided(_document(rng, pins, r, joint), max(r, b), place)
 
@@ -133,21 +134,121 @@ def slot_beside_its_pivot(rng: Random) -> Guided:
         start, base = (mp.mpc(*map(mpf, at)) for at in pins)
 
     def place(angle: Any) -> Any:
-        way = start + mpf(r) * unit(angle) - base
-        square = abs(way) ** 2 - mpf(offset) ** 2
-        return base + mpf(b) * way / mp.mpc(mp.sqrt(square), mpf(offset)) if square > 0 else mp.nan
+        return _in_slot(start + mpf(r) * unit(angle), base, b, offset)
 
     return Guided(_document(rng, pins, r, joint), max(r, b), place)
 
 
-GUIDED: tuple[Callable[[Random], Guided], ...] = (slider_on_a_tilted_line, slot_beside_its_pivot)
+def dyad_behind_a_loop(rng: Random) -> Guided:
+    """Return bars, a bar to a slider or a slotted bar on a point of a four-bar's coupler, or rocker.
+
+    The four-bar's ground is a length at an angle of degrees, or two points. Left out are those near a change
+    point, which are another kind.
+    """
+    pins, ends, tilt = _tilted_ground(rng)
+    r, a, b = (round(rng.uniform(2, 9), 3) for _ in range(3))
+    g = float(abs(ends[1] - ends[0]))
+    if min(abs(g - r - a + b), abs(g - r + a - b), abs(a + b - g - r)) < 0.01:
+        return dyad_behind_a_loop(rng)
+    at = [round(rng.uniform(-6, 6), 2) for _ in "xy"]
+    on, second, turned = rng.choice(("AB", "BA", ("B", "O4"), ("O4", "B"))), rng.choice((1, -1)), tilt
+    document = _document(rng, pins, r, {"from": ["A", "O4"], "length": [a, b], "side": SIDES[second]})
+    joints = document["joints"]
+    joints["B"] = joints.pop("J")
+    joints["C"] = {"on": list(on), "at": at}
+    joints["J"], longest, close = rng.choice((_bars_on, _slider_on, _slot_on))(rng, turned)
+    document["ground"]["S"] = [round(rng.uniform(-9, 9), 2) for _ in "xy"]
+    pin = mp.mpc(*map(mpf, document["ground"]["S"]))
+
+    def place(angle: Any) -> Any:
+        start = ends[0] + mpf(r) * unit(angle)
+        found = {"A": start, "O4": ends[1], "B": _meet(start, ends[1], (a, b), second)}
+        along = found[on[1]] - found[on[0]]
+        return close(found[on[0]] + mp.mpc(*map(mpf, at)) * along / abs(along), pin)
+
+    return Guided(document, max(r, a, b, longest), place)
+
+
+def _tilted_ground(rng: Random) -> tuple[list[Any], tuple[Any, Any], str]:
+    """Return pins O2 and O4 as they are written, where they lie, and an angle in degrees."""
+    tilt = f"{rng.uniform(-180, 180):.3f}"
+    first, second = _pins(rng)
+    if rng.random() < 0.5:
+        ends = mp.mpc(*map(mpf, first)), mp.mpc(*map(mpf, second))
+        return [first, second], ends, tilt
+    ground = round(rng.uniform(2, 9), 3)
+    polar = {"length": ground, "angle": f"{tilt} deg"}
+    return [[0, 0], polar], (mp.mpc(0), mpf(ground) * unit(_radians(tilt))), tilt
+
+
+Closing = tuple[dict[str, Any], float, Callable[[Any, Any], Any]]
+
+
+def _bars_on(rng: Random, tilt: str) -> Closing:
+    """Return bars from C and S to J as they are written, the longer one, and where J lies.
+
+    Left out are bars so alike that C may come within a tenth of them to S: its place is rounded.
+    """
+    bars, side = [round(rng.uniform(2, 12), 3) for _ in range(2)], rng.choice((1, -1))
+    if abs(bars[0] - bars[1]) < 0.1 * max(bars):
+        return _bars_on(rng, tilt)
+    joint = {"from": ["C", "S"], "length": bars, "side": SIDES[side]}
+    return joint, max(bars), lambda point, pin: _meet(point, pin, (bars[0], bars[1]), side)
+
+
+def _slider_on(rng: Random, tilt: str) -> Closing:
+    """Return the same of a bar from C to a line through S."""
+    bar, offset = round(rng.uniform(2, 12), 3), round(rng.uniform(-4, 4), 2)
+    line = {"through": "S", "angle": f"{tilt} deg", "offset": offset}
+    joint = {"from": "C", "length": bar, "line": line, "side": "forward"}
+    return joint, bar, lambda point, pin: _on_line(point, pin, (bar, offset, tilt))
+
+
+def _slot_on(rng: Random, _: str) -> Closing:
+    """Return the same of a bar about S whose slot runs over C."""
+    bar, offset = round(rng.uniform(2, 9), 2), round(rng.uniform(2, 6), 2)
+    joint = {"slot": {"pivot": "S", "through": "C", "offset": offset}, "length": bar}
+    return joint, bar, lambda point, pin: _in_slot(point, pin, bar, offset)
+
+
+def _meet(p: Any, q: Any, bars: tuple[float, float], side: int) -> Any:
+    """Return where two bars meet, NaN where they do not."""
+    way, (a, b) = abs(q - p), map(mpf, bars)
+    return crossing(p, q, a, b, side) if abs(a - b) < way < a + b else mp.mpc(mp.nan)
+
+
+def _on_line(point: Any, base: Any, slider: tuple[float, float, str]) -> Any:
+    """Return where a bar, its offset and its line's tilt put a slider, NaN where it does not reach."""
+    bar, offset, tilt = slider
+    along = unit(_radians(tilt))
+    end = (point - base) / along
+    square = mpf(bar) ** 2 - (end.imag - mpf(offset)) ** 2
+    return base + along * mp.mpc(end.real + mp.sqrt(square), mpf(offset)) if square > 0 else mp.mpc(mp.nan)
+
+
+def _in_slot(point: Any, base: Any, bar: float, offset: float) -> Any:
+    """Return the end of a slotted bar, NaN where the slot does not reach."""
+    way = point - base
+    square = abs(way) ** 2 - mpf(offset) ** 2
+    return base + mpf(bar) * way / mp.mpc(mp.sqrt(square), mpf(offset)) if square > 0 else mp.mpc(mp.nan)
+
+
+def _radians(degrees: str) -> Any:
+    return mpf(degrees) * mp.pi / 180
+
+
+GUIDED: tuple[Callable[[Random], Guided], ...] = (
+    slider_on_a_tilted_line,
+    slot_beside_its_pivot,
+    dyad_behind_a_loop,
+)
 
 
 def _pins(rng: Random) -> list[list[float]]:
     return [[round(rng.uniform(-5, 5), 2) for _ in "xy"] for _ in range(2)]
 
 
-def _document(rng: Random, pins: list[list[float]], crank: float, joint: dict[str, Any]) -> dict[str, Any]:
+def _document(rng: Random, pins: list[Any], crank: float, joint: dict[str, Any]) -> dict[str, Any]:
     return {
         "drive": {"joint": "A", "start": f"{rng.uniform(0, 360):.1f} deg"},
         "ground": dict(zip(("O2", "O4"), pins, strict=True)),
@@ -183,7 +284,7 @@ def _bars(
         pins = dict(zip(("O2", "O4"), at, strict=True))
         ends = mp.mpc(*map(mpf, at[0])), mp.mpc(*map(mpf, at[1]))
     pivot, other = ("O4", "O2") if rocker else ("O2", "O4")
-    joint = {"from": ["A", other], "length": [a, b], "side": "left" if side == 1 else "right"}
+    joint = {"from": ["A", other], "length": [a, b], "side": SIDES[side]}
     document = {
         "drive": {"joint": "A", "start": f"{rng.uniform(0, 360):.1f} deg"},
         "ground": pins,
@@ -270,6 +371,24 @@ def _meeting(ways: tuple[Any, Any], parts: tuple[Any, Any]) -> Any:
     return mp.mpc((p * b.imag - q * a.imag) / size, (q * a.real - p * b.real) / size)
 
 
+def clear(solved: Mechanism) -> bool:
+    """Tell whether a swing ends at limits only, and each dyad keeps three degrees from those that are none.
+
+    Floats keep less there: of a distance that is rounded, and of two limits within a degree.
+    """
+    path = solved.assembly.path
+    turn = np.linspace(0.0, math.pi, 721)
+    motion = solved.solve(phase=turn, speed=1.0, derivatives=0)
+    lean = {dyad: np.degrees(transmission_angle(motion, dyad)) for dyad in "BJ"}
+    away = [
+        float(lean[dyad][(turn if end == 0 else math.pi - turn) < math.pi / 2].min())
+        for end, name in enumerate(path.ends)
+        for dyad in "BJ"
+        if dyad != name
+    ]
+    return "" not in path.ends and min(away, default=90.0) > 3.0
+
+
 def swinging(make: Callable[[Random], Some], seed: int = 7) -> Iterator[tuple[Some, Mechanism]]:
     """Yield linkages that go together and stop the crank."""
     rng = Random(seed)
@@ -279,7 +398,7 @@ def swinging(make: Callable[[Random], Some], seed: int = 7) -> Iterator[tuple[So
             solved = scene_from(bars.document, name="bars", where="bars").mechanism
         except BadInput:
             continue
-        if isinstance(solved.assembly.path, Swing):
+        if isinstance(solved.assembly.path, Swing) and (make is not dyad_behind_a_loop or clear(solved)):
             yield bars, solved
 
 
@@ -321,7 +440,7 @@ def by_angle(bars: Bars, solved: Mechanism) -> Error:
 
 
 def guided_by_angle(guided: Guided, solved: Mechanism) -> Error:
-    """Return the same of a bar to a slider, or of a slotted bar."""
+    """Return the same of other dyads, rates beside those of all joints: J's are made of the others'."""
     path = solved.assembly.path
     assert isinstance(path, Swing)
     angles = [angle for angle in _angles(path) if not mp.isnan(guided.place(mpf(angle)))]
@@ -330,7 +449,8 @@ def guided_by_angle(guided: Guided, solved: Mechanism) -> Error:
     errors = []
     for order, kind in HIGHEST_FIRST:
         true = [one[order]["J"] for one in found]
-        sizes = [max(guided.longest, float(abs(one)) if order else 0.0) for one in true]
+        rates = np.max([np.hypot(*values.T) for values in getattr(motion, kind).values()], axis=0)
+        sizes = np.maximum(guided.longest, rates * (order > 0)).tolist()
         errors.append(_worst(getattr(motion, kind)["J"], list(zip(true, sizes, strict=True))))
     return Error(errors[-1], max(errors[:-1]))
 

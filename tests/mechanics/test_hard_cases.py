@@ -46,17 +46,17 @@ def check_guided(make: Callable[[Random], Guided], count: int, seed: int) -> Non
         assert error.rate <= RATE, guided
 
 
-@pytest.mark.parametrize("part", range(2))
+@pytest.mark.parametrize("part", range(4))
 @pytest.mark.parametrize("make", GUIDED, ids=lambda make: make.__name__)
-def test_a_hundred_random_sliders_and_slots_are_right_up_to_their_limits(
+def test_a_hundred_random_sliders_slots_and_chains_are_right_up_to_their_limits(
     make: Callable[[Random], Guided], part: int
 ) -> None:
-    check_guided(make, 50, part)
+    check_guided(make, 25, part)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("make", GUIDED, ids=lambda make: make.__name__)
-def test_a_thousand_random_sliders_and_slots_are_right_up_to_their_limits(
+def test_a_thousand_random_sliders_slots_and_chains_are_right_up_to_their_limits(
     make: Callable[[Random], Guided],
 ) -> None:
     check_guided(make, 1000, 100)
