@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import cached_property, partial, reduce
 from math import tau
 
 import numpy as np
@@ -13,13 +13,17 @@ from linkanim.mechanics.linkage.rigid_bodies import Brace
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.picture.raster.raster import Loop
 from linkanim.picture.view import Box, View
-from linkanim.scenes.scene import Scene
+from linkanim.scenes.scene import FREE_STYLE, Scene
 
 SAMPLES = 720
 _MOST_PERIODS = 4
 _STILL = 1e-9
 DOWN = np.array([1, -1j])
 """Times a vector (x, y) with y up: x + yi with y down, as pixels count."""
+
+
+Parts = dict[Body, tuple[str, ...]]
+"""Every body that is drawn, with the names of those that it stands for."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +57,7 @@ class Figure:
         }
 
     @cached_property
-    def _parts(self) -> dict[Body, tuple[str, ...]]:
+    def _parts(self) -> Parts:
         """Every body that is drawn, with the names of those that it stands for."""
         named = [body for body in self.linkage.bodies if len(body.joints) > 1]
         # A length that a spring or damper shows, such as a cylinder's that is held, needs no bar.
@@ -61,9 +65,9 @@ class Figure:
         spans = [ends for joint in self.linkage.joints for ends in joint.spans]
         bare = [ends for ends in spans if not any(set(ends) <= joints for joints in held)]
         shown = (*(Body("", ends) for ends in bare), *self.linkage.bodies)
-        parts: dict[Body, tuple[str, ...]] = {body: (body.name,) for body in shown}
+        parts: Parts = {body: (body.name,) for body in shown}
         braces = (joint for joint in self.linkage.joints if isinstance(joint, Brace))
-        return reduce(_with_plate, braces, parts)
+        return reduce(partial(_with_plate, self.scene), braces, parts)
 
     @cached_property
     def pins(self) -> tuple[str, ...]:
@@ -166,12 +170,14 @@ def figure(scene: Scene) -> Figure:
     return Figure(scene, scene.cycle(SAMPLES * periods))
 
 
-def _with_plate(parts: dict[Body, tuple[str, ...]], brace: Brace) -> dict[Body, tuple[str, ...]]:
+def _with_plate(
+    scene: Scene, parts: dict[Body, tuple[str, ...]], brace: Brace
+) -> dict[Body, tuple[str, ...]]:
     """Return the bodies with a brace's two bars and the body that they stand on as one plate.
 
     They stay as they are where one of them is not shown, or says itself how it looks.
     """
-    free = [body for body in parts if body.look is None and body.colour is None]
+    free = [body for body in parts if scene.style(body.name) == FREE_STYLE]
     bars = [body for body in free if len(body.joints) == 2]
     base = next((body for body in free if set(brace.on) <= set(body.joints)), None)
     sides = [next((bar for bar in bars if set(bar.joints) == {end, brace.name}), None) for end in brace.on]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from linkanim.errors import BadInput
 
@@ -18,6 +18,21 @@ if TYPE_CHECKING:
     from linkanim.mechanics.linkage.linkage import Linkage
     from linkanim.mechanics.motion.mechanism import Mechanism
     from linkanim.mechanics.motion.motion import Motion, Pose
+
+
+Outline = Literal["bar", "plate", "wheel", "slot", "hook", "none"]
+"""How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, a bar
+with a slot from its first to its second, one that ends in a hook, not at all."""
+
+
+class BodyStyle(NamedTuple):
+    """How a scene has a body drawn: its outline, and its colour (red, green, blue); None where it is free."""
+
+    outline: Outline | None = None
+    colour: tuple[int, int, int] | None = None
+
+
+FREE_STYLE = BodyStyle()
 
 
 @dataclass(frozen=True)
@@ -36,6 +51,8 @@ class Scene:
     """What a reader of its figures should know, such as where its source errs."""
     look_at: str = ""
     """What to look at, in a sentence."""
+    styles: tuple[tuple[str, BodyStyle], ...] = ()
+    """How it has its bodies drawn, by their names, of those of which it says anything."""
     document: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
     """The scene file as it was read, for editing and writing it back."""
     towards: Scene | None = field(default=None, repr=False, compare=False)
@@ -51,6 +68,10 @@ class Scene:
 
         free = self.towards is not None and not self.towards.mechanism.hindered
         return passing(self.linkage) if free else mechanism(self.linkage)
+
+    def style(self, body: str) -> BodyStyle:
+        """Return how the scene has a body drawn."""
+        return dict(self.styles).get(body, FREE_STYLE)
 
     @cached_property
     def info(self) -> Info:

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from linkanim.errors import SceneError
-from linkanim.mechanics.linkage.linkage import Outline
 from linkanim.picture.arrangement.sweep import sweep_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import Gauge
@@ -18,7 +17,7 @@ from linkanim.picture.theme import DARK, LIGHT
 from linkanim.picture.view import View
 from linkanim.scenes import load
 from linkanim.scenes.reading.read import scene_from
-from linkanim.scenes.scene import Scene
+from linkanim.scenes.scene import Outline, Scene
 
 GAUGE = Gauge(8.0, 1.0, 1.0, 3.0)
 CORNERS = [0j, 100 + 0j, 60 - 40j]
@@ -113,4 +112,4 @@ def test_a_look_that_is_none_is_refused(body: dict[str, Any], where: str, words:
 
 
 def test_the_locomotive_runs_on_wheels() -> None:
-    assert [body.look for body in load("parallel-locomotive").linkage.bodies].count("wheel") == 2
+    assert [style.outline for _, style in load("parallel-locomotive").styles].count("wheel") == 2

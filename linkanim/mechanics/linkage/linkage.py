@@ -8,16 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal
 
 from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.joint import Joint, Point, RigidBody
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.linkage.rigid_bodies import rigid_bodies
-
-Outline = Literal["bar", "plate", "wheel", "slot", "hook", "none"]
-"""How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, a bar
-with a slot from its first to its second, one that ends in a hook, not at all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +21,7 @@ class Body:
 
     `com` is (along first -> second joint, to the left of it) from the first joint. A body with
     `slider` instead of joints is the block that travels with that joint along its line. `mass` is in kg,
-    `inertia` in kg·m² about the centre of mass; what is None is left out of all forces. `look` and `colour`
-    (red, green, blue) are how it is drawn where the scene says so.
+    `inertia` in kg·m² about the centre of mass; what is None is left out of all forces.
     """
 
     name: str
@@ -36,8 +30,6 @@ class Body:
     slider: str | None = None
     mass: float | None = None
     inertia: float | None = None
-    look: Outline | None = None
-    colour: tuple[int, int, int] | None = None
 
     @property
     def forceful(self) -> bool:

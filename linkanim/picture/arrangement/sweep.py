@@ -163,7 +163,7 @@ def _round(figure: Figure) -> Iterator[tuple[str, float]]:
 def _body_wheels(figure: Figure) -> Iterator[tuple[str, float]]:
     """Yield the centre of each body that is drawn as a wheel, and how far its furthest joint is from it."""
     for body in figure.linkage.bodies:
-        if body.look == "wheel":
+        if figure.scene.style(body.name).outline == "wheel":
             centre, *others = body.joints
             yield centre, max(abs(figure.start(name) - figure.start(centre)) for name in others)
 

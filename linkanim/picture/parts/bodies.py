@@ -25,8 +25,9 @@ def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[
     Plates are clear enough to show what lies behind them.
     """
     colours = colours_of(figure, theme)
-    placed = {body: _local(body, figure, view) for body in figure.bodies if body.look != "none"}
-    plates = [body for body, points in placed.items() if _is_wide(body, points)]
+    shown = (body for body in figure.bodies if figure.scene.style(body.name).outline != "none")
+    placed = {body: _local(body, figure, view) for body in shown}
+    plates = [body for body, points in placed.items() if _is_wide(body, figure, points)]
     bars = [body for body in placed if body not in plates]
     bench = Bench(figure, view, gauge, theme)
     fitted = fittings(bench)
@@ -46,8 +47,9 @@ def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
     named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
     first = sorted(named, key=lambda body: not _is_crank(body, figure, drive))
     count, taken = len(theme.bodies), int(figure.linkage.joint(drive).travels)
-    colours = {body.name: body.colour or theme.bodies[n % count] for n, body in enumerate(first, taken)}
-    return {"": theme.metal, **colours}
+    own = {body.name: figure.scene.style(body.name).colour for body in first}
+    free = {body.name: theme.bodies[n % count] for n, body in enumerate(first, taken)}
+    return {"": theme.metal} | {name: own[name] or colour for name, colour in free.items()}
 
 
 def _is_crank(body: Body, figure: Figure, joint: str) -> bool:
@@ -64,17 +66,19 @@ def _local(body: Body, figure: Figure, view: View) -> list[complex]:
     return [(place - places[0]) / turn for place in places]
 
 
-def _is_wide(body: Body, points: list[complex]) -> bool:
+def _is_wide(body: Body, figure: Figure, points: list[complex]) -> bool:
     """Whether a body may hide others, so that it lies behind them: a plate, or a wheel."""
-    return body.look in ("plate", "wheel") or (body.look is None and len(hull(points)) > 2)
+    outline = figure.scene.style(body.name).outline
+    return outline in ("plate", "wheel") or (outline is None and len(hull(points)) > 2)
 
 
 def _body(body: Body, points: list[complex], worked: list[Bar], bench: Bench, colour: Colour) -> Part:
     bar = next((bar for bar in worked if set(bar.ends) <= set(body.joints)), None)
-    plate, gauge, colours = _is_wide(body, points), bench.gauge, (bench.theme.outline, colour)
+    plate, gauge = _is_wide(body, bench.figure, points), bench.gauge
+    outline, colours = bench.figure.scene.style(body.name).outline, (bench.theme.outline, colour)
     layers: list[Layer] = []
-    if body.look is not None and bar is None:
-        layers += SHAPES[body.look](points, gauge, colours)
+    if outline is not None and bar is None:
+        layers += SHAPES[outline](points, gauge, colours)
     elif plate or bar is None:
         layers += (glazed if plate else lined)(points, gauge.bar, gauge.outline, colours)
     if bar:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, get_args
 
 from linkanim import units
-from linkanim.mechanics.linkage.linkage import Body, Damper, Outline, Spring
+from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.mechanics.linkage.rigid_bodies import coincide, holding
 from linkanim.scenes.fields.form import Field, Form, Named
 from linkanim.scenes.fields.joints import JOINTS, PINS, aside
@@ -32,6 +32,7 @@ from linkanim.scenes.fields.types import (
     choice,
 )
 from linkanim.scenes.fields.types import JOINTS as MEMBERS
+from linkanim.scenes.scene import Outline
 
 
 def _refuse_block(table: Table, values: Mapping[str, Any]) -> None:
@@ -64,13 +65,18 @@ def _refuse_half(table: Table, values: Mapping[str, Any]) -> None:
         raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
 
 
+def _body(*given: Any, look: str | None = None, colour: str | None = None, **known: Any) -> Body:
+    """Return a body without what the scene alone knows of it: how it is drawn."""
+    return Body(*given, **known)
+
+
 _MASS = Field("mass", MASS, "its mass", None, label="mass")
 _COLOUR = Field("colour", COLOUR, "its colour", None)
 _BETWEEN = Field("between", PAIR, "its two ends")
 
 BLOCK = Form(
     (Field("slider", JOINT, "the joint that it travels with"), _MASS, _COLOUR),
-    Body,
+    _body,
     "the block of a slider",
     mark="slider",
     refuse=_refuse_block,
@@ -90,7 +96,7 @@ BAR = Form(
         Field("look", choice(*get_args(Outline)), "how it is drawn", None),
         _COLOUR,
     ),
-    Body,
+    _body,
     "a body",
     refuse=_refuse_bar,
     together={"mass": "com"},

@@ -196,12 +196,11 @@ def _fraction(value: object) -> Fraction | None:
     return Fraction(value) if isinstance(value, int) or math.isfinite(value) else None
 
 
-def _colour(table: Table, key: str) -> tuple[int, int, int]:
+def _colour(table: Table, key: str) -> str:
     value = table.text(key)
     if not _HEX.fullmatch(value):
         raise table.error(key, 'is no colour; write red, green and blue as in "#d55e00"')
-    red, green, blue = bytes.fromhex(value[1:])
-    return red, green, blue
+    return value
 
 
 LENGTH = _quantity("length", "a length", _length, units.LENGTH_UNITS, _not_above(_LONGEST), bare=True)

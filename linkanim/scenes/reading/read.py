@@ -17,7 +17,7 @@ from linkanim.scenes.fields.table import Context, Table
 from linkanim.scenes.reading.drive import read_drive
 from linkanim.scenes.reading.joints import solved, unassembled
 from linkanim.scenes.reading.sizes import refuse_apart
-from linkanim.scenes.scene import Scene
+from linkanim.scenes.scene import BodyStyle, Scene
 
 
 def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
@@ -52,7 +52,8 @@ def read(
     }
     if any(part is None for part in parts.values()):
         return None, top.context.problems
-    scene = Scene(name=name, length_unit=top.context.unit, document=document, towards=towards, **parts)
+    parts |= {"styles": _styles(document), "document": document, "towards": towards}
+    scene = Scene(name=name, length_unit=top.context.unit, **parts)
     top.attempt(_check_assembly, top, scene)
     return scene, top.context.problems
 
@@ -60,6 +61,21 @@ def read(
 def _part(top: Table, key: str) -> Any:
     """Return what one of the file's tables or values comes to; None where it has a fault."""
     return top.attempt(SECTIONS[key].read, top)
+
+
+def _styles(document: Mapping[str, Any]) -> tuple[tuple[str, BodyStyle], ...]:
+    """Return how a document without problems has its bodies drawn."""
+    return tuple(
+        (name, BodyStyle(table.get("look"), _rgb(table["colour"]) if "colour" in table else None))
+        for name, table in document.get("bodies", {}).items()
+        if {"look", "colour"} & table.keys()
+    )
+
+
+def _rgb(colour: str) -> tuple[int, int, int]:
+    """Return red, green and blue of a colour such as "#d55e00"."""
+    red, green, blue = bytes.fromhex(colour[1:])
+    return red, green, blue
 
 
 def _opened(document: Mapping[str, Any], where: str) -> Table:
