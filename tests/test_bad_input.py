@@ -123,10 +123,10 @@ def spoilt(document: dict[str, Any], data: st.DataObject) -> dict[str, Any]:
 
 
 def refused_in_a_line(error: BadInput, start: str) -> None:
-    said = one_line(str(error)) if start == "" else str(error)
-    assert said.startswith(start), said
-    assert said.isprintable(), said
-    assert 10 < len(said) < 1000, said
+    message = one_line(str(error)) if start == "" else str(error)
+    assert message.startswith(start), message
+    assert message.isprintable(), message
+    assert 10 < len(message) < 1000, message
 
 
 def plays(scene: Scene) -> None:
@@ -231,10 +231,10 @@ def tried(case: Case, how: settings, record: Record) -> None:
         case(data, limits)
 
     one()
-    told(limits, record)
+    counted(limits, record)
 
 
-def told(limits: Limits, record: Record) -> None:
+def counted(limits: Limits, record: Record) -> None:
     record("bad inputs, s of processor time at most", limits.most_seconds)
     record("bad inputs, MB at most", limits.most_mb)
 
@@ -309,7 +309,7 @@ def test_a_file_as_heavy_as_can_be(
         load(path)
     with checked.held():  # reads a file again after each problem
         main(["check", str(path)])
-    told(limits, record_property)
+    counted(limits, record_property)
     printed = capsys.readouterr().out.splitlines()
     assert 0 < max(map(len, printed)) < 1000
     assert len(printed) <= 100

@@ -257,10 +257,12 @@ def test_the_first_frame_loads_nothing_that_it_does_not_need() -> None:
         timeout=60,
         env={**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"},
     )
-    told = next(line for line in done.stdout.splitlines() if line.startswith("loaded:"))
-    assert set(told.split()) & set(UNSEEN) == set()
-    assert "linkanim.picture.painter" in told
+    loaded = next(line for line in done.stdout.splitlines() if line.startswith("loaded:"))
+    assert set(loaded.split()) & set(UNSEEN) == set()
+    assert "linkanim.picture.painter" in loaded
     assert not any(
-        f"linkanim.picture.{name}" in told for name in ("names", "polygons", "centres", "dead_centres")
+        f"linkanim.picture.{name}" in loaded for name in ("names", "polygons", "centres", "dead_centres")
     )
-    assert not any(name in told for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "rendering"))
+    assert not any(
+        name in loaded for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "rendering")
+    )

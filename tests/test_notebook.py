@@ -24,14 +24,14 @@ Shown = dict[tuple[str, str], Callable[[Any], str]]
 @pytest.fixture
 def shown() -> Shown:
     """Return what a shell is told: what shows a class, by its module and name."""
-    told: Shown = {}
+    registered: Shown = {}
 
     def by_name(module: str, name: str, show: Callable[[Any], str]) -> None:
-        told[module, name] = show
+        registered[module, name] = show
 
     page = SimpleNamespace(for_type_by_name=by_name)
     register(SimpleNamespace(display_formatter=SimpleNamespace(formatters={"text/html": page})))
-    return told
+    return registered
 
 
 def parsed(thing: Any, shown: Shown) -> ElementTree.Element:
@@ -75,9 +75,9 @@ MOTIONS = {
 }
 
 
-@pytest.mark.parametrize(("name", "asked", "charted"), MOTIONS.values(), ids=MOTIONS)
-def test_any_motion_can_be_shown(name: str, asked: dict[str, Any], charted: bool, shown: Shown) -> None:
-    page = parsed(load(name).solve(**asked), shown)
+@pytest.mark.parametrize(("name", "given", "charted"), MOTIONS.values(), ids=MOTIONS)
+def test_any_motion_can_be_shown(name: str, given: dict[str, Any], charted: bool, shown: Shown) -> None:
+    page = parsed(load(name).solve(**given), shown)
     assert bool(list(page.iter(f"{SVG}path"))) == charted
     assert "nan" not in "".join(page.itertext())
 

@@ -108,29 +108,29 @@ REFUSED: list[tuple[str, Callable[[object], float], object, str]] = [
 
 
 @pytest.mark.parametrize(
-    ("parse", "value", "wanted"), [row[1:] for row in READ], ids=[row[0] for row in READ]
+    ("parse", "value", "expected"), [row[1:] for row in READ], ids=[row[0] for row in READ]
 )
 def test_a_quantity_is_read_to_the_last_bit(
-    parse: Callable[[object], float], value: object, wanted: float
+    parse: Callable[[object], float], value: object, expected: float
 ) -> None:
-    assert parse(value) == wanted
+    assert parse(value) == expected
 
 
 @pytest.mark.parametrize(
-    ("parse", "value", "said"), [row[1:] for row in REFUSED], ids=[row[0] for row in REFUSED]
+    ("parse", "value", "message"), [row[1:] for row in REFUSED], ids=[row[0] for row in REFUSED]
 )
 def test_what_is_no_quantity_is_refused_with_what_would_be(
-    parse: Callable[[object], float], value: object, said: str
+    parse: Callable[[object], float], value: object, message: str
 ) -> None:
     with pytest.raises(UnitError) as refusal:
         parse(value)
-    assert said in str(refusal.value)
+    assert message in str(refusal.value)
     assert "\n" not in str(refusal.value)
 
 
-@pytest.mark.parametrize(("unit", "wanted"), [("mm", 0.001), ("cm", 0.01), ("m", 1.0), ("in", 0.0254)])
-def test_a_metre_is_told_for_each_length_unit(unit: str, wanted: float) -> None:
-    assert units.metre(unit) == wanted
+@pytest.mark.parametrize(("unit", "expected"), [("mm", 0.001), ("cm", 0.01), ("m", 1.0), ("in", 0.0254)])
+def test_a_metre_is_told_for_each_length_unit(unit: str, expected: float) -> None:
+    assert units.metre(unit) == expected
 
 
 def test_an_unknown_scene_unit_is_refused() -> None:
@@ -162,7 +162,7 @@ def test_quarter_turns_are_exact(quarters: int) -> None:
 
 # On one line, in quotes where it is text, and never longer than a message can bear.
 @pytest.mark.parametrize(
-    ("value", "told"),
+    ("value", "text"),
     [
         ("6 rpm", '"6 rpm"'),
         ("x" * 60, f'"{"x" * 60}"'),
@@ -175,8 +175,8 @@ def test_quarter_turns_are_exact(quarters: int) -> None:
         pytest.param(10**5000, "a number of thousands of digits", id="thousands of digits"),
     ],
 )
-def test_a_value_is_shown_short_and_on_one_line(value: object, told: str) -> None:
-    assert units.shown(value) == told
+def test_a_value_is_shown_short_and_on_one_line(value: object, text: str) -> None:
+    assert units.shown(value) == text
 
 
 @pytest.mark.parametrize(

@@ -46,24 +46,24 @@ def test_without_the_extra_bench_ends_in_one_line(
 ) -> None:
     monkeypatch.setattr(command, "NEEDED", ("a_package_that_is_not_there",))
     assert main(["bench", "--into", str(tmp_path / "new")]) == 2
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert told.err.count("\n") == 1
-    assert 'pip install "linkanim[bench]"' in told.err
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.count("\n") == 1
+    assert 'pip install "linkanim[bench]"' in printed.err
     assert list(tmp_path.iterdir()) == []
 
 
 # Where the chart cannot go, and what of it is said.
 @pytest.mark.parametrize(
-    ("into", "said"),
+    ("into", "message"),
     [
         pytest.param("a-file", "is a file", id="a file"),
         pytest.param("not-there/new", "there is no folder", id="a folder in a missing one"),
     ],
 )
-def test_a_wrong_folder_is_refused(measured: None, tmp_path: Path, into: str, said: str) -> None:
+def test_a_wrong_folder_is_refused(measured: None, tmp_path: Path, into: str, message: str) -> None:
     (tmp_path / "a-file").touch()
-    with pytest.raises(BadInput, match=said):
+    with pytest.raises(BadInput, match=message):
         command.run(options("--into", str(tmp_path / into)))
 
 
@@ -72,9 +72,9 @@ def test_it_prints_the_table_and_writes_the_chart(
 ) -> None:
     pytest.importorskip("matplotlib")
     assert main(["bench", "--into", str(tmp_path / "new")]) == 0
-    told = capsys.readouterr()
-    assert told.out.startswith("A processor")
-    assert told.err == f"{tmp_path / 'new' / command.CHART}\n"
+    printed = capsys.readouterr()
+    assert printed.out.startswith("A processor")
+    assert printed.err == f"{tmp_path / 'new' / command.CHART}\n"
     assert (tmp_path / "new" / command.CHART).stat().st_size > 5_000
 
 

@@ -50,7 +50,7 @@ def test_short_work_is_repeated() -> None:
 
 
 def test_a_slow_machine_gets_fewer_rounds_but_three() -> None:
-    bench, told = Bench(), []
+    bench, rounds_done = Bench(), []
     slow = bench.work("slow", [1.0], 1)
     nanoseconds(
         {"slow": slow},
@@ -58,13 +58,13 @@ def test_a_slow_machine_gets_fewer_rounds_but_three() -> None:
         budget=0.5,
         clock=lambda: bench.now,
         wall=lambda: bench.now,
-        progress=lambda done, total: told.append((done, total)),
+        progress=lambda done, total: rounds_done.append((done, total)),
     )
-    assert told == [(1, 9), (2, 9), (3, 9)]
+    assert rounds_done == [(1, 9), (2, 9), (3, 9)]
 
 
 def test_the_budget_counts_from_the_first_round() -> None:
-    bench, told = Bench(), []
+    bench, rounds_done = Bench(), []
     bench.now = 1000.0
     slow = bench.work("slow", [1.0], 1)
     nanoseconds(
@@ -73,10 +73,10 @@ def test_the_budget_counts_from_the_first_round() -> None:
         budget=9.5,
         clock=lambda: bench.now,
         wall=lambda: bench.now,
-        progress=lambda done, total: told.append(done),
+        progress=lambda done, total: rounds_done.append(done),
     )
     # Two seconds a round, the untimed run among them: the fifth still begins within the budget.
-    assert told == [1, 2, 3, 4, 5]
+    assert rounds_done == [1, 2, 3, 4, 5]
 
 
 def test_work_too_short_for_the_clock_is_timed_all_the_same() -> None:

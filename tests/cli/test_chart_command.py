@@ -22,8 +22,17 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.mark.parametrize("name", ["out.png", "out.svg", "out.csv"])
 def test_the_ending_says_the_format(name: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    asked = ["chart", "press", "--quantity", "5.travel_velocity", "--speeds", "5 rad/s,10 rad/s", "-o", name]
-    assert main([*asked, "--size", "640x360", "--theme", "dark"]) == 0
+    options = [
+        "chart",
+        "press",
+        "--quantity",
+        "5.travel_velocity",
+        "--speeds",
+        "5 rad/s,10 rad/s",
+        "-o",
+        name,
+    ]
+    assert main([*options, "--size", "640x360", "--theme", "dark"]) == 0
     assert capsys.readouterr().out == f"{name}\n"
     content = (folder / name).read_bytes()
     assert [path.name for path in folder.iterdir()] == [name]
@@ -67,8 +76,8 @@ def test_a_table_beside_it_is_told_by_its_largest_difference(
 ) -> None:
     # θ and ω3 at 10 rad/s; at 87 deg the published value, as it was printed
     (folder / "report.csv").write_text("deg,w3\n87,3.3271\n\n180,1.0\n")
-    asked = ["chart", "press", "--quantity", "3.angular_velocity", "--speeds", "10 rad/s", "-o", "a.svg"]
-    assert main([*asked, "--data", "report.csv"]) == 0
+    options = ["chart", "press", "--quantity", "3.angular_velocity", "--speeds", "10 rad/s", "-o", "a.svg"]
+    assert main([*options, "--data", "report.csv"]) == 0
     printed = capsys.readouterr().err
     assert printed.startswith("largest difference of report from 3.angular_velocity: ")
     assert printed.endswith(" rad/s at 180.00 deg\n")
@@ -110,9 +119,9 @@ TABLES = {
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes and devices among files")
-@pytest.mark.parametrize(("words", "said"), REFUSED)
+@pytest.mark.parametrize(("words", "message"), REFUSED)
 def test_what_cannot_be_is_refused_in_a_line_and_nothing_is_written(
-    words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+    words: list[str], message: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for name, text in TABLES.items():
         (folder / name).write_text(text)
@@ -121,7 +130,7 @@ def test_what_cannot_be_is_refused_in_a_line_and_nothing_is_written(
     assert main(["chart", "crank-rocker", *words]) == 2
     printed = capsys.readouterr()
     assert printed.out == ""
-    assert said in printed.err
+    assert message in printed.err
     assert printed.err.count("\n") == 1
     assert set(folder.iterdir()) == before
 

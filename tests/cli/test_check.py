@@ -50,9 +50,9 @@ def test_problems_are_printed_a_line_each_as_editors_read_them(
 
 def test_json_tells_the_same(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "good.toml", "bad.toml", "--json"]) == 2
-    told = capsys.readouterr().out
-    assert told.splitlines()[:3] == ["[", "  {", '    "file": "good.toml",']
-    good, bad = json.loads(told)
+    output = capsys.readouterr().out
+    assert output.splitlines()[:3] == ["[", "  {", '    "file": "good.toml",']
+    good, bad = json.loads(output)
     assert good == {
         "file": "good.toml",
         "good": True,

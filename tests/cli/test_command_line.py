@@ -13,7 +13,7 @@ from linkanim.cli import main
 from linkanim.cli.command_table import parse
 
 # What is on, or has a value, in a command line that says only what it must.
-UNSAID: list[tuple[list[str], dict[str, Any]]] = [
+DEFAULTS: list[tuple[list[str], dict[str, Any]]] = [
     ([], {"command": "play", "theme": "light"}),
     (["record", "press"], {"trace": True, "hud": True, "theme": "light", "background": True}),
     (["draw", "press"], {"trace": True, "theme": "light", "background": True}),
@@ -26,12 +26,12 @@ UNSAID: list[tuple[list[str], dict[str, Any]]] = [
 ]
 
 
-@pytest.mark.parametrize(("words", "on"), UNSAID, ids=[" ".join(words) for words, _ in UNSAID])
+@pytest.mark.parametrize(("words", "on"), DEFAULTS, ids=[" ".join(words) for words, _ in DEFAULTS])
 def test_what_is_not_said_is_plain(words: list[str], on: dict[str, Any]) -> None:
-    said = {"command": words[0]} if words else {}
-    said |= {"scene": words[1]} if words[1:] else {}
+    message = {"command": words[0]} if words else {}
+    message |= {"scene": words[1]} if words[1:] else {}
     found = {name: value for name, value in vars(parse(words)).items() if value}
-    assert found == {**said, **on}
+    assert found == {**message, **on}
 
 
 # a scene, a path of any sort, an option of the window's

@@ -19,9 +19,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_figure_is_written_where_it_was_asked_for(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    asked = ["--angle", "87 deg", "--size", "640x360", "--names", "--vectors", "v,a", "--theme", "dark"]
-    assert main(["draw", "press", "-o", "one.png", *asked, "--transparent", "--instant-centres"]) == 0
-    assert main(["draw", "press", "-o", "one.svg", *asked, "--poses", "4", "--ghost", "--no-trace"]) == 0
+    options = ["--angle", "87 deg", "--size", "640x360", "--names", "--vectors", "v,a", "--theme", "dark"]
+    assert main(["draw", "press", "-o", "one.png", *options, "--transparent", "--instant-centres"]) == 0
+    assert main(["draw", "press", "-o", "one.svg", *options, "--poses", "4", "--ghost", "--no-trace"]) == 0
     assert capsys.readouterr().out == "one.png\none.svg\n"
     assert pygame.image.load(folder / "one.png").get_size() == (640, 360)
     assert ElementTree.parse(folder / "one.svg").getroot().get("width") == "640"
@@ -50,7 +50,7 @@ def test_no_pose_lies_behind_where_none_is_asked_for(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "message"),
     [
         (["double-rocker", "--angle", "187 deg"], "cannot be reached"),
         (["kite", "-o", "kite.eps"], ".svg, .png, .pdf"),
@@ -64,10 +64,10 @@ def test_no_pose_lies_behind_where_none_is_asked_for(folder: Path) -> None:
     ],
 )
 def test_bad_input_is_refused_and_nothing_written(
-    options: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+    options: list[str], message: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["draw", *options]) == 2
     err = capsys.readouterr().err
-    assert said in err
+    assert message in err
     assert err.count("\n") == 1
     assert list(folder.iterdir()) == []

@@ -25,7 +25,7 @@ def raising(error: BaseException) -> Callable[[], None]:
 
 
 @pytest.mark.parametrize(
-    ("error", "code", "said"),
+    ("error", "code", "message"),
     [
         # the caller's to mend
         (BadInput("no scene is called 'x'"), 2, "linkanim: no scene is called 'x'"),
@@ -52,12 +52,12 @@ def raising(error: BaseException) -> Callable[[], None]:
     ],
 )
 def test_what_ends_the_work_is_one_line_and_a_code(
-    error: BaseException, code: int, said: str, capsys: pytest.CaptureFixture[str]
+    error: BaseException, code: int, message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert guarded(raising(error)) == code
     printed = capsys.readouterr()
     assert printed.out == ""
-    assert printed.err == f"{said}\n"
+    assert printed.err == f"{message}\n"
 
 
 def test_a_defect_is_one_line_that_says_where(capsys: pytest.CaptureFixture[str]) -> None:
@@ -292,10 +292,10 @@ def test_ctrl_c_during_the_start_is_one_line() -> None:
 
 
 def test_before_ctrl_c_is_answered_next_to_nothing_is_imported() -> None:
-    told = (
+    output = (
         "import sys; before = set(sys.modules); import linkanim.__main__; print(*set(sys.modules) - before)"
     )
-    done = subprocess.run([sys.executable, "-c", told], check=True, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-c", output], check=True, capture_output=True, text=True)
     assert set(done.stdout.split()) == {"linkanim", "linkanim.__main__"}
 
 

@@ -31,14 +31,16 @@ def test_info_of_every_scene_is_strict_json_with_the_agreed_keys(
     name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["info", name, "--json"]) == 0
-    told = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
-    assert set(told) >= KEYS
-    assert told["scene"] == name
-    low, high = told["input_range"]
+    printed = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert set(printed) >= KEYS
+    assert printed["scene"] == name
+    low, high = printed["input_range"]
     assert low < high
     scene = linkanim.load(name)
-    assert told["true_period"] == round(scene.period / (2 * math.pi))
-    assert told["period_seconds"] == pytest.approx(scene.period / abs(scene.linkage.drive.speed), rel=1e-12)
+    assert printed["true_period"] == round(scene.period / (2 * math.pi))
+    assert printed["period_seconds"] == pytest.approx(
+        scene.period / abs(scene.linkage.drive.speed), rel=1e-12
+    )
 
 
 def test_json_tells_names_as_they_are_written(
@@ -56,36 +58,36 @@ def test_stroke_and_time_ratio_are_told_of_sliders(
     name: str, has: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["info", name, "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert ("stroke" in told, "time_ratio" in told) == (has, has)
+    printed = json.loads(capsys.readouterr().out)
+    assert ("stroke" in printed, "time_ratio" in printed) == (has, has)
 
 
 def test_the_slider_cranks_stroke_and_time_ratio_are_those_of_the_closed_form(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["info", "slider-crank", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
+    printed = json.loads(capsys.readouterr().out)
     lengths = linkanim.load("slider-crank").document["slider-crank"]
     crank, rod, offset = lengths["crank"], lengths["rod"], lengths["offset"]
     far, near = rod + crank, rod - crank
-    assert told["stroke"] == pytest.approx(
+    assert printed["stroke"] == pytest.approx(
         math.sqrt(far**2 - offset**2) - math.sqrt(near**2 - offset**2), rel=1e-14
     )
     lag = math.asin(offset / near) - math.asin(offset / far)
     ratio = (math.pi + abs(lag)) / (math.pi - abs(lag))
-    assert told["time_ratio"] == pytest.approx(ratio, rel=1e-14)
+    assert printed["time_ratio"] == pytest.approx(ratio, rel=1e-14)
 
 
 def test_what_a_period_asks_of_the_input_is_told_where_there_is_force(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["info", "press", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    asked = linkanim.load("press").info.demand
-    assert asked is not None
-    assert (told["work_per_period"], told["peak_torque"], told["mean_torque"]) == asked[:3]
+    printed = json.loads(capsys.readouterr().out)
+    demand_of_press = linkanim.load("press").info.demand
+    assert demand_of_press is not None
+    assert (printed["work_per_period"], printed["peak_torque"], printed["mean_torque"]) == demand_of_press[:3]
     assert main(["info", "press"]) == 0
-    assert f"work per period     {asked.work:.6g} J" in capsys.readouterr().out.splitlines()
+    assert f"work per period     {demand_of_press.work:.6g} J" in capsys.readouterr().out.splitlines()
     assert main(["info", "crank-rocker", "--json"]) == 0
     assert "work_per_period" not in json.loads(capsys.readouterr().out)
 
@@ -102,8 +104,8 @@ def test_info_says_what_to_look_at(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["info", "hoecken"]) == 0
     assert f"look at             {scene.look_at}" in capsys.readouterr().out.splitlines()
     assert main(["info", "hoecken", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["chapter"], told["look_at"]) == ("four-bars", scene.look_at)
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["chapter"], printed["look_at"]) == ("four-bars", scene.look_at)
 
 
 def listed(capsys: pytest.CaptureFixture[str], *word: str) -> list[str]:

@@ -157,8 +157,8 @@ def kill_at_random(what: str, moments: int, here: Path) -> None:
         for name in left:
             assert case.is_whole(here / name), (number, name)
     with start(case, here) as process:
-        _, said = process.communicate()
-    assert process.returncode == 0, said
+        _, errors = process.communicate()
+    assert process.returncode == 0, errors
     assert not list(here.rglob(".linkanim-*.part"))
 
 

@@ -36,10 +36,10 @@ def test_a_pygame_that_cannot_be_trusted_is_refused_in_one_line(
     monkeypatch.setattr(sys, "path", [str(tmp_path)])
     monkeypatch.delitem(sys.modules, "pygame", raising=False)
     assert main(["draw", "kite", "-o", str(tmp_path / "kite.svg")]) == 1
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert reason in said
-    assert "pip install pygame-ce" in said
+    message = capsys.readouterr().err
+    assert message.count("\n") == 1
+    assert reason in message
+    assert "pip install pygame-ce" in message
     assert not (tmp_path / "kite.svg").exists()
 
 

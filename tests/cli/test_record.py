@@ -113,15 +113,15 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("words", "said"), REFUSED, ids=[" ".join(words) for words, _ in REFUSED])
+@pytest.mark.parametrize(("words", "message"), REFUSED, ids=[" ".join(words) for words, _ in REFUSED])
 def test_what_cannot_be_recorded_is_one_line_and_no_file(
-    words: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    words: list[str], message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["record", "crank-rocker", *words]) == 2
     printed = capsys.readouterr()
     assert printed.out == ""
     assert printed.err.count("\n") == 1
-    assert said in printed.err
+    assert message in printed.err
     assert files(tmp_path) == []
 
 
@@ -157,9 +157,9 @@ def test_a_tape_keeps_its_own(words: list[str], tape: Path, capsys: pytest.Captu
 def test_what_is_no_tape_is_one_line(text: str, capsys: pytest.CaptureFixture[str]) -> None:
     Path("a.tape.json").write_text(text)
     assert main(["record", "a.tape.json"]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("linkanim: a.tape.json: ")
-    assert said.count("\n") == 1
+    message = capsys.readouterr().err
+    assert message.startswith("linkanim: a.tape.json: ")
+    assert message.count("\n") == 1
 
 
 # a pipe or a file sees no bar, unless it asks for one
@@ -168,17 +168,17 @@ def test_progress_is_told_where_it_is_asked_for(
     words: list[str], seen: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["record", "crank-rocker", *SMALL, *words]) == 0
-    said = capsys.readouterr().err
-    assert ("frames [" in said) is seen
-    assert said.count("\n") == 1  # its line is used again
+    message = capsys.readouterr().err
+    assert ("frames [" in message) is seen
+    assert message.count("\n") == 1  # its line is used again
 
 
 @pytest.mark.parametrize("shown", [True, False])
 def test_a_bar_is_drawn_where_it_is_to_be_and_leaves_nothing_behind(
     shown: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with bar(shown=shown, unit=" rows") as told:
-        told(2, 4)
+    with bar(shown=shown, unit=" rows") as output:
+        output(2, 4)
     drawn = capsys.readouterr().err
     assert ("rows" in drawn) is shown
     assert drawn.split("\r")[-1] == ""
@@ -262,18 +262,18 @@ def test_stopped_in_the_middle_it_leaves_the_old_file_alone(
     command = [sys.executable, "-m", "linkanim", "record", "press", "--periods", "50", "--progress"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, bufsize=0) as process:
         assert process.stderr is not None
-        said = process.stderr.read(64)
-        while b"/3750" not in said:
+        message = process.stderr.read(64)
+        while b"/3750" not in message:
             more = process.stderr.read(64)
-            assert more, said
-            said += more
+            assert more, message
+            message += more
         os.kill(process.pid, number)
-        said += process.stderr.read()
+        message += process.stderr.read()
         assert process.stdout is not None
         assert process.stdout.read() == b""
     assert process.returncode == code
-    assert said.rstrip().splitlines()[-1].startswith(b"linkanim: ")
-    assert b"Traceback" not in said
+    assert message.rstrip().splitlines()[-1].startswith(b"linkanim: ")
+    assert b"Traceback" not in message
     assert files(tmp_path) == ["press.gif"]
     assert Path("press.gif").read_text() == "the old one"
 

@@ -207,12 +207,12 @@ def test_a_sweep_that_leaves_the_range_keeps_the_angles_of_what_is_in_it(
     assert False in reached
     for pose, there in zip(found, reached, strict=True):
         for name, ends in (("crank", "O2 A"), ("coupler", "A B"), ("rocker", "O4 B")):
-            told = pose["bodies"][name]["angle"]
+            output = pose["bodies"][name]["angle"]
             if not there:
-                assert told is None
+                assert output is None
                 continue
             (x0, y0), (x1, y1) = (pose["joints"][joint]["position"] for joint in ends.split())
-            assert math.remainder(told - math.atan2(y1 - y0, x1 - x0), math.tau) == pytest.approx(
+            assert math.remainder(output - math.atan2(y1 - y0, x1 - x0), math.tau) == pytest.approx(
                 0, abs=1e-12
             )
         assert (pose["phase"] is None) != there
@@ -275,7 +275,7 @@ def test_csv_goes_to_stdout_and_leaves_unknown_cells_empty(solve: Solve) -> None
 
 # name, what the one line says
 @pytest.mark.parametrize(
-    ("name", "said"),
+    ("name", "message"),
     [
         (".", "is a folder"),
         ("missing/a.csv", "there is no folder"),
@@ -283,11 +283,15 @@ def test_csv_goes_to_stdout_and_leaves_unknown_cells_empty(solve: Solve) -> None
     ],
 )
 def test_a_csv_that_cannot_be_is_refused_before_any_work(
-    name: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    name: str,
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert main(["solve", "press", "--sweep", "0:10:1", "--csv", name]) == 2
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
@@ -311,8 +315,8 @@ def tables_of(words: str) -> dict[str, dict[str, float]]:
 
 
 def test_each_column_of_the_words_holds_what_its_title_says(solve: Solve, solved: Callable[..., Any]) -> None:
-    asked = ("press", "--angle", "87 deg", "--speed", "10 rad/s", "--acceleration", "3 rad/s^2")
-    pose, words = solved(*asked), tables_of(solve(*asked))
+    options = ("press", "--angle", "87 deg", "--speed", "10 rad/s", "--acceleration", "3 rad/s^2")
+    pose, words = solved(*options), tables_of(solve(*options))
     body, slider, point = pose["bodies"]["3"], pose["bodies"]["5"], pose["joints"]["B"]
     spring, damper, com = pose["springs"]["return"], pose["dampers"]["cushion"], body["com"]
     meant = {

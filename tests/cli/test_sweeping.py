@@ -30,11 +30,11 @@ TYPED = [
 
 @pytest.mark.parametrize("typed", TYPED)
 def test_every_input_is_the_decimal_that_was_typed_rounded_once(typed: str) -> None:
-    asked = sweep(typed)
-    steps = Steps.of(asked)
-    degrees = [float(asked.first + asked.step * row) for row in range(asked.rows)]
-    assert steps.degrees(0, asked.rows).tolist() == degrees
-    assert steps.radians(0, asked.rows).tolist() == [units.angle(f"{value!r} deg") for value in degrees]
+    typed_steps = sweep(typed)
+    steps = Steps.of(typed_steps)
+    degrees = [float(typed_steps.first + typed_steps.step * row) for row in range(typed_steps.rows)]
+    assert steps.degrees(0, typed_steps.rows).tolist() == degrees
+    assert steps.radians(0, typed_steps.rows).tolist() == [units.angle(f"{value!r} deg") for value in degrees]
 
 
 def test_quarter_turns_are_multiples_of_half_pi() -> None:
@@ -77,9 +77,9 @@ def test_a_long_sweep_is_solved_in_blocks(tmp_path: Path, monkeypatch: pytest.Mo
     sizes: list[int] = []
     solve = Scene.solve
 
-    def noting(self: Scene, **asked: object) -> object:
-        sizes.append(np.size(asked.get("angle", 0)))  # type: ignore[arg-type]
-        return solve(self, **asked)  # type: ignore[arg-type]
+    def noting(self: Scene, **typed_steps: object) -> object:
+        sizes.append(np.size(typed_steps.get("angle", 0)))  # type: ignore[arg-type]
+        return solve(self, **typed_steps)  # type: ignore[arg-type]
 
     monkeypatch.setattr(Scene, "solve", noting)
     target = tmp_path / "out.csv"

@@ -22,7 +22,7 @@ RECORD = ("record", "kite", "--size", "64x36", "--seconds", "0.1", "-o")
 # Enough files for the program but not for an encoder's pipes, or for a list; memory for Python but not for
 # numpy, and for numpy but not for the threads of its OpenBLAS, which says itself that it has no memory.
 @pytest.mark.parametrize(
-    ("limit", "value", "words", "said"),
+    ("limit", "value", "words", "message"),
     [
         pytest.param("RLIMIT_NOFILE", 8, (*RECORD, "a.gif"), "too many open files", id="gif"),
         pytest.param("RLIMIT_NOFILE", 5, (*RECORD, "a.mp4"), "too many open files", id="mp4"),
@@ -32,10 +32,10 @@ RECORD = ("record", "kite", "--size", "64x36", "--seconds", "0.1", "-o")
     ],
 )
 def test_what_the_system_limits_is_said_in_one_line(
-    limit: str, value: int, words: tuple[str, ...], said: str, tmp_path: Path
+    limit: str, value: int, words: tuple[str, ...], message: str, tmp_path: Path
 ) -> None:
     command = [sys.executable, "-P", "-c", LIMITED, limit, str(value), *words]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert said in done.stderr.lower()
+    assert message in done.stderr.lower()
     assert (done.returncode, done.stderr.count("\n"), done.stdout) == (1, 1, "")
     assert list(tmp_path.iterdir()) == []

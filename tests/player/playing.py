@@ -67,7 +67,7 @@ def fake_start(started: list[list[str]]) -> Callable[[list[str], int], object]:
         def poll(self) -> int:
             return 0
 
-    def start(command: list[str], said: int) -> object:
+    def start(command: list[str], message: int) -> object:
         started.append(command)
         return Done()
 

@@ -22,8 +22,8 @@ from linkanim.scenes import load, names
 from linkanim.scenes.editing.closures import closure_name
 
 
-def after(state: State, *asked: Action | str) -> State:
-    for one in asked:
+def after(state: State, *actions: Action | str) -> State:
+    for one in actions:
         state = advance(state, [Action(one) if isinstance(one, str) else one])
     return state
 
@@ -73,9 +73,9 @@ ANSWERS: dict[str, tuple[tuple[Action | str, ...], str | None]] = {
 }
 
 
-@pytest.mark.parametrize(("asked", "words"), ANSWERS.values(), ids=ANSWERS)
-def test_a_chip_answers(rocker: State, asked: tuple[Action | str, ...], words: str | None) -> None:
-    chip = overlay(after(rocker, *asked)).chip
+@pytest.mark.parametrize(("actions", "words"), ANSWERS.values(), ids=ANSWERS)
+def test_a_chip_answers(rocker: State, actions: tuple[Action | str, ...], words: str | None) -> None:
+    chip = overlay(after(rocker, *actions)).chip
     assert (chip.text if chip else None) == words
 
 

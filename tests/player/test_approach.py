@@ -91,6 +91,6 @@ def test_the_look_on_the_way_shows_the_view_between() -> None:
     way = Approach(A, 10)
     look = way.look(look, B, goal, size, 13)
     shown = moved(B, (320.0, 180.0), zoom=look.zoom, pan=(look.pan[0] * 360, look.pan[1] * 360))
-    wanted = between(A, goal, 4 / (APPROACH_FRAMES + 1))
-    assert (shown.scale, shown.x, shown.y) == pytest.approx((wanted.scale, wanted.x, wanted.y))
+    expected = between(A, goal, 4 / (APPROACH_FRAMES + 1))
+    assert (shown.scale, shown.x, shown.y) == pytest.approx((expected.scale, expected.x, expected.y))
     assert way.over(10 + APPROACH_FRAMES)

@@ -31,7 +31,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     return commands
 
 
-def said(player: Player) -> str:
+def message(player: Player) -> str:
     """Return what the window says."""
     player.tick()
     return player.state.toast.text if player.state.toast else ""
@@ -63,7 +63,7 @@ def test_a_recording_that_cannot_be_kept_runs_on_until_it_can(
         disk.setattr(os, "fsync", full)
         player.type("g")
     words = "recordings/crank-rocker-1.tape.json: cannot be written: no space left on device"
-    assert said(player) == f"{words}; the recording runs on"
+    assert message(player) == f"{words}; the recording runs on"
     assert list((here / "recordings").iterdir()) == []
     player.type("t")
     player.type("g")
@@ -250,7 +250,7 @@ def test_a_changed_file_with_a_fault_in_it_is_refused_and_the_linkage_runs_on(
     good = opened.state.scene
     written(here, before, after)
     opened.press(pygame.K_F5)
-    assert said(opened).startswith(why)
+    assert message(opened).startswith(why)
     assert opened.state.scene is good
 
 
@@ -264,7 +264,7 @@ def test_a_changed_file_at_which_the_solver_fails_is_refused_with_a_report(
     written(here, "crank = 50", "crank = 45")
     monkeypatch.setattr("linkanim.player.window.window.renewed", failing)
     opened.press(pygame.K_F5)
-    assert said(opened).startswith("recordings/my-fault-1.json holds what a report".replace("/", os.sep))
+    assert message(opened).startswith("recordings/my-fault-1.json holds what a report".replace("/", os.sep))
     assert opened.state.scene is good
 
 
@@ -274,7 +274,7 @@ def test_a_scene_file_that_is_gone_is_told_and_may_come_back(opened: Player, her
     (here / "my.toml").rename(here / "aside.toml")
     assert in_a_second(opened).startswith("my.toml is gone; the linkage runs on")
     opened.press(pygame.K_F5)
-    assert "no such file" in said(opened)
+    assert "no such file" in message(opened)
     assert opened.state.scene is good
     (here / "aside.toml").rename(here / "my.toml")
     assert in_a_second(opened) == "my.toml has changed; F5 loads it"
@@ -288,13 +288,13 @@ def test_a_recording_keeps_to_the_scene_it_began_with(
     opened.type("g")
     written(here, "crank = 50", "crank = 45")
     opened.press(pygame.K_F5)
-    assert said(opened).startswith("a recording keeps to the scenes it began with")
+    assert message(opened).startswith("a recording keeps to the scenes it began with")
     assert opened.state.scene is good
 
 
 def test_without_a_scene_file_there_is_none_to_load_again(player: Player) -> None:
     player.press(pygame.K_F5)
-    assert said(player).startswith("there is no scene file to load again")
+    assert message(player).startswith("there is no scene file to load again")
 
 
 @pytest.mark.parametrize(

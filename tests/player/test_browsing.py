@@ -20,8 +20,8 @@ from linkanim.player.window.show import overlay
 from linkanim.scenes import Scene, chapters, load, names
 
 
-def after(state: State, *asked: Action | str) -> State:
-    for one in asked:
+def after(state: State, *actions_: Action | str) -> State:
+    for one in actions_:
         state = advance(state, [Action(one) if isinstance(one, str) else one])
     return state
 

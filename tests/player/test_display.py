@@ -31,27 +31,27 @@ def test_a_window_is_as_large_as_suits_the_smallest_screen(
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="what SDL is told on Linux")
 def test_sdl_is_told_what_is_quick_and_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
-    wanted = {
+    expected = {
         "SDL_AUDIODRIVER": "dummy",
         "SDL_NO_SIGNAL_HANDLERS": "1",
         "SDL_VIDEO_X11_WMCLASS": "linkanim",
         "SDL_VIDEODRIVER": "x11,kmsdrm",
     }
-    for name in (*wanted, "XDG_RUNTIME_DIR"):
+    for name in (*expected, "XDG_RUNTIME_DIR"):
         monkeypatch.setenv(name, "")
         monkeypatch.delenv(name)
     display._prepare()
-    assert {name: os.environ.get(name) for name in wanted} == wanted
+    assert {name: os.environ.get(name) for name in expected} == expected
 
 
-@pytest.mark.parametrize(("driver", "told"), [("x11", "0"), ("wayland", None)])
+@pytest.mark.parametrize(("driver", "setting"), [("x11", "0"), ("wayland", None)])
 def test_pictures_go_past_opengl_where_they_can(
-    driver: str, told: str | None, monkeypatch: pytest.MonkeyPatch
+    driver: str, setting: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SDL_FRAMEBUFFER_ACCELERATION", "")
     monkeypatch.delenv("SDL_FRAMEBUFFER_ACCELERATION")
     display._hasten(driver)
-    assert os.environ.get("SDL_FRAMEBUFFER_ACCELERATION") == told
+    assert os.environ.get("SDL_FRAMEBUFFER_ACCELERATION") == setting
 
 
 def test_what_is_set_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,8 +17,8 @@ from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.reading.read import scene_from
 
 
-def after(state: State, *asked: Action | str) -> State:
-    for one in asked:
+def after(state: State, *actions_: Action | str) -> State:
+    for one in actions_:
         state = advance(state, [Action(one) if isinstance(one, str) else one])
     return state
 
@@ -229,12 +229,12 @@ def test_moves_of_one_frame_are_taken_as_one(player: Player, monkeypatch: pytest
     seen: list[Action] = []
     actions = player.window._mouse.actions
 
-    def noted(*args: object) -> tuple[Action, ...]:
+    def recorded(*args: object) -> tuple[Action, ...]:
         found = actions(*args)  # type: ignore[arg-type]
         seen.extend(found)
         return found
 
-    monkeypatch.setattr(player.window._mouse, "actions", noted)
+    monkeypatch.setattr(player.window._mouse, "actions", recorded)
     for far in range(1, 9):
         at = (round(start[0]) + far, round(start[1]))
         pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=at, rel=(1, 0), buttons=(1, 0, 0)))

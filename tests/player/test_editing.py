@@ -23,8 +23,8 @@ def value(state: State, label: str) -> float:
     return next(item.value for item in dimensions(state.scene) if item.label == label)
 
 
-def after(state: State, *asked: Action | str) -> State:
-    for one in asked:
+def after(state: State, *actions: Action | str) -> State:
+    for one in actions:
         state = advance(state, [Action(one) if isinstance(one, str) else one])
     return state
 
@@ -370,11 +370,11 @@ def test_a_scene_on_the_way_is_worked_out_in_the_frame_before_it_is_drawn(
     worked: list[int] = []
     drawn: list[int] = []
 
-    def noted(*given: Any) -> Scene:
+    def recorded(*given: Any) -> Scene:
         worked.append(state.frame)
         return passing(*given)
 
-    monkeypatch.setattr("linkanim.player.state.glide.passing", noted)
+    monkeypatch.setattr("linkanim.player.state.glide.passing", recorded)
     while state.glide:
         before, state = state.shown, advance(state)
         drawn += [state.frame] if state.shown is not before else []

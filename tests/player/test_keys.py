@@ -34,7 +34,7 @@ TABLES = {"playing": KEYS, "editing": EDIT_KEYS, "listing": LIST_KEYS, "browsing
 BINDS = [bind for table in TABLES.values() for row in table for bind in row.binds]
 
 
-def asked(press: Press, mode: Mode = "play", *, typing: bool = False) -> Action | None:
+def action_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Action | None:
     bind = bind_of(press, mode, typing=typing)
     return bind.action if bind else None
 
@@ -96,7 +96,7 @@ PLAYING = {
 
 @pytest.mark.parametrize(("press", "action"), PLAYING.values(), ids=PLAYING)
 def test_a_key_asks_for_what_the_table_says(press: Press, action: Action | None) -> None:
-    assert asked(press) == action
+    assert action_of(press) == action
 
 
 # With the dimensions open all print belongs to the value, but Space, H and E until one is begun.
@@ -132,10 +132,10 @@ EDITING = {
 
 @pytest.mark.parametrize(("press", "typing", "action"), EDITING.values(), ids=EDITING)
 def test_a_key_while_the_dimensions_are_open(press: Press, typing: bool, action: Action | None) -> None:
-    assert asked(press, "edit", typing=typing) == action
+    assert action_of(press, "edit", typing=typing) == action
 
 
-# With the list of quantities open what can be printed sifts it; but Space, H and K, until it does.
+# With the list of quantities open what can be drawn sifts it; but Space, H and K, until it does.
 LISTING = {
     "up": (Press("up"), False, Action("move", -1)),
     "page down": (Press("pagedown"), False, Action("move", 10)),
@@ -154,7 +154,7 @@ LISTING = {
 
 @pytest.mark.parametrize(("press", "typing", "action"), LISTING.values(), ids=LISTING)
 def test_a_key_while_the_quantities_are_open(press: Press, typing: bool, action: Action | None) -> None:
-    assert asked(press, "list", typing=typing) == action
+    assert action_of(press, "list", typing=typing) == action
 
 
 # With the shelf open the arrows and Enter are its own, all else keeps its meaning.
@@ -170,7 +170,7 @@ BROWSING = {
 
 @pytest.mark.parametrize(("press", "action"), BROWSING.values(), ids=BROWSING)
 def test_a_key_while_the_shelf_is_open(press: Press, action: Action | None) -> None:
-    assert asked(press, "shelf") == action
+    assert action_of(press, "shelf") == action
 
 
 def test_the_help_goes_by_subjects() -> None:
@@ -228,12 +228,12 @@ def test_the_table_is_read_without_pygame() -> None:
 def test_all_of_the_help_is_there_in_a_small_window_too(
     mode: Mode, room: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    told: list[str] = []
-    monkeypatch.setattr(Type, "draw", lambda *words, **_: told.append(words[2]))
+    drawn: list[str] = []
+    monkeypatch.setattr(Type, "draw", lambda *words, **_: drawn.append(words[2]))
     board, groups = Board(layout((640, 360)), Type(), theme_of("light")), help_groups(mode)
     sheet = help_sheet(board, (groups, room))
     assert sheet.get_width() <= room
     assert sheet.get_height() <= 360
     for keys, does in (line for _, lines in groups for line in lines):
-        assert keys in told
-        assert does in " ".join(told) or set(does.split()) <= set(" ".join(told).split())
+        assert keys in drawn
+        assert does in " ".join(drawn) or set(does.split()) <= set(" ".join(drawn).split())

@@ -124,8 +124,8 @@ def test_without_a_display_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
 # As a user meets it: no DISPLAY at all, and one that nobody answers on.
 @pytest.mark.parametrize("address", ["", ":987"], ids=["none", "unreachable"])
 def test_without_a_display_there_is_one_line_and_code_1(address: str) -> None:
-    asked = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "XDG_RUNTIME_DIR")
-    environment = {key: value for key, value in os.environ.items() if key not in asked}
+    setting = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "XDG_RUNTIME_DIR")
+    environment = {key: value for key, value in os.environ.items() if key not in setting}
     done = subprocess.run(
         [sys.executable, "-m", "linkanim", "play", "press"],
         env={**environment, **({"DISPLAY": address} if address else {})},
@@ -140,16 +140,16 @@ def test_without_a_display_there_is_one_line_and_code_1(address: str) -> None:
 
 
 # Past OpenGL there is a way to the screen under X; under Wayland there is none.
-@pytest.mark.parametrize(("driver", "asked"), [("x11", "0"), ("wayland", None), ("windows", None)])
+@pytest.mark.parametrize(("driver", "setting"), [("x11", "0"), ("wayland", None), ("windows", None)])
 def test_only_under_x_a_picture_goes_past_opengl(
-    monkeypatch: pytest.MonkeyPatch, driver: str, asked: str | None
+    monkeypatch: pytest.MonkeyPatch, driver: str, setting: str | None
 ) -> None:
     monkeypatch.setitem(os.environ, "SDL_FRAMEBUFFER_ACCELERATION", "gone")
     del os.environ["SDL_FRAMEBUFFER_ACCELERATION"]
     monkeypatch.setattr(pygame.display, "get_driver", lambda: driver)
     monkeypatch.setattr(Connection, "check", lambda connection: None)
     with display.opened((320, 180)):
-        assert os.environ.get("SDL_FRAMEBUFFER_ACCELERATION") == asked
+        assert os.environ.get("SDL_FRAMEBUFFER_ACCELERATION") == setting
 
 
 @pytest.mark.parametrize("scene", ["no-such-scene", "missing.toml", "missing.tape.json"])

@@ -18,10 +18,10 @@ from linkanim.player.window import rendering
 from linkanim.scenes import load
 
 
-def talking(command: list[str], said: int) -> subprocess.Popen[bytes]:
+def talking(command: list[str], log: int) -> subprocess.Popen[bytes]:
     """Start what says how far it is, and last where the fault lies."""
     text = "import sys; print('x' * 900, '3/8', file=sys.stderr); print('linkanim: no room', file=sys.stderr)"
-    return subprocess.Popen([sys.executable, "-c", f"{text}; sys.exit(1)"], stderr=said)
+    return subprocess.Popen([sys.executable, "-c", f"{text}; sys.exit(1)"], stderr=log)
 
 
 @pytest.fixture
@@ -58,9 +58,9 @@ def test_what_a_rendering_says_is_told_and_nothing_of_it_is_left(
 def test_a_rendering_that_runs_says_how_far_it_is(
     tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def still_running(command: list[str], said: int) -> subprocess.Popen[bytes]:
+    def still_running(command: list[str], log: int) -> subprocess.Popen[bytes]:
         """Start what waits to be told to end; it has said how far it is twice."""
-        os.write(said, b"1/75\r12/75\r")
+        os.write(log, b"1/75\r12/75\r")
         return subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
 
     monkeypatch.setattr(rendering, "_start", still_running)
@@ -76,7 +76,7 @@ def test_a_rendering_that_runs_says_how_far_it_is(
 def test_a_process_that_cannot_be_started_leaves_nothing_open(
     tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refused(command: list[str], said: int) -> None:
+    def refused(command: list[str], log: int) -> None:
         raise OSError(11, "Resource temporarily unavailable")
 
     (here / "tmp").mkdir()
@@ -103,7 +103,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[list[str], Running]]:
     """The commands of what would have been started, and their processes."""
     found: list[tuple[list[str], Running]] = []
 
-    def start(command: list[str], said: int) -> Running:
+    def start(command: list[str], log: int) -> Running:
         found.append((command, Running()))
         return found[-1][1]
 

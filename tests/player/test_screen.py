@@ -101,8 +101,8 @@ class Screen:
 
     def ends(self) -> tuple[int, str]:
         """Return the exit code and what was said on stderr."""
-        _, said = self.process.communicate(timeout=PATIENCE)
-        return self.process.returncode, said
+        _, message = self.process.communicate(timeout=PATIENCE)
+        return self.process.returncode, message
 
 
 @pytest.fixture
@@ -350,12 +350,12 @@ def test_a_recording_is_finished_after_the_window_is_closed(
 @contextmanager
 def serving(monkeypatch: pytest.MonkeyPatch, *screens: str) -> Iterator[subprocess.Popen[bytes]]:
     """Have an X server of its own, with screens beside each other; it is the display meanwhile."""
-    told, number = os.pipe()
-    asked = [word for at, size in enumerate(screens) for word in ("-screen", str(at), f"{size}x24")]
-    words = ["Xvfb", "-displayfd", str(number), *asked, "+xinerama", "-noreset"]
+    read_end, number = os.pipe()
+    screen_words = [word for at, size in enumerate(screens) for word in ("-screen", str(at), f"{size}x24")]
+    words = ["Xvfb", "-displayfd", str(number), *screen_words, "+xinerama", "-noreset"]
     with subprocess.Popen(words, pass_fds=[number], stderr=subprocess.DEVNULL) as process:
         os.close(number)
-        with os.fdopen(told) as answer:
+        with os.fdopen(read_end) as answer:
             monkeypatch.setenv("DISPLAY", f":{answer.readline().strip()}")
         yield process
         process.kill()

@@ -38,7 +38,7 @@ KEYS = [
 MODS = [0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL]
 
 
-def asked(chance: random.Random) -> Action:
+def random_action(chance: random.Random) -> Action:
     """Return anything that keys and mouse can ask of a state."""
     far = chance.choice([-1e9, -3.0, -0.5, 0.0, 0.25, 1.0, 40.0, 1e9])
     return chance.choice(
@@ -79,7 +79,7 @@ def states(frames: int, busy: float) -> Iterator[State]:
     for name in names():
         state = begin(load(name))
         for _ in range(each):
-            state = advance(state, [asked(chance)] if chance.random() < busy else [])
+            state = advance(state, [random_action(chance)] if chance.random() < busy else [])
             yield state
 
 

@@ -45,11 +45,11 @@ def raising(error: Exception) -> Callable[..., Any]:
 
 def broken(scene: Scene, error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let every scene but this one fail as soon as its facts are asked for."""
-    asked = Scene.info.func  # type: ignore[attr-defined]
+    usual_info = Scene.info.func  # type: ignore[attr-defined]
 
     def info(self: Scene) -> object:
         if self == scene:
-            return asked(self)
+            return usual_info(self)
         raise type(error)(*error.args)
 
     monkeypatch.setattr(Scene, "info", property(info))
@@ -100,8 +100,8 @@ def test_a_scene_that_fails_is_not_put_on(
         broken(crank.scene, HOLES[0], monkeypatch)
     state = advance(crank, [action])
     assert (state.scene, state.place, state.editing.past) == (crank.scene, crank.place, ())
-    told = state.editing.refusal or (state.toast and state.toast.text)
-    assert "ZeroDivisionError" in str(told)
+    reason = state.editing.refusal or (state.toast and state.toast.text)
+    assert "ZeroDivisionError" in str(reason)
     assert [effect.name for effect in state.effects] == ["report"]
     assert advance(state).effects == ()
 

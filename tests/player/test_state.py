@@ -27,8 +27,8 @@ def run(state: State, frames: int) -> State:
     return state
 
 
-def after(state: State, *asked: Action | str) -> State:
-    for one in asked:
+def after(state: State, *actions_: Action | str) -> State:
+    for one in actions_:
         state = advance(state, [Action(one) if isinstance(one, str) else one])
     return state
 
@@ -185,9 +185,9 @@ def test_a_recording_is_stopped_by_either_key(rocker: State) -> None:
 
 
 def test_a_toast_is_gone_after_three_seconds(rocker: State) -> None:
-    told = after(rocker, Action("note", "written"))
-    assert run(told, 3 * 60 - 1).toast is not None
-    assert run(told, 3 * 60).toast is None
+    noticed = after(rocker, Action("note", "written"))
+    assert run(noticed, 3 * 60 - 1).toast is not None
+    assert run(noticed, 3 * 60).toast is None
 
 
 def test_a_steady_state_does_not_grow(rocker: State) -> None:

@@ -80,7 +80,7 @@ def test_a_file_reads_back(tape: Tape, tmp_path: Path) -> None:
 
 
 def test_what_is_begun_and_named_reads_back(live: State, tmp_path: Path) -> None:
-    asked = (
+    actions_ = (
         Action("direction"),
         Action("names"),
         Action("edit"),
@@ -88,7 +88,7 @@ def test_what_is_begun_and_named_reads_back(live: State, tmp_path: Path) -> None
         Action("pass_on", 1),
         Action("type", "8"),
     )
-    for action in asked:
+    for action in actions_:
         live = advance(live, [action])
     tape = Tape(starting(live), 5)
     write(tape, tmp_path / "mine.tape.json")
@@ -121,14 +121,14 @@ def test_a_tape_with_nothing_done_is_a_loop(tape: Tape) -> None:
 
 
 def test_what_is_done_outside_is_not_taped() -> None:
-    asked = (
+    actions_ = (
         Action("record", "gif"),
         Action("trace"),
         Action("screenshot"),
         Action("note", "x"),
         Action("quit"),
     )
-    assert taped(asked) == (Action("trace"),)
+    assert taped(actions_) == (Action("trace"),)
 
 
 @pytest.mark.parametrize("fps", [10, 25, 30, 60, 100])
@@ -261,9 +261,9 @@ def test_a_file_that_is_not_json_is_refused(tmp_path: Path, text: str) -> None:
         read(path)
 
 
-@pytest.mark.parametrize(("name", "said"), [("missing.json", "no such file"), (".", "is a folder")])
-def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path, name: str, said: str) -> None:
-    with pytest.raises(BadInput, match=said):
+@pytest.mark.parametrize(("name", "message"), [("missing.json", "no such file"), (".", "is a folder")])
+def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path, name: str, message: str) -> None:
+    with pytest.raises(BadInput, match=message):
         read(tmp_path / name)
 
 

@@ -248,16 +248,16 @@ def test_keys_of_one_frame_are_taken_one_after_the_other(player: Player) -> None
 
 
 def test_a_key_is_carried_out_once(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[Action] = []
+    carried_out: list[Action] = []
 
     def counted(state: State, action: Action) -> State:
-        asked.append(action)
+        carried_out.append(action)
         return carried(state, action)
 
     monkeypatch.setattr("linkanim.player.window.window.carried", counted)
     player.press(*plain("e"))
     player.press(*bare(pygame.K_RIGHT))
-    assert asked == [Action("edit"), Action("nudge", 1)]
+    assert carried_out == [Action("edit"), Action("nudge", 1)]
 
 
 def test_a_screenshot_is_the_picture_and_tells_its_name(player: Player, here: Path) -> None:
@@ -278,11 +278,11 @@ def test_a_screenshot_is_the_picture_and_tells_its_name(player: Player, here: Pa
 def test_what_answers_a_key_is_on_no_screenshot(player: Player, here: Path) -> None:
     pixels = player.settle()
     player.type("tt")
-    answered = player.pixels
+    after_the_key = player.pixels
     player.press(*plain("s"))
     player.tick()
     written = pygame.image.load(here / "recordings" / "crank-rocker-1.png")
-    assert pygame.image.tobytes(written, "RGB") == pixels != answered
+    assert pygame.image.tobytes(written, "RGB") == pixels != after_the_key
 
 
 def test_shift_s_writes_the_svg_of_what_is_shown(player: Player, here: Path) -> None:

@@ -37,13 +37,13 @@ def video(path: Path) -> list[Pixels]:
     width, height = map(int, re.findall(r" ([1-9]\d+)x(\d+)", about(path))[0])
     raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
     command = [get_ffmpeg_exe(), "-v", "error", "-i", str(path), *raw]
-    told = subprocess.run(command, capture_output=True, check=True)
-    return [*np.frombuffer(told.stdout, np.uint8).reshape(-1, height, width, 3)]
+    done = subprocess.run(command, capture_output=True, check=True)
+    return [*np.frombuffer(done.stdout, np.uint8).reshape(-1, height, width, 3)]
 
 
 def about(path: Path) -> str:
     """Return what ffmpeg says of a file."""
-    told = subprocess.run(
+    done = subprocess.run(
         [get_ffmpeg_exe(), "-hide_banner", "-i", str(path)], capture_output=True, check=False
     )
-    return told.stderr.decode()
+    return done.stderr.decode()

@@ -123,8 +123,8 @@ def test_an_encoder_that_cannot_be_started_is_one_line(
 ) -> None:
     monkeypatch.setattr(encode, "get_ffmpeg_exe", lambda: "/no/such/encoder")
     frames = disc(form)
-    said = f"/no/such/encoder cannot be started: {os.strerror(errno.ENOENT)}$"
-    with pytest.raises(RecordingFailed, match=said):
+    message = f"/no/such/encoder cannot be started: {os.strerror(errno.ENOENT)}$"
+    with pytest.raises(RecordingFailed, match=message):
         write(frames, frames.plan, target)
     assert untouched(target.parent)
 
@@ -243,10 +243,10 @@ FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (MOST, MOST))
 def test_a_full_disk_is_one_line(target: Path, form: Format) -> None:
     limit = "300" if form == "png" else "5000"
     with start(target, form, FULL.replace("MOST", limit), periods=10) as process:
-        _, said = process.communicate()
+        _, message = process.communicate()
     assert process.returncode == 1
-    assert len(said.splitlines()) == 1
-    assert "encoder" in said
+    assert len(message.splitlines()) == 1
+    assert "encoder" in message
     assert untouched(target.parent)
 
 
@@ -274,13 +274,13 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("asked", "named"), REFUSED)
-def test_paths_that_cannot_be_are_refused_before_any_work(tmp_path: Path, asked: str, named: str) -> None:
+@pytest.mark.parametrize(("wrong", "named"), REFUSED)
+def test_paths_that_cannot_be_are_refused_before_any_work(tmp_path: Path, wrong: str, named: str) -> None:
     (tmp_path / "there.gif").mkdir()
     (tmp_path / "file.txt").touch()
     frames = at_frame(0, pytest.fail, "mp4")
     with pytest.raises(BadInput, match=named):
-        write(frames, frames.plan, tmp_path / asked)
+        write(frames, frames.plan, tmp_path / wrong)
     assert {path.name for path in tmp_path.iterdir()} == {"there.gif", "file.txt"}
 
 

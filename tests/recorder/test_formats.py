@@ -100,12 +100,12 @@ def test_png_frames_are_numbered_from_one_and_exact(tmp_path: Path, alpha: bool)
 def test_an_mp4_is_tagged_for_slides(tmp_path: Path) -> None:
     frames = disc("mp4")
     write(frames, frames.plan, tmp_path / "disc.mp4")
-    said = about(tmp_path / "disc.mp4")
-    assert "h264" in said
-    assert "yuv420p(tv, bt709, progressive)" in said
-    assert "64x48" in said
-    assert "25 fps" in said
-    assert "Duration: 00:00:02.00" in said
+    message = about(tmp_path / "disc.mp4")
+    assert "h264" in message
+    assert "yuv420p(tv, bt709, progressive)" in message
+    assert "64x48" in message
+    assert "25 fps" in message
+    assert "Duration: 00:00:02.00" in message
 
 
 def test_an_mp4_starts_with_its_index(tmp_path: Path) -> None:

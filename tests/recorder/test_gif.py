@@ -38,7 +38,7 @@ def picture(rows: str, opacity: int = 0) -> Words:
     return np.where(np.array([[letter == "." for letter in line] for line in lines]), np.uint32(0), found)
 
 
-def told(frames: Sequence[Words]) -> Iterator[Change]:
+def changed(frames: Sequence[Words]) -> Iterator[Change]:
     """Tell frames by what changes, through what is a pipe when a scene is recorded."""
     change = Comparing()
     return changes(io.BytesIO(b"".join(change(frame.tobytes()) for frame in frames)), frames[0].size)
@@ -75,7 +75,7 @@ SEQUENCES = [
 def test_every_picture_is_as_it_was(why: str, rows: list[str]) -> None:
     frames = [picture(row) for row in rows]
     height, width = frames[0].shape
-    data = b"".join(pieces(job(width, height), told(frames)))
+    data = b"".join(pieces(job(width, height), changed(frames)))
     assert [found.tolist() for found in shown(data)] == [rgb_of(frame).tolist() for frame in frames]
 
 
@@ -86,7 +86,7 @@ def test_any_number_of_colours_comes_out(count: int, size: tuple[int, int]) -> N
     palette = rng.permutation(1 << 12)[:count] * 4095  # spread over all colours, each once
     frames = [palette[rng.integers(0, count, size)].astype(np.uint32) for _ in range(3)]
     colours = tuple((int(c) >> 16 & 255, int(c) >> 8 & 255, int(c) & 255) for c in palette)
-    data = b"".join(pieces(job(size[1], size[0], colours), told(frames)))
+    data = b"".join(pieces(job(size[1], size[0], colours), changed(frames)))
     assert all((found == rgb_of(frame)).all() for found, frame in zip(shown(data), frames, strict=True))
 
 
@@ -102,13 +102,13 @@ def test_pictures_with_moving_boxes_are_as_they_were() -> None:
         )
         frame[top : top + rng.integers(1, 12), left : left + rng.integers(1, 250)] = colour
         frames.append(frame)
-    data = b"".join(pieces(job(300, 60), told(frames)))
+    data = b"".join(pieces(job(300, 60), changed(frames)))
     assert all((found == rgb_of(frame)).all() for found, frame in zip(shown(data), frames, strict=True))
 
 
 def test_what_is_not_opaque_shows_through_in_every_picture() -> None:
     frames = [picture(rows, 255) for rows in ("r.. ...", "... ..g", "... ...", "rrr ggg")]
-    data = b"".join(pieces(job(3, 2, alpha=True), told(frames)))
+    data = b"".join(pieces(job(3, 2, alpha=True), changed(frames)))
     for found, frame in zip(shown(data, "RGBA"), frames, strict=True):
         opaque = frame >> 24 == 255
         assert ((found[..., 3] == 255) == opaque).all()
@@ -117,7 +117,7 @@ def test_what_is_not_opaque_shows_through_in_every_picture() -> None:
 
 @pytest.mark.parametrize(("opacity", "seen"), [(127, 0), (128, 255)])
 def test_what_is_opaque_by_half_is_seen(opacity: int, seen: int) -> None:
-    data = b"".join(pieces(job(2, 1, alpha=True), told([picture("rr", opacity)])))
+    data = b"".join(pieces(job(2, 1, alpha=True), changed([picture("rr", opacity)])))
     assert [found[..., 3].tolist() for found in shown(data, "RGBA")] == [[[seen, seen]]]
 
 
@@ -138,7 +138,7 @@ def test_opacity_is_no_part_of_a_colour() -> None:
 
 
 def size(*frames: Words, width: int = 100) -> int:
-    return len(b"".join(pieces(job(width, len(frames[0])), told(frames))))
+    return len(b"".join(pieces(job(width, len(frames[0])), changed(frames))))
 
 
 def test_what_stays_costs_next_to_nothing() -> None:

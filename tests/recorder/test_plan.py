@@ -119,10 +119,10 @@ SUMMARIES = [
 ]
 
 
-@pytest.mark.parametrize(("reason", "clip", "said"), SUMMARIES)
-def test_the_summary_says_what_rounding_moved(reason: str, clip: Clip, said: str) -> None:
+@pytest.mark.parametrize(("reason", "clip", "message"), SUMMARIES)
+def test_the_summary_says_what_rounding_moved(reason: str, clip: Clip, message: str) -> None:
     summary = make_plan(clip, "gif").summary
-    assert summary == said or ("backwards" in reason and summary.endswith(said))
+    assert summary == message or ("backwards" in reason and summary.endswith(message))
 
 
 # (clip, what the sentence names)

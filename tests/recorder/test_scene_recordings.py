@@ -131,12 +131,12 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("why", "asked"), REFUSED)
+@pytest.mark.parametrize(("why", "options"), REFUSED)
 def test_what_cannot_be_recorded_is_refused_and_nothing_is_written(
-    tmp_path: Path, why: str, asked: dict[str, object]
+    tmp_path: Path, why: str, options: dict[str, object]
 ) -> None:
     with pytest.raises(BadInput):
-        record(load("crank-rocker"), tmp_path / "out.gif", **asked)  # type: ignore[arg-type]
+        record(load("crank-rocker"), tmp_path / "out.gif", **options)  # type: ignore[arg-type]
     assert not any(tmp_path.iterdir())
 
 
