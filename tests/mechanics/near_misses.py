@@ -148,8 +148,8 @@ def _lack(case: NearMiss) -> Callable[[Any], Any]:
     return lack
 
 
-ULPS = 2.0**-51
-"""What constants such as a point's share of its bar are rounded by."""
+TWO_FLOATS = 2.0**-96
+"""Share of the longest bar by which a limit may miss: it is a sum of two floats, found from bars as given."""
 
 
 def is_right(case: NearMiss, solved: Mechanism) -> bool:
@@ -158,6 +158,7 @@ def is_right(case: NearMiss, solved: Mechanism) -> bool:
     with mp.workdps(50):
         if isinstance(path, Swing):
             limits = (mpf(end.high) + mpf(end.low) for end in (path.low, path.high))
-            return all(abs(lack(limit)) <= ULPS * case.separation for limit in limits)
+            longest = max(case.linkage.joint("J").lengths)
+            return all(abs(lack(limit)) <= TWO_FLOATS * longest for limit in limits)
         worst = mp.findroot(lambda angle: mp.diff(lack, angle), mpf(case.angle), tol=mpf(10) ** -30)
         return bool(abs(worst - case.angle) < 1e-3 and lack(worst) <= 0)
