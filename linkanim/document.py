@@ -65,12 +65,6 @@ class Section:
         error.keys = (*self.keys, *keys)
         return error
 
-    def only(self, *known: str) -> None:
-        """Refuse keys that are not `known`, each with the nearest known one."""
-        for key in self.values:
-            if key not in known:
-                raise self.error(key, f"unknown key{meant(key, known)}; known here: {', '.join(known)}")
-
     def need(self, key: str) -> Any:
         """Return the key's value, whatever it is."""
         if key not in self.values:

@@ -104,13 +104,6 @@ def test_what_may_be_missing_has_a_usual_value(how: Read, usual: Any) -> None:
     assert Section("file.toml", {}).text("key", "usual") == "usual"
 
 
-def test_an_unknown_key_is_refused_with_the_nearest_known_one() -> None:
-    section = Section("file.toml", {"lenght": 1}, ("joints", "two words"))
-    with pytest.raises(BadInput, match=r'joints\."two words"\.lenght = 1: unknown key .*"length"\?'):
-        section.only("length", "crank")
-    section.only("lenght")
-
-
 def test_a_list_s_items_have_keys_of_their_own() -> None:
     listed = Section("file.toml", {"at": [1, "x"]}, ("joints",)).listed("at", 2)
     assert listed.number("at[0]") == 1

@@ -12,6 +12,7 @@ import linkanim
 from linkanim.cli.command_table import COMMANDS, parse
 from linkanim.player.input.keys import as_markdown
 from linkanim.scenes import chapters
+from linkanim.scenes.fields.reference import reference
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -61,6 +62,11 @@ def test_every_help_ends_in_an_example(name: str, capsys: pytest.CaptureFixture[
 
 def test_the_key_table_is_the_windows() -> None:
     assert as_markdown() in README
+
+
+def test_the_reference_of_scene_files_is_that_of_their_form() -> None:
+    shown = README.split("<!-- scene-file -->\n")[1].split("\n<!-- /scene-file -->")[0]
+    assert shown == reference()
 
 
 @pytest.mark.parametrize("text", blocks("toml"), ids=lambda text: text.splitlines()[0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
@@ -14,95 +15,32 @@ from linkanim.scenes.editing.toml import SCENE_FILE, parse
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 
-_CHAPTERS: Mapping[str, tuple[str, ...]] = {
-    "four-bars": (
-        "crank-rocker",
-        "drag-link",
-        "rocker-driven",
-        "crank-rocker-link3",
-        "wiper",
-        "pumpjack",
-        "galloway",
-        "chebyshev-line",
-        "hoecken",
-        "roberts-line",
-        "watt-line",
-        "evans",
-    ),
-    "sliders": (
-        "slider-crank",
-        "engine",
-        "driven-piston",
-        "inverted-slider-crank",
-        "oscillating-cylinder",
-        "whitworth",
-        "crank-shaper",
-        "quick-return-press",
-        "toggle-clamp",
-        "knuckle-press",
-        "toggle-press",
-        "scotch-yoke",
-        "elliptic-trammel",
-    ),
-    "exact and scaling": (
-        "peaucellier",
-        "hart",
-        "pantograph",
-    ),
-    "six-bars and more": (
-        "six-bar",
-        "press",
-        "watt-1",
-        "watt-2",
-        "stephenson-1",
-        "stephenson-3",
-        "dwell-six-bar",
-        "jansen",
-        "klann",
-        "scissor-lift",
-        "landing-gear",
-        "umbrella",
-        "excavator",
-        "geared-five-bar-2-1",
-        "geared-five-bar-3-2",
-        "cardan-gears",
-        "epicyclic-hypocycloid",
-        "parallel-locomotive",
-    ),
-    "hard on purpose": (
-        "parallelogram",
-        "antiparallelogram",
-        "kite",
-        "isosceles-slider",
-        "grashof-limit-six-bar",
-        "double-rocker",
-        "triple-rocker",
-        "triple-rocker-in-in",
-        "triple-rocker-out-in",
-        "triple-rocker-in-out",
-        "andrews",
-    ),
-}
-
 
 def chapters() -> dict[str, tuple[str, ...]]:
     """Return the names of the catalogue's scenes by chapter, both in the order in which they are shown.
 
     A chapter's name is what is shown of it, too ("exact and scaling"). Every scene is in one chapter;
     `names()` is all of them one after the other. The keys 1-9 choose within the chapter of the scene that
-    is on: `chapters()[chapter_of(name)][digit - 1]`. Reads no file.
+    is on: `chapters()[chapter_of(name)][digit - 1]`.
     """
-    return dict(_CHAPTERS)
+    return dict(_chapters())
+
+
+@cache
+def _chapters() -> Mapping[str, tuple[str, ...]]:
+    """Return the chapters as the package has them, which stay as they are."""
+    listed = parse(_text("chapters.toml"), "chapters.toml")
+    return {chapter: tuple(names) for chapter, names in listed.items()}
 
 
 def chapter_of(name: str) -> str | None:
     """Return the chapter of a catalogue scene; None for any other name."""
-    return next((chapter for chapter, names in _CHAPTERS.items() if name in names), None)
+    return next((chapter for chapter, names in _chapters().items() if name in names), None)
 
 
 def names() -> tuple[str, ...]:
     """Return the names of the catalogue's scenes in the order in which they are shown, chapter by chapter."""
-    return tuple(name for names in _CHAPTERS.values() for name in names)
+    return tuple(name for names in _chapters().values() for name in names)
 
 
 def titles() -> dict[str, str]:
@@ -118,13 +56,13 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     """
     from linkanim.scenes.reading.read import scene_from
 
-    asked, path = os.fspath(name_or_path), path_of(name_or_path)
+    text, path = os.fspath(name_or_path), path_of(name_or_path)
     if path is None:
-        if chapter_of(asked) is None:
-            near = meant(asked, names())
-            raise BadInput(f"no scene is called {shown(asked)}{near}; `linkanim scenes` lists them")
-        return scene_from(parse(_catalogue_text(asked), asked), name=asked, where=asked)
-    where = intake.named(asked)
+        if chapter_of(text) is None:
+            near = meant(text, names())
+            raise BadInput(f"no scene is called {shown(text)}{near}; `linkanim scenes` lists them")
+        return scene_from(parse(_catalogue_text(text), text), name=text, where=text)
+    where = intake.named(text)
     missing = f"{meant(path.stem, names())}; `linkanim scenes` lists the built-in ones"
     document = parse(SCENE_FILE.read(path, where, missing=missing), where)
     return scene_from(document, name=intake.named(path.stem), where=where)
@@ -132,12 +70,17 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
 
 def path_of(name_or_path: str | os.PathLike[str]) -> Path | None:
     """Return the path of a scene file; None for what would be a name in the catalogue."""
-    asked = os.fspath(name_or_path)
+    text = os.fspath(name_or_path)
     marks = (os.sep, os.altsep or os.sep)
-    named = isinstance(name_or_path, str) and not any(mark in asked for mark in marks)
-    return None if named and not asked.lower().endswith(".toml") else Path(asked)
+    named = isinstance(name_or_path, str) and not any(mark in text for mark in marks)
+    return None if named and not text.lower().endswith(".toml") else Path(text)
 
 
 def _catalogue_text(name: str) -> str:
     folder = (chapter_of(name) or "").replace(" ", "-")
-    return (files("linkanim.scenes") / "catalogue" / folder / f"{name}.toml").read_text(encoding="utf-8")
+    return _text(f"catalogue/{folder}/{name}.toml")
+
+
+def _text(path: str) -> str:
+    """Return the text of a file of the package."""
+    return (files("linkanim.scenes") / path).read_text(encoding="utf-8")

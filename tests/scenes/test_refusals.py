@@ -296,6 +296,7 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("a number as title", "title = 3\n" + FOUR_BAR, "title = 3", "text in quotes"),
     ("a number as drive", "drive = 3\n" + FOUR_BAR, "drive = 3", "must be a table"),
     ("a list as joints", "joints = [1]\n" + FOUR_BAR, "joints", "must be a table"),
+    ("a list as bodies", "bodies = [1]\n" + FOUR_BAR, "bodies", "must be a table"),
     ("a number as body", FOUR_BAR + "[bodies]\nx = 3\n", "bodies.x = 3", "must be a table"),
     ("numbers as names", FOUR_BAR + "[trace]\njoints = [1]\n", "trace.joints", "list of joint names"),
     # Names become keys of tables, JSON and charts ("B.velocity").

@@ -116,6 +116,11 @@ class Form:
         return self.make(*given, **values)
 
 
+def form(words: str, make: Callable[..., Any], *fields: Field, **how: Any) -> Form:
+    """Return the form of a table: what it is, what makes a value of it, its fields; `how` as in `Form`."""
+    return Form(fields, make, words, **how)
+
+
 @dataclass(frozen=True)
 class Named:
     """A table of tables by their names, as [joints.A], [joints.B]: each of one of the `forms`.

@@ -11,7 +11,7 @@ from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Line, Point
 from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Gear, Pin, Polar
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.scenes.fields.form import SPREAD, Field, Form, Named
+from linkanim.scenes.fields.form import SPREAD, Field, Named, form
 from linkanim.scenes.fields.table import Table
 from linkanim.scenes.fields.types import ANGLE, JOINT, LENGTH, OFFSET, PAIR, POINT, RATIO, listed, never, side
 
@@ -64,103 +64,79 @@ _LINE_FIELDS = (
 _FREE = never("a slider without a bar is driven along a fixed line; leave it out, or give the slider its bar")
 _ONE_CLOSURE = never("a slider without a bar has no second closure; leave it out")
 
-LINE = Form((Field("on", PAIR, "the axis of a body that carries the line", None), *_LINE_FIELDS), _line)
-FIXED_LINE = Form((Field("on", _FREE, usual=None), *_LINE_FIELDS), Line)
-GEAR = Form(
-    (
-        Field("with", JOINT, "the crank that it is geared to", into="mate", must="crank"),
-        Field("ratio", RATIO, "its angle to that crank's", label="gear ratio"),
-        Field("offset", ANGLE, "its angle where that crank's is 0", "0 deg", label="gear offset"),
-    ),
+_BAR = Field("length", LENGTH, "the bar's length", label="{bar}", drag="distance")
+_LENGTHS = listed(LENGTH, 2)
+_AT = aside("{name} on {on}")
+
+LINE = form(
+    "a line", _line, Field("on", PAIR, "the axis of a body that carries the line", None), *_LINE_FIELDS
+)
+FIXED_LINE = form("a fixed line", Line, Field("on", _FREE, usual=None), *_LINE_FIELDS)
+GEAR = form(
+    "a gear pair",
     Gear,
+    Field("with", JOINT, "the crank that it is geared to", into="mate", must="crank"),
+    Field("ratio", RATIO, "its angle to that crank's", label="gear ratio"),
+    Field("offset", ANGLE, "its angle where that crank's is 0", "0 deg", label="gear offset"),
 )
-SLOT = Form(
-    (
-        Field("pivot", JOINT, "the joint that the bar turns about"),
-        Field("through", JOINT, "the joint in its slot", must="moving"),
-        Field(
-            "offset", OFFSET, "how far to the left of the pivot the slot runs", 0, label="offset of its slot"
-        ),
-    )
+SLOT = form(
+    "a slotted bar",
+    dict,
+    Field("pivot", JOINT, "the joint that the bar turns about"),
+    Field("through", JOINT, "the joint in its slot", must="moving"),
+    Field("offset", OFFSET, "how far to the left of the pivot the slot runs", 0, label="offset of its slot"),
 )
-SLIDE = Form(
-    (
-        Field("pin", JOINT, "the joint in the slot", must="moving"),
-        Field("slot", ANGLE, "the slot's direction from the line's", "90 deg", label="direction of its slot"),
-        Field("line", LINE, "the line that the bar slides along"),
-    ),
+SLIDE = form(
+    "a bar with a slot, on a line",
+    dict,
+    Field("pin", JOINT, "the joint in the slot", must="moving"),
+    Field("slot", ANGLE, "the slot's direction from the line's", "90 deg", label="direction of its slot"),
+    Field("line", LINE, "the line that the bar slides along"),
     refuse=_refuse_parallel,
 )
-_BAR = Field("length", LENGTH, "the bar's length", label="{bar}", drag="distance")
-_BARS = Field(
-    "length", listed(LENGTH, 2), "the bars' lengths", into="lengths", label=("{bar}",) * 2, drag="distance"
-)
 
-CRANK = Form(
-    (
-        Field("crank", JOINT, "the fixed pin that it turns about", into="pivot", must="fixed", unless="gear"),
-        _BAR,
-        Field("gear", GEAR, "what turns it if not the drive, then about any joint", None),
-    ),
-    Crank,
+CRANK = form(
     "a crank pin",
+    Crank,
+    Field("crank", JOINT, "the fixed pin that it turns about", into="pivot", must="fixed", unless="gear"),
+    _BAR,
+    Field("gear", GEAR, "what turns it if not the drive, then about any joint", None),
     mark="crank",
 )
-DRIVEN_SLIDER = Form(
-    (Field("line", FIXED_LINE, "the line that it is driven along"), Field("side", _ONE_CLOSURE, usual=None)),
-    DrivenSlider,
+DRIVEN_SLIDER = form(
     "a slider that drives",
+    DrivenSlider,
+    Field("line", FIXED_LINE, "the line that it is driven along"),
+    Field("side", _ONE_CLOSURE, usual=None),
     mark="line",
     without=("from", "length"),
 )
-SLIDER = Form(
-    (
-        Field("from", JOINT, "the bar's other end", into="end", must="moving"),
-        _BAR,
-        Field("line", LINE, "the line that it slides along"),
-        Field(
-            "side", side(*RRP.sides), "of two closures the one further along the line, or back", RRP.sides[0]
-        ),
-    ),
-    RRP,
+SLIDER = form(
     "a slider that a bar moves",
+    RRP,
+    Field("from", JOINT, "the bar's other end", into="end", must="moving"),
+    _BAR,
+    Field("line", LINE, "the line that it slides along"),
+    Field("side", side(*RRP.sides), "of two closures the one further along the line, or back", RRP.sides[0]),
     mark="line",
 )
-DYAD = Form(
-    (
-        Field("from", PAIR, "the bars' other ends", into="ends"),
-        _BARS,
-        Field("side", side(*RRR.sides), "of the line from the first end to the second", RRR.sides[0]),
-    ),
-    RRR,
+DYAD = form(
     "a joint of two bars",
+    RRR,
+    Field("from", PAIR, "the bars' other ends", into="ends"),
+    Field("length", _LENGTHS, "the bars' lengths", into="lengths", label=("{bar}",) * 2, drag="distance"),
+    Field("side", side(*RRR.sides), "of the line from the first end to the second", RRR.sides[0]),
     mark="from",
 )
-SLOTTED_BAR = Form(
-    (Field("slot", SLOT, "the slotted bar", into=SPREAD), _BAR),
-    RPR,
-    "the end of a bar that slides through a joint",
-    mark="slot",
-)
-YOKE = Form(
-    (Field("slide", SLIDE, "the bar with the slot", into=SPREAD),),
-    RPP,
-    "a yoke, where its slot crosses its line",
-    mark="slide",
-)
-BODY_POINT = Form(
-    (
-        Field("on", PAIR, "two joints of the body: its axis"),
-        Field(
-            "at",
-            POINT,
-            "the place along the axis, and to its left",
-            label=aside("{name} on {on}"),
-            drag="place",
-        ),
-    ),
-    Rigid,
+_SLOT = Field("slot", SLOT, "the slotted bar", into=SPREAD)
+SLOTTED_BAR = form("the end of a bar that slides through a joint", RPR, _SLOT, _BAR, mark="slot")
+_SLIDE = Field("slide", SLIDE, "the bar with the slot", into=SPREAD)
+YOKE = form("a yoke, where its slot crosses its line", RPP, _SLIDE, mark="slide")
+BODY_POINT = form(
     "a point of a body",
+    Rigid,
+    Field("on", PAIR, "two joints of the body: its axis"),
+    Field("at", POINT, "the place along the axis, and to its left", label=_AT, drag="place"),
     mark="on",
     refuse=_refuse_own,
 )
@@ -168,15 +144,11 @@ BODY_POINT = Form(
 JOINTS = Named((CRANK, DRIVEN_SLIDER, SLIDER, DYAD, SLOTTED_BAR, YOKE, BODY_POINT))
 """The kinds of joints, in the order in which their marks are looked for."""
 
-POLAR_PIN = Form(
-    (
-        Field(
-            "length", LENGTH, "the distance from the origin", label="Pin {name}, distance", drag="distance"
-        ),
-        Field("angle", ANGLE, "the direction from there", label="Pin {name}, direction", drag="direction"),
-    ),
-    polar_pin,
+POLAR_PIN = form(
     "a fixed pin, by its distance",
+    polar_pin,
+    Field("length", LENGTH, "the distance from the origin", label="Pin {name}, distance", drag="distance"),
+    Field("angle", ANGLE, "the direction from there", label="Pin {name}, direction", drag="direction"),
 )
 PLACE = Field("", POINT, "x and y", label=("Pin {name}, x", "Pin {name}, y"), drag="place")
 PINS = Named((POLAR_PIN,), PLACE, Pin)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, get_args
+from typing import Any, NamedTuple, get_args
 
 from linkanim import units
 from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.mechanics.linkage.rigid_bodies import coincide, holding
-from linkanim.scenes.fields.form import Field, Form, Named
+from linkanim.scenes.fields.form import Field, Named, form
 from linkanim.scenes.fields.joints import JOINTS, PINS, aside
 from linkanim.scenes.fields.shorthands import SHORTHANDS
 from linkanim.scenes.fields.table import Table
@@ -32,7 +32,7 @@ from linkanim.scenes.fields.types import (
     choice,
 )
 from linkanim.scenes.fields.types import JOINTS as MEMBERS
-from linkanim.scenes.scene import Outline
+from linkanim.scenes.scene import BodyStyle, Outline
 
 
 def _refuse_block(table: Table, values: Mapping[str, Any]) -> None:
@@ -65,119 +65,99 @@ def _refuse_half(table: Table, values: Mapping[str, Any]) -> None:
         raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
 
 
-def _body(*given: Any, look: str | None = None, colour: str | None = None, **known: Any) -> Body:
-    """Return a body without what the scene alone knows of it: how it is drawn."""
-    return Body(*given, **known)
+class DrawnBody(NamedTuple):
+    """A body as a file states it: what moves, and how it is drawn."""
+
+    body: Body
+    style: BodyStyle
+
+
+def _drawn(name: str, look: Outline | None = None, colour: Any = None, **known: Any) -> DrawnBody:
+    return DrawnBody(Body(name, **known), BodyStyle(look, colour))
 
 
 _MASS = Field("mass", MASS, "its mass", None, label="mass")
 _COLOUR = Field("colour", COLOUR, "its colour", None)
 _BETWEEN = Field("between", PAIR, "its two ends")
+_COM = aside("{name} centre of mass")
 
-BLOCK = Form(
-    (Field("slider", JOINT, "the joint that it travels with"), _MASS, _COLOUR),
-    _body,
+BLOCK = form(
     "the block of a slider",
+    _drawn,
+    Field("slider", JOINT, "the joint that it travels with"),
+    _MASS,
+    _COLOUR,
     mark="slider",
     refuse=_refuse_block,
 )
-BAR = Form(
-    (
-        Field("joints", MEMBERS, "the joints on it; its angle is that of the first to the second"),
-        Field(
-            "com",
-            POINT,
-            "its centre of mass along first–second, and to the left",
-            None,
-            label=aside("{name} centre of mass"),
-        ),
-        _MASS,
-        Field("inertia", INERTIA, "about the centre of mass", None, label="moment of inertia"),
-        Field("look", choice(*get_args(Outline)), "how it is drawn", None),
-        _COLOUR,
-    ),
-    _body,
+BAR = form(
     "a body",
+    _drawn,
+    Field("joints", MEMBERS, "the joints on it; its angle is that of the first to the second"),
+    Field("com", POINT, "its centre of mass along first–second, and to the left", None, label=_COM),
+    _MASS,
+    Field("inertia", INERTIA, "about the centre of mass", None, label="moment of inertia"),
+    Field("look", choice(*get_args(Outline)), "how it is drawn", None),
+    _COLOUR,
     refuse=_refuse_bar,
     together={"mass": "com"},
 )
-SPRING = Form(
-    (
-        _BETWEEN,
-        Field("stiffness", STIFFNESS, "its stiffness", None, label="stiffness"),
-        Field("free_length", LENGTH, "its length without force", None, label="free length"),
-    ),
-    Spring,
+SPRING = form(
     "a spring",
+    Spring,
+    _BETWEEN,
+    Field("stiffness", STIFFNESS, "its stiffness; with it the force is known", None, label="stiffness"),
+    Field("free_length", LENGTH, "its length without force", None, label="free length"),
     refuse=_refuse_half,
     together={"stiffness": "free_length", "free_length": "stiffness"},
 )
-DAMPER = Form(
-    (_BETWEEN, Field("coefficient", DAMPING, "force by rate", None, label="damping")),
-    Damper,
-    "a damper",
-)
+_COEFFICIENT = Field("coefficient", DAMPING, "its force by its rate", None, label="damping")
+DAMPER = form("a damper", Damper, _BETWEEN, _COEFFICIENT)
 
-CYLINDER = Form(
-    (
-        Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body"),
-        Field("from", LENGTH, "its length at one end", label="Cylinder, from"),
-        Field("to", LENGTH, "its length at the other end", label="Cylinder, to"),
-        Field("joint", NAME, "the crank that it turns", None),
-    ),
-    words="a cylinder that drives",
+CYLINDER = form(
+    "a cylinder that drives",
+    dict,
+    Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body"),
+    Field("from", LENGTH, "its length at one end", label="Cylinder, from"),
+    Field("to", LENGTH, "its length at the other end", label="Cylinder, to"),
+    Field("joint", NAME, "the crank that it turns", None),
 )
-SLIDER = Form(
-    (
-        Field("joint", NAME, "the slider, declared by its line alone"),
-        Field("from", OFFSET, "its travel at one end", label="Slider, from"),
-        Field("to", OFFSET, "its travel at the other end", label="Slider, to"),
-    ),
-    words="a slider that drives",
+SLIDER = form(
+    "a slider that drives",
+    dict,
+    Field("joint", NAME, "the slider, declared by its line alone"),
+    Field("from", OFFSET, "its travel at one end", label="Slider, from"),
+    Field("to", OFFSET, "its travel at the other end", label="Slider, to"),
 )
-DRIVE = Form(
-    (
-        Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
-        Field("slider", SLIDER, "what drives instead of a crank", None),
-        Field("joint", NAME, "the crank that is driven: the first one without a gear", None),
-        Field(
-            "speed",
-            SPEED,
-            "of the crank, or there and back; negative is clockwise",
-            "20 rpm",
-            label="Input speed",
-        ),
-        Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
-    ),
-    words="the input",
+DRIVE = form(
+    "the input",
+    dict,
+    Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
+    Field("slider", SLIDER, "what drives instead of a crank", None),
+    Field("joint", NAME, "the crank that is driven: the first one without a gear", None),
+    Field("speed", SPEED, "turns, or there and back; negative: clockwise", "20 rpm", label="Input speed"),
+    Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
 )
+TRACE = form("the curves", dict, Field("joints", MEMBERS, "the joints whose curves are drawn", None))
 
-TRACE = Form((Field("joints", MEMBERS, "the joints whose curves are drawn", None),), words="the curves")
-
-SCENE_FILE = Form(
-    (
-        Field("title", TEXT, "what it is called: the file's name", None),
-        Field("source", TEXT, "where its dimensions come from", ""),
-        Field("chapter", TEXT, "the part of a collection that it belongs to", ""),
-        Field("look_at", TEXT, "what to look at, in a sentence", ""),
-        Field("notes", TEXTS, "what a reader of its figures should know", []),
-        Field("length_unit", choice(*units.LENGTH_UNITS), "the unit of bare lengths", units.LENGTH_UNITS[0]),
-        *(Field(key, form, form.words, None) for key, form in SHORTHANDS.items()),
-        Field("joints", JOINTS, "the joints", {}),
-        Field("ground", PINS, "the fixed pins", {}),
-        Field("bodies", Named((BLOCK, BAR)), "what is drawn and named", {}),
-        Field("springs", Named((SPRING,)), "the springs", {}),
-        Field("dampers", Named((DAMPER,)), "the dampers", {}),
-        Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
-        Field("drive", DRIVE, "the input", {}),
-        Field(
-            "trace",
-            Form((Field("joints", MEMBERS, "the joints whose curves are drawn", None),)),
-            "the traces",
-            {},
-        ),
-    ),
-    words="the file",
+SCENE_FILE = form(
+    "the file",
+    dict,
+    Field("title", TEXT, "what it is called: the file's name", None),
+    Field("source", TEXT, "where its dimensions come from", ""),
+    Field("chapter", TEXT, "the part of a collection that it belongs to", ""),
+    Field("look_at", TEXT, "what to look at, in a sentence", ""),
+    Field("notes", TEXTS, "what a reader of its figures should know", []),
+    Field("length_unit", choice(*units.LENGTH_UNITS), "the unit of bare lengths", units.LENGTH_UNITS[0]),
+    *(Field(key, one, one.words, None) for key, one in SHORTHANDS.items()),
+    Field("joints", JOINTS, "the joints", {}),
+    Field("ground", PINS, "the fixed pins", {}),
+    Field("bodies", Named((BLOCK, BAR)), "what is drawn and named", {}),
+    Field("springs", Named((SPRING,)), "the springs", {}),
+    Field("dampers", Named((DAMPER,)), "the dampers", {}),
+    Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
+    Field("drive", DRIVE, "the input", {}),
+    Field("trace", TRACE, "the curves", {}),
 )
 """The form of a scene file."""
 SECTIONS: Mapping[str, Field] = {one.key: one for one in SCENE_FILE.fields}

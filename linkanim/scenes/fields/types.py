@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from typing import Any, Literal
 
 from linkanim import units
@@ -58,23 +59,16 @@ def never(sentence: str) -> ValueType:
     return ValueType(read, sentence)
 
 
-def _beyond(most: float) -> Callable[[float], str]:
-    """Return what refuses a number that is too large to be computed with."""
-    return lambda number: (
-        f"is beyond what can be computed; write less than {most:g}" if abs(number) > most else ""
-    )
+def _far(number: float, most: float = _LONGEST) -> str:
+    """Say that a number is too large to be computed with, if it is."""
+    return f"is beyond what can be computed; write less than {most:g}" if abs(number) > most else ""
 
 
-def _not_above(most: float) -> Callable[[float], str]:
-    """Return what refuses a number that is not above zero, or too large or small to be computed with."""
-    beyond = _beyond(most)
-
-    def refusal(number: float) -> str:
-        if number > 0.0 and number < 1.0 / most:
-            return f"is beyond what can be computed; write more than {1.0 / most:g}"
-        return beyond(number) or ("" if number > 0.0 else "must be above zero")
-
-    return refusal
+def _not_above(number: float, most: float = _LONGEST) -> str:
+    """Say that a number is not above zero, or too large or small to be computed with, if it is."""
+    if 0.0 < number < 1.0 / most:
+        return f"is beyond what can be computed; write more than {1.0 / most:g}"
+    return _far(number, most) or ("" if number > 0.0 else "must be above zero")
 
 
 def _many_turns(angle: float) -> str:
@@ -134,7 +128,8 @@ def listed(of: ValueType, count: int) -> ValueType:
         return None if None in found else found
 
     schema = {"type": "array", "items": of.schema, "minItems": count, "maxItems": count}
-    return ValueType(read, f"{count} times {of.words}", schema, of.measure, of.bare)
+    words = of.words.replace("a length", f"{count} lengths")
+    return ValueType(read, words, schema, of.measure, of.bare)
 
 
 def _joint(table: Table, key: str) -> str:
@@ -196,29 +191,25 @@ def _fraction(value: object) -> Fraction | None:
     return Fraction(value) if isinstance(value, int) or math.isfinite(value) else None
 
 
-def _colour(table: Table, key: str) -> str:
+def _colour(table: Table, key: str) -> tuple[int, int, int]:
     value = table.text(key)
     if not _HEX.fullmatch(value):
         raise table.error(key, 'is no colour; write red, green and blue as in "#d55e00"')
-    return value
+    red, green, blue = bytes.fromhex(value[1:])
+    return red, green, blue
 
 
-LENGTH = _quantity("length", "a length", _length, units.LENGTH_UNITS, _not_above(_LONGEST), bare=True)
-OFFSET = _quantity(
-    "offset", "a length of either sign", _length, units.LENGTH_UNITS, _beyond(_LONGEST), bare=True
-)
-ANGLE = _quantity(
-    "angle", 'an angle, `"30 deg"`', _with_unit(units.angle), (*units.ANGLE_UNITS, "°"), _many_turns
-)
-SPEED = _quantity(
-    "speed", 'a speed, `"20 rpm"`', _with_unit(units.angular_speed), (*units.SPEED_UNITS, "°/s"), _standstill
-)
+LENGTH = _quantity("length", "a length", _length, units.LENGTH_UNITS, _not_above, bare=True)
+OFFSET = _quantity("offset", "a length of either sign", _length, units.LENGTH_UNITS, _far, bare=True)
+_ANGLES, _SPEEDS = (*units.ANGLE_UNITS, "°"), (*units.SPEED_UNITS, "°/s")
+ANGLE = _quantity("angle", 'an angle, `"30 deg"`', _with_unit(units.angle), _ANGLES, _many_turns)
+SPEED = _quantity("speed", 'a speed, `"20 rpm"`', _with_unit(units.angular_speed), _SPEEDS, _standstill)
 
 
 def _above(
     measure: Measure, words: str, parse: Callable[[object], float], names: tuple[str, ...]
 ) -> ValueType:
-    return _quantity(measure, words, _with_unit(parse), names, _not_above(_LARGEST))
+    return _quantity(measure, words, _with_unit(parse), names, partial(_not_above, most=_LARGEST))
 
 
 STIFFNESS = _above("stiffness", 'a stiffness, `"4000 N/m"`', units.stiffness, units.STIFFNESS_UNITS)
@@ -237,9 +228,7 @@ POINT = listed(OFFSET, 2)
 
 TEXT = ValueType(Table.text, "a text", {"type": "string", "maxLength": LONGEST_TEXT})
 TEXTS = ValueType(Table.texts, "a list of texts", {"type": "array", "items": {"type": "string"}})
-COLOUR = ValueType(
-    _colour, 'red, green and blue, `"#d55e00"`', {"type": "string", "pattern": r"^#[0-9a-fA-F]{6}$"}
-)
+COLOUR = ValueType(_colour, 'a colour, `"#d55e00"`', {"type": "string", "pattern": r"^#[0-9a-fA-F]{6}$"})
 NAME = ValueType(Table.text, "a joint", {"type": "string", "minLength": 1, "maxLength": 32})
 JOINT = ValueType(_joint, NAME.words, NAME.schema, refers=True)
 PAIR = _joints(2)

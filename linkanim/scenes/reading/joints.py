@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -106,23 +105,12 @@ def _solved_order(stated: Stated) -> list[str]:
 
     Those that depend on themselves are left out.
     """
-    names = list(stated)
-    rank = {name: i for i, name in enumerate(names)}
-    waiting = {name: set(_needs(stated, name)) for name in names}
-    leads_to: dict[str, list[str]] = {name: [] for name in names}
-    for name, others in waiting.items():
-        for other in others:
-            leads_to[other].append(name)
-    ready = [rank[name] for name in names if not waiting[name]]
-    order = []
-    while ready:
-        name = names[heapq.heappop(ready)]
-        order.append(name)
-        for later in leads_to[name]:
-            waiting[later].discard(name)
-            if not waiting[later]:
-                heapq.heappush(ready, rank[later])
-    return order
+    waiting = {name: set(_needs(stated, name)) for name in stated}
+    order: dict[str, None] = {}
+    while ready := next((name for name, needs in waiting.items() if needs <= order.keys()), None):
+        order[ready] = None
+        del waiting[ready]
+    return list(order)
 
 
 def _circle(stated: Stated, stuck: set[str]) -> tuple[str, ...]:

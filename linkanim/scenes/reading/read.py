@@ -17,7 +17,7 @@ from linkanim.scenes.fields.table import Context, Table
 from linkanim.scenes.reading.drive import read_drive
 from linkanim.scenes.reading.joints import solved, unassembled
 from linkanim.scenes.reading.sizes import refuse_apart
-from linkanim.scenes.scene import BodyStyle, Scene
+from linkanim.scenes.scene import FREE_STYLE, Scene
 
 
 def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
@@ -44,15 +44,17 @@ def read(
     """
     top = _opened(document, where)
     top, short = _with_joints(top)
+    bodies = _part(top, "bodies") or {}
     parts = {
-        "linkage": _linkage(top, short),
+        "linkage": _linkage(top, short, {name: one and one.body for name, one in bodies.items()}),
         "title": _part(top, "title") if "title" in top else name,
         **{key: _part(top, key) for key in ("source", "chapter", "look_at", "notes")},
         "trace": _trace(top, short),
     }
     if any(part is None for part in parts.values()):
         return None, top.context.problems
-    parts |= {"styles": _styles(document), "document": document, "towards": towards}
+    styles = tuple((name, one.style) for name, one in bodies.items() if one and one.style != FREE_STYLE)
+    parts |= {"styles": styles, "document": document, "towards": towards}
     scene = Scene(name=name, length_unit=top.context.unit, **parts)
     top.attempt(_check_assembly, top, scene)
     return scene, top.context.problems
@@ -61,21 +63,6 @@ def read(
 def _part(top: Table, key: str) -> Any:
     """Return what one of the file's tables or values comes to; None where it has a fault."""
     return top.attempt(SECTIONS[key].read, top)
-
-
-def _styles(document: Mapping[str, Any]) -> tuple[tuple[str, BodyStyle], ...]:
-    """Return how a document without problems has its bodies drawn."""
-    return tuple(
-        (name, BodyStyle(table.get("look"), _rgb(table["colour"]) if "colour" in table else None))
-        for name, table in document.get("bodies", {}).items()
-        if {"look", "colour"} & table.keys()
-    )
-
-
-def _rgb(colour: str) -> tuple[int, int, int]:
-    """Return red, green and blue of a colour such as "#d55e00"."""
-    red, green, blue = bytes.fromhex(colour[1:])
-    return red, green, blue
 
 
 def _opened(document: Mapping[str, Any], where: str) -> Table:
@@ -121,10 +108,10 @@ def _expansion(top: Table, o2: Pin | None) -> Expansion | None:
     return expansion if o2 else None
 
 
-def _linkage(top: Table, short: Expansion) -> Linkage | None:
+def _linkage(top: Table, short: Expansion, stated: Mapping[str, Any]) -> Linkage | None:
     """Return the linkage; None where any part of it has a fault."""
     context = top.context
-    bodies = {body.name: body for body in short.bodies} | (_part(top, "bodies") or {})
+    bodies: dict[str, Any] = {body.name: body for body in short.bodies} | dict(stated)
     drive = top.attempt(read_drive, top, short.drive)
     springs, dampers = _part(top, "springs") or {}, _part(top, "dampers") or {}
     gravity = top.attempt(_gravity, top, bodies)
