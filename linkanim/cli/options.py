@@ -10,7 +10,7 @@ from typing import Any
 
 from linkanim import units
 from linkanim.cli import values
-from linkanim.cli.parser import Parser, valued
+from linkanim.cli.parser import Parser
 from linkanim.picture.look import TOGGLES, Look, Option, Toggle
 
 IN_SCENE = "a built-in scene's name (see `linkanim scenes`), or the path of a scene file"
@@ -42,7 +42,7 @@ def play(parser: Parser) -> None:
     parser.add_argument(
         "--attract", action="store_true", help="walk through the scenes when no key is pressed for a minute"
     )
-    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="the window's, in pixels")
+    parser.add_argument("--size", type=values.size, metavar="WxH", help="the window's, in pixels")
     _look(parser, "play")
 
 
@@ -56,9 +56,7 @@ def record(parser: Parser) -> None:
     _clip(parser)
     _look(parser, "record")
     parser.add_argument(
-        "--noted",
-        action="store_true",
-        help="have the text say where a limit or a change point is near",
+        "--noted", action="store_true", help="have the text say where a limit or a change point is near"
     )
     parser.add_argument("--progress", action="store_true", help="show it also where stderr is no terminal")
 
@@ -66,20 +64,18 @@ def record(parser: Parser) -> None:
 def _clip(parser: Parser) -> None:
     """How long, how fast and how large."""
     _size(parser)
-    parser.add_argument(
-        "--fps", type=valued(values.positive), metavar="N", help="frames a second (default: 25)"
-    )
+    parser.add_argument("--fps", type=values.positive, metavar="N", help="frames a second (default: 25)")
     _speed(parser)
     length = parser.add_mutually_exclusive_group()
-    length.add_argument("--periods", type=valued(values.count), metavar="N", help="true periods (default: 1)")
+    length.add_argument("--periods", type=values.count, metavar="N", help="true periods (default: 1)")
     length.add_argument(
-        "--seconds", type=valued(values.positive), metavar="S", help="the clip's length; it need not close"
+        "--seconds", type=values.positive, metavar="S", help="the clip's length; it need not close"
     )
     parser.add_argument("--reverse", action="store_true", help="run backwards")
 
 
 def _size(parser: Parser) -> None:
-    parser.add_argument("--size", type=valued(values.size), metavar="WxH", help="pixels (default: 1280x720)")
+    parser.add_argument("--size", type=values.size, metavar="WxH", help="pixels (default: 1280x720)")
 
 
 def _output(parser: Parser, text: str) -> None:
@@ -88,12 +84,12 @@ def _output(parser: Parser, text: str) -> None:
 
 def _angle(parser: _ActionsContainer) -> None:
     words = 'crank angle, such as "87 deg"'
-    parser.add_argument("--angle", type=valued(units.angle), metavar="ANGLE", help=words)
+    parser.add_argument("--angle", type=units.angle, metavar="ANGLE", help=words)
 
 
 def _speeds(parser: Parser, what: str) -> None:
     words = f'{what}, such as "5 rad/s,10 rad/s" (default: the scene\'s)'
-    parser.add_argument("--speeds", type=valued(values.speeds), metavar="SPEED[,SPEED...]", help=words)
+    parser.add_argument("--speeds", type=values.speeds, metavar="SPEED[,SPEED...]", help=words)
 
 
 def _look(parser: Parser, command: str) -> None:
@@ -113,7 +109,7 @@ def _reading(option: Option, toggle: Toggle, usual: object) -> dict[str, Any]:
         case int():
             return {"action": Further, "const": option.step, "nargs": 0}
         case frozenset():
-            return {"type": valued(values.vectors), "metavar": option.metavar}
+            return {"type": values.vectors, "metavar": option.metavar}
     return {"choices": toggle.steps} if toggle.steps else {"metavar": option.metavar}
 
 
@@ -134,7 +130,7 @@ def solve(parser: Parser) -> None:
     _angle(parser)
     parser.add_argument(
         "--phase",
-        type=valued(units.angle),
+        type=units.angle,
         nargs="?",
         const=EVERY_ANGLE,
         metavar="PHASE",
@@ -142,15 +138,12 @@ def solve(parser: Parser) -> None:
         "(without a value, beside --sweep: sweep the phase)",
     )
     parser.add_argument(
-        "--sweep",
-        type=valued(values.sweep),
-        metavar="A:B:STEP",
-        help="a row for each angle from A to B, in degrees",
+        "--sweep", type=values.sweep, metavar="A:B:STEP", help="a row for each angle from A to B, in degrees"
     )
     _speed(parser)
     parser.add_argument(
         "--acceleration",
-        type=valued(units.angular_acceleration),
+        type=units.angular_acceleration,
         default=0.0,
         metavar="ACC",
         help='such as "2 rad/s^2" (default: 0)',
@@ -162,10 +155,7 @@ def solve(parser: Parser) -> None:
 
 def _speed(parser: Parser) -> None:
     parser.add_argument(
-        "--speed",
-        type=valued(units.angular_speed),
-        metavar="SPEED",
-        help='such as "30 rpm" (default: the scene\'s)',
+        "--speed", type=units.angular_speed, metavar="SPEED", help='such as "30 rpm" (default: the scene\'s)'
     )
 
 
@@ -225,12 +215,12 @@ def draw(parser: Parser) -> None:
     where = parser.add_mutually_exclusive_group()
     _angle(where)
     where.add_argument(
-        "--phase", type=valued(units.angle), metavar="PHASE", help="phase instead (default: the start)"
+        "--phase", type=units.angle, metavar="PHASE", help="phase instead (default: the start)"
     )
     _size(parser)
     _look(parser, "draw")
     parser.add_argument(
-        "--poses", type=valued(values.poses), metavar="N", help="N faint poses over the period behind it"
+        "--poses", type=values.poses, metavar="N", help="N faint poses over the period behind it"
     )
     parser.set_defaults(hud=False)
 
@@ -243,7 +233,7 @@ def report(parser: Parser) -> None:
     )
     parser.add_argument(
         "--angles",
-        type=valued(values.angles),
+        type=values.angles,
         metavar="ANGLE[,ANGLE...]",
         help='where to tell every quantity, such as "87 deg,306 deg" (default: the start and the extremes)',
     )
@@ -258,7 +248,7 @@ def path(parser: Parser) -> None:
     kinds = ("four-bar", "slider-crank")
     parser.add_argument("--kind", choices=kinds, default=kinds[0], help=f"default: {kinds[0]}")
     for name, read, usual, metavar, text in _PATH:
-        parser.add_argument(name, type=valued(read), default=usual, metavar=metavar, help=text)
+        parser.add_argument(name, type=read, default=usual, metavar=metavar, help=text)
     parser.add_argument("--open", action="store_true", help="the curve does not close")
     parser.add_argument("--cognates", action="store_true", help="each four-bar's two Roberts cognates, too")
     parser.add_argument("--json", action="store_true", help="a list of objects; angles in radians")

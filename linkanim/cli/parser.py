@@ -5,11 +5,9 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Callable, Sequence
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn
 
 from linkanim.errors import BadInput
-
-T = TypeVar("T")
 
 _NEGATIVE = re.compile(r"-\.?\d")
 
@@ -32,6 +30,13 @@ class Parser(argparse.ArgumentParser):
         """Raise the usage error as one sentence that names the help to read."""
         raise BadInput(f"{message} (see `{self.prog} --help`)")
 
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        # argparse's own knows no `BadInput`, and would let it go without the option's name
+        try:
+            return super()._get_value(action, arg_string)
+        except BadInput as error:
+            raise argparse.ArgumentError(action, str(error)) from error
+
     def format_help(self) -> str:
         """Return argparse's help, what `before` adds, and the examples as its last lines."""
         added = f"\n{self._before()}" if self._before else ""
@@ -41,18 +46,6 @@ class Parser(argparse.ArgumentParser):
     def _print_message(self, message: str, file: Any = None) -> None:
         # argparse's own swallows the error of a full disk or of a reader that left
         print(message, end="", file=file)
-
-
-def valued(read: Callable[[str], T]) -> Callable[[str], T]:
-    """Let argparse report a `BadInput` of `read` with the option's name in front."""
-
-    def reader(text: str) -> T:
-        try:
-            return read(text)
-        except BadInput as error:
-            raise argparse.ArgumentTypeError(str(error)) from error
-
-    return reader
 
 
 def join_negative(words: Sequence[str]) -> list[str]:
