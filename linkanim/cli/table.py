@@ -9,8 +9,7 @@ from typing import Any
 from linkanim.cli.solved import Tree
 from linkanim.digits import significant
 from linkanim.export import columns
-from linkanim.mechanics.facts.register import recorded
-from linkanim.mechanics.facts.symbols import plain_unit
+from linkanim.mechanics.facts.register import plain_unit, recorded
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Pin
 from linkanim.mechanics.motion.measures import (

@@ -11,8 +11,7 @@ import numpy as np
 
 from linkanim.digits import significant, typeset
 from linkanim.errors import OutOfRange
-from linkanim.mechanics.facts.register import Quantity
-from linkanim.mechanics.facts.symbols import input_symbol
+from linkanim.mechanics.facts.register import Quantity, input_symbol
 from linkanim.mechanics.motion.measures import output_body, output_slider
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.paper.curves import ChartRequest, Pace, curves_of, extremes

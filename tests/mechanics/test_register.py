@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.facts.register import look_up, register
-from linkanim.mechanics.facts.symbols import link_labels
+from linkanim.mechanics.facts.register import link_labels, look_up, register
 from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.scenes import load, names

@@ -14,7 +14,7 @@ import pytest
 from fidelity import Pixels
 from pictures import pixels
 
-from linkanim.mechanics.facts.symbols import input_symbol
+from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.strip import Strip, strip

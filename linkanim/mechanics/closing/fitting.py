@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assemble import precise
-from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import ChainRoot, Closing, End, Near, PolynomialFit, Zero
 from linkanim.mechanics.closing.kinematics import walk_at, walked
+from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.closing.kinds import CLOSERS
-from linkanim.mechanics.closing.walk import Walk
+from linkanim.mechanics.closing.walk import Assembly, Walk
 from linkanim.mechanics.formulas.expression import Value
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope
 from linkanim.mechanics.loops.input_state import InputState

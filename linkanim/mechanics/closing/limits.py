@@ -1,9 +1,12 @@
-"""Limits that a dyad further down the chain puts on the input, found on the cycle.
+"""Limits and change points of dyads further down the chain, found on the cycle.
 
 Both ends of such a dyad move, so there is no closed form: where it closes follows from its separation's
 extremes (`separation`). The zero of its margin U·W next to the start is bracketed and bisected, and the input
 then swings between the limits like any other. Next to a limit U·W itself has only half a float's digits
 left; there its quotient by the way to the limit, which is smooth, is taken from a polynomial (`fitting`).
+
+At a change point the margin touches zero without crossing it, as the dyad's bars fall into one line for an
+instant; what drives the dyad is at an extreme there.
 """
 
 from __future__ import annotations
@@ -16,22 +19,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.closing.assemble import resigned
-from linkanim.mechanics.closing.assembly import Assembly
-from linkanim.mechanics.closing.chain import ChainRoot, End
-from linkanim.mechanics.closing.change_points import through_change_points
+from linkanim.mechanics.closing.assemble import JUST_AFTER, most_turns, resigned
+from linkanim.mechanics.closing.chain import ChainRoot, End, Touch
 from linkanim.mechanics.closing.fitting import fitted, refined
 from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import ends_of
 from linkanim.mechanics.closing.separation import Separations, separations
+from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.drive.input_path import Limit
 from linkanim.mechanics.drive.ranges import ONE_PLACE
 from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
-from linkanim.mechanics.formulas.program import batch
+from linkanim.mechanics.formulas.program import Array, batch
 from linkanim.mechanics.linkage.linkage import Linkage
 
 USED_UP = 1e-10
@@ -175,3 +176,40 @@ def _limit(
         inside, outside = (np.array([phase]) for phase in bracket)
         start = Sum(float(ends_of(lambda phase: found.margins(phase)[row] >= 0, inside, outside)[0]))
     return refined(assembly, found.names[row], start), found.names[row]
+
+
+LEAST = 1e-40
+"""Share of a margin's scale below which it has no digits left."""
+
+
+def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assembly, Separations]:
+    """Return the assembly with the zeros of the dyads on moving points, and how they fare on it.
+
+    In the chain's order: where one passes onto its other closure, what stands on it goes another way.
+    """
+    for name in found.names:
+        through = _through(assembly, name, found)
+        if found.touches(name):
+            found = separations(through)
+        assembly = through
+    return assembly, found
+
+
+def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
+    """Return the assembly with one dyad's zeros: its limits, which are known, and its change points."""
+    path, known = assembly.path, assembly.chain.get(name, ChainRoot((), 0.0))
+    touches = tuple(Touch(path.place(phase), path.periods, path.amplitude) for phase in found.touches(name))
+    root = ChainRoot((*known.zeros, *touches), found.scale(name) * LEAST)
+    if not root.zeros:
+        return assembly
+    side = root.side(path.state(JUST_AFTER, Slope(1.0)))
+    assert isinstance(side, float)
+    if len(touches) % 2:
+        path = path.doubled()
+        if path.periods > (most := most_turns(assembly.linkage)):
+            raise AssemblyError(
+                f"joint {name}: with the change points up to this one every joint is back after "
+                f"{path.periods:,} turns only, and {most:,} are the most here;"
+                " make one of its lengths a little longer or shorter"
+            )
+    return replace(assembly, path=path, chain={**assembly.chain, name: replace(root, sign=side)})

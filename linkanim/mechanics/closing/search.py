@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.formulas.arrays import Array, Bools
+from linkanim.mechanics.formulas.program import Array, Bools
 
 Indices = NDArray[np.intp]
 

@@ -18,18 +18,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.closing.fitting import extreme
 from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, ends_of
-from linkanim.mechanics.closing.walk import AT_ITS_LIMIT
+from linkanim.mechanics.closing.walk import AT_ITS_LIMIT, Assembly
 from linkanim.mechanics.drive.input_path import InputPath
-from linkanim.mechanics.formulas.arrays import Array, Bools
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
-from linkanim.mechanics.formulas.program import batch
+from linkanim.mechanics.formulas.program import Array, Bools, batch
 
 SAMPLES_A_GEARED_TURN = 96
 """Of the crank that turns most while the input turns once."""

@@ -1,28 +1,70 @@
-"""One walk over a linkage: what is known of its joints so far, and the roots that close the next one.
+"""A linkage put together, as data, and one walk over it: what is known of its joints so far.
 
 Joints come in their order, each closed from those before it. What turns as one piece is kept beside its
 frame: a bar, the arms along which its joints are carried, and how fast it turns.
+
+Seen from a line of travel, fixed or carried by a body, a point lies f forward of the line's base and e to its
+left. Where the line turns at Ω with its body, u along it and w from its base to the point,
+
+    f = u·w      f' = Ω (u×w) + u·w'
+    e = u×w      e' = -Ω (u·w) + u×w'
+
+and what travels at s along the line has the guide's motion, s' along it, and Coriolis' 2Ω s' across it
+(Uicker, Pennock and Shigley, Theory of Machines and Mechanisms, on points moving in moving frames).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.closing.assembly import Assembly
-from linkanim.mechanics.closing.chain import Closing
+from linkanim.mechanics.closing.chain import ChainRoot, Closing
+from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.formulas.circular import Half
 from linkanim.mechanics.formulas.constant import Constant
 from linkanim.mechanics.formulas.expression import Expr, Value, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec, carried
-from linkanim.mechanics.linkage.joint import Point
+from linkanim.mechanics.formulas.precise import direction
+from linkanim.mechanics.linkage.joint import Line, Point
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Pin
 from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.loops.input_state import InputState
-from linkanim.mechanics.loops.loop import Gearing, Loop, place
+from linkanim.mechanics.loops.loop import Gearing, Loop, gearings, place
 from linkanim.mechanics.loops.signed import SignedRoot, plain_root
 from linkanim.mechanics.loops.triangle import PinLoop, moving_factors, moving_square
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A linkage's loops, the path of its input and the sign of every closure.
+
+    `linkage` has its lengths scaled by a power of two where products of four of them could leave
+    the range of a float; `unscale` brings results back.
+    """
+
+    linkage: Linkage
+    loops: Mapping[str, Loop]
+    path: InputPath
+    signs: Mapping[str, int]
+    unscale: float = 1.0
+    chain: Mapping[str, ChainRoot] = field(default_factory=dict)
+    """The roots of dyads on moving points that vanish on the way."""
+
+    @property
+    def change_points(self) -> Iterator[float]:
+        """The input's places at which a root changes its sign, of loops and of dyads down the chain."""
+        roots: tuple[Loop | ChainRoot, ...] = (*self.loops.values(), *self.chain.values())
+        for root in roots:
+            yield from root.change_points(self.path)
+
+    @cached_property
+    def gears(self) -> Mapping[str, Gearing]:
+        """How each crank turns with the input."""
+        return gearings(self.linkage)
+
 
 AT_ITS_LIMIT = (
     "it is at its limit at every angle of the input, where rounding alone would move it; "
@@ -163,3 +205,54 @@ class Walk:
         if n is None:
             raise AssemblyError(f"{owner}: {' and '.join(names)} are not joints of one rigid body")
         return n
+
+
+@dataclass(frozen=True, slots=True)
+class Guide:
+    """A line of travel at one instant: its base point, its direction, and how it turns."""
+
+    base: MovingPoint
+    along: Vec
+    turning: Slope
+    offset: float
+
+    def forward(self, point: MovingPoint) -> Moving:
+        """Return how far a point lies forward of the base, with its rates as seen from the line."""
+        return self._seen(point)[0]
+
+    def aside(self, point: MovingPoint) -> Moving:
+        """Return how far a point lies to the left of the line, with its rates as seen from the line."""
+        left = self._seen(point)[1]
+        return Moving(left.value - self.offset, left.rate, left.second)
+
+    def _seen(self, point: MovingPoint) -> tuple[Moving, Moving]:
+        """Return how far a point lies forward of the base, and to its left."""
+        u, omega, alpha = self.along, self.turning.value, self.turning.rate
+        w, w1, w2 = (
+            point.position - self.base.position,
+            point.velocity - self.base.velocity,
+            point.acceleration - self.base.acceleration,
+        )
+        f, e = u.dot(w), u.cross(w)
+        f1, e1 = u.dot(w1) + e * omega, u.cross(w1) - f * omega
+        f2 = u.dot(w2) + (u.cross(w1) + e1) * omega + e * alpha
+        e2 = u.cross(w2) - (u.dot(w1) + f1) * omega - f * alpha
+        return Moving(f, f1, f2), Moving(e, e1, e2)
+
+    def place(self, travel: Moving) -> MovingPoint:
+        """Return the point that has travelled so far along the line from its base."""
+        u, n = self.along, self.along.left()
+        guided = self.base + carried(u.scaled(travel.value) + n.scaled(self.offset), self.turning)
+        across = self.turning.value * travel.rate * 2.0
+        return guided + MovingPoint(
+            Vec(0.0, 0.0), u.scaled(travel.rate), u.scaled(travel.second) + n.scaled(across)
+        )
+
+
+def guide(line: Line, walk: Walk) -> Guide:
+    """Return where a line of travel lies at the walk's instant, and how it moves."""
+    along = Vec(*direction(line.angle))
+    if line.on is None:
+        return Guide(walk.points[line.through], along, Slope(0.0), line.offset)
+    axis, turning = walk.axis(line.on)
+    return Guide(walk.points[line.through], axis.times(along), turning, line.offset)

@@ -20,14 +20,19 @@ import numpy as np
 
 from linkanim.digits import degrees
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.drive.input_path import LimitDistances, half_squares, limit_distances, nearer_way
+from linkanim.mechanics.drive.input_path import (
+    LimitDistances,
+    Stroke,
+    half_squares,
+    limit_distances,
+    nearer_way,
+)
 from linkanim.mechanics.drive.ranges import Arc
-from linkanim.mechanics.drive.stroke import Stroke
-from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.circular import Half, direction, half_of, sharp_half_angle
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, exact_angle
 from linkanim.mechanics.formulas.expression import Graph, Value, arctan2, sqrt
 from linkanim.mechanics.formulas.planar import Slope, Vec
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.drive import Cylinder
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.input_state import HalfForm, InputState, turn

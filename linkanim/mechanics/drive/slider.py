@@ -15,13 +15,12 @@ from typing import ClassVar, NoReturn
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.drive.input_path import SAME_PLACE, LimitDistances, nearer_way
+from linkanim.mechanics.drive.input_path import SAME_PLACE, LimitDistances, Stroke, nearer_way
 from linkanim.mechanics.drive.ranges import Arc
-from linkanim.mechanics.drive.stroke import Stroke
-from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Moving, Slope
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.input_state import InputState, TravelState
 

@@ -18,11 +18,11 @@ from linkanim.mechanics.drive.input_path import (
     limit_distances,
     nearer_way,
 )
-from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.precise import context, cosine, exactly, nearest_sum, sine
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.loops.input_state import InputState, swing_by_angle, swing_by_phase, swing_per_input
 from linkanim.mechanics.loops.signed import Swinging
 

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.mechanics.drive.input_path import InputPath, Limit, LimitDistances, Shortened
-from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.exact import Sum, exact_angle
 from linkanim.mechanics.formulas.expression import Value
 from linkanim.mechanics.formulas.planar import Slope
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.loops.input_state import InputState, turn
 
 

@@ -20,9 +20,9 @@ from linkanim.mechanics.facts.naming import (
     link_names,
     turning_links,
 )
-from linkanim.mechanics.facts.symbols import driven_body, input_symbol
+from linkanim.mechanics.facts.register import driven_body, input_symbol
 from linkanim.mechanics.facts.transmission import Transmission, transmission
-from linkanim.mechanics.formulas.arrays import Array
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.motion.measures import output_slider
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.mechanics.motion.motion import Motion

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.mechanics.closing.search import SAMPLES_A_TURN, highest
-from linkanim.mechanics.formulas.arrays import Array
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
 from linkanim.mechanics.motion.measures import as_complex, between, growth, over, size
 

@@ -16,7 +16,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
-from linkanim.mechanics.facts.symbols import indexed
+from linkanim.mechanics.facts.register import indexed
 from linkanim.mechanics.formulas.exact import unit
 from linkanim.mechanics.linkage.joint import Slide
 from linkanim.mechanics.linkage.linkage import Linkage

@@ -18,10 +18,9 @@ import numpy as np
 
 from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, changes_by_row, highest, own_rows
-from linkanim.mechanics.formulas.arrays import Array
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
-from linkanim.mechanics.formulas.program import Batch, batch
+from linkanim.mechanics.formulas.program import Array, Batch, batch
 from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.mechanics.motion.mechanism import Mechanism
 

@@ -17,12 +17,18 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkanim.mechanics.formulas.arrays import Floats
 from linkanim.mechanics.formulas.buffers import allocated
 from linkanim.mechanics.formulas.constant import digits_of
 from linkanim.mechanics.formulas.expression import WHOLE, Expr, Value
 from linkanim.mechanics.formulas.precise import cosine, sine, square_root
+
+Array = NDArray[np.float64]
+Floats = NDArray[np.floating[Any]]
+"""Results in double precision, or in any other."""
+Bools = NDArray[np.bool_]
+
 
 BLOCK = 16384
 CACHE_LINE = 64

@@ -3,20 +3,184 @@
 With D from the first point P to the second Q, L = |D| and the signed root q the third corner lies at
 P + D·(p + i q)/(2L²), p = L² + a² - b². D turns at e = D × D'/L², and the bars' rates differ from e by
 shares of ρ = (L²)'/q.
+
+**Next to a kite**, where both pins of a dyad nearly meet, and so do its bars' lengths.
+Crank r, coupler a and rocker b on the ground g; ψ the crank's angle from the ground line. With T = g r sin ψ,
+d = r² - g r cos ψ, L² = g² + r² - 2 g r cos ψ, p = L² + a² - b² and the signed root q the rocker turns at
+
+    ω = (T p + q d)/(L² q) = r² F G/(q (T p - q d))         per unit of the crank's rate
+
+    F = (g - r + a)² - b² + 4 g (r - a) sin²(ψ/2)      G = (g - r - a)² - b² + 4 g (r + a) sin²(ψ/2)
+
+F and G vanish where crank and coupler lie in one line. Next to a kite L² is small and the first sum cancels
+over most of the turn; the second form has then a sum of two terms of one sign.
+
+ω' is ω (ln ω)'. Of T p - q d and of each other factor with sin²(ψ/2) in it the logarithm changes by about
+cot(ψ/2) times a simple fraction, as far as sin²(ψ/2) outweighs its constant, and these sum to zero: only what
+the constants make is formed. Where the constant of F or G outweighs, what the square makes is.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from linkanim.mechanics.formulas.circular import Half
 from linkanim.mechanics.formulas.constant import Constant
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Value, select, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec
-from linkanim.mechanics.loops.kite import Closure, Links, turning
 from linkanim.mechanics.loops.signed import Reduced, SignedRoot
+
+ALIKE = 1 / 4
+"""Share of the longest by which ground and crank, and the two bars, differ at most next to a kite."""
+
+CANCELLED = 16.0
+"""Square of the share of its terms' difference below which their sum counts as cancelled."""
+
+
+@dataclass(frozen=True, slots=True)
+class Links:
+    """Ground, crank, coupler and rocker, and what the ground is longer than the crank in small parts."""
+
+    ground: float
+    crank: float
+    coupler: float
+    rocker: float
+    short: tuple[float, ...]
+
+    @property
+    def kite(self) -> bool:
+        """Whether the pins nearly meet, and the bars are nearly as long as each other."""
+        longest = max(self.ground, self.crank)
+        return max(abs(math.fsum(self.short)), abs(self.coupler - self.rocker)) <= ALIKE * longest
+
+    def inverted(self) -> Links:
+        """Return the links as the crank sees them: it is the ground, which turns as far the other way."""
+        short = tuple(-part for part in self.short)
+        return Links(self.crank, self.ground, self.rocker, self.coupler, short)
+
+
+class Closure(NamedTuple):
+    """ψ/2, q and what it changes by beside cot(ψ/2); lengths squared are over `unit`, 4 g r."""
+
+    half: Half
+    q: Value
+    slack: Value
+    unit: float
+
+
+class _Grown(NamedTuple):
+    """least + share × sin²(ψ/2), a factor of ω."""
+
+    least: float
+    share: float
+    value: Value
+
+
+class _Terms(NamedTuple):
+    """T, p, d and L² with their constants, and cot(ψ/2)."""
+
+    t: Value
+    p: _Grown
+    d: _Grown
+    long: _Grown
+    cot: Value
+
+
+def turning(links: Links, closing: Closure) -> tuple[Value, Value]:
+    """Return ω of the rocker and its derivative by the crank's angle."""
+    terms = _terms(links, closing)
+    first, second = terms.t * terms.p.value, closing.q * terms.d.value
+    total, other = first + second, first - second
+    # A sum that keeps a fair share of its terms does without the other's differences.
+    cancelled = total * total * CANCELLED
+    summed, product = _as_sum(links, terms, closing), _as_product(links, terms, closing)
+    omega, bend = (select(cancelled, other * other, b, a) for a, b in zip(summed, product, strict=True))
+    return omega, bend
+
+
+def _terms(links: Links, closing: Closure) -> _Terms:
+    half, unit, short = closing.half, closing.unit, math.fsum(links.short)
+    square = half.sine * half.sine
+
+    def grown(least: float, share: float = 1.0) -> _Grown:
+        return _Grown(least, share, square * share + least)
+
+    excess = Fraction(short) ** 2 + Fraction(links.coupler) ** 2 - Fraction(links.rocker) ** 2
+    return _Terms(
+        half.sine * half.cosine * 0.5,
+        grown(float(excess) / unit),
+        grown(-links.crank * short / unit, 0.5),
+        grown(short * short / unit),
+        half.cosine / half.sine,
+    )
+
+
+def _left(terms: _Terms, closing: Closure, sign: float) -> Value:
+    """Return what T p ± q d changes by beside what its squares and constants make."""
+    own = closing.half.sine * closing.half.sine * terms.p.value * 0.25
+    return own + closing.q * terms.d.value * closing.slack * (0.5 * sign)
+
+
+def _of_constants(links: Links, terms: _Terms, closing: Closure, sign: float) -> Value:
+    """Return what the constants of p and d make of T p ± q d: over the other sign's, where it cancels."""
+    x, (constant, linear, square) = closing.half.sine * closing.half.sine, _difference_of_squares(links)
+    first, second = terms.t * terms.p.least, closing.q * (terms.d.least * sign)
+    product = ((x * square + linear) * x + constant) / (first - second)
+    return select(first * second, 0.0, product, first + second)
+
+
+def _difference_of_squares(links: Links) -> tuple[float, float, float]:
+    """Return the coefficients of (T p)² - (q d)² in sin²(ψ/2), p and d without that square in them."""
+    r, a, b = Fraction(links.crank), Fraction(links.coupler), Fraction(links.rocker)
+    short = sum(map(Fraction, links.short), Fraction(0))
+    unit = 4 * (r + short) * r
+    p, d = ((short**2 + a**2 - b**2) / unit / 2) ** 2, (r * short / unit) ** 2
+    u, w = ((a + b) ** 2 - short**2) / unit, (short**2 - (a - b) ** 2) / unit
+    return float(-u * w * d), float(p - (u - w) * d), float(d - p)
+
+
+def _as_sum(links: Links, terms: _Terms, closing: Closure) -> tuple[Value, Value]:
+    (t, p, d, long, cot), q = terms, closing.q
+    total, both = t * p.value + q * d.value, closing.half.sine * closing.half.cosine
+    omega = total / (long.value * q)
+    constants = cot * (omega * long.least - _of_constants(links, terms, closing, 1.0) / q) / long.value
+    squares = both * ((t + q * 0.5) / q - omega) / long.value
+    square = closing.half.sine * closing.half.sine
+    part = select(square, long.least, squares, constants)
+    rest = _left(terms, closing, 1.0) / (long.value * q)
+    return omega, part + omega * closing.slack * 0.5 - rest
+
+
+def _as_product(links: Links, terms: _Terms, closing: Closure) -> tuple[Value, Value]:
+    (t, p, d, _, cot), q, half = terms, closing.q, closing.half
+    one, two = _collinear(links, closing)
+    total, both = t * p.value - q * d.value, half.sine * half.cosine
+    share = (links.crank / (4.0 * links.ground)) / (q * total)
+    omega = one.value * two.value * share
+    left = omega * _of_constants(links, terms, closing, -1.0) / total
+    constants = cot * (left - two.value * share * one.least)
+    squares = both * (two.value * share * one.share - omega * (t - q * 0.5) / total)
+    mark = abs(one.least / one.share) if one.share else math.inf
+    part = select(half.sine * half.sine, mark, squares, constants)
+    rest = _left(terms, closing, -1.0) / total
+    return omega, part - cot * one.value * share * two.least + omega * (closing.slack * 0.5 + rest)
+
+
+def _collinear(links: Links, closing: Closure) -> tuple[_Grown, _Grown]:
+    """Return F and G, the one with the greater constant first."""
+    r, a, b, short = links.crank, links.coupler, links.rocker, links.short
+    square = closing.half.sine * closing.half.sine
+    factors = []
+    for way in (a, -a):
+        least = math.fsum((*short, way, -b)) * math.fsum((*short, way, b)) / closing.unit
+        share = (r - way) / r
+        factors.append(_Grown(least, share, square * share + least))
+    one, two = sorted(factors, key=lambda factor: -abs(factor.least))
+    return one, two
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,10 +19,14 @@ from linkanim.mechanics.linkage.drive import ANGLE, TRAVEL, Coordinate
 from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.pins import Crank
 from linkanim.mechanics.linkage.rigid_bodies import holding
-from linkanim.mechanics.motion.columns import components
 
 _STRAIGHT = 1e-12
 """Below this share a cross product of velocity and acceleration, or of the input's rate, is rounding."""
+
+
+def components(vector: Any) -> tuple[Any, Any]:
+    """Return x and y of a pair of floats, or of an array (..., 2)."""
+    return vector if isinstance(vector, tuple) else (vector[..., 0], vector[..., 1])
 
 
 def as_complex(vector: Any) -> Any:

@@ -11,19 +11,25 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkanim.mechanics.closing.assemble import assemble
-from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.kinematics import Kinematics, walked
 from linkanim.mechanics.closing.limits import restricted
-from linkanim.mechanics.formulas.arrays import Array
+from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope
-from linkanim.mechanics.formulas.program import Batch, batch, scalar
+from linkanim.mechanics.formulas.program import Array, Batch, batch, scalar
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.input_state import InputState
-from linkanim.mechanics.motion.columns import ResultLayout, layout
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, NUMBERS, VECTORS
 from linkanim.mechanics.motion.motion import Motion, Pose, Setting
-from linkanim.mechanics.motion.request import COORDINATE, Programs, Request, Variant, shaped
+from linkanim.mechanics.motion.request import (
+    COORDINATE,
+    Programs,
+    Request,
+    ResultLayout,
+    Variant,
+    layout,
+    shaped,
+)
 
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
 

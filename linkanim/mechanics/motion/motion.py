@@ -17,12 +17,11 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.mechanics.formulas.arrays import Array
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.loops.loop import Gearing
-from linkanim.mechanics.motion.columns import Lazy, read_only, scaled
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, between, cross, direction, growth, over, size
-from linkanim.mechanics.motion.request import ORDER, Request
+from linkanim.mechanics.motion.request import ORDER, Lazy, Request, read_only, scaled
 
 Pair = tuple[float, float]
 

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.mechanics.facts.symbols import input_symbol
+from linkanim.mechanics.facts.register import input_symbol
 from linkanim.picture.diagrams.axis import Axis, linear
 from linkanim.picture.diagrams.quantities import Series
 from linkanim.picture.parts.driven import driven_words

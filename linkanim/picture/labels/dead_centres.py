@@ -11,7 +11,7 @@ from math import degrees
 import numpy as np
 
 from linkanim.digits import short, stepped, typeset
-from linkanim.mechanics.facts.symbols import input_symbol
+from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.measures import output_slider
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo

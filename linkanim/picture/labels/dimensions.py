@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.digits import short, typeset
-from linkanim.mechanics.facts.symbols import driven_body
+from linkanim.mechanics.facts.register import driven_body
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.linkage.rigid_bodies import Brace, Rigid, holding
 from linkanim.picture.figure import Figure

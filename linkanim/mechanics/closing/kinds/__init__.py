@@ -6,9 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.kinds import placed, rpp, rpr, rrp, rrr
-from linkanim.mechanics.closing.walk import Walk
+from linkanim.mechanics.closing.walk import Assembly, Walk
 from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Linkage

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from linkanim.mechanics.closing.guide import guide
-from linkanim.mechanics.closing.walk import Walk
+from linkanim.mechanics.closing.walk import Walk, guide
 from linkanim.mechanics.formulas.circular import half_angle
 from linkanim.mechanics.formulas.planar import MovingPoint, Vec, carried
 from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Pin

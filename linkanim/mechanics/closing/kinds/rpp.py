@@ -6,9 +6,7 @@ the line's, the slot crosses the line at s = f - e cot σ: linear, so the bar ne
 
 from __future__ import annotations
 
-from linkanim.mechanics.closing.assembly import Assembly
-from linkanim.mechanics.closing.guide import guide
-from linkanim.mechanics.closing.walk import Walk
+from linkanim.mechanics.closing.walk import Assembly, Walk, guide
 from linkanim.mechanics.formulas.exact import unit
 from linkanim.mechanics.formulas.planar import Moving
 from linkanim.mechanics.formulas.precise import direction

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from linkanim.mechanics.closing.assembly import Assembly
-from linkanim.mechanics.closing.walk import Walk
+from linkanim.mechanics.closing.walk import Assembly, Walk
 from linkanim.mechanics.formulas.expression import Value
 from linkanim.mechanics.formulas.planar import Slope, Vec, carried
 from linkanim.mechanics.linkage.dyads import RPR

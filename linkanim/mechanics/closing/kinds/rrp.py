@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from linkanim.mechanics.closing.assembly import Assembly
 from linkanim.mechanics.closing.chain import Closing
-from linkanim.mechanics.closing.guide import guide
-from linkanim.mechanics.closing.walk import Walk
+from linkanim.mechanics.closing.walk import Assembly, Walk, guide
 from linkanim.mechanics.formulas.exact import Sum, exact_angle, quarter_turns, snapped
 from linkanim.mechanics.formulas.planar import Moving
 from linkanim.mechanics.linkage.dyads import RRP
