@@ -146,7 +146,11 @@ def test_a_tape_is_recorded_under_its_own_name(
 # options that a tape has its own answer to, and files that are no tape
 @pytest.mark.parametrize(
     "words",
-    [["--speed", "3 rpm"], ["--no-trace"], ["--instant-centres"], ["--theme", "dark"], ["--periods", "2"]],
+    [
+        *(["--speed", "3 rpm"], ["--theme", "dark"], ["--periods", "2"], ["--vectors", "v"], ["--noted"]),
+        *([word] for word in ("--no-trace", "--no-hud", "--instant-centres", "--centrodes", "--transparent")),
+    ],
+    ids=" ".join,
 )
 def test_a_tape_keeps_its_own(words: list[str], tape: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["record", str(tape), *words]) == 2

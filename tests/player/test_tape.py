@@ -15,7 +15,7 @@ from linkanim.errors import BadInput
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import Reel, Tape, starting, taped
+from linkanim.player.tape.tape import Tape, starting, taped
 from linkanim.player.tape.tape_file import from_document, read, to_document, write
 from linkanim.scenes import load
 
@@ -269,10 +269,10 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path, name: str, messag
 
 def test_a_tape_that_plays_over_and_over_starts_anew_at_its_end_only() -> None:
     start = starting(begin("press"))
-    reel = Reel(Tape(start, 3, ((1, Action("trace")),)))
+    tape = Tape(start, 3, ((1, Action("trace")),))
     state, seen = start, []
     for _ in range(8):
         seen.append((state.frame, state.look.trace))
-        state = reel.rewound(advance(state, reel.actions(state.frame)))
+        state = tape.rewound(advance(state, tape.at(state.frame)))
     first, second = start.look.trace, not start.look.trace
     assert seen == 2 * [(0, first), (1, first), (2, second)] + [(0, first), (1, first)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
@@ -32,12 +33,27 @@ class Tape:
         """How long it ran."""
         return self.frames / FRAMES_PER_SECOND
 
+    @cached_property
+    def _by_frame(self) -> dict[int, list[Action]]:
+        by_frame: dict[int, list[Action]] = {}
+        for frame, action in self.actions:
+            by_frame.setdefault(frame, []).append(action)
+        return by_frame
+
+    def at(self, frame: int) -> tuple[Action, ...]:
+        """Return what is done at a frame."""
+        return tuple(self._by_frame.get(frame, ()))
+
+    def rewound(self, state: State) -> State:
+        """Return the state to go on from where it plays over and over: after the end the start."""
+        return self.start if state.frame >= self.frames else state
+
     def states(self) -> Iterator[State]:
         """Iterate the states of frames 0 … `frames`, as the window went through them."""
-        by_frame, state = _by_frame(self), self.start
+        state = self.start
         yield state
         for frame in range(1, self.frames + 1):
-            state = advance(state, by_frame.get(frame, ()))
+            state = advance(state, self.at(frame))
             yield state
 
     def pictures(self, fps: float) -> Iterator[tuple[State, float]]:
@@ -84,26 +100,3 @@ class Taping:
     def tape(self, frame: int) -> Tape:
         """Return the tape up to a frame of the window."""
         return Tape(self._start, frame - self.since, tuple(self._actions), self._size)
-
-
-class Reel:
-    """A tape that plays over and over."""
-
-    def __init__(self, tape: Tape) -> None:
-        self._tape = tape
-        self._by_frame = _by_frame(tape)
-
-    def rewound(self, state: State) -> State:
-        """Return the state to go on from: after the tape's end it is the start."""
-        return self._tape.start if state.frame >= self._tape.frames else state
-
-    def actions(self, frame: int) -> tuple[Action, ...]:
-        """Return what the tape does at a frame."""
-        return tuple(self._by_frame.get(frame, ()))
-
-
-def _by_frame(tape: Tape) -> dict[int, list[Action]]:
-    by_frame: dict[int, list[Action]] = {}
-    for frame, action in tape.actions:
-        by_frame.setdefault(frame, []).append(action)
-    return by_frame

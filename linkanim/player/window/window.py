@@ -21,7 +21,7 @@ from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import recovered, report
 from linkanim.player.state.handlers.shelf import renewed
 from linkanim.player.state.state import State, Take
-from linkanim.player.tape.tape import Reel, Tape, Taping
+from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.window import display, files
 from linkanim.player.window.easel import Easel
 from linkanim.player.window.files import SceneFile
@@ -46,7 +46,7 @@ class Window:
     def __init__(self, state: State, tape: Tape | None = None, file: SceneFile | None = None) -> None:
         self.state = state
         self._file = file
-        self._reel = Reel(tape) if tape else None
+        self._tape = tape
         self._taping: Taping | None = None
         self._renderings: Queue | None = None
         self.easel = Easel(state)
@@ -93,10 +93,10 @@ class Window:
 
     def _requested(self, events: list[Event]) -> Iterator[Action]:
         """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
-        yield from self._reeled()
+        yield from self._of_the_tape()
         for event in latest(events):
             for action in self._meant(event):
-                yield from self._off_the_reel(action)
+                yield from self._off_the_tape(action)
                 yield from self._resolved(action)
         for action in self._keyboard.repeated(self.state.frame):
             yield from self._resolved(action)
@@ -117,18 +117,18 @@ class Window:
 
     def _rewound(self) -> State:
         """Return the state to go on from: a tape that has ended goes on from its start."""
-        return self._reel.rewound(self.state) if self._reel else self.state
+        return self._tape.rewound(self.state) if self._tape else self.state
 
-    def _reeled(self) -> Iterator[Action]:
+    def _of_the_tape(self) -> Iterator[Action]:
         """Yield what the tape does at this frame; what it would do outside is left out."""
-        if self._reel:
-            yield from self._reel.actions(self.state.frame)
+        if self._tape:
+            yield from self._tape.at(self.state.frame)
             self.state = replace(self.state, effects=())
 
-    def _off_the_reel(self, action: Action) -> Iterator[Action]:
+    def _off_the_tape(self, action: Action) -> Iterator[Action]:
         """Leave the tape where an action changes something."""
-        if self._reel and action.name not in _BESIDE_A_TAPE:
-            self._reel = None
+        if self._tape and action.name not in _BESIDE_A_TAPE:
+            self._tape = None
             yield Action("note", "the tape is left: the keys are yours")
 
     def _show(self) -> None:
