@@ -12,7 +12,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import FrozenInstanceError, dataclass, field
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -80,18 +80,32 @@ class Setting:
         return next(body for body in self.linkage.bodies if body.name == name)
 
 
-class Derived(ABC):
-    """What a motion and a pose tell besides what is solved; vectors are (x, y) or (..., 2)."""
+Vector = TypeVar("Vector")
+Number = TypeVar("Number")
+
+
+class Derived(ABC, Generic[Vector, Number]):
+    """What is solved, for a motion and a pose alike, and what follows from it; vectors are x and y.
+
+    `coordinate` is the input's: its angle, or a driving slider's travel.
+    """
 
     setting: Setting
-    position: Mapping[str, Any]
-    velocity: Mapping[str, Any]
-    angular_velocity: Mapping[str, Any]
-    angular_acceleration: Mapping[str, Any]
-    travel_velocity: Mapping[str, Any]
-    travel_acceleration: Mapping[str, Any]
-    phase: Any
-    coordinate: Any
+    position: Mapping[str, Vector]
+    velocity: Mapping[str, Vector]
+    acceleration: Mapping[str, Vector]
+    com_position: Mapping[str, Vector]
+    com_velocity: Mapping[str, Vector]
+    com_acceleration: Mapping[str, Vector]
+    angular_velocity: Mapping[str, Number]
+    angular_acceleration: Mapping[str, Number]
+    travel: Mapping[str, Number]
+    travel_velocity: Mapping[str, Number]
+    travel_acceleration: Mapping[str, Number]
+    phase: Number
+    input_speed: Any
+    input_acceleration: Any
+    coordinate: Number
     coordinate_rate: Any
     coordinate_second: Any
 
@@ -116,7 +130,7 @@ class Derived(ABC):
         body = self.setting.body(name)
         crank = self.setting.crank_of(body)
         if crank is not None:
-            return _crank_angle(self.coordinate, *crank) + 0.0 * self.phase  # where there is no phase, NaN
+            return _crank_angle(self.coordinate, self.phase, *crank)
         return self._continuous((body.joints[0], body.joints[1]))
 
     @abstractmethod
@@ -143,7 +157,7 @@ class Derived(ABC):
 
     @property
     @abstractmethod
-    def per_input(self) -> Derived:
+    def per_input(self) -> Derived[Vector, Number]:
         """The same instants, with rates by the input's angle, or travel, instead of those in time."""
 
     @cached_property
@@ -198,7 +212,7 @@ class Paced:
         return {name: scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
 
 
-class Motion(Derived):
+class Motion(Derived[Array, Array]):
     """The motion at many instants: vectors are arrays (..., 2), numbers (...).
 
     Rows outside the input's range are NaN, their phase too. Rates that are truly unbounded (at a
@@ -213,21 +227,6 @@ class Motion(Derived):
         )
 
     request: Request | Paced
-    input_speed: Any
-    input_acceleration: Any
-    phase: Array
-    coordinate: Array
-    position: Mapping[str, Array]
-    velocity: Mapping[str, Array]
-    acceleration: Mapping[str, Array]
-    com_position: Mapping[str, Array]
-    com_velocity: Mapping[str, Array]
-    com_acceleration: Mapping[str, Array]
-    angular_velocity: Mapping[str, Array]
-    angular_acceleration: Mapping[str, Array]
-    travel: Mapping[str, Array]
-    travel_velocity: Mapping[str, Array]
-    travel_acceleration: Mapping[str, Array]
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as its request, which is worked out anew."""
@@ -291,12 +290,13 @@ def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:
     return np.where(last < 0, 0.0, np.take_along_axis(whole, np.maximum(last, 0), axis=0))
 
 
-def _crank_angle(input_angle: Any, gearing: Gearing, from_pin: bool) -> Any:
+def _crank_angle(input_angle: Any, phase: Any, gearing: Gearing, from_pin: bool) -> Any:
+    """Return a crank's angle; NaN where there is no phase."""
     angle = input_angle * float(gearing.ratio) + float(gearing.offset)
-    return angle + math.pi if from_pin else angle
+    return (angle + math.pi if from_pin else angle) + 0.0 * phase
 
 
-class Pose(Derived):
+class Pose(Derived[Pair, float]):
     """The motion at one instant, as plain floats and (x, y) tuples; the attributes are Motion's."""
 
     def __init__(self, found: dict[str, Any]) -> None:
@@ -307,23 +307,11 @@ class Pose(Derived):
         kinds = (*ORDER, "setting", "input_speed", "input_acceleration")
         return Pose, ({kind: vars(self)[kind] for kind in kinds if kind in vars(self)},)
 
-    position: Mapping[str, Pair] = NOTHING
-    velocity: Mapping[str, Pair] = NOTHING
-    acceleration: Mapping[str, Pair] = NOTHING
-    com_position: Mapping[str, Pair] = NOTHING
-    com_velocity: Mapping[str, Pair] = NOTHING
-    com_acceleration: Mapping[str, Pair] = NOTHING
-    angular_velocity: Mapping[str, float] = NOTHING
-    angular_acceleration: Mapping[str, float] = NOTHING
-    travel: Mapping[str, float] = NOTHING
-    travel_velocity: Mapping[str, float] = NOTHING
-    travel_acceleration: Mapping[str, float] = NOTHING
-    phase: float
-    input_speed: float
-    input_acceleration: float
-    coordinate: float
-    coordinate_rate: float
-    coordinate_second: float
+    def __getattr__(self, name: str) -> Any:
+        """Return nothing of a kind that was not solved."""
+        if name not in DERIVATIVE_OF:
+            raise AttributeError(f"a pose has no {name!r}")
+        return NOTHING
 
     @cached_property
     def per_input(self) -> Pose:
