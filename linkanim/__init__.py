@@ -13,6 +13,17 @@ asked for: `import linkanim` alone brings in neither a window nor an encoder.
     closing/   how each kind of joint closes, a walk over all of them, limits down the chain
     motion/    a linkage made ready, and what solving it gives: arrays, or one pose of floats
     facts/     what a linkage is called and can do: class, transmission angle, forces, all quantities
+
+`picture`, likewise; what stands between `text` and `parts` (`figure`, `items`, `layout`, `look`, `placing`,
+`theme`, `view`) is its floor, and `picture.py` with its printers stands on all of them:
+
+    raster/       outlines, and filling them exactly
+    text/         fonts, and lines of text
+    parts/        what is drawn of a linkage: bodies, springs, wheels, the ground, traces, arrows
+    diagrams/     charts, polygons, instant centres
+    panels/       the words about a scene, and what lies over the picture: lists, help, marks
+    labels/       names, dimensions and dead centres on the scene
+    arrangement/  what stands where in a window
 """
 
 import os

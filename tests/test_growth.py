@@ -7,15 +7,12 @@ from collections.abc import Callable
 from functools import partial
 from types import FrameType
 
-import numpy as np
 import pytest
 from generated import SHAPES, geared, series
 
 from linkanim.errors import AssemblyError
-from linkanim.picture.labels.placing import MOMENTS, Clutter, Obstacles, Wish, place
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
-from linkanim.picture.view import Rect
+from linkanim.picture.picture import Picture
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
@@ -33,8 +30,8 @@ def facts(text: str) -> object:
     return scene_of(text).info.lines
 
 
-def named(scene: Scene) -> Painter:
-    return Painter(scene, (1280, 720), Look(names=2), brief=True)
+def named(scene: Scene) -> Picture:
+    return Picture(scene, (1280, 720), Look(names=2))
 
 
 def calls(work: Callable[[], object]) -> int:
@@ -64,17 +61,6 @@ def test_what_is_said_of_a_linkage_takes_as_many_more_calls_as_it_has_more_joint
 def test_placing_names_takes_as_many_more_calls_as_there_are_more_joints() -> None:
     few, many = (calls(partial(named, scene_of(series(dyads)))) for dyads in (FEW // 2, MANY // 2))
     assert many <= LINEAR * few
-
-
-def test_a_name_without_room_is_given_up_for_a_tenth_of_the_calls_of_one_that_is_placed() -> None:
-    none, still = np.zeros((MOMENTS, 0), np.complex128), np.full((MOMENTS, 1), 100 + 100j)
-    bars = Obstacles(none, none, np.zeros(0), np.zeros(0))
-    clutter = Clutter(none, np.zeros(0), (), Rect(0, 0, 1000, 1000), bars)
-    frame = np.zeros(MOMENTS, np.complex128), np.ones(MOMENTS, np.complex128)
-    wish = Wish((40.0, 20.0), still, np.zeros(1), frame)
-    alone, crowd = (calls(partial(place, [wish] * count, clutter)) for count in (1, 11))
-    assert [path.shown.any() for path in place([wish] * 3, clutter)] == [True, False, False]
-    assert crowd - alone < alone
 
 
 def test_gears_that_bring_everything_back_too_late_are_refused_by_name() -> None:

@@ -123,6 +123,25 @@ INNER_ROOMS = {
 }
 
 
+PICTURE = ("raster", "text", "floor", "parts", "diagrams", "panels", "labels", "arrangement", "picture")
+FLOOR = {"figure", "items", "layout", "look", "placing", "theme", "view"}
+
+
+def test_the_picture_s_rooms_import_downwards() -> None:
+    def floor(name: str) -> int:
+        return PICTURE.index(name if name in PICTURE else "floor" if name in FLOOR else "picture")
+
+    above = []
+    for path in (path for path in SOURCES if room_of(path) == "picture"):
+        own = path.relative_to(PACKAGE).parts[1].removesuffix(".py")
+        inner = {name.split(".")[2] for name in imported(path) if name.startswith("linkanim.picture.")}
+        above += [(path, name) for name in inner if floor(name) > floor(own)]
+    assert above == []
+    folders = {path.name for path in (PACKAGE / "picture").iterdir() if (path / "__init__.py").is_file()}
+    lines = [line.split()[0].removesuffix("/") for line in str(linkanim.__doc__).splitlines() if line.strip()]
+    assert [word for word in lines if word in folders] == [room for room in PICTURE if room in folders]
+
+
 @pytest.mark.parametrize("room", INNER_ROOMS)
 def test_rooms_within_a_room_import_downwards(room: str) -> None:
     order, above = INNER_ROOMS[room], []
@@ -259,9 +278,9 @@ def test_the_first_frame_loads_nothing_that_it_does_not_need() -> None:
     )
     loaded = next(line for line in done.stdout.splitlines() if line.startswith("loaded:"))
     assert set(loaded.split()) & set(UNSEEN) == set()
-    assert "linkanim.picture.painter" in loaded
+    assert "linkanim.picture.surface" in loaded
     assert not any(
-        f"linkanim.picture.{name}" in loaded for name in ("names", "polygons", "centres", "dead_centres")
+        name in loaded for name in ("labels.names", "polygons", "diagrams.centres", "dead_centres")
     )
     assert not any(
         name in loaded for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "rendering")

@@ -23,8 +23,8 @@ from linkanim.export import csv_head, csv_rows, json_text
 from linkanim.mechanics.facts.register import Quantity, register
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.chart import pen_for
+from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.diagrams.quantities import quantities, series_of, telling
-from linkanim.picture.diagrams.strip import Strip, strip
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.layout import layout
 from linkanim.picture.panels.readings import rows
@@ -86,11 +86,11 @@ def _tokens(name: str) -> list[str]:
     return [*telling(scene), *own]
 
 
-def _strips(name: str) -> tuple[Figure, dict[str, Strip]]:
+def _strips(name: str) -> tuple[Figure, dict[str, ChartPanel]]:
     shown = figure(load(name))
     window = layout((1280, 720), chart=True)
     pen = pen_for(window, Type(), LIGHT)
-    return shown, {token: strip(shown, token, window, pen) for token in _tokens(name)}
+    return shown, {token: chart_panel(shown, token, window, pen) for token in _tokens(name)}
 
 
 @pytest.mark.parametrize("name", names())

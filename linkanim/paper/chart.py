@@ -26,14 +26,16 @@ from linkanim.picture.diagrams.chart import (
     right_axis,
     x_title,
 )
-from linkanim.picture.items import Caption, Item, draw
+from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
 from linkanim.picture.parts.driven import driven_words
+from linkanim.picture.placing import Clutter, LabelPlaces, place
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import box as rounded_box
 from linkanim.picture.raster.shapes import disc, segments
+from linkanim.picture.surface import printed
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
@@ -41,7 +43,7 @@ from linkanim.picture.view import Rect
 _TOGETHER = 2
 """So many units share one plot, with an axis at either side; of more each has a strip of its own."""
 _ROOM = 0.13
-"""Of a curve's span, above and below it, where its extremes are told."""
+"""Of a curve's span, above and below it, where its extremes are written."""
 _BELOW = 0.8
 """Below each plot, in heights of tick labels."""
 _LINE = 1.5
@@ -76,8 +78,12 @@ class Page:
         """Return the chart drawn."""
         surface = offscreen(self.size)
         surface.fill(self.background)
-        draw(surface, self.items(), self.pen.type)
+        printed(surface, self.groups(), self.pen.type)
         return surface
+
+    def groups(self) -> tuple[Group, ...]:
+        """Return everything on the page, words over shapes."""
+        return (grouped("chart", self.items()),)
 
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""
@@ -180,16 +186,32 @@ class Page:
 
     def _peaks(self, plots: list[Plot], sides: list[list[Curve]]) -> Iterator[Item]:
         """Yield a dot at each extreme, and its value and angle where there is room to say them."""
-        taken: list[pygame.Rect] = []
+        pen, found = self.pen, list(self._extremes(plots, sides))
+        words = [_peak_words(plot, peak, self.curves, curve) for plot, curve, peak, _ in found]
+        asked = [
+            _about(plot, peak, pen.type.width(text, pen.small), pen, high=high)
+            for (plot, _, peak, high), text in zip(found, words, strict=True)
+        ]
+        placed = place(asked, Clutter(plots[0].area))
+        for (plot, curve, peak, _), text, label, spot in zip(found, words, asked, placed, strict=True):
+            yield from point_layers(plot, [(peak.x, peak.value)], self.colour(curve), _finer(pen))
+            if spot.shown[0]:
+                (wide, tall), middle = label.size, complex(label.places[0, spot.which])
+                yield Layer(pen.theme.background, [middle + rounded_box(wide + 4, tall, 3)], 0.7)
+                at = (middle.real - wide / 2, middle.imag - tall / 2)
+                yield Caption(text, at, pen.small, pen.theme.ink)
+
+    def _extremes(
+        self, plots: list[Plot], sides: list[list[Curve]]
+    ) -> Iterator[tuple[Plot, Curve, Peak, bool]]:
+        """Yield each curve's greatest and least value, and whether it is the greatest."""
         for plot, side in zip(plots, sides, strict=True):
             for curve in side:
                 for n, peak in enumerate(extremes(self.curves.scene, curve)):
-                    dot, words = [(peak.x, peak.value)], _said(plot, peak, self.curves, curve)
-                    yield from point_layers(plot, dot, self.colour(curve), _finer(self.pen))
-                    yield from _told(plot, peak, words, self.pen, taken, high=n == 0)
+                    yield plot, curve, peak, n == 0
 
 
-def _said(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
+def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
     scene = curves.scene
     unit = "°" if curve.quantity.shown_unit(scene.length_unit) == "°" else ""
     value = stepped(peak.value, (plot.y.high - plot.y.low) / 500)
@@ -197,24 +219,13 @@ def _said(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
     return f"{value}{unit} at {driven_words(scene, angle)}"
 
 
-def _told(
-    plot: Plot, peak: Peak, words: str, pen: Pen, taken: list[pygame.Rect], *, high: bool
-) -> Iterator[Item]:
-    """Yield an extreme in words by its dot, clear of the others; nothing where there is no room.
-
-    A `high` one has them above its dot where it can.
-    """
-    place = complex(plot.place(peak.x, peak.value))
-    wide, tall = pen.type.width(words, pen.small), round(1.15 * pen.small)
-    area = pygame.Rect(*(round(side) for side in plot.area))
-    rows = (place.imag - 1.6 * pen.small, place.imag + 0.5 * pen.small)
-    columns = (place.real - wide / 2, place.real + 0.6 * pen.small, place.real - wide - 0.6 * pen.small)
-    boxes = [pygame.Rect(round(x), round(y), wide, tall) for y in rows[:: 1 if high else -1] for x in columns]
-    box = next((box for box in boxes if area.contains(box) and box.collidelist(taken) < 0), None)
-    if box is not None:
-        taken.append(box)
-        yield Layer(pen.theme.background, [complex(*box.center) + rounded_box(wide + 4, tall, 3)], 0.7)
-        yield Caption(words, box.topleft, pen.small, pen.theme.ink)
+def _about(plot: Plot, peak: Peak, wide: float, pen: Pen, *, high: bool) -> LabelPlaces:
+    """Return places for an extreme in words by its dot; a `high` one has them above it where it can."""
+    place, tall = complex(plot.place(peak.x, peak.value)), 1.15 * pen.small
+    rows = (tall / 2 - 1.6 * pen.small, tall / 2 + 0.5 * pen.small)
+    columns = (0.0, wide / 2 + 0.6 * pen.small, -wide / 2 - 0.6 * pen.small)
+    places = [place + complex(x, y) for y in rows[:: 1 if high else -1] for x in columns]
+    return LabelPlaces((wide, tall), np.array([places]), np.arange(6.0))
 
 
 def _zero(plot: Plot, pen: Pen) -> Iterator[Layer]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from unicodedata import normalize
 
 from linkanim.errors import BadInput
-from linkanim.picture.items import Caption, Group, Item
+from linkanim.picture.items import Caption, Group, Item, clipped
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.text.fonts import REGULAR, SEMIBOLD, file_of
 from linkanim.picture.text.text import runs, typesetting
@@ -68,7 +68,7 @@ def _page(size: tuple[int, int], title: str) -> FPDF:
 def _flat(items: Iterable[Item | Group]) -> Iterator[Item]:
     for item in items:
         if isinstance(item, Group):
-            yield from item.layers
+            yield from clipped(item)
             yield from item.captions
         else:
             yield item

@@ -47,7 +47,7 @@ class Report:
         for title, token in charted(self.scene):
             found = curves_of(self.scene, ChartRequest((token,), paces_of(self.scene, token, self.paces)))
             drawn = Page(found, _CHART)
-            yield title, token, svg(_CHART, drawn.background, drawn.items(), title=drawn.about)
+            yield title, token, svg(_CHART, drawn.background, drawn.groups(), title=drawn.about)
 
     def _body(self, picture: str, charts: tuple[tuple[str, str, str], ...]) -> Iterator[str]:
         scene = self.scene

@@ -8,7 +8,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from linkanim.picture.items import Caption, Group, Item
+from linkanim.picture.items import Caption, Group, Item, clipped
 from linkanim.picture.raster.raster import Colour, Layer, Loop
 from linkanim.picture.text.text import runs, typesetting
 
@@ -32,7 +32,7 @@ def svg(
     for item in items:
         if not isinstance(item, Group):
             body += _drawn([item])
-        elif inside := _drawn([*item.layers, *item.captions]):
+        elif inside := _drawn([*clipped(item), *item.captions]):
             body += [f"<g id={quoteattr(_unused(item.name, ids))}>", *inside, "</g>"]
     head = f'width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family={quoteattr(_FACES)}'
     lines = "\n".join(body)
@@ -73,7 +73,7 @@ def _text(line: Caption) -> str:
     weight = f' font-weight="{_SEMIBOLD}"' if line.strong else ""
     at = f'x="{line.at[0]:.2f}" y="{line.at[1] + how.baseline:.2f}" font-size="{how.em:.2f}"'
     anchor = f'text-anchor="{_ANCHORS[line.anchor]}" fill="{_hex(line.colour)}"'
-    return f"<text {at} {anchor}{weight}{_rim(line)}>{''.join(_spans(line))}</text>"
+    return f"<text {at} {anchor}{weight}{_rim(line)}{_faded(line)}>{''.join(_spans(line))}</text>"
 
 
 def _rim(line: Caption) -> str:
@@ -81,6 +81,10 @@ def _rim(line: Caption) -> str:
         return ""
     rim = f'stroke="{_hex(line.halo.colour)}" stroke-width="{2 * line.halo.width:.2f}"'
     return f' {rim} stroke-linejoin="round" paint-order="stroke"'
+
+
+def _faded(line: Caption) -> str:
+    return f' opacity="{line.strength:.2f}"' if line.strength < 1 else ""
 
 
 def _spans(line: Caption) -> Iterator[str]:

@@ -31,7 +31,7 @@ def write(page: Page, target: Path) -> None:
             case ".png":
                 part.write_bytes(png_bytes(page.surface()))
             case ".pdf":
-                part.write_bytes(pdf(page.size, page.background, page.items(), title=title))
+                part.write_bytes(pdf(page.size, page.background, page.groups(), title=title))
             case _:
-                text = svg(page.size, page.background, page.items(), title=title)
+                text = svg(page.size, page.background, page.groups(), title=title)
                 part.write_text(text, encoding="utf-8")

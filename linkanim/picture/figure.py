@@ -9,7 +9,7 @@ from math import tau
 import numpy as np
 
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
-from linkanim.mechanics.linkage.rigid_bodies import Brace
+from linkanim.mechanics.linkage.rigid_bodies import Brace, holding
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.picture.raster.raster import Loop
 from linkanim.picture.view import Box, View
@@ -55,6 +55,19 @@ class Figure:
             for body, names in self._parts.items()
             if any(names)
         }
+
+    @cached_property
+    def numbers(self) -> dict[Body, str]:
+        """The links with their numbers: the scene's own, or in its order from 2; the ground is 1.
+
+        What cannot move against each other has one number.
+        """
+        if all(body.name.isdecimal() for body in self.links):
+            return {body: body.name for body in self.links}
+        # the block of a slider is a rigid body of its own
+        rigid = [body.slider or holding(self.linkage.rigid_bodies, body.joints) for body in self.links]
+        number = {frame: str(n) for n, frame in enumerate(dict.fromkeys(rigid), start=2)}
+        return {body: number[frame] for body, frame in zip(self.links, rigid, strict=True)}
 
     @cached_property
     def _parts(self) -> Parts:

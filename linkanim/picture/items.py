@@ -1,15 +1,14 @@
-"""What a chart or a page is made of: filled shapes and captions, for a surface and a file alike."""
+"""What pictures are made of: filled shapes and captions, in groups, for a surface and a file alike."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-import pygame
-
-from linkanim.picture.raster.raster import Colour, Layer, paint
-from linkanim.picture.text.lettering import Lettering
-from linkanim.picture.text.text import Anchor, Type
+from linkanim.picture.raster.raster import Colour, Layer
+from linkanim.picture.raster.shapes import cut
+from linkanim.picture.text.text import Anchor
+from linkanim.picture.view import Rect
 
 
 class Halo(NamedTuple):
@@ -20,7 +19,10 @@ class Halo(NamedTuple):
 
 
 class Caption(NamedTuple):
-    """One line of text; `at` is its top, at its left, middle or right as `anchor` says."""
+    """One line of text; `at` is its top, at its left, middle or right as `anchor` says.
+
+    One in a halo shows as strongly as `strength` says, 0 to 1.
+    """
 
     text: str
     at: tuple[float, float]
@@ -29,24 +31,34 @@ class Caption(NamedTuple):
     anchor: Anchor = "left"
     strong: bool = False
     halo: Halo | None = None
+    strength: float = 1.0
 
 
 Item = Layer | Caption
 
 
 class Group(NamedTuple):
-    """Shapes that belong together, under a name, and the words over them."""
+    """Shapes that belong together, under a name, and the words over them.
+
+    Groups lie over each other in their order, but that words lie over the shapes of all groups up to the
+    next that is `over` them. A `still` group is the same object at every frame. Nothing of a group shows
+    outside of what it is `within`. Groups of one picture with equal keys have equal shapes.
+    """
 
     name: str
     layers: Sequence[Layer]
     captions: Sequence[Caption] = ()
+    still: bool = False
+    over: bool = False
+    within: Rect | None = None
+    key: Hashable = None
 
 
-def grouped(name: str, items: Iterable[Item]) -> Group:
+def grouped(name: str, items: Iterable[Item], *, still: bool = False) -> Group:
     """Return items under a name, the words over the shapes."""
     kept = list(items)
     shapes = [item for item in kept if isinstance(item, Layer)]
-    return Group(name, shapes, [item for item in kept if isinstance(item, Caption)])
+    return Group(name, shapes, [item for item in kept if isinstance(item, Caption)], still)
 
 
 def flat(groups: Iterable[Group]) -> Iterator[Layer]:
@@ -54,49 +66,12 @@ def flat(groups: Iterable[Group]) -> Iterator[Layer]:
     return (layer for group in groups for layer in group.layers)
 
 
-def worded(groups: Iterable[Group]) -> Iterator[Caption]:
-    """Yield the words of all groups in their order."""
-    return (caption for group in groups for caption in group.captions)
-
-
-class Scribe:
-    """Draws items on surfaces; the words that it has set in a halo once it keeps."""
-
-    def __init__(self, type_: Type) -> None:
-        self._type = type_
-        self._set: dict[tuple[str, int, Colour, Halo], Lettering] = {}
-
-    def draw(self, surface: pygame.Surface, items: Iterable[Item]) -> None:
-        """Draw items in their order; changes the surface only."""
-        shapes: list[Layer] = []
-        for item in items:
-            if isinstance(item, Layer):
-                shapes.append(item)
-                continue
-            if shapes:
-                paint(surface, shapes)
-                shapes.clear()
-            self._write(surface, item)
-        if shapes:
-            paint(surface, shapes)
-
-    def _write(self, surface: pygame.Surface, line: Caption) -> None:
-        """Draw a line of text; one in a halo to a part of a pixel, as labels on a drawing are."""
-        text, at, size, colour, anchor, strong, halo = line
-        if halo is None:
-            self._type.draw(surface, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
-            return
-        letters = self._letters(text, size, colour, halo)
-        aside = {"left": 0.5, "centre": 0.0, "right": -0.5}[anchor] * letters.size[0]
-        letters.draw(surface, complex(at[0] + aside, at[1] + letters.drop))
-
-    def _letters(self, text: str, size: int, colour: Colour, halo: Halo) -> Lettering:
-        key = (text, size, colour, halo)
-        if key not in self._set:
-            self._set[key] = Lettering(text, self._type, size, (colour, halo.colour), halo.width)
-        return self._set[key]
-
-
-def draw(surface: pygame.Surface, items: Iterable[Item], type_: Type) -> None:
-    """Draw items in their order on a surface, once."""
-    Scribe(type_).draw(surface, items)
+def clipped(group: Group) -> Iterator[Layer]:
+    """Yield the shapes of a group without what of them reaches right of or below what it is within."""
+    if group.within is None:
+        yield from group.layers
+        return
+    right, bottom = int(group.within.right), int(group.within.bottom)
+    for layer in group.layers:
+        loops = (cut(cut(loop, right), bottom, down=True) for loop in layer.loops)
+        yield layer._replace(loops=[loop for loop in loops if len(loop) > 2])

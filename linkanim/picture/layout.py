@@ -38,7 +38,7 @@ class Layout:
     lists: Rect
     """Where the edit list or that of quantities stands, if one is open."""
     polygons: Rect | None = None
-    strip: Rect | None = None
+    hint: Rect | None = None
     """Where the words on what there is to press stand; without width where there is no room for them."""
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
@@ -107,11 +107,11 @@ def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool) 
         return replace(empty, stage=room)
     if beside:
         wide, high = _SHARE_BESIDE * room.width, min(room.height - 2 * edge, _TALLEST * room.width)
-        strip = Rect(room.right - wide, (room.height - high) / 2, wide - edge, high)
-        return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=strip)
+        chart_place = Rect(room.right - wide, (room.height - high) / 2, wide - edge, high)
+        return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=chart_place)
     tall = _SHARE_BELOW * room.height
-    strip = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
-    return replace(empty, stage=room._replace(height=strip.y - 0.6 * edge), chart=strip)
+    chart_place = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
+    return replace(empty, stage=room._replace(height=chart_place.y - 0.6 * edge), chart=chart_place)
 
 
 def _lists(parts: Layout) -> Rect:

@@ -12,11 +12,12 @@ import pygame
 
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
 from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.overlay import Shelf
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.raster import Layer, Loop, paint
 from linkanim.picture.raster.shapes import box
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.text import Type, hyphened
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
@@ -141,16 +142,16 @@ def _chapter(entry: Scene | str) -> str:
 class _Live:
     """A mechanism on the shelf, and its picture as of a turn."""
 
-    scene: Scene
-    painter: Painter
+    picture: Picture
+    printer: SurfacePrinter = field(default_factory=SurfacePrinter)
     turn: int = -1
-    picture: pygame.Surface | None = None
+    printed: pygame.Surface | None = None
 
     def go(self, turn: int) -> None:
-        """Paint the picture of a turn."""
-        self.turn, self.picture = turn, pygame.Surface(self.painter.size, pygame.SRCALPHA, 32)
-        phase = self.scene.linkage.drive.speed * turn / _PER_SECOND
-        self.painter.paint(self.picture, self.scene.pose(phase))
+        """Print the picture of a turn."""
+        self.turn, self.printed = turn, pygame.Surface(self.picture.size, pygame.SRCALPHA, 32)
+        phase = self.picture.scene.linkage.drive.speed * turn / _PER_SECOND
+        self.printer.paint(self.printed, self.picture, self.picture.scene.pose(phase))
 
 
 @dataclass
@@ -163,7 +164,7 @@ class _Sheet:
     live: list[_Live] = field(default_factory=list)
 
 
-class ShelfPainter:
+class ShelfPrinter:
     """Paints the open shelf; one mechanism is read and drawn a frame, and kept while the shelf is open."""
 
     def __init__(self) -> None:
@@ -189,8 +190,8 @@ class ShelfPainter:
         for n in _due(sheet, shelf):
             sheet.live[n].go(_turn(shelf, n))
         for live, cell in zip(sheet.live, sheet.grid.cells, strict=False):
-            if live.picture:
-                surface.blit(live.picture, (round(cell.x), round(cell.y)))
+            if live.printed:
+                surface.blit(live.printed, (round(cell.x), round(cell.y)))
 
 
 def _due(sheet: _Sheet, shelf: Shelf) -> list[int]:
@@ -198,7 +199,7 @@ def _due(sheet: _Sheet, shelf: Shelf) -> list[int]:
     count = len(sheet.live)
     order = [(shelf.frame * _AT_ONCE + n) % count for n in range(count)]
     stale = [n for n in order if sheet.live[n].turn != _turn(shelf, n)]
-    at_once = [n for n in stale if n == shelf.chosen or sheet.live[n].picture is None]
+    at_once = [n for n in stale if n == shelf.chosen or sheet.live[n].printed is None]
     return at_once + [n for n in stale if n not in at_once][:_AT_ONCE]
 
 
@@ -229,7 +230,7 @@ def _joined(sheet: _Sheet, shelf: Shelf) -> None:
     scene = load(entry) if isinstance(entry, str) else entry
     size = round(cell.width), round(cell.height - sheet.grid.line)
     look = Look(theme=shelf.theme, hud=False, background=False)
-    sheet.live.append(_Live(scene, Painter(scene, size, look)))
+    sheet.live.append(_Live(Picture(scene, size, look)))
     if sheet.grid.line:
         _title(sheet, scene, cell)
 
@@ -268,7 +269,7 @@ def _marked(surface: pygame.Surface, sheet: _Sheet, chosen: int) -> None:
     )
     if not sheet.grid.line and chosen < len(sheet.live):
         size, text = surface.get_size(), sheet.grid.text
-        words = board.fitting((sheet.live[chosen].scene.title,), text, size[0] - text)
+        words = board.fitting((sheet.live[chosen].picture.scene.title,), text, size[0] - text)
         board.write(surface, words, (size[0] / 2, size[1] - 1.5 * text), size=text, anchor="centre")
 
 

@@ -6,10 +6,11 @@ import os
 from dataclasses import astuple
 from typing import TYPE_CHECKING
 
-from linkanim.picture.canvas import Canvas
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen, pixel_view
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.recorder.plan import Clip, Plan, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write
@@ -31,12 +32,13 @@ class SceneFrames:
         self.colours = theme_colours(look.theme)
         self._plan = plan
         self._over = Overlay(noted=noted)
-        self._canvas = Canvas(scene, size, look)
+        self._picture, self._printer = Picture(scene, size, look), SurfacePrinter()
         self._surface = offscreen(size, alpha=self.alpha)
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, to be let go before the next is drawn in their place."""
-        self._canvas.paint(self._surface, self._plan.phase(frame), self._plan.speed, self._over)
+        phase, speed = self._plan.phase(frame), self._plan.speed
+        self._printer.print(self._surface, self._picture, phase, speed, self._over)
         return pixel_view(self._surface)
 
 

@@ -10,9 +10,10 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkanim.picture.canvas import Canvas
 from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen, pixel_view
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.player.tape import tape_file
 from linkanim.recorder.plan import Clip, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write
@@ -38,14 +39,16 @@ class TapeFrames:
         self._both = any(action.name in _WHOLE_VIEW for _, action in tape.actions)
         self._fps = fps
         self._surface = offscreen(size, alpha=self.alpha)
-        self._canvas: Canvas | None = None
+        self._picture: Picture | None = None
+        self._printer = SurfacePrinter()
         self._ahead: Iterator[tuple[State, float]] = iter(())
         self._next = 0
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, to be let go before the next is drawn in their place."""
         state, phase = self._at(frame)
-        self._canvas_for(state).paint(self._surface, phase, state.clock.speed, Overlay())
+        picture, speed = self._picture_of(state), state.clock.speed
+        self._printer.print(self._surface, picture, phase, speed, Overlay())
         return pixel_view(self._surface)
 
     def _at(self, frame: int) -> tuple[State, float]:
@@ -54,10 +57,10 @@ class TapeFrames:
         skipped, self._next = frame - self._next, frame + 1
         return next(islice(self._ahead, skipped, None))
 
-    def _canvas_for(self, state: State) -> Canvas:
-        if self._canvas is None or not self._canvas.fits(state.shown, self.size, state.look):
-            self._canvas = Canvas(state.shown, self.size, state.look, self._canvas, both=self._both)
-        return self._canvas
+    def _picture_of(self, state: State) -> Picture:
+        if self._picture is None or not self._picture.fits(state.shown, self.size, state.look):
+            self._picture = Picture(state.shown, self.size, state.look, self._picture, both=self._both)
+        return self._picture
 
 
 def _themes(tape: Tape) -> tuple[str, ...]:

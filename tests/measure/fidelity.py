@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
 from linkanim.picture.raster.raster import Layer, paint
 from linkanim.picture.raster.shapes import rounded
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes.scene import Scene
 
 Pixels = NDArray[np.float64]
@@ -27,7 +28,7 @@ _FINER = 8
 
 def frame_decibels(scene: Scene, phases: Sequence[float] = PHASES) -> float:
     """Return the worst PSNR of frames against the mean of 64 samples a pixel of the same drawing, in dB."""
-    small, large = (Painter(scene, (by * SIZE[0], by * SIZE[1]), LOOK) for by in (1, _FINER))
+    small, large = (Picture(scene, (by * SIZE[0], by * SIZE[1]), LOOK) for by in (1, _FINER))
     poses = [scene.pose(phase) for phase in phases]
     return min(psnr(_painted(small, pose), averaged(_painted(large, pose), _FINER)) for pose in poses)
 
@@ -59,9 +60,9 @@ def centre(cover: Pixels) -> complex:
     return complex((columns * cover).sum(), (rows * cover).sum()) / float(cover.sum())
 
 
-def _painted(painter: Painter, pose: Pose) -> Pixels:
+def _painted(painter: Picture, pose: Pose) -> Pixels:
     surface = offscreen(painter.size)
-    painter.paint(surface, pose)
+    SurfacePrinter().paint(surface, painter, pose)
     return _levels(pixel_bytes(surface), painter.size)
 
 

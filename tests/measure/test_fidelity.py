@@ -41,7 +41,7 @@ def test_the_worst_frame_counts_without_words_and_against_64_samples_a_pixel(
         return np.full((height, width, 3), off)
 
     monkeypatch.setattr(fidelity, "SIZE", (32, 18))
-    monkeypatch.setattr(fidelity, "Painter", painter)
+    monkeypatch.setattr(fidelity, "Picture", painter)
     monkeypatch.setattr(fidelity, "_painted", painted)
     found = fidelity.frame_decibels(load("press"), (0.0, 1.0, 2.5))
     assert found == pytest.approx(13.9794, abs=1e-4)

@@ -22,7 +22,7 @@ from linkanim.player.state.advance import advance
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.state import begin
 from linkanim.player.window import display
-from linkanim.player.window.easel import Easel
+from linkanim.player.window.screen import Screen
 from linkanim.player.window.show import overlay
 from linkanim.scenes import load
 
@@ -104,12 +104,12 @@ def measured(size: tuple[int, int], *, frames: int = FRAMES) -> FrameTimes:
     state = begin(load(SCENE), look=LOOK)
     walls, used = [], []
     with display.opened(size):
-        easel = Easel(state)
-        easel.show(state, overlay(state))
+        screen = Screen(state)
+        screen.show(state, overlay(state))
         for _ in range(frames):
             state = advance(state)
             start, before = time.perf_counter(), time.process_time()
-            easel.show(state, overlay(state))
+            screen.show(state, overlay(state))
             walls.append(1e3 * (time.perf_counter() - start))
             used.append(1e3 * (time.process_time() - before))
     walls.sort()

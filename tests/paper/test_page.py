@@ -16,9 +16,10 @@ from linkanim.paper.curves import ChartRequest, Pace, curves_of
 from linkanim.paper.measured import beside
 from linkanim.paper.svg import svg
 from linkanim.picture.diagrams.quantities import telling
-from linkanim.picture.items import Caption, Group, Halo, draw
+from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Layer
+from linkanim.picture.surface import printed
 from linkanim.picture.text.text import typesetting
 from linkanim.scenes import load, names
 
@@ -221,7 +222,7 @@ def test_the_svg_is_the_picture_of_the_png() -> None:
     shapes = [item for item in page.items() if isinstance(item, Layer)]
     ours = offscreen(SIZE)
     ours.fill(page.background)
-    draw(ours, shapes, page.pen.type)
+    printed(ours, [Group("shapes", shapes)], page.pen.type)
     # drawn by SDL_image's own SVG reader, which knows paths and no text
     theirs = pygame.image.load(io.BytesIO(svg(SIZE, page.background, shapes, title="t").encode()), "t.svg")
     assert theirs.get_size() == SIZE

@@ -12,10 +12,10 @@ from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.items import Caption
 from linkanim.picture.labels.names import Names
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
-from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Colour, Layer, paint
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.text import Type
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
@@ -29,7 +29,9 @@ def painted(
 ) -> pygame.Surface:
     """Return one pose of a scene on a new surface."""
     surface = offscreen(size, alpha=not look.background)
-    Painter(scene, size, look).paint(surface, scene.pose(phase), Overlay(), ghost=ghost)
+    SurfacePrinter().paint(
+        surface, Picture(scene, size, look), scene.pose(phase), faint=(ghost,) if ghost else ()
+    )
     return surface
 
 
@@ -89,17 +91,16 @@ def _luminance(colour: Colour) -> float:
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-def labelled(painter: Painter) -> Names:
-    """Return the names that a painter has."""
-    assert painter.names is not None
-    return painter.names
+def labelled(picture: Picture) -> Names:
+    """Return the names that a picture has."""
+    assert picture.names is not None
+    return picture.names
 
 
-def standing(painter: Painter, pose: Pose) -> Iterator[tuple[str, Rect]]:
+def standing(picture: Picture, pose: Pose) -> Iterator[tuple[str, Rect]]:
     """Yield what is written and the rectangle it takes, for every label that shows."""
-    names, places = labelled(painter), painter.drawing.places(pose)
-    for label in names.labels:
-        middle, shown = label.placed(pose.phase / names.period, places)
-        wide, high = label.lettering.size
+    names, places = labelled(picture), picture.drawing.places(pose)
+    for label, middle, shown in names.standing(pose, places):
+        wide, high = label.size
         if shown:
-            yield label.lettering.text, Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)
+            yield label.text, Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)

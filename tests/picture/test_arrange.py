@@ -12,14 +12,15 @@ import pytest
 from pictures import pixels
 
 from linkanim.picture.arrangement.arrange import arranged
-from linkanim.picture.arrangement.staging import Staged, staged
+from linkanim.picture.arrangement.fit import FitRequest, fitted
 from linkanim.picture.arrangement.sweep import Sweep
 from linkanim.picture.diagrams.quantities import quantities
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
 from linkanim.picture.panels.overlay import EditRow, Overlay, Panel
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
@@ -52,7 +53,7 @@ def test_what_a_scene_sweeps_fills_the_height_or_the_width(
     """At least 85 % of the one or 60 % of the other, of what a chart leaves; with the other closure, too."""
     scene = load(name)
     for other in (None, ghost_of(scene)):
-        staging = staged(scene, other, Staged(size, chart, 0, True, False), type_of_words())
+        staging = fitted(scene, other, FitRequest(size, chart, 0, True, False), type_of_words())
         arrangement, box = staging.arrangement, staging.subject.sweep.box
         left, low = arrangement.view.to_pixel(box.left, box.low)
         right, high = arrangement.view.to_pixel(box.right, box.high)
@@ -72,12 +73,12 @@ def _moments(name: str, count: int) -> Iterator[float]:
 @pytest.mark.sampled
 def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, int]) -> None:
     scene, look = load(name), Look(chart=None)
-    painter, surface = Painter(scene, size, look), offscreen(size)
-    words = painter._layout.words
+    painter, surface = Picture(scene, size, look), offscreen(size)
+    words = painter.layout.words
     assert words
     painter._hud = None
     for phase in _moments(name, 16):
-        painter.paint(surface, scene.pose(float(phase)))
+        SurfacePrinter().paint(surface, painter, scene.pose(float(phase)))
         for rect in words:
             assert (_part(surface, rect) == BACKGROUND).all(), phase
 
@@ -86,11 +87,11 @@ def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, 
 @pytest.mark.sampled
 def test_all_that_is_drawn_lies_in_the_window(name: str) -> None:
     scene, size = load(name), (480, 270)
-    painter, surface = Painter(scene, size, Look(hud=False)), offscreen(size)
+    painter, surface = Picture(scene, size, Look(hud=False)), offscreen(size)
     edge = np.ones((size[1], size[0]), bool)
     edge[2:-2, 2:-2] = False
     for phase in _moments(name, 16):
-        painter.paint(surface, scene.pose(float(phase)))
+        SurfacePrinter().paint(surface, painter, scene.pose(float(phase)))
         assert (pixels(surface)[edge] == BACKGROUND).all(), phase
 
 
@@ -104,7 +105,7 @@ def _part(surface: pygame.Surface, rect: Rect) -> np.ndarray:
 @pytest.mark.sampled
 def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int, int]) -> None:
     scene = load(name)
-    block = staged(scene, None, Staged(size, False, 0, True, False), type_of_words()).arrangement.block
+    block = fitted(scene, None, FitRequest(size, False, 0, True, False), type_of_words()).arrangement.block
     assert block is not None
     assert " ".join(line.text for line in block.lines if line.strong) == scene.title
     assert block.size >= max(10, 0.7 * min(21 * size[1] / 720, 21))
@@ -113,7 +114,7 @@ def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int
 
 @pytest.mark.parametrize("name", ["press", "six-bar", "rocker-driven"])
 def test_a_title_is_in_one_line_where_it_finds_room(name: str) -> None:
-    arrangement = staged(load(name), None, Staged((1280, 720), False, 0, True, False), Type()).arrangement
+    arrangement = fitted(load(name), None, FitRequest((1280, 720), False, 0, True, False), Type()).arrangement
     assert arrangement.block is not None
     assert arrangement.block.turns == 0
 
@@ -128,9 +129,9 @@ def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
     other = ghost_of(scene)
     if other is None:
         return
-    wanted = Staged(size, False, 0, True, False)
-    one = staged(scene, other, wanted, type_of_words()).arrangement
-    two = staged(other, ghost_of(other), wanted, type_of_words()).arrangement
+    wanted = FitRequest(size, False, 0, True, False)
+    one = fitted(scene, other, wanted, type_of_words()).arrangement
+    two = fitted(other, ghost_of(other), wanted, type_of_words()).arrangement
     views = [(view.scale, view.x, view.y) for view in (one.view, two.view)]
     assert views[0] == pytest.approx(views[1], abs=1e-6)
     assert one.layout.hud is not None
@@ -142,8 +143,8 @@ def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
 
 def test_a_tall_scene_has_its_chart_beside_it_and_a_wide_one_below() -> None:
     for name, beside in (("press", True), ("slider-crank", False)):
-        wanted = Staged((1280, 720), True, 0, True, False)
-        parts = staged(load(name), None, wanted, type_of_words()).arrangement.layout
+        wanted = FitRequest((1280, 720), True, 0, True, False)
+        parts = fitted(load(name), None, wanted, type_of_words()).arrangement.layout
         assert parts.chart is not None
         assert (parts.chart.x >= parts.stage.right) == beside
         assert (parts.chart.y >= parts.stage.bottom) != beside
@@ -152,11 +153,11 @@ def test_a_tall_scene_has_its_chart_beside_it_and_a_wide_one_below() -> None:
 def test_a_scene_that_is_zoomed_does_not_reach_into_a_chart_beside_it() -> None:
     scene = load("press")
     look, size = Look(chart="C.velocity"), (640, 360)
-    fitted, near = (Painter(scene, size, replace(look, zoom=zoom)) for zoom in (1.0, 6.0))
-    reach = fitted._layout.reach
+    fitted, near = (Picture(scene, size, replace(look, zoom=zoom)) for zoom in (1.0, 6.0))
+    reach = fitted.layout.reach
     drawn = [offscreen(size), offscreen(size)]
     for painter, surface in zip((fitted, near), drawn, strict=True):
-        painter.paint(surface, scene.pose(1.0))
+        SurfacePrinter().paint(surface, painter, scene.pose(1.0))
     left = round(reach.right)
     one, other = (pixels(surface)[:, left:] for surface in drawn)
     assert np.array_equal(one, other)
@@ -164,14 +165,14 @@ def test_a_scene_that_is_zoomed_does_not_reach_into_a_chart_beside_it() -> None:
 
 def test_words_over_a_zoomed_scene_have_a_backing() -> None:
     scene, size = load("press"), (640, 360)
-    near = Painter(scene, size, Look(zoom=6.0))
-    words, pivot = near._layout.words[-1], near.view.to_pixel(0.0, 0.0)
+    near = Picture(scene, size, Look(zoom=6.0))
+    words, pivot = near.layout.words[-1], near.view.to_pixel(0.0, 0.0)
     pan = ((words.x + words.width / 2 - pivot[0]) / 360, (words.y + words.height / 2 - pivot[1]) / 360)
-    painter, surface = Painter(scene, size, Look(zoom=6.0, pan=pan)), offscreen(size)
-    painter.paint(surface, scene.pose(1.0))
+    painter, surface = Picture(scene, size, Look(zoom=6.0, pan=pan)), offscreen(size)
+    SurfacePrinter().paint(surface, painter, scene.pose(1.0))
     told = _part(surface, words)
     painter._hud = None
-    painter.paint(surface, scene.pose(1.0))
+    SurfacePrinter().paint(surface, painter, scene.pose(1.0))
     bare = _part(surface, words)
     covered = np.abs(bare - BACKGROUND).max(axis=-1) > 20
     assert covered.mean() > 0.5
@@ -181,7 +182,7 @@ def test_words_over_a_zoomed_scene_have_a_backing() -> None:
 
 def test_the_view_makes_room_for_the_edit_list() -> None:
     for name in names():
-        staging = staged(load(name), None, Staged((1280, 720), False, 0, True, True), type_of_words())
+        staging = fitted(load(name), None, FitRequest((1280, 720), False, 0, True, True), type_of_words())
         box, layout = staging.subject.sweep.box, staging.arrangement.layout
         assert staging.arrangement.view.to_pixel(box.left, 0.0)[0] > layout.lists.right
 
@@ -191,17 +192,17 @@ def test_the_view_makes_room_for_the_edit_list() -> None:
 def test_a_list_covers_no_more_than_half_of_any_window_and_none_of_the_scene(
     name: str, size: tuple[int, int]
 ) -> None:
-    staging = staged(load(name), None, Staged(size, False, 0, True, True), type_of_words())
+    staging = fitted(load(name), None, FitRequest(size, False, 0, True, True), type_of_words())
     box, parts, view = staging.subject.sweep.box, staging.arrangement.layout, staging.arrangement.view
     lists, (left, top) = parts.lists, view.to_pixel(box.left, box.high)
     right, bottom = view.to_pixel(box.right, box.low)
     assert lists.width * lists.height <= 0.51 * size[0] * size[1]
     assert not lists.meets(Rect(left, top, right - left, bottom - top))
-    painter, scene = Painter(load(name), size, Look(), listed=True), load(name)
+    painter, scene = Picture(load(name), size, Look(), listed=True), load(name)
     bare, told = offscreen(size), offscreen(size)
     rows = tuple(EditRow(f"Point {n} of its bar, to the left", "123.45 mm", n == 3) for n in range(30))
     for surface, over in ((bare, Overlay()), (told, Overlay(panel=Panel(rows, hint=HINT)))):
-        painter.paint(surface, scene.pose(1.0), over)
+        SurfacePrinter().paint(surface, painter, scene.pose(1.0), over)
     changed = np.nonzero((pixels(bare) != pixels(told)).any(axis=-1))
     assert changed[1].max() <= lists.right + 1
     assert changed[0].min() >= lists.y - 1
@@ -213,12 +214,12 @@ EDITED = Overlay(panel=Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="
 
 def test_help_stands_beside_the_values_that_it_explains() -> None:
     scene, size = load("crank-rocker"), (1280, 720)
-    painter, surface = Painter(scene, size, Look(), listed=True), offscreen(size)
-    painter.paint(surface, scene.pose(1.0), EDITED)
+    painter, surface = Picture(scene, size, Look(), listed=True), offscreen(size)
+    SurfacePrinter().paint(surface, painter, scene.pose(1.0), EDITED)
     plain = pixels(surface)
     lines = tuple((f"key {n}", "what it does, in a few words") for n in range(9))
     helped = replace(EDITED, help=(("edit", lines),))
-    painter.paint(surface, scene.pose(1.0), helped)
+    SurfacePrinter().paint(surface, painter, scene.pose(1.0), helped)
     panel = (plain == theme_of("light").chosen).all(axis=-1)
     rows, columns = np.nonzero(panel)
     within = np.s_[rows.min() : rows.max(), columns.min() : columns.max()]
@@ -230,13 +231,15 @@ def test_help_stands_beside_the_values_that_it_explains() -> None:
 def test_a_toast_does_not_lie_on_the_chart(name: str) -> None:
     scene, size = load(name), (1280, 720)
     chart = next(token for token in quantities(scene) if token.endswith("acceleration"))
-    painter, surface = Painter(scene, size, Look(chart=chart)), offscreen(size)
-    painter.paint(surface, scene.pose(1.0))
+    painter, surface = Picture(scene, size, Look(chart=chart)), offscreen(size)
+    SurfacePrinter().paint(surface, painter, scene.pose(1.0))
     plain = pixels(surface)
-    painter.paint(surface, scene.pose(1.0), Overlay(toast="recordings/a-file-of-mine.gif is written"))
+    SurfacePrinter().paint(
+        surface, painter, scene.pose(1.0), Overlay(toast="recordings/a-file-of-mine.gif is written")
+    )
     changed = np.any(pixels(surface) != plain, axis=-1)
     rows, columns = np.nonzero(changed)
-    stage = painter._layout.stage
+    stage = painter.layout.stage
     assert rows.size
     assert stage.x <= columns.min() <= columns.max() < stage.right
     assert stage.y <= rows.min() <= rows.max() < stage.bottom
@@ -245,7 +248,9 @@ def test_a_toast_does_not_lie_on_the_chart(name: str) -> None:
 @pytest.mark.parametrize("size", [(640, 360)])
 @pytest.mark.parametrize("name", names())
 def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) -> None:
-    layout = staged(load(name), None, Staged(size, False, 0, True, False), type_of_words()).arrangement.layout
+    layout = fitted(
+        load(name), None, FitRequest(size, False, 0, True, False), type_of_words()
+    ).arrangement.layout
     assert not any(layout.marks.meets(rect) for rect in layout.words)
 
 
@@ -283,9 +288,9 @@ def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, r
 
 @pytest.mark.slow
 def test_a_chart_does_not_drive_out_the_words() -> None:
-    wanted = Staged((480, 270), True, 2, True, False)
+    wanted = FitRequest((480, 270), True, 2, True, False)
     for name in names():
-        block = staged(load(name), None, wanted, type_of_words()).arrangement.block
+        block = fitted(load(name), None, wanted, type_of_words()).arrangement.block
         assert block is not None
         assert block.rows, name
 
@@ -315,15 +320,15 @@ def test_what_has_no_extent_is_still_in_the_middle(points: list[complex], scale:
 )
 def test_the_strip_lies_on_nothing_that_moves_or_is_said(name: str, size: tuple[int, int]) -> None:
     scene, look = load(name), Look()
-    painter, surface = Painter(scene, size, look), offscreen(size)
-    place = painter._layout.strip
+    painter, surface = Picture(scene, size, look), offscreen(size)
+    place = painter.layout.hint
     assert place is not None
     assert place.x >= 0
     assert place.right <= size[0]
     for phase in _moments(name, 12):
-        painter.paint(surface, scene.pose(float(phase)))
+        SurfacePrinter().paint(surface, painter, scene.pose(float(phase)))
         part = _part(surface, place)
         assert (part == BACKGROUND).all(), phase
-    widest = staged(scene, None, Staged((1280, 720), False, 0, True, False), type_of_words()).arrangement
-    assert widest.layout.strip is not None
-    assert widest.layout.strip.width >= 11 * widest.layout.small_size
+    widest = fitted(scene, None, FitRequest((1280, 720), False, 0, True, False), type_of_words()).arrangement
+    assert widest.layout.hint is not None
+    assert widest.layout.hint.width >= 11 * widest.layout.small_size

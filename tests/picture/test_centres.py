@@ -5,27 +5,24 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkanim.picture.arrangement.staging import staged, wanted_of
 from linkanim.picture.diagrams.centres import Centres, clipped
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.picture.text.text import Type
-from linkanim.picture.theme import LIGHT
+from linkanim.picture.picture import Picture
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 
 
 def drawing(name: str, centres: int) -> Drawing:
     look = Look(hud=False, centres=centres)
-    staging = staged(load(name), None, wanted_of((640, 360), look, listed=False), Type())
-    return Drawing(staging.scenery(staging.subject.figure, LIGHT, look))
+    return Picture(load(name), (640, 360), look).drawing
 
 
 def found(name: str, centres: int = 2) -> Centres:
-    cast = drawing(name, centres).cast.centres
-    assert cast is not None
-    return cast
+    marks = drawing(name, centres).parts.centres
+    assert marks is not None
+    return marks
 
 
 # scene, what is marked at some pose: of few links all pairs, else those to the ground

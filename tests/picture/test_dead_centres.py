@@ -8,12 +8,10 @@ from math import radians
 import numpy as np
 import pytest
 
-from linkanim.picture.arrangement.staging import staged, wanted_of
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.labels.dead_centres import DeadCentres
 from linkanim.picture.look import Look
-from linkanim.picture.text.text import Type
-from linkanim.picture.theme import LIGHT
+from linkanim.picture.picture import Picture
 from linkanim.scenes import load, names
 
 SIZE = (960, 540)
@@ -21,8 +19,7 @@ SIZE = (960, 540)
 
 def drawing(name: str, named: int = 2, size: tuple[int, int] = SIZE) -> Drawing:
     look = Look(hud=False, names=named)
-    staging = staged(load(name), None, wanted_of(size, look, listed=False), Type())
-    return Drawing(staging.scenery(staging.subject.figure, LIGHT, look))
+    return Picture(load(name), size, look).drawing
 
 
 def ticks(name: str) -> DeadCentres:
@@ -72,7 +69,7 @@ def test_with_dimensions_stroke_and_time_ratio_are_those_of_info() -> None:
 
 def test_the_ticks_cross_the_guide_where_the_slider_turns_back() -> None:
     found, scene = ticks("slider-crank"), load("slider-crank")
-    lines = np.concatenate([loop for layer in found.group.layers for loop in layer.loops])
+    lines = np.concatenate([loop for layer in found.layers for loop in layer.loops])
     for phase in scene.info.dead_centres or ():
         at = found.view.place(scene.pose(phase).position["B"])
         near = lines[np.abs(lines.real - at.real) < 2]
@@ -91,7 +88,7 @@ def test_else_there_are_none(name: str, named: int) -> None:
 def test_the_words_stand_on_the_stage(name: str, size: tuple[int, int]) -> None:
     found = drawing(name, size=size).dead_centres
     assert found is not None
-    for rect in found.rects(Type()):
+    for rect in found.rects():
         assert rect.x >= 0
         assert rect.right <= size[0]
 
@@ -100,9 +97,8 @@ def test_the_words_stand_on_the_stage(name: str, size: tuple[int, int]) -> None:
 def test_no_words_stand_on_those_about_the_scene(name: str) -> None:
     """Where the stroke's words would, they are left out; there is little room beside a chart."""
     size, look = (640, 360), Look(names=2, chart="A.velocity", vectors=frozenset("va"))
-    staging = staged(load(name), None, wanted_of(size, look, listed=False), Type())
-    drawn = Drawing(staging.scenery(staging.subject.figure, LIGHT, look))
+    drawn = Picture(load(name), size, look).drawing
     assert drawn.dead_centres
-    rects = list(drawn.dead_centres.rects(Type()))
+    rects = list(drawn.dead_centres.rects())
     assert len(rects) >= 2
-    assert not any(rect.meets(word) for rect in rects for word in drawn.scenery.layout.words)
+    assert not any(rect.meets(word) for rect in rects for word in drawn.setting.layout.words)

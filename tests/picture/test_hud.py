@@ -9,13 +9,17 @@ import pytest
 from pictures import inked, place_of
 
 from linkanim.mechanics.facts.effort import input_effort
-from linkanim.picture.arrangement.staging import Staged, staged
+from linkanim.picture.arrangement.fit import FitRequest, fitted
+from linkanim.picture.items import Group
+from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
+from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.panels.readings import Reading, note, rows
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.surface import printed
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
-from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
@@ -47,7 +51,7 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
 
 def _hud(name: str) -> Hud:
     type_ = Type()
-    found = staged(load(name), None, Staged((640, 360), False, 0, True, False), type_).arrangement
+    found = fitted(load(name), None, FitRequest((640, 360), False, 0, True, False), type_).arrangement
     assert found.layout.hud
     assert found.block
     return Hud(load(name), found.block, found.layout.hud, type_, LIGHT)
@@ -57,7 +61,7 @@ def test_all_its_words_are_drawn() -> None:
     hud, surface = _hud("press"), offscreen((640, 360))
     pose = hud.scene.pose(1.0)
     surface.fill(LIGHT.background)
-    hud.draw(surface, pose, noted=False, backed=False)
+    printed(surface, [Group("words", (), [*hud.still(), *hud.values(pose)])], hud.type)
     lines = [*hud.still(), *hud.values(pose)]
     assert len(lines) > 8
     for line in lines:
@@ -70,26 +74,30 @@ def test_the_class_stands_right_below_the_title() -> None:
     assert 0 <= said.at[1] - title.at[1] - title.size < 0.5 * said.size
 
 
-def test_what_is_special_is_said_where_it_is_wanted() -> None:
-    hud = _hud("double-rocker")
-    pose = hud.scene.pose(0.0)
-    below = Rect(hud.place.x, hud.place.y + hud.block.note, hud.block.column, hud.block.size)
-    for noted in (False, True):
-        surface = offscreen((640, 360))
-        surface.fill(LIGHT.background)
-        hud.draw(surface, pose, noted=noted, backed=False)
-        assert inked(surface, below, LIGHT.dim) is noted
+@pytest.mark.parametrize("noted", [False, True])
+def test_what_is_special_is_said_where_it_is_asked_for(noted: bool) -> None:
+    scene, surface = load("double-rocker"), offscreen((640, 360))
+    picture, pose = Picture(scene, (640, 360), Look()), scene.pose(0.0)
+    words = [line for group in picture.groups(pose, Overlay(noted=noted)) for line in group.captions]
+    assert any(line.text.startswith("near the limit") for line in words) is noted
+    printed(surface, [Group("words", (), words)], picture.type)
 
 
-def test_words_over_the_scene_are_backed_all_round() -> None:
-    hud, over = _hud("press"), (255, 0, 0)
-    edge = hud.place.inset(-0.3 * hud.block.size)
-    for backed in (False, True):
-        surface = offscreen((640, 360))
-        surface.fill(over)
-        hud.draw(surface, hud.scene.pose(1.0), noted=False, backed=backed)
-        for x, y in ((edge.x, edge.y + edge.height / 2), (edge.right - 1, edge.y + edge.height / 2)):
-            assert inked(surface, Rect(x, y, 1, 1), over) is not backed
+# the key to the arrows is backed with the words
+@pytest.mark.parametrize("vectors", [frozenset(), frozenset("va")])
+@pytest.mark.parametrize("zoom", [1.0, 1.5])
+def test_words_over_the_scene_are_backed_all_round(zoom: float, vectors: frozenset[str]) -> None:
+    scene = load("press")
+    picture = Picture(scene, (640, 360), Look(zoom=zoom, vectors=vectors))
+    hud, key = picture.layout.hud, picture.layout.legend
+    assert hud
+    edge = hud.inset(-3.0)
+    backings = [group for group in picture.groups(scene.pose(1.0)) if group.name == "backing"]
+    assert len(backings) == (zoom > 1)
+    for group in backings:
+        corners = np.concatenate(list(group.layers[0].loops))
+        assert corners.real.min() < edge.x < edge.right < corners.real.max()
+        assert corners.imag.min() < edge.y < (key or hud).bottom + 3 < corners.imag.max()
 
 
 def test_a_cylinder_that_keeps_its_length_is_no_damper() -> None:
@@ -156,7 +164,7 @@ SIZES = [(320, 180), (480, 270), (640, 360), (1280, 720), (400, 800)]
 @pytest.mark.sampled
 def test_names_and_values_never_touch_at_any_speed(name: str, size: tuple[int, int]) -> None:
     scene, type_ = load(name), Type()
-    arrangement = staged(scene, None, Staged(size, True, 2, True, False), type_).arrangement
+    arrangement = fitted(scene, None, FitRequest(size, True, 2, True, False), type_).arrangement
     block, key = arrangement.block, arrangement.layout.legend
     assert block is not None
     for speed in (1.0, -10.0):

@@ -10,7 +10,7 @@ import pytest
 from pictures import inked
 
 from linkanim.bench.cases import four_bar
-from linkanim.picture.arrangement.staging import Staged, staged
+from linkanim.picture.arrangement.fit import FitRequest, fitted
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge, layout
 from linkanim.picture.look import ACCELERATION, VELOCITY
@@ -18,6 +18,7 @@ from linkanim.picture.panels.legend import Legend, legend_for
 from linkanim.picture.parts.vectors import arrows_of
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Layer
+from linkanim.picture.surface import printed
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
@@ -43,7 +44,7 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
     shown, type_ = figure(load("press")), Type()
     measure = gauge(1.0, 100.0)
     kinds = tuple(arrows_of(shown, kind, size[1], measure, LIGHT) for kind in (VELOCITY, ACCELERATION))
-    parts = staged(load("press"), None, Staged(size, False, 2, True, False), type_).arrangement.layout
+    parts = fitted(load("press"), None, FitRequest(size, False, 2, True, False), type_).arrangement.layout
     legend = legend_for(kinds, parts, type_, LIGHT)
     assert legend is not None
     for kind in kinds:
@@ -55,7 +56,7 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
 @pytest.mark.parametrize("size", [(480, 270), (640, 360), (1280, 720)])
 @pytest.mark.parametrize("name", ["press", "crank-rocker", "jansen"])
 def test_the_key_stands_below_the_words_in_the_window(name: str, size: tuple[int, int]) -> None:
-    parts = staged(load(name), None, Staged(size, False, 2, True, False), Type()).arrangement.layout
+    parts = fitted(load(name), None, FitRequest(size, False, 2, True, False), Type()).arrangement.layout
     assert parts.hud
     assert parts.legend
     assert parts.legend.y >= parts.hud.bottom
@@ -69,7 +70,7 @@ def test_the_key_s_arrows_and_words_are_drawn(line: float) -> None:
     surface, column = offscreen((320, 64)), Rect(10, 10, 300, 40)
     surface.fill(LIGHT.background)
     legend = Legend((kind,), column, 17, Type(), LIGHT)
-    legend.draw(surface)
+    printed(surface, [legend.group(1.0)], legend.type)
     shaft, words = (column._replace(x=x, width=20) for x in (10.0, 72.0))
     assert inked(surface, shaft, kind.colour)
     assert inked(surface, words, LIGHT.dim)

@@ -19,15 +19,17 @@ from linkanim.picture.arrangement.sweep import sweep_of
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
 from linkanim.picture.parts.fittings import Bench, fittings
 from linkanim.picture.parts.gears import wheel_layers, wheel_parts
-from linkanim.picture.parts.struts import Coil, Cushion, coils, cushions
+from linkanim.picture.parts.struts import Coil, Damping, coils, dampings
 from linkanim.picture.parts.trace import Trace, traces
 from linkanim.picture.parts.vectors import LONGEST, arrow_layers, arrows_of
 from linkanim.picture.parts.wheels import WheelPair, pairs, wheels
+from linkanim.picture.picture import Picture
+from linkanim.picture.raster.directions import directions, folded
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Layer, Loop
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import DARK, LIGHT, Theme
 from linkanim.picture.view import View
 from linkanim.scenes import load
@@ -81,7 +83,7 @@ def test_a_long_spring_has_so_many_coils_that_they_stand_close() -> None:
 
 
 def test_a_damper_s_piston_slides_inside_its_cylinder(press: Figure) -> None:
-    cushion = cushions(press, VIEW, GAUGE, LIGHT)[0]
+    cushion = dampings(press, VIEW, GAUGE, LIGHT)[0]
     one, other = cushion.between
     pistons = []
     for length in np.linspace(cushion.reach.shortest, cushion.reach.longest, 9):
@@ -97,7 +99,7 @@ def test_a_cylinder_is_longer_than_a_damper(press: Figure) -> None:
     still = "O2", "O7"
     dampers = Damper("ram", still), Damper("cushion", still, 200.0)
     shown = figure(replace(press.scene, linkage=replace(press.linkage, dampers=dampers)))
-    cylinder, damper = cushions(shown, VIEW, GAUGE, LIGHT)
+    cylinder, damper = dampings(shown, VIEW, GAUGE, LIGHT)
     assert cylinder.length > 2 * damper.length
 
 
@@ -130,7 +132,7 @@ def test_gears_roll_on_each_other_and_their_teeth_mesh_at_every_angle(ratio: Fra
     assert pair.driver.radius / pair.driven.radius == pytest.approx(abs(ratio))
     assert Fraction(pair.driver.teeth, pair.driven.teeth) == abs(ratio)
     view = View(5.0, 0.0, 0.0)
-    parts = wheel_parts(shown, view, GAUGE, LIGHT)
+    parts = wheel_parts(shown, view, GAUGE, LIGHT)[::2]
     for phase in np.linspace(0, 7, 40):
         pose = scene.pose(float(phase))
         places = {name: view.place(point) for name, point in pose.position.items()}
@@ -146,7 +148,7 @@ def test_gears_roll_on_each_other_and_their_teeth_mesh_at_every_angle(ratio: Fra
 def test_teeth_touch_and_never_cut_into_each_other(ratio: Fraction) -> None:
     scene = geared(ratio)
     shown, view = figure(scene), View(5.0, 0.0, 0.0)
-    parts = wheel_parts(shown, view, GAUGE, LIGHT)
+    parts = wheel_parts(shown, view, GAUGE, LIGHT)[::2]
     module = 5 * _module(pairs(shown)[0])
     for phase in np.linspace(0, 1.5, 40):
         pose = scene.pose(float(phase))
@@ -167,7 +169,8 @@ def _gap(points: Loop, outline: Loop) -> float:
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_two_wheels_are_told_apart_by_tone_and_outline(theme: Theme) -> None:
     parts = wheel_parts(figure(geared(Fraction(-1))), VIEW, GAUGE, theme)
-    (tone, hole, edge), (other, _, other_edge) = ([layer.colour for layer in part.layers] for part in parts)
+    colours = [layer.colour for part in parts for layer in part.layers]
+    tone, edge, hole, other, other_edge, _ = colours
     assert contrast(tone, other) > 1.25
     assert contrast(edge, other_edge) > 1.25
     for fill, line in ((tone, edge), (other, other_edge)):
@@ -364,12 +367,12 @@ def test_a_moving_bar_s_pixels_follow_it_without_a_shiver() -> None:
     """Steps of a hundredth of a pixel move the picture's centre by as much, not by whole pixels."""
     scene = load("crank-rocker")
     size = (320, 180)
-    painter = Painter(scene, size, Look(hud=False, trace=False))
+    painter = Picture(scene, size, Look(hud=False, trace=False))
     surface, centres, truth = offscreen(size), [], []
     colour = np.array(LIGHT.bodies[0], float)
     for step in range(24):
         pose = scene.pose(0.5 + 0.0006 * step)
-        painter.paint(surface, pose)
+        SurfacePrinter().paint(surface, painter, pose)
         near = np.clip(1 - np.abs(pixels(surface) - colour).sum(axis=-1) / 60, 0, 1)
         rows, columns = np.indices(near.shape)
         centres.append(complex((columns * near).sum(), (rows * near).sum()) / near.sum())
@@ -381,7 +384,7 @@ def test_a_moving_bar_s_pixels_follow_it_without_a_shiver() -> None:
 
 
 def test_a_spring_of_no_length_is_still_drawn(press: Figure) -> None:
-    items: list[Coil | Cushion] = [*coils(press, VIEW, GAUGE, LIGHT), *cushions(press, VIEW, GAUGE, LIGHT)]
+    items: list[Coil | Damping] = [*coils(press, VIEW, GAUGE, LIGHT), *dampings(press, VIEW, GAUGE, LIGHT)]
     for item in items:
         layers = item.layers(dict.fromkeys(item.between, 3 + 3j))
         assert all(np.isfinite(loop).all() for layer in layers for loop in layer.loops)
@@ -420,7 +423,7 @@ def test_a_planet_rolls_on_a_wheel_that_stands_still(
     assert Fraction(pair.driver.teeth, pair.driven.teeth) == Fraction(still / planet).limit_denominator(9)
     outline = 0 if not ring else 1
     fixed = wheel_layers(shown, view, GAUGE, LIGHT)[0].loops[outline]
-    (planet_part,) = wheel_parts(shown, view, GAUGE, LIGHT)
+    planet_part, *_ = wheel_parts(shown, view, GAUGE, LIGHT)
     for phase in np.linspace(0, 7, 30):
         places = {name: view.place(point) for name, point in scene.pose(float(phase)).position.items()}
         rolling = planet_part.placed(places)[0].loops[0]
@@ -480,3 +483,30 @@ def test_a_carried_slot_is_as_long_as_its_pin_goes_and_has_an_arm_where_it_lies_
     assert [edge.real.min(), edge.real.max()] == pytest.approx([along.min() - wide, along.max() + wide])
     assert [edge.imag.min(), edge.imag.max()] == pytest.approx([-2 * offset - wide, -2 * offset + wide])
     assert len(bar.layers) == (4 if offset else 2)
+
+
+@pytest.mark.parametrize(
+    ("scene", "folds"),
+    [
+        # the rims of two wheels that mesh, and their holes; two pulleys have as many corners instead of teeth
+        (geared(Fraction(-1, 3)), [9, 5, 27, 5]),
+        (geared(Fraction(1, 2)), [63, 5, 88, 5]),
+        # a planet goes round: it never looks the same again
+        (planetary(Fraction(-3)), [1, 1]),
+    ],
+)
+def test_a_wheel_looks_the_same_again_a_tooth_further(scene: Scene, folds: list[int]) -> None:
+    assert sorted(part.fold for part in wheel_parts(figure(scene), VIEW, GAUGE, LIGHT)) == sorted(folds)
+
+
+@pytest.mark.parametrize("fold", [3, 5, 12])
+@pytest.mark.parametrize("angle", [0.0, 0.4, 3.0, -2.9])
+def test_a_direction_is_folded_to_the_same_one_a_part_of_a_turn_further(fold: int, angle: float) -> None:
+    turn = complex(directions(angle))
+    found = folded(turn, fold)
+    assert abs(found) == pytest.approx(1.0, abs=1e-15)
+    assert abs(math.atan2(found.imag, found.real)) <= math.pi / fold + 1e-6
+    # the rounding is a ten-millionth of the radius
+    assert abs(found**fold - turn**fold) < fold * 1e-7
+    for part in range(fold):
+        assert folded(turn * complex(directions(2 * math.pi * part / fold)), fold) == found

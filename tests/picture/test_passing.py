@@ -13,11 +13,12 @@ from pictures import inked, pixels
 
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
 from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.edit_list import edit_list
 from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
@@ -28,21 +29,21 @@ WORDS = "40 rpm"
 
 
 @pytest.fixture(scope="module")
-def painter() -> Painter:
-    return Painter(load("crank-rocker"), SIZE, Look())
+def painter() -> Picture:
+    return Picture(load("crank-rocker"), SIZE, Look())
 
 
-def _painted(painter: Painter, overlay: Overlay) -> pygame.Surface:
+def _painted(painter: Picture, overlay: Overlay) -> pygame.Surface:
     surface = offscreen(SIZE)
-    painter.paint(surface, painter.scene.pose(1.0), overlay)
+    SurfacePrinter().paint(surface, painter, painter.scene.pose(1.0), overlay)
     return surface
 
 
-def test_the_bar_that_is_edited_is_lit_and_measured_beside_it(painter: Painter) -> None:
+def test_the_bar_that_is_edited_is_lit_and_measured_beside_it(painter: Picture) -> None:
     bare, lit = _painted(painter, Overlay()), _painted(painter, Overlay(measured=("O2", "O4", "100 mm")))
     places = painter.drawing.places(painter.scene.pose(1.0))
     begin, end = places["O2"], places["O4"]
-    bar, middle = painter.drawing.scenery.gauge.bar, (begin + end) / 2
+    bar, middle = painter.drawing.setting.gauge.bar, (begin + end) / 2
     changed = np.abs(pixels(bare) - pixels(lit)).max(axis=-1) > 8
     column = changed[:, round(middle.real) - 30]
     assert column[round(middle.imag - 1.3 * bar) : round(middle.imag + 1.3 * bar)].all()
@@ -60,14 +61,14 @@ def _between(one: pygame.Surface, other: pygame.Surface) -> Rect:
 
 
 def _saying(kind: str, words: Fading) -> Overlay:
-    return Overlay(chip=words) if kind == "chip" else Overlay(strip=words)
+    return Overlay(chip=words) if kind == "chip" else Overlay(hint=words)
 
 
 @pytest.mark.parametrize("kind", ["chip", "strip"])
-def test_a_chip_and_the_strip_hold_their_words_and_fade(painter: Painter, kind: str) -> None:
+def test_a_chip_and_the_strip_hold_their_words_and_fade(painter: Picture, kind: str) -> None:
     bare = _painted(painter, Overlay())
     there = _painted(painter, _saying(kind, Fading(WORDS)))
-    size = painter._layout.text_size if kind == "chip" else painter._layout.small_size
+    size = painter.layout.text_size if kind == "chip" else painter.layout.small_size
     ink = LIGHT.ink if kind == "chip" else LIGHT.dim
     sheet = _between(bare, there)
     wide = Type().width(WORDS, size, strong=kind == "chip")
@@ -79,9 +80,9 @@ def test_a_chip_and_the_strip_hold_their_words_and_fade(painter: Painter, kind: 
     assert not inked(going, middle, ink)
 
 
-def test_the_picture_recedes_behind_the_help(painter: Painter) -> None:
+def test_the_picture_recedes_behind_the_help(painter: Picture) -> None:
     told = Overlay(help=(("look", (("H", "help"),)),))
-    hud = painter._layout.hud
+    hud = painter.layout.hud
     assert hud
     title = hud._replace(height=24)
     assert inked(_painted(painter, Overlay()), title, LIGHT.ink)

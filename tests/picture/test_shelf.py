@@ -9,10 +9,10 @@ import pytest
 from pictures import pixels
 
 from linkanim.picture.layout import layout
-from linkanim.picture.painter import Painter
 from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.overlay import Shelf
-from linkanim.picture.shelf import ShelfPainter, grid, titled
+from linkanim.picture.picture import Picture
+from linkanim.picture.shelf import ShelfPrinter, grid, titled
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
@@ -56,7 +56,7 @@ def test_a_word_that_has_no_room_is_set_smaller_then_cut() -> None:
 
 def _shown(size: tuple[int, int], chosen: int) -> pygame.Surface:
     """The shelf of three mechanisms, all of them there, still."""
-    surface, painter = pygame.Surface(size, 0, 32), ShelfPainter()
+    surface, painter = pygame.Surface(size, 0, 32), ShelfPrinter()
     for frame in range(4):
         painter.draw(surface, Shelf(("kite", "hart", "wiper"), chosen, frame, "light", still=True))
     return surface
@@ -65,9 +65,9 @@ def _shown(size: tuple[int, int], chosen: int) -> pygame.Surface:
 def test_a_closed_shelf_keeps_no_picture() -> None:
     def painters() -> int:
         gc.collect()
-        return sum(isinstance(one, Painter) for one in gc.get_objects())
+        return sum(isinstance(one, Picture) for one in gc.get_objects())
 
-    before, painter = painters(), ShelfPainter()
+    before, painter = painters(), ShelfPrinter()
     painter.draw(pygame.Surface((640, 480), 0, 32), Shelf(("kite",), 0, 0, "light", still=True))
     assert painters() > before
     painter.close()

@@ -105,22 +105,22 @@ def test_a_closure_has_a_name(name: str) -> None:
 
 
 def test_a_strip_says_what_to_press_until_a_key_is(rocker: State) -> None:
-    strips = [overlay(run(rocker, frame)).strip for frame in (0, 40, 320, 360, 600)]
+    strips = [overlay(run(rocker, frame)).hint for frame in (0, 40, 320, 360, 600)]
     assert [strip is not None for strip in strips] == [False, True, True, False, False]
     assert strips[1] is not None
     assert "Space pause" in strips[1].text
-    assert overlay(run(after(rocker, "trace"), 100)).strip is None
+    assert overlay(run(after(rocker, "trace"), 100)).hint is None
 
 
 def test_a_strip_comes_in_and_goes_out_gently(rocker: State) -> None:
-    shown = [strip.eighths if (strip := overlay(run(rocker, n)).strip) else 0 for n in range(0, 370, 2)]
+    shown = [strip.eighths if (strip := overlay(run(rocker, n)).hint) else 0 for n in range(0, 370, 2)]
     assert max(shown) == 8
     assert max(abs(a - b) for a, b in pairwise(shown)) <= 1
 
 
 def test_a_strip_comes_back_when_nothing_is_pressed_for_long(rocker: State) -> None:
     state = replace(after(rocker, "trace"), frame=1000, touched=1, chip=None)
-    seen = [overlay(replace(state, frame=frame)).strip is not None for frame in range(100, 12_000, 50)]
+    seen = [overlay(replace(state, frame=frame)).hint is not None for frame in range(100, 12_000, 50)]
     assert any(seen)
     assert not all(seen)
 
@@ -128,13 +128,13 @@ def test_a_strip_comes_back_when_nothing_is_pressed_for_long(rocker: State) -> N
 @pytest.mark.parametrize("quiet", ["pause", "help", "list", "shelf", "edit", Action("record", "gif")])
 def test_there_is_no_strip_over_anything_else(rocker: State, quiet: str | Action) -> None:
     state = replace(after(rocker, quiet), touched=0)
-    assert all(overlay(replace(state, frame=frame, chip=None)).strip is None for frame in range(0, 360, 20))
+    assert all(overlay(replace(state, frame=frame, chip=None)).hint is None for frame in range(0, 360, 20))
 
 
 def test_nothing_that_comes_and_goes_is_on_a_screenshot(rocker: State) -> None:
     state = after(rocker, "direction", "screenshot", Action("note", "told"))
     shown = kept(state)
-    assert (shown.chip, shown.strip, shown.toast, shown.shutter) == (None, None, None, 0)
+    assert (shown.chip, shown.hint, shown.toast, shown.shutter) == (None, None, None, 0)
 
 
 def test_a_screenshots_shutter_flashes_and_goes(rocker: State) -> None:
@@ -189,7 +189,7 @@ def test_a_fade_ends_where_the_window_changes_its_size(player: Player) -> None:
 
 def test_a_pin_glows_under_the_mouse(player: Player) -> None:
     plain = player.pixels
-    x, y = player.window.easel.crank_pin()
+    x, y = player.window.screen.crank_pin()
     player.mouse(pygame.MOUSEMOTION, (x, y), rel=(1, 1), buttons=(0, 0, 0))
     assert player.pixels != plain
     player.mouse(pygame.MOUSEMOTION, (1, 1), rel=(1, 1), buttons=(0, 0, 0))
@@ -205,11 +205,11 @@ def test_a_mouse_that_moves_before_the_first_picture_is_waited_for(here: Path) -
 
 def test_with_the_list_open_what_can_be_dragged_glows(player: Player) -> None:
     player.type("e")
-    easel = player.window.easel
+    screen = player.window.screen
     pose = player.state.scene.pose(player.state.phase, 0)
     for joint, glows in (("B", True), ("O2", False)):
-        player.mouse(pygame.MOUSEMOTION, easel.pixel(*pose.position[joint]), rel=(1, 1), buttons=(0, 0, 0))
-        hovered = player.window._mouse.hovered(easel)
+        player.mouse(pygame.MOUSEMOTION, screen.pixel(*pose.position[joint]), rel=(1, 1), buttons=(0, 0, 0))
+        hovered = player.window._mouse.hovered(screen)
         assert (hovered == joint) == glows
 
 
@@ -238,10 +238,10 @@ MARKS = {
 def test_a_mark_is_drawn_and_goes(over: Overlay, size: tuple[int, int]) -> None:
     with display.opened(size):
         player = Player(after(begin(load("crank-rocker")), Action("chart", 1), "pause"))
-        easel, plain = player.window.easel, player.pixels
-        easel.show(player.state, replace(kept(player.state), **vars(over) | {"paused": True, "noted": True}))
+        screen, plain = player.window.screen, player.pixels
+        screen.show(player.state, replace(kept(player.state), **vars(over) | {"paused": True, "noted": True}))
         marked = player.pixels
-        easel.show(player.state, kept(player.state))
+        screen.show(player.state, kept(player.state))
         bare = player.pixels
         player.window.close()
     assert marked != bare

@@ -16,7 +16,7 @@ A, B = View(2.0, 100.0, 300.0), View(1.0, 260.0, 200.0)
 
 def _pin(player: Player) -> complex:
     """Return where the rocker's pivot is in the window."""
-    return complex(*player.window.easel.pixel(100.0, 0.0))
+    return complex(*player.window.screen.pixel(100.0, 0.0))
 
 
 def _settled(player: Player) -> complex:

@@ -201,9 +201,9 @@ def test_every_span_is_the_bar_that_its_dimension_measures(name: str) -> None:
 
 def test_a_joint_is_dragged_with_the_mouse(player: Player) -> None:
     player.type("e")
-    before, easel = player.state, player.window.easel
+    before, screen = player.state, player.window.screen
     x, y = place(before, "B")
-    player.drag(easel.pixel(x, y), easel.pixel(x + 6.0, y + 6.0), easel.pixel(x + 10.0, y + 10.0))
+    player.drag(screen.pixel(x, y), screen.pixel(x + 6.0, y + 6.0), screen.pixel(x + 10.0, y + 10.0))
     assert values(player.state)["Rocker 4"] > values(before)["Rocker 4"]
     assert (player.state.held, player.state.editing.past) == (None, (before.scene,))
 
@@ -217,14 +217,14 @@ def test_shift_makes_the_mouse_go_in_tenths(
     player.type("e")
     x, y = place(player.state, "B")
     monkeypatch.setattr(pygame.key, "get_mods", lambda: shift)
-    player.drag(player.window.easel.pixel(x, y), player.window.easel.pixel(x + 10.0, y + 7.0))
+    player.drag(player.window.screen.pixel(x, y), player.window.screen.pixel(x + 10.0, y + 7.0))
     rocker = values(player.state)["Rocker 4"]
     assert (round(rocker, 1), rocker == round(rocker)) == (rocker, whole)
 
 
 def test_moves_of_one_frame_are_taken_as_one(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
     player.type("e")
-    start = player.window.easel.pixel(*place(player.state, "B"))
+    start = player.window.screen.pixel(*place(player.state, "B"))
     player.mouse(pygame.MOUSEBUTTONDOWN, start, button=1)
     seen: list[Action] = []
     actions = player.window._mouse.actions

@@ -13,7 +13,8 @@ import pytest
 from playing import Player
 
 from linkanim.mechanics.formulas.program import Batch
-from linkanim.picture.painter import Painter
+from linkanim.picture.picture import Picture
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.player.state.action import Action
 from linkanim.player.state.actions import ACTIONS
 from linkanim.player.state.advance import advance
@@ -159,14 +160,14 @@ def test_a_report_holds_what_is_needed_to_find_the_hole(
 def test_a_picture_that_cannot_be_painted_gives_way_to_the_last(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    before, paint = player.state.scene, Painter.__init__
+    before, paint = player.state.scene, Picture.__init__
 
-    def fail(self: Painter, scene: Scene, *rest: Any, **more: Any) -> None:
+    def fail(self: Picture, scene: Scene, *rest: Any, **more: Any) -> None:
         if scene.name != "crank-rocker":
             raise HOLES[0]
         paint(self, scene, *rest, **more)
 
-    monkeypatch.setattr(Painter, "__init__", fail)
+    monkeypatch.setattr(Picture, "__init__", fail)
     assert player.press(pygame.K_TAB, 0, "\t")
     assert player.state.scene == before
     assert player.tick()
@@ -176,14 +177,16 @@ def test_a_picture_that_cannot_be_painted_gives_way_to_the_last(
 def test_a_phase_that_cannot_be_painted_is_not_gone_to(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    stays, paint = player.state.phase, Painter.paint
+    stays, paint = player.state.phase, SurfacePrinter.paint
 
-    def fail(self: Painter, surface: pygame.Surface, pose: Any, *rest: Any, **more: Any) -> None:
+    def fail(
+        self: SurfacePrinter, surface: pygame.Surface, picture: Picture, pose: Any, *rest: Any, **more: Any
+    ) -> None:
         if pose.phase != stays:
             raise HOLES[1]
-        paint(self, surface, pose, *rest, **more)
+        paint(self, surface, picture, pose, *rest, **more)
 
-    monkeypatch.setattr(Painter, "paint", fail)
+    monkeypatch.setattr(SurfacePrinter, "paint", fail)
     assert player.press(pygame.K_RIGHT)
     assert player.tick(5)
     assert (player.state.phase, player.state.clock.paused) == (stays, True)

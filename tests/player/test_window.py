@@ -305,7 +305,7 @@ def test_the_svg_has_joints_where_the_window_has_them(player: Player, here: Path
     numbers = [float(number) for number in re.findall(r"[\d.]+", drawn.attrib["d"])]
     middle = [(max(way) + min(way)) / 2 for way in (numbers[::2], numbers[1::2])]
     place = player.state.scene.pose(player.state.phase, 0).position["B"]
-    assert player.window.easel.pixel(*place) == pytest.approx(middle, abs=0.02)
+    assert player.window.screen.pixel(*place) == pytest.approx(middle, abs=0.02)
 
 
 def test_a_toast_is_gone_after_three_seconds(player: Player) -> None:
@@ -381,36 +381,36 @@ def middle_of(size: tuple[int, int]) -> tuple[float, float]:
 def test_the_wheel_zooms_about_the_mouse(player: Player) -> None:
     pixels = player.pixels
     player.mouse(pygame.MOUSEMOTION, (200, 60), rel=(0, 0), buttons=(0, 0, 0))
-    before = player.window.easel.world(200, 60)
+    before = player.window.screen.world(200, 60)
     player.mouse(pygame.MOUSEWHEEL, (200, 60), x=0, y=2)
     assert player.state.look.zoom == 1.25**2
-    assert player.window.easel.world(200, 60) == pytest.approx(before)
+    assert player.window.screen.world(200, 60) == pytest.approx(before)
     player.mouse(pygame.MOUSEWHEEL, (200, 60), x=0, y=-2)
     assert player.settle() == pixels
 
 
 def test_the_wheel_zooms_about_the_middle_before_the_mouse_was_seen(player: Player) -> None:
-    middle = middle_of(player.window.easel.size)
-    before = player.window.easel.world(*middle)
+    middle = middle_of(player.window.screen.size)
+    before = player.window.screen.world(*middle)
     player.mouse(pygame.MOUSEWHEEL, (0, 0), x=0, y=2)
-    assert player.window.easel.world(*middle) == pytest.approx(before)
+    assert player.window.screen.world(*middle) == pytest.approx(before)
 
 
 def test_a_drag_pans(player: Player) -> None:
     pixels = player.pixels
-    before = player.window.easel.world(*middle_of(SIZE))
+    before = player.window.screen.world(*middle_of(SIZE))
     player.drag((10, 170), (40, 120), (30, 140))
-    assert player.window.easel.world(SIZE[0] / 2 + 20, SIZE[1] / 2 - 30) == pytest.approx(before)
+    assert player.window.screen.world(SIZE[0] / 2 + 20, SIZE[1] / 2 - 30) == pytest.approx(before)
     player.drag((30, 140), (10, 170))
     assert player.pixels == pixels
 
 
 def test_the_crank_is_dragged_by_its_pin(player: Player) -> None:
     scene = player.state.scene
-    easel = player.window.easel
+    screen = player.window.screen
     for target in (0.5, 2.0, -1.0):
         goal = scene.pose(target, 0).position["A"]
-        player.drag(easel.crank_pin(), easel.pixel(*goal))
+        player.drag(screen.crank_pin(), screen.pixel(*goal))
         angle = player.state.phase - target
         assert abs(math.remainder(angle, math.tau)) < 0.1
     assert player.state.clock.paused
@@ -419,12 +419,12 @@ def test_the_crank_is_dragged_by_its_pin(player: Player) -> None:
 def test_the_charts_cursor_is_dragged(player: Player) -> None:
     player.press(*plain("c"))
     place = next(
-        (x, y) for y in range(179, 0, -5) for x in (160,) if player.window.easel.charted(x, y) is not None
+        (x, y) for y in range(179, 0, -5) for x in (160,) if player.window.screen.charted(x, y) is not None
     )
     player.mouse(pygame.MOUSEBUTTONDOWN, place, button=1)
-    assert player.state.phase == player.window.easel.charted(*place)
+    assert player.state.phase == player.window.screen.charted(*place)
     player.drag(place, (place[0] + 40, place[1]))
-    assert player.state.phase == player.window.easel.charted(place[0] + 40, place[1])
+    assert player.state.phase == player.window.screen.charted(place[0] + 40, place[1])
 
 
 def test_a_recording_is_taped_and_rendered_beside(

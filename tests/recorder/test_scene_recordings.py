@@ -18,10 +18,11 @@ from linkanim.errors import BadInput, RecordingFailed
 from linkanim.manifest import single
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.parts.wheels import teeth_a_second
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.player.state.action import Action
 from linkanim.player.state.state import begin
@@ -75,7 +76,9 @@ def test_a_recording_warns_of_no_limit_unless_it_is_asked_to() -> None:
     plain, noted = (SceneFrames(scene, plan, size, Look(), noted=noted).draw(0) for noted in (False, True))
     assert plain != noted
     surface = offscreen(size)
-    Painter(scene, size, Look()).paint(surface, scene.pose(plan.phase(0), speed=plan.speed), Overlay())
+    SurfacePrinter().paint(
+        surface, Picture(scene, size, Look()), scene.pose(plan.phase(0), speed=plan.speed), Overlay()
+    )
     assert plain == pixel_bytes(surface) == SceneFrames(scene, plan, size, Look()).draw(0)
 
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from linkanim.picture.arrangement.sweep import Sweep
-from linkanim.picture.arrangement.words import WordBlock
 from linkanim.picture.layout import Gauge, Layout, gauge
+from linkanim.picture.panels.hud import WordBlock
 from linkanim.picture.view import Box, Rect, View
 
 HIGH, WIDE = 0.86, 0.61
@@ -28,8 +28,8 @@ _AWAY = (0.0, 0.25, 0.5)
 """How far the scene gives way to the words, in shares of the room that it leaves."""
 _MARKS = (7.2, 2.5)
 """How wide and high the marks are, in sizes of the text."""
-_STRIPS = (27.0, 19.0, 13.0, 5.4)
-"""How wide the strip may be, in sizes of its text: with all its words, and with ever fewer."""
+_HINTS = (27.0, 19.0, 13.0, 5.4)
+"""How wide the hint bar may be, in sizes of its text: with all its words, and with ever fewer."""
 _THINNEST = 0.68
 """What is drawn is no thinner than this on a small stage, in thicknesses of the whole window's."""
 _EDGE = 9.0
@@ -53,15 +53,15 @@ def arranged(
 
     `blocks` are the words, set in several ways: the first group of which one finds its place is taken.
     """
-    bench = _Bench(parts, sweep, shortest)
-    found = (bench.placed(*way[1:]) for group in blocks for way in bench.ways(group))
-    bare = Arrangement(parts, bench.view(bench.largest, (0.5, 0.5)), bench.gauge, None)
+    ways_ = _WaysToArrange(parts, sweep, shortest)
+    found = (ways_.placed(*way[1:]) for group in blocks for way in ways_.ways(group))
+    bare = Arrangement(parts, ways_.view(ways_.largest, (0.5, 0.5)), ways_.gauge, None)
     arrangement = next((one for one in found if one), bare)
-    marked = replace(arrangement, layout=replace(arrangement.layout, marks=bench.marks(arrangement)))
-    return replace(marked, layout=replace(marked.layout, strip=bench.strip(marked)))
+    marked = replace(arrangement, layout=replace(arrangement.layout, marks=ways_.marks(arrangement)))
+    return replace(marked, layout=replace(marked.layout, hint=ways_.hint(marked)))
 
 
-class _Bench:
+class _WaysToArrange:
     """What all ways to arrange one scene have in common."""
 
     def __init__(self, parts: Layout, sweep: Sweep, shortest: float) -> None:
@@ -117,23 +117,26 @@ class _Bench:
         free = [
             rect
             for rect in corners
-            if not any(rect.meets(told) for told in (parts.hud, parts.legend) if told)
+            if not any(rect.meets(words) for words in (parts.hud, parts.legend) if words)
         ]
         clear = (rect for rect in free if not self._drawn_in(rect, arrangement.view, high))
         return next(clear, (free or corners)[0])
 
-    def strip(self, arrangement: Arrangement) -> Rect:
-        """Return where the strip stands: at the stage's foot or head, on nothing, as wide as it can be.
+    def hint(self, arrangement: Arrangement) -> Rect:
+        """Return where the hint bar stands: at the stage's foot or head, on nothing, as wide as it can be.
 
         Nowhere is a rectangle without width.
         """
         parts, size, edge = arrangement.layout, arrangement.layout.small_size, 6 * arrangement.layout.unit
-        stage, told = parts.stage.inset(edge), [one for one in (parts.hud, parts.legend, parts.marks) if one]
-        for wide, low, right in product(_STRIPS, (1, 0), (1.0, 0.0, 0.5)):
+        stage, others = (
+            parts.stage.inset(edge),
+            [one for one in (parts.hud, parts.legend, parts.marks) if one],
+        )
+        for wide, low, right in product(_HINTS, (1, 0), (1.0, 0.0, 0.5)):
             width, high = min(wide * size, stage.width), 1.6 * size
             at = stage.x + right * (stage.width - width), stage.y + low * (stage.height - high)
             rect = Rect(*at, width, high)
-            if not any(rect.meets(one) for one in told) and not self._drawn_in(rect, arrangement.view, 0):
+            if not any(rect.meets(one) for one in others) and not self._drawn_in(rect, arrangement.view, 0):
                 return rect
         return Rect(stage.x, stage.bottom, 0.0, 0.0)
 

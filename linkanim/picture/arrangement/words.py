@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby, zip_longest
 from typing import NamedTuple
 
 from linkanim.picture.layout import Layout
+from linkanim.picture.panels.hud import STEP, WordBlock, WordLine
+from linkanim.picture.panels.legend import KEY_STEP
 from linkanim.picture.panels.readings import Reading, notes, ranked, rows_of
 from linkanim.picture.text.text import Type
-from linkanim.picture.view import Rect
 from linkanim.scenes.editing.titles import beyond_title
 from linkanim.scenes.scene import Scene
 
-STEP = 1.4
-"""From row to row, in heights of their text."""
-KEY_STEP = 1.5
-"""From line to line of the key to the arrows."""
 _TITLE = 1.43
 """The title's size, in sizes of the rows."""
 _SMALLEST = 10
@@ -38,97 +34,48 @@ _FASTEST = -10.0
 """The fastest that a scene is run at, backwards for the minus sign."""
 
 
-class WordLine(NamedTuple):
-    """A line that stands still: its text, how far down, size, whether it is a title, how wide it is."""
-
-    text: str
-    y: float
-    size: int
-    strong: bool
-    width: int
-
-
-class Said(NamedTuple):
+class WidestRow(NamedTuple):
     """A row as it needs the most room, with its rank."""
 
     rank: int
     row: Reading
 
 
-@dataclass(frozen=True)
-class WordBlock:
-    """Words at one size, all places from the block's top left corner."""
-
-    size: int
-    lines: tuple[WordLine, ...]
-    """The title's and the class's."""
-    turns: int
-    """How many lines more than one the title takes."""
-    rows: frozenset[str]
-    """The names of the rows that are shown."""
-    first: float
-    """The top of the first row."""
-    note: float
-    """The top of what is special."""
-    key: float
-    """The top of the key to the arrows."""
-    column: int
-    """The width of the rows."""
-    width: float
-    height: float
-
-    def rects_at(self, place: tuple[float, float]) -> Iterator[Rect]:
-        """Yield the rectangles that the words take where the block stands."""
-        x, y = place
-        for line in self.lines:
-            yield Rect(x, y + line.y, line.width, line.size)
-        if self.height > self.first:
-            yield Rect(x, y + self.first, self.column, self.height - self.first)
-
-    def parts_at(self, place: tuple[float, float]) -> tuple[Rect, Rect | None]:
-        """Return the rectangles of the words and of the key to the arrows; None without arrows."""
-        x, y = place
-        whole = Rect(x, y, self.width, self.key)
-        return whole, Rect(
-            x, y + self.key, self.column, self.height - self.key
-        ) if self.height > self.key else None
-
-
-def said_of(scenes: Sequence[Scene], type_: Type) -> tuple[Said, ...]:
+def widest_rows(scenes: Sequence[Scene], type_: Type) -> tuple[WidestRow, ...]:
     """Return the rows of a scene, and of those beside it, each with the widest value that it ever has."""
-    widest: dict[str, tuple[int, Said]] = {}
-    for said in (said for scene in scenes for said in _ever_said(scene)):
-        width = type_.width(said.row.value, _MEASURED)
-        if width > widest.get(said.row.label, (-1, said))[0]:
-            widest[said.row.label] = width, said
-    return tuple(said for _, said in widest.values())
+    widest: dict[str, tuple[int, WidestRow]] = {}
+    for one in (one for scene in scenes for one in _over_a_cycle(scene)):
+        width = type_.width(one.row.value, _MEASURED)
+        if width > widest.get(one.row.label, (-1, one))[0]:
+            widest[one.row.label] = width, one
+    return tuple(one for _, one in widest.values())
 
 
-def _ever_said(scene: Scene) -> Iterator[Said]:
+def _over_a_cycle(scene: Scene) -> Iterator[WidestRow]:
     """Yield the rows over a cycle, at the fastest speed."""
     known, speed = rows_of(scene), _FASTEST * scene.linkage.drive.speed
     for step in range(_TRIED):
         for rank, row in ranked(known, scene.pose(scene.period * step / _TRIED, speed=speed)):
-            yield Said(rank, row)
+            yield WidestRow(rank, row)
 
 
 def blocks(
-    scenes: Sequence[Scene], said: tuple[Said, ...], layout: Layout, arrows: int, type_: Type
+    scenes: Sequence[Scene], rows: tuple[WidestRow, ...], layout: Layout, arrows: int, type_: Type
 ) -> Iterator[list[WordBlock]]:
     """Yield the words in groups, each with the title in ever more lines; those to be preferred first.
 
-    First all that is `said`, ever smaller, then ever less of it, then without the key. `arrows` is how many
+    First all `rows`, ever smaller, then ever less of it, then without the key. `arrows` is how many
     the key has. The words are the first scene's; there is room for those of the others in their place.
     """
     setter = _Setter(scenes, layout, arrows, type_)
     smallest = max(_SMALLEST, round(_SHRUNK * layout.text_size))
     for size in range(layout.text_size, smallest, -1):
-        yield setter.group(size, said, True)
-    ranks = sorted({one.rank for one in said}, reverse=True)
+        yield setter.group(size, rows, True)
+    ranks = sorted({one.rank for one in rows}, reverse=True)
     bare = _Setter(scenes, layout, 0, type_)
     ways = [(setter, rank) for rank in ranks] + [(bare, rank) for rank in (*ranks, -1)]
     for way, rank in ways:
-        yield way.group(smallest, tuple(one for one in said if one.rank <= rank), rank >= _CLASS_RANK)
+        yield way.group(smallest, tuple(one for one in rows if one.rank <= rank), rank >= _CLASS_RANK)
 
 
 class _Setter:
@@ -141,28 +88,30 @@ class _Setter:
         self._classes = [beyond_title(self._title, scene.info.class_name) for scene in scenes]
         self._notes = [words for scene in scenes for words in notes(scene)]
 
-    def group(self, size: int, said: tuple[Said, ...], classed: bool) -> list[WordBlock]:
+    def group(self, size: int, rows: tuple[WidestRow, ...], classed: bool) -> list[WordBlock]:
         """Return the block with the title in one line, in two, and so on."""
         big = round(_TITLE * size)
         titles = [self._broken(count, big) for count in range(1, _MOST_LINES + 1)]
-        return [self._block(size, title, said, classed) for title, _ in groupby(titles)]
+        return [self._block(size, title, rows, classed) for title, _ in groupby(titles)]
 
-    def _block(self, size: int, title: tuple[str, ...], said: tuple[Said, ...], classed: bool) -> WordBlock:
-        big, column = round(_TITLE * size), self._column(size, said)
+    def _block(
+        self, size: int, title: tuple[str, ...], rows: tuple[WidestRow, ...], classed: bool
+    ) -> WordBlock:
+        big, column = round(_TITLE * size), self._column(size, rows)
         lines = [self._line(text, 1.12 * big * n, big, strong=True) for n, text in enumerate(title)]
         y, wide = 1.12 * big * len(title) + 0.1 * size, max(line.width for line in lines)
-        for told in self._classed(size, max(column, wide, _CLASS_WIDTH * size)) if classed else ():
-            widest = max(self._type.width(text, size) for text in told)
-            lines.append(WordLine(told[0], y, size, False, widest))
+        for line_of_each in self._classed(size, max(column, wide, _CLASS_WIDTH * size)) if classed else ():
+            widest = max(self._type.width(text, size) for text in line_of_each)
+            lines.append(WordLine(line_of_each[0], y, size, False, widest))
             y += 1.2 * size
-        first = y + 0.5 * size if said else y
-        note = first + STEP * size * len(said) + (0.3 * size if said else 0.0)
+        first = y + 0.5 * size if rows else y
+        note = first + STEP * size * len(rows) + (0.3 * size if rows else 0.0)
         key = note + 1.2 * size * max(
             (len(self.wrapped(words, size, column)) for words in self._notes), default=0
         )
-        high = KEY_STEP * self._layout.small_size * self._arrows if said else 0.0
+        high = KEY_STEP * self._layout.small_size * self._arrows if rows else 0.0
         width = max(column, *(line.width for line in lines))
-        shown = frozenset(one.row.label for one in said)
+        shown = frozenset(one.row.label for one in rows)
         last, tall = len(title) - 1, key + high
         return WordBlock(size, tuple(lines), last, shown, first, note, key, column, width, tall)
 
@@ -175,13 +124,13 @@ class _Setter:
         """Return a note in lines."""
         return self._type.wrapped(words, size, column) if column else []
 
-    def _column(self, size: int, said: tuple[Said, ...]) -> int:
+    def _column(self, size: int, rows: tuple[WidestRow, ...]) -> int:
         """Return how wide the rows are, and the key to the arrows."""
         width = self._type.width
         wide = [
-            width(one.row.label, size) + width(one.row.value, size, strong=True) + _GAP * size for one in said
+            width(one.row.label, size) + width(one.row.value, size, strong=True) + _GAP * size for one in rows
         ]
-        if said and self._arrows:
+        if rows and self._arrows:
             small = self._layout.small_size
             unit = f"acceleration  00000 {self._scene.length_unit}/s²"
             wide.append(3.2 * small + width(unit, small))

@@ -15,7 +15,6 @@ from linkanim.mechanics.motion.measures import centrodes, coupler_body, pole
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo
-from linkanim.picture.labels.dimensions import numbered
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.raster.parts import Places
 from linkanim.picture.raster.raster import Colour, Layer, Loop
@@ -52,7 +51,7 @@ class Centres:
     def pairs(self) -> tuple[BodyPair, ...]:
         """The bodies to the ground, and of few to each other."""
         links: dict[str, Body] = {}
-        for body, number in numbered(self.figure).items():
+        for body, number in self.figure.numbers.items():
             links.setdefault(number, body)
         pairs = [BodyPair(body, None, _label("1", number)) for number, body in links.items()]
         if len(links) <= _MOST:

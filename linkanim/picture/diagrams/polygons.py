@@ -16,6 +16,7 @@ from linkanim.picture.diagrams.axis import round_step
 from linkanim.picture.diagrams.chart import Pen
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.placing import Clutter, LabelPlaces, place
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import arrows, disc, segments, unit
 from linkanim.picture.view import Box, Rect
@@ -66,7 +67,7 @@ class Polygon:
         layers, captions = [*self._drawn(found), self._dot(pole)], [self._title, *self._symbols(found)]
         if scale > 0:
             layers += self._bar(scale)
-            captions.append(self._told(scale, per))
+            captions.append(self._scale_words(scale, per))
         if not found:
             why = "all at rest" if np.isfinite(self._ends(pose)).all() else "unbounded here"
             at = (pole.real, pole.imag + 0.6 * self.pen.small)
@@ -147,19 +148,21 @@ class Polygon:
 
     def _symbols(self, found: list[Arrow]) -> Iterator[Caption]:
         """Yield the vectors' symbols, each beyond its vector as seen from the middle, where there is room."""
-        pen, taken = self.pen, list[Rect]()
-        halo = Halo(pen.theme.background, 0.8 * pen.line)
+        pen, halo = self.pen, Halo(self.pen.theme.background, 0.8 * self.pen.line)
         middle = sum((arrow.middle for arrow in found), 0j) / max(len(found), 1)
-        for arrow in sorted(found, key=lambda arrow: arrow.side.sort not in _ABSOLUTE):
-            text, colour = arrow.side.symbol, self._colour(arrow.side.sort)
-            half = complex(0.5 * pen.type.width(text, pen.small), 0.5 * pen.small)
-            for place in _beside(arrow, middle, half):
-                rect = Rect(place.real - half.real, place.imag - half.imag, 2 * half.real, 2 * half.imag)
-                if abs(arrow.reach) < _LABELLED * pen.small or any(rect.meets(other) for other in taken):
-                    continue
-                taken.append(rect)
-                yield Caption(text, (place.real, rect.y), pen.small, colour, "centre", halo=halo)
-                break
+        long = [arrow for arrow in found if abs(arrow.reach) >= _LABELLED * pen.small]
+        arrows_ = sorted(long, key=lambda arrow: arrow.side.sort not in _ABSOLUTE)
+        asked = [
+            _beside(arrow, middle, pen.type.width(arrow.side.symbol, pen.small), pen.small)
+            for arrow in arrows_
+        ]
+        room = self.rect.inset(-2.0 * pen.text)
+        for arrow, label, placed in zip(arrows_, asked, place(asked, Clutter(room)), strict=True):
+            if placed.shown[0]:
+                at = complex(label.places[0, placed.which])
+                top = at.real, at.imag - pen.small / 2
+                colour = self._colour(arrow.side.sort)
+                yield Caption(arrow.side.symbol, top, pen.small, colour, "centre", halo=halo)
 
     def _dot(self, pole: complex) -> Layer:
         return Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
@@ -174,7 +177,7 @@ class Polygon:
         feet, heads = [begin, begin - tick, end - tick], [end, begin + tick, end + tick]
         yield Layer(self.pen.theme.ink, segments(feet, heads, 0.8 * self.pen.line))
 
-    def _told(self, scale: float, per: str) -> Caption:
+    def _scale_words(self, scale: float, per: str) -> Caption:
         """Return what the bar of the scale stands for."""
         words = f"{_round(self._step(scale))} {self.figure.scene.length_unit}{per}"
         at = (self.rect.x, self.rect.bottom - 2.0 * self.pen.small)
@@ -186,15 +189,18 @@ def _round(value: float) -> str:
     return f"{value:g}" if 1e-3 <= value < 1e6 else three_digits(value)
 
 
-def _beside(arrow: Arrow, middle: complex, half: complex) -> Iterator[complex]:
-    """Yield places for a symbol beside an arrow, away from the middle of all first."""
+def _beside(arrow: Arrow, middle: complex, wide: float, high: float) -> LabelPlaces:
+    """Return places for a symbol beside an arrow, away from the middle of all first."""
     across = 1j * unit(arrow.reach)
     if ((arrow.middle - middle) * across.conjugate()).real < 0:
         across = -across
-    away = abs(across.real) * half.real + abs(across.imag) * half.imag + 0.35 * half.imag
-    for share in (0.5, 0.35, 0.65):
-        for side in (1, -1):
-            yield arrow.foot + share * arrow.reach + side * away * across
+    away = 0.5 * (abs(across.real) * wide + abs(across.imag) * high) + 0.175 * high
+    places = [
+        arrow.foot + share * arrow.reach + side * away * across
+        for share in (0.5, 0.35, 0.65)
+        for side in (1, -1)
+    ]
+    return LabelPlaces((wide, high), np.array([places]), np.arange(6.0))
 
 
 def polygons_of(figure: Figure, rect: Rect, pen: Pen) -> tuple[Polygon, Polygon]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -14,13 +14,14 @@ from linkanim.digits import short, stepped, typeset
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.measures import output_slider
 from linkanim.picture.figure import Figure
-from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.items import Caption, Halo
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.parts.driven import driven_words
 from linkanim.picture.parts.fittings import rail_reach
+from linkanim.picture.placing import Clutter, LabelPlaces, place
 from linkanim.picture.raster.raster import Layer, Loop
 from linkanim.picture.raster.shapes import arrows, segments
-from linkanim.picture.text.text import Anchor, Type
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect, View
 
@@ -31,10 +32,6 @@ _VISIBLE = 1e-3
 _NEAR = 0.3
 """What passes the guide no further off its ends, in strokes, is in the way of the words."""
 _FEW = 1e-6
-_LETTER = 0.56
-"""About how wide a letter is, in heights of its text."""
-_SHARES: Mapping[Anchor, float] = {"left": 0.0, "centre": 0.5, "right": 1.0}
-"""How much of a line stands left of its place."""
 
 
 @dataclass(frozen=True)
@@ -46,38 +43,63 @@ class DeadCentres:
     gauge: Gauge
     theme: Theme
     layout: Layout
+    type: Type
     sized: bool
 
     @cached_property
-    def group(self) -> Group:
-        """Ticks and words; an empty group where there is no such slider."""
-        return Group("dead-centres", list(self._layers()), self.captions)
-
-    @cached_property
-    def captions(self) -> list[Caption]:
+    def captions(self) -> tuple[Caption, ...]:
         """The input's angle at each dead centre, and between them the stroke and the time ratio.
 
-        What would stand on the words about the scene is left out.
+        What finds no room is left out.
         """
         if self._ends is None:
-            return []
-        info, (along, out), size = self.figure.scene.info, self._frame, self.layout.small_size
-        found = [
-            self._caption(self._angle(phase), end + out * self._reach, out + way * along)
-            for phase, end, way in zip(info.dead_centres or (), self._ends, (-1, 1), strict=True)
-        ]
+            return ()
+        info, size, halo = self.figure.scene.info, self.layout.small_size, max(1.4 * self.gauge.line, 1.5)
+        lines = [*map(self._angle, info.dead_centres or ())]
         if self.sized and info.stroke and info.time_ratio:
-            words = f"stroke {short(info.stroke)} {self.figure.scene.length_unit}, time ratio "
-            middle = sum(self._ends) / 2 + out * (self._reach + 1.3 * size * abs(out.imag))
-            found.append(self._caption(typeset(words + short(info.time_ratio)), middle, out))
-        return [line for line in found if not any(_taken(line).meets(rect) for rect in self.layout.words)]
+            stroke = f"stroke {short(info.stroke)} {self.figure.scene.length_unit}"
+            lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
+        feet = (*zip(self._ends, (-1, 1), strict=True), (sum(self._ends) / 2, 0))
+        wide = [self.type.width(text, size, strong=True) for text in lines]
+        asked = [self._candidates(*foot, complex(w, size)) for foot, w in zip(feet, wide, strict=False)]
+        found = place(asked, Clutter(self.layout.stage, self.layout.words))
+        return tuple(
+            Caption(
+                text,
+                (at.real, at.imag - size / 2),
+                size,
+                self.theme.dim,
+                "centre",
+                True,
+                Halo(self.theme.background, halo),
+            )
+            for text, label, placed in zip(lines, asked, found, strict=True)
+            if placed.shown[0]
+            for at in [complex(label.places[0, placed.which])]
+        )
 
-    def rects(self, type_: Type) -> Iterator[Rect]:
+    def _candidates(self, foot: complex, way: int, size: complex) -> LabelPlaces:
+        """Return places for the middle of a line of text off the guide, the one to the way `out` first."""
+        along, out = self._frame
+        aside, beyond = (
+            0.5 * (abs(side.real) * size.real + abs(side.imag) * size.imag) for side in (out, along)
+        )
+        level = self._reach + aside + 0.2 * size.imag + (0 if way else 1.3 * size.imag * abs(out.imag))
+        steps = [0, way * beyond, 2 * way * beyond, -way * beyond, -2 * way * beyond] if way else [0]
+        places = [
+            foot + side * out * (level + further * size.imag) + step * along
+            for side in (1, -1)
+            for further in (0, 1.2)
+            for step in steps
+        ]
+        price = np.arange(len(places), dtype=np.float64)
+        return LabelPlaces((size.real, size.imag), np.array([places], np.complex128), price)
+
+    def rects(self) -> Iterator[Rect]:
         """Yield where the words stand."""
         for line in self.captions:
-            wide = type_.width(line.text, line.size, strong=True)
-            left = line.at[0] - _SHARES[line.anchor] * wide
-            yield Rect(left, line.at[1], wide, line.size)
+            wide = self.type.width(line.text, line.size, strong=True)
+            yield Rect(line.at[0] - wide / 2, line.at[1], wide, line.size)
 
     @cached_property
     def _ends(self) -> tuple[complex, complex] | None:
@@ -126,18 +148,10 @@ class DeadCentres:
             return f"{input_symbol(scene.linkage)} = {driven_words(scene, angle)}"
         return f"{input_symbol(scene.linkage)} = {stepped(round(degrees(angle), 1) % 360, 0.1)}°"
 
-    def _caption(self, text: str, at: complex, out: complex) -> Caption:
-        """Return a line of text that begins at a place and goes the way out."""
-        size, halo = self.layout.small_size, Halo(self.theme.background, max(1.4 * self.gauge.line, 1.5))
-        anchor: Anchor = "centre" if abs(out.real) < 0.5 else "left" if out.real > 0 else "right"
-        wide, stage = _LETTER * size * len(text), self.layout.stage
-        x = {
-            "left": min(at.real + 0.3 * size, stage.right - wide),
-            "centre": min(max(at.real, stage.x + wide / 2), stage.right - wide / 2),
-            "right": max(at.real - 0.3 * size, stage.x + wide),
-        }[anchor]
-        top = at.imag - 0.5 * size + 0.7 * size * max(min(out.imag, 1.0), -1.0)
-        return Caption(text, (x, top), size, self.theme.dim, anchor, strong=True, halo=halo)
+    @property
+    def layers(self) -> list[Layer]:
+        """The ticks, and the stroke's arrows between them."""
+        return list(self._layers())
 
     def _layers(self) -> Iterator[Layer]:
         if self._ends is None:
@@ -150,9 +164,3 @@ class DeadCentres:
             middle = feet.mean() + level
             lines += arrows([middle, middle], feet + level - middle, 1.6 * width)
         yield Layer(self.theme.dim, lines)
-
-
-def _taken(line: Caption) -> Rect:
-    """Return about where a line of text stands."""
-    wide = _LETTER * line.size * len(line.text)
-    return Rect(line.at[0] - _SHARES[line.anchor] * wide, line.at[1], wide, line.size)

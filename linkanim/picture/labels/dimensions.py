@@ -11,7 +11,7 @@ import numpy as np
 from linkanim.digits import short, typeset
 from linkanim.mechanics.facts.register import driven_body
 from linkanim.mechanics.linkage.linkage import Body
-from linkanim.mechanics.linkage.rigid_bodies import Brace, Rigid, holding
+from linkanim.mechanics.linkage.rigid_bodies import Brace, Rigid
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster.parts import Part
@@ -79,23 +79,6 @@ def leg_part(legs: Legs, view: View, gauge: Gauge, colour: Colour) -> Part:
     return Part(first, first, second, (Layer(colour, loops),))
 
 
-def numbered(figure: Figure) -> dict[Body, str]:
-    """Return the links with their numbers: the scene's own, or in its order from 2; the ground is 1.
-
-    What cannot move against each other has one number.
-    """
-    if all(body.name.isdecimal() for body in figure.links):
-        return {body: body.name for body in figure.links}
-    rigid = [_frame(figure, body) for body in figure.links]
-    number = {frame: str(n) for n, frame in enumerate(dict.fromkeys(rigid), start=2)}
-    return {body: number[frame] for body, frame in zip(figure.links, rigid, strict=True)}
-
-
-def _frame(figure: Figure, body: Body) -> int | str | None:
-    """Return which rigid body this one is; the block of a slider is its own."""
-    return body.slider or holding(figure.linkage.rigid_bodies, body.joints)
-
-
 def written(symbol: str, value: float, unit: str) -> str:
     """Return a dimension as it is set: r₂ = 40 mm."""
     return f"{symbol} = {typeset(short(value))} {unit}"
@@ -146,7 +129,7 @@ def _bar(figure: Figure, number: str, begin: str, end: str) -> Distance:
 
 def _angle(figure: Figure) -> str:
     body = driven_body(figure.linkage)
-    return f"θ{_lowered(numbered(figure)[body] if body else '2')}"
+    return f"θ{_lowered(figure.numbers[body] if body else '2')}"
 
 
 def _symbol(number: str) -> str:

@@ -1,122 +1,122 @@
-"""Names on the picture: of joints and links, then their dimensions, placed for the whole cycle at once."""
+"""Names on the picture: of joints and links, then their dimensions, each in one place for the whole cycle."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import pygame
+from numpy.typing import NDArray
 
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Halo
-from linkanim.picture.labels.dimensions import Symbols, numbered, written
-from linkanim.picture.labels.placing import Drift, Wish, place
-from linkanim.picture.labels.whereabouts import Whereabouts
+from linkanim.picture.labels.candidates import LabelSpots, Spots, Surroundings, stacked
+from linkanim.picture.labels.dimensions import Symbols, written
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.parts.turning import Turning
+from linkanim.picture.placing import place
 from linkanim.picture.raster.parts import Places
 from linkanim.picture.raster.raster import Colour
-from linkanim.picture.raster.shapes import unit
-from linkanim.picture.text.lettering import Lettering
 from linkanim.picture.text.text import Type, subscripted
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
 _ROOM = 0.6
 """The part of a bar that its link's name may take."""
+_HIGH = 0.94
+"""The height of letters that are placed, in heights of their line."""
 _UNSEEN = 0.05
-_LEAST_SHOWN = 0.4
+_LEAST_SHOWN = 0.2
 """A label that would show for less of the cycle is left out."""
 
 
 @dataclass(frozen=True)
-class Tag:
-    """A label about to be placed: its words and where it would like to stand.
-
-    It rests in the frame of the joint `at`, which turns with the direction to `head` where that is another.
-    """
-
-    lettering: Lettering
-    at: str
-    head: str
-    wish: Wish
-    across: bool = False
-    """Whether it has a place on a plate, not by a bar."""
-
-
-@dataclass(frozen=True)
 class Label:
-    """A label with its place over the cycle.
+    """A line of text with its place; what measures a length has its `symbol`."""
 
-    It was placed for a distance of `length` pixels from `at` to `head`. Where that is another, as in an
-    enlarged view, its place moves along by as much, and across where it lies on a plate and not by a bar.
-    """
-
-    lettering: Lettering
-    at: str
-    head: str
-    path: Drift
-    length: float
-    across: bool
-
-    def placed(self, share: float, places: Places) -> tuple[complex, float]:
-        """Return its middle in pixels at a share of the cycle, and how far it shows (0 to 1)."""
-        offset, shown = self.path.at(share)
-        return self.standing(complex(offset), float(shown), places)
-
-    def standing(self, offset: complex, shown: float, places: Places) -> tuple[complex, float]:
-        """Return its middle in pixels at a place of its path, and how far it shows (0 to 1)."""
-        span = places[self.head] - places[self.at]
-        if self.length:
-            scale = abs(span) / self.length
-            offset = unit(span) * complex(scale * offset.real, (scale if self.across else 1) * offset.imag)
-        return places[self.at] + offset, shown if shown > _UNSEEN else 0.0
+    text: str
+    line: int
+    """The height of its line."""
+    colour: Colour
+    size: tuple[float, float]
+    """Of its letters in their halo."""
+    symbol: str = ""
+    spot: Spots | None = None
+    shown: NDArray[np.float64] | None = None
+    """How far it shows over the cycle, at equal steps of phase."""
 
 
 @dataclass(frozen=True)
 class Names:
-    """All labels of a picture."""
+    """All labels of a picture, in their halo."""
 
     labels: tuple[Label, ...]
     period: float
-
-    def draw(self, surface: pygame.Surface, pose: Pose, places: Places) -> None:
-        """Draw every label; changes the surface only."""
-        for label, middle, shown in self._standing(pose, places):
-            if shown:
-                label.lettering.draw(surface, middle, shown)
+    bar: float
+    halo: Halo
 
     def captions(self, pose: Pose, places: Places) -> list[Caption]:
-        """Return every label that shows, as a line of text in its halo."""
+        """Return every label that shows, as a line of text."""
         found = []
-        for label, middle, shown in self._standing(pose, places):
-            words = label.lettering
-            at = (middle.real, middle.imag - words.drop)
-            if shown > 0.5:
-                halo = Halo(*words.halo)
-                found.append(Caption(words.text, at, words.line_height, words.ink, "centre", True, halo))
+        for label, middle, shown in self.standing(pose, places):
+            if shown > _UNSEEN:
+                at = (middle.real, middle.imag - 0.5 * label.line)
+                found.append(
+                    Caption(label.text, at, label.line, label.colour, "centre", True, self.halo, shown)
+                )
         return found
 
-    def _standing(self, pose: Pose, places: Places) -> Iterator[tuple[Label, complex, float]]:
-        """Yield every label with its middle in pixels, and how far it shows."""
+    def standing(self, pose: Pose, places: Places) -> Iterator[tuple[Label, complex, float]]:
+        """Yield every label with its middle in pixels, and how far it shows (0 to 1)."""
         if not self.labels:
             return
-        offsets, showings = self._paths.at(pose.phase / self.period)
-        for label, offset, shown in zip(self.labels, offsets.tolist(), showings.tolist(), strict=True):
-            yield label, *label.standing(offset, shown, places)
+        spots, sides, shown = self._stacked
+        at, head = (
+            np.array([places[joint] for joint in joints])
+            for joints in zip(
+                *((label.spot.at, label.spot.head) for label in self.labels if label.spot), strict=True
+            )
+        )
+        middles = spots.middles(at, head, sides, self.bar)
+        share = pose.phase / self.period % 1.0 * len(shown)
+        first = int(share) % len(shown)
+        now = shown[first] + (share % 1.0) * (shown[(first + 1) % len(shown)] - shown[first])
+        yield from zip(self.labels, middles.tolist(), now.tolist(), strict=True)
+
+    def measuring(self, known: Symbols | None, unit: str) -> Names:
+        """Return the labels in their places, with the lengths as they are now."""
+        values = dict(_lengths(known)) if known else {}
+        labels = (
+            replace(label, text=written(label.symbol, values[label.symbol], unit))
+            if label.symbol in values
+            else label
+            for label in self.labels
+        )
+        return replace(self, labels=tuple(labels))
 
     @cached_property
-    def _paths(self) -> Drift:
-        """All paths in one."""
-        offsets, showings = zip(*(label.path for label in self.labels), strict=True)
-        return Drift(np.stack(offsets, axis=-1), np.stack(showings, axis=-1))
+    def _stacked(self) -> tuple[Spots, NDArray[np.complex128], NDArray[np.float64]]:
+        """The labels' spots, their sides (w + hi), and how far they show (moments, labels)."""
+        spots = stacked([label.spot for label in self.labels if label.spot])
+        sides = np.array([complex(*label.size) for label in self.labels])
+        return (
+            spots,
+            sides,
+            np.stack([label.shown for label in self.labels if label.shown is not None], axis=1),
+        )
+
+
+def _lengths(known: Symbols) -> Iterator[tuple[str, float]]:
+    """Yield the lengths of bodies and of points on them, by their symbols."""
+    yield from ((length.symbol, length.value) for length in known.dimensions)
+    for legs in known.legs:
+        yield from zip(legs.symbols, legs.point.at, strict=True)
 
 
 @dataclass(frozen=True)
-class Hand:
+class LabelStyle:
     """What labels are written with."""
 
     type: Type
@@ -129,79 +129,88 @@ class Hand:
         """The height of a joint's name."""
         return max(round(20 * self.layout.unit), 12)
 
-    def written(self, text: str, size: int, colour: Colour) -> Lettering:
-        """Return a line of text in its halo."""
-        halo = max(1.4 * self.gauge.line, 1.5)
-        return Lettering(text, self.type, size, (colour, self.theme.background), halo)
+    @property
+    def halo(self) -> Halo:
+        """What parts letters from what is below."""
+        return Halo(self.theme.background, max(1.4 * self.gauge.line, 1.5))
 
-    def measure(self, symbol: str, value: float, unit_: str) -> Lettering:
+    def label(self, text: str, line: int, colour: Colour, symbol: str = "") -> Label:
+        """Return a line of text that has no place yet."""
+        around = 2 * self.halo.width
+        wide = self.type.width(text, line, strong=True)
+        return Label(text, line, colour, (wide + around, _HIGH * line + around), symbol)
+
+    def length(self, symbol: str, value: float, unit: str) -> Label:
         """Return a length with its symbol."""
-        return self.written(written(symbol, value, unit_), self.layout.small_size, self.theme.dim)
+        return self.label(written(symbol, value, unit), self.layout.small_size, self.theme.dim, symbol)
 
 
-def names_of(figure: Figure, view: View, hand: Hand, turning: Turning | None, known: Symbols | None) -> Names:
+Unplaced = Iterator[tuple[Label, LabelSpots]]
+
+
+def names_of(
+    figure: Figure, view: View, style: LabelStyle, turning: Turning | None, known: Symbols | None
+) -> Names:
     """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too."""
-    ground = Whereabouts(figure, view, hand.gauge, hand.layout)
-    tags = [*_joints(ground, hand), *_links(ground, hand)]
+    ground = Surroundings(figure, view, style.gauge, style.layout)
+    still = figure.fixed
+    moving = [name for name in figure.shown if name not in still]
+    labels = [*_joints(ground, style, still), *_links(ground, style), *_joints(ground, style, moving)]
     if known:
-        tags += [*_angle(ground, hand, turning, known), *_dimensions(ground, hand, known)]
-    paths = place([tag.wish for tag in tags], ground.clutter())
-    labels = [
-        Label(tag.lettering, tag.at, tag.head, path, ground.apart(tag.at, tag.head), tag.across)
-        for tag, path in zip(tags, paths, strict=True)
-        if path.shown.mean() >= _LEAST_SHOWN
-    ]
-    return Names(tuple(labels), figure.scene.period)
+        labels += [*_angle(ground, style, turning, known), *_dimensions(ground, style, known)]
+    found = place([spots.candidates for _, spots in labels], ground.clutter())
+    kept = tuple(
+        replace(label, spot=spots.spots.picked(placed.which), shown=placed.shown)
+        for (label, spots), placed in zip(labels, found, strict=True)
+        if placed.shown.mean() >= _LEAST_SHOWN
+    )
+    return Names(kept, figure.scene.period, style.gauge.bar, style.halo)
 
 
-def _joints(ground: Whereabouts, hand: Hand) -> Iterator[Tag]:
-    """Yield the joints' names, those that stand still first."""
-    figure = ground.figure
-    for name in sorted(figure.shown, key=lambda name: name not in figure.fixed):
-        lettering = hand.written(subscripted(name), hand.joint_size, hand.theme.ink)
-        yield Tag(lettering, name, name, ground.around(name, lettering.size))
+def _joints(ground: Surroundings, style: LabelStyle, names: Iterable[str]) -> Unplaced:
+    """Yield joints' names."""
+    for name in names:
+        label = style.label(subscripted(name), style.joint_size, style.theme.ink)
+        yield label, ground.around(name, label.size)
 
 
-def _links(ground: Whereabouts, hand: Hand) -> Iterator[Tag]:
+def _links(ground: Surroundings, style: LabelStyle) -> Unplaced:
     """Yield the links' names, on their bars where there is room."""
-    named = _long_enough(ground, hand)
-    for body, number in numbered(ground.figure).items():
-        lettering = hand.written(
-            ground.figure.links[body] if named else number, hand.layout.small_size, hand.theme.ink
-        )
+    named, links = _long_enough(ground, style), ground.figure.links
+    for body, number in ground.figure.numbers.items():
+        label = style.label(links[body] if named else number, style.layout.small_size, style.theme.ink)
         if body.slider:
-            yield Tag(lettering, body.slider, body.slider, ground.by_slider(body.slider, lettering.size))
+            yield label, ground.by_slider(body.slider, label.size)
         elif len(body.joints) > 1:
-            first, second = body.joints[:2]
-            yield Tag(lettering, first, second, ground.on(body, lettering.size), len(body.joints) > 2)
+            yield label, ground.on(body, label.size)
 
 
-def _long_enough(ground: Whereabouts, hand: Hand) -> bool:
+def _long_enough(ground: Surroundings, style: LabelStyle) -> bool:
     """Return whether every bar has room for its link's name; else all are called by their numbers."""
-    start, size = ground.figure.start, hand.layout.small_size
+    start, size = ground.figure.start, style.layout.small_size
     return all(
-        hand.type.width(name, size, strong=True)
+        style.type.width(name, size, strong=True)
         < _ROOM * ground.view.scale * abs(start(body.joints[1]) - start(body.joints[0]))
         for body, name in ground.figure.links.items()
         if len(body.joints) > 1
     )
 
 
-def _angle(ground: Whereabouts, hand: Hand, turning: Turning | None, known: Symbols) -> Iterator[Tag]:
+def _angle(ground: Surroundings, style: LabelStyle, turning: Turning | None, known: Symbols) -> Unplaced:
     """Yield the input's angle at its pivot."""
     if turning:
-        lettering = hand.written(known.input, hand.joint_size, hand.theme.dim)
-        yield Tag(lettering, turning.pivot, turning.pivot, ground.by_arc(turning, lettering.size))
+        label = style.label(known.input, style.joint_size, style.theme.dim)
+        yield label, ground.by_arc(turning, label.size)
 
 
-def _dimensions(ground: Whereabouts, hand: Hand, known: Symbols) -> Iterator[Tag]:
+def _dimensions(ground: Surroundings, style: LabelStyle, known: Symbols) -> Unplaced:
     """Yield the lengths beside what they measure."""
-    unit_ = ground.figure.scene.length_unit
+    unit = ground.figure.scene.length_unit
     for symbol, begin, end, value in known.dimensions:
-        lettering = hand.measure(symbol, value, unit_)
-        yield Tag(lettering, begin, end, ground.beside(begin, end, lettering.size))
+        label = style.length(symbol, value, unit)
+        yield label, ground.beside(begin, end, label.size)
     for symbols, point in known.legs:
         for which, (symbol, value) in enumerate(zip(symbols, point.at, strict=True)):
             if value:
-                lettering = hand.measure(symbol, value, unit_)
-                yield Tag(lettering, *point.on, ground.leg(point, which, lettering.size), across=True)
+                label = style.length(symbol, value, unit)
+                yield label, ground.leg(point, which, label.size)

@@ -1,4 +1,4 @@
-"""Short words that come and go: the chip that answers a key, the strip that says what there is to press."""
+"""Short words that come and go: the chip that answers a key, the bar that says what there is to press."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ def chip(board: Board, text: str) -> pygame.Surface:
     return sheet
 
 
-def strip(board: Board, text: str) -> pygame.Surface | None:
-    """Return the strip, the last of its parts that there is room for; None where that is none."""
+def hint_bar(board: Board, text: str) -> pygame.Surface | None:
+    """Return the hint bar, the last of its parts that there is room for; None where that is none."""
     size, parts = board.layout.small_size, text.split(" · ")
-    place = board.layout.strip or board.layout.stage
+    place = board.layout.hint or board.layout.stage
     room = place.width - 2 * size
     while parts and board.type.width(_GAP.join(parts), size) > room:
         parts.pop(0)

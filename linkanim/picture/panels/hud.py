@@ -5,22 +5,71 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-
-import pygame
+from typing import NamedTuple
 
 from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.arrangement.words import STEP, WordBlock
-from linkanim.picture.items import Caption, draw
+from linkanim.picture.items import Caption
 from linkanim.picture.panels.readings import Row, note, ranked, rows_of
-from linkanim.picture.raster.raster import Layer, paint
+from linkanim.picture.raster.raster import Layer
 from linkanim.picture.raster.shapes import box
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 
+STEP = 1.4
+"""From row to row, in heights of their text."""
 _BACKING = 0.82
 """How little of what lies under the words shows through their backing."""
+
+
+class WordLine(NamedTuple):
+    """A line that stands still: its text, how far down, size, whether it is a title, how wide it is."""
+
+    text: str
+    y: float
+    size: int
+    strong: bool
+    width: int
+
+
+@dataclass(frozen=True)
+class WordBlock:
+    """Words at one size, all places from the block's top left corner."""
+
+    size: int
+    lines: tuple[WordLine, ...]
+    """The title's and the class's."""
+    turns: int
+    """How many lines more than one the title takes."""
+    rows: frozenset[str]
+    """The names of the rows that are shown."""
+    first: float
+    """The top of the first row."""
+    note: float
+    """The top of what is special."""
+    key: float
+    """The top of the key to the arrows."""
+    column: int
+    """The width of the rows."""
+    width: float
+    height: float
+
+    def rects_at(self, place: tuple[float, float]) -> Iterator[Rect]:
+        """Yield the rectangles that the words take where the block stands."""
+        x, y = place
+        for line in self.lines:
+            yield Rect(x, y + line.y, line.width, line.size)
+        if self.height > self.first:
+            yield Rect(x, y + self.first, self.column, self.height - self.first)
+
+    def parts_at(self, place: tuple[float, float]) -> tuple[Rect, Rect | None]:
+        """Return the rectangles of the words and of the key to the arrows; None without arrows."""
+        x, y = place
+        whole = Rect(x, y, self.width, self.key)
+        return whole, Rect(
+            x, y + self.key, self.column, self.height - self.key
+        ) if self.height > self.key else None
 
 
 @dataclass(frozen=True)
@@ -32,18 +81,6 @@ class Hud:
     place: Rect
     type: Type
     theme: Theme
-
-    @cached_property
-    def sheets(self) -> tuple[tuple[pygame.Surface, tuple[int, int]], ...]:
-        """What stands still and where: title, class and the names of the rows, each line on its own."""
-        found = []
-        for line in self.still():
-            size = round(self.place.right) + 1, round(line.at[1]) + 2 * line.size
-            whole = pygame.Surface(size, pygame.SRCALPHA, 32)
-            draw(whole, [line], self.type)
-            part = whole.get_bounding_rect()
-            found.append((whole.subsurface(part).copy(), part.topleft))
-        return tuple(found)
 
     def still(self) -> Iterator[Caption]:
         """Yield the words that stand still."""
@@ -66,37 +103,22 @@ class Hud:
         """The rows that are shown."""
         return tuple(row for row in rows_of(self.scene) if row.label in self.block.rows)
 
-    @cached_property
-    def backing(self) -> pygame.Surface:
-        """What lets the words be read where something lies under them."""
-        room = self.place.inset(-0.5 * self.block.size)
-        sheet = pygame.Surface((round(room.width), round(room.height)), pygame.SRCALPHA, 32)
-        middle = complex(sheet.get_width() / 2, sheet.get_height() / 2)
-        plate = middle + box(sheet.get_width(), sheet.get_height(), 0.5 * self.block.size)
-        paint(sheet, [Layer(self.theme.background, [plate], _BACKING)])
-        return sheet
+    def backing(self, key: Rect | None) -> Layer:
+        """Return what lets the words and their key be read where something lies under them."""
+        bottom = key.bottom if key else self.place.bottom
+        room = self.place._replace(height=bottom - self.place.y).inset(-0.5 * self.block.size)
+        middle = complex(room.x + room.width / 2, room.y + room.height / 2)
+        plate = middle + box(room.width, room.height, 0.5 * self.block.size)
+        return Layer(self.theme.background, [plate], _BACKING)
 
-    def draw(self, surface: pygame.Surface, pose: Pose, *, noted: bool, backed: bool) -> None:
-        """Draw the words about a pose, and where it is to be `noted`, what is special there.
-
-        They are `backed` where something may lie under them.
-        """
-        if backed:
-            inset = 0.5 * self.block.size
-            surface.blit(self.backing, (round(self.place.x - inset), round(self.place.y - inset)))
-        surface.blits(self.sheets, doreturn=False)
-        values = self.values(pose)
-        draw(surface, values, self.type)
-        if noted and values:
-            self._note(surface, pose)
-
-    def _note(self, surface: pygame.Surface, pose: Pose) -> None:
+    def notes(self, pose: Pose) -> Iterator[Caption]:
+        """Yield what is special at a pose, as clearly as it is shown."""
         words, eighths = note(self.scene, pose)
         size, colour = self.block.size, mixed(self.theme.background, self.theme.dim, eighths / 8)
         lines = self.type.wrapped(words, size, self.block.column) if eighths else []
         for n, line in enumerate(lines):
             at = (self.place.x, self.place.y + self.block.note + 1.2 * size * n)
-            self.type.draw(surface, line, at, size=size, colour=colour)
+            yield Caption(line, at, size, colour)
 
     def _top(self, row: int) -> float:
         return self.place.y + self.block.first + STEP * self.block.size * row

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import pygame
-
 from linkanim.digits import three_digits
-from linkanim.picture.arrangement.words import KEY_STEP
-from linkanim.picture.items import Caption, Item, draw
+from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import Layout
 from linkanim.picture.parts.vectors import Arrows
 from linkanim.picture.raster.raster import Layer
@@ -18,6 +15,8 @@ from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 
+KEY_STEP = 1.5
+"""From line to line of the key to the arrows."""
 _SMALLEST = 8
 
 
@@ -32,9 +31,9 @@ class Legend:
     type: Type
     theme: Theme
 
-    def draw(self, surface: pygame.Surface) -> None:
-        """Draw what stands still."""
-        draw(surface, self.still(), self.type)
+    def group(self, speed: float) -> Group:
+        """Return the key at this input speed (rad/s)."""
+        return grouped("key", [*self.still(), *self.values(speed)], still=True)
 
     def still(self) -> Iterator[Item]:
         """Yield the arrows and what they are called."""
@@ -44,10 +43,6 @@ class Legend:
             yield Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))
             at = (self.column.x + self._reach + 0.6 * size, self._top(n))
             yield Caption(kind.words, at, size, self.theme.dim)
-
-    def draw_values(self, surface: pygame.Surface, speed: float) -> None:
-        """Draw the values at this input speed (rad/s)."""
-        draw(surface, self.values(speed), self.type)
 
     def values(self, speed: float) -> Iterator[Caption]:
         """Yield how much each arrow stands for at this input speed (rad/s)."""

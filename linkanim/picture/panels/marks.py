@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 
-import pygame
-
 from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.layout import Gauge
-from linkanim.picture.panels.board import Board
+from linkanim.picture.items import Caption, Group
+from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.panels.overlay import DimensionLine
 from linkanim.picture.raster.parts import Stamp
-from linkanim.picture.raster.raster import Colour, Layer, paint
+from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import arrows, box, disc, segments, unit
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import ORANGE, Theme
 from linkanim.picture.view import Rect, View
 
@@ -21,23 +20,23 @@ _LIT = 0.45
 """How strongly the bar being edited is lit."""
 
 
-def draw_measure(
-    surface: pygame.Surface, board: Board, view: View, gauge: Gauge, shown: DimensionLine
-) -> None:
-    """Draw the light on a bar, its dimension line beside it, and the value on the line."""
+def measure(
+    type_: Type, layout: Layout, theme: Theme, drawn: tuple[View, Gauge], shown: DimensionLine
+) -> Iterator[Group]:
+    """Yield the light on a bar, its dimension line beside it, and the value on the line."""
+    (view, gauge), size = drawn, layout.small_size
     begin, end = (view.place(place) for place in shown.ends)
     if abs(end - begin) < 1.0:
         return
     away = 1j * unit(end - begin)
-    away *= (2.0 * gauge.bar + 14 * board.layout.unit) * (-1 if away.imag > 0 else 1)
-    paint(surface, [*_lit(begin, end, gauge), *_line(begin, end, away, board, gauge)])
-    size = board.layout.small_size
-    wide, high = board.type.width(shown.words, size, strong=True) + 0.7 * size, 1.35 * size
-    middle = _inside(board.layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
-    back = middle + box(wide, high, 0.3 * size)
-    paint(surface, [Layer(board.theme.panel, [back], 0.9)])
+    away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
+    wide, high = type_.width(shown.words, size, strong=True) + 0.7 * size, 1.35 * size
+    middle = _inside(layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
+    back = Layer(theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
     at = (middle.real, middle.imag - 0.52 * size)
-    board.write(surface, shown.words, at, size=size, anchor="centre", strong=True)
+    words = Caption(shown.words, at, size, theme.ink, "centre", strong=True)
+    lines = [*_lit(begin, end, gauge), *_line(begin, end, away, theme, gauge), back]
+    yield Group("measure", lines, [words], over=True)
 
 
 def _clear(away: complex, gauge: Gauge, wide: float, high: float) -> complex:
@@ -59,12 +58,12 @@ def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:
     yield Layer(ORANGE, loops, _LIT)
 
 
-def _line(begin: complex, end: complex, away: complex, board: Board, gauge: Gauge) -> Iterator[Layer]:
+def _line(begin: complex, end: complex, away: complex, theme: Theme, gauge: Gauge) -> Iterator[Layer]:
     """Yield the line with an arrow at both ends, and those that lead to it from the joints."""
     middle, width = (begin + end) / 2 + away, 0.9 * gauge.line
     leads = [one for foot in (begin, end) for one in segments(foot + 0.35 * away, foot + 1.15 * away, width)]
     ways = arrows([middle, middle], [begin + away - middle, end + away - middle], 1.6 * width)
-    yield Layer(board.theme.ink, [*leads, *ways])
+    yield Layer(theme.ink, [*leads, *ways])
 
 
 def glow(view: View, pose: Pose, joint: str, gauge: Gauge) -> Iterator[Layer]:

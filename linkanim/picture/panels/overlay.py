@@ -84,7 +84,7 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    With `noted` the HUD says where a limit or a change point is near. `chip` answers a key, `strip` says what
+    With `noted` the HUD says where a limit or a change point is near. `chip` answers a key, `hint` says what
     there is to press. `measured` are two joints and the words for their distance, `glow` the joint under the
     mouse; with `grip` the chart's cursor has one. `shutter` is how white the picture is, in eighths.
     """
@@ -97,7 +97,7 @@ class Overlay:
     quantities: Quantities | None = None
     shelf: Shelf | None = None
     chip: Fading | None = None
-    strip: Fading | None = None
+    hint: Fading | None = None
     measured: tuple[str, str, str] | None = None
     glow: str | None = None
     grip: bool = False

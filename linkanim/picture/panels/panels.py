@@ -11,7 +11,7 @@ import pygame
 
 from linkanim.picture.layout import Layout
 from linkanim.picture.panels.board import Board
-from linkanim.picture.panels.chips import chip, put, strip
+from linkanim.picture.panels.chips import chip, hint_bar, put
 from linkanim.picture.panels.edit_list import edit_list
 from linkanim.picture.panels.help_sheet import help_sheet
 from linkanim.picture.panels.overlay import Overlay
@@ -72,20 +72,20 @@ class Panels:
         return round(place.x), max(foot, margin) if place.y > margin else margin
 
     def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw the chip below the marks, and the strip at the bottom, where the HUD is not."""
+        """Draw the chip below the marks, and the hint bar at the bottom, where the HUD is not."""
         room, place = self.layout.stage, self.layout.marks
         if overlay.chip:
             drawn = self._keep("chip", overlay.chip.text, partial(chip, self.board))
             marks = 1.5 * self.layout.text_size * (bool(overlay.recording) + overlay.paused)
             left = place.x if self._marks_lead else place.right - drawn.get_width()
             put(surface, drawn, (left, place.y + marks), overlay.chip)
-        if overlay.strip:
-            words = self._keep("strip", overlay.strip.text, partial(strip, self.board))
-            at = self.layout.strip or room
+        if overlay.hint:
+            words = self._keep("hint", overlay.hint.text, partial(hint_bar, self.board))
+            at = self.layout.hint or room
             if words:
                 leads = at.x + at.width / 2 <= room.x + room.width / 2
                 left = at.x if leads else at.right - words.get_width()
-                put(surface, words, (left, at.bottom - words.get_height()), overlay.strip)
+                put(surface, words, (left, at.bottom - words.get_height()), overlay.hint)
 
     @property
     def _marks_lead(self) -> bool:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from itertools import permutations
+from collections.abc import Iterator
 from math import cos, pi, radians
 
 import numpy as np
@@ -12,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts.wheels import FOOT, TIP, Wheel, WheelPair, pairs, wheels
+from linkanim.picture.parts.wheels import FOOT, TIP, Wheel, WheelPair, pairs
 from linkanim.picture.raster.directions import directions
 from linkanim.picture.raster.parts import Part, Stamp
 from linkanim.picture.raster.raster import Colour, Layer, Loop
@@ -50,8 +48,13 @@ def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple
     parts = []
     for pair in pairs(figure):
         for wheel in (wheel for wheel in pair.wheels if wheel.arm or not _stays(figure, wheel)):
-            layers = _wheel(wheel, pair, (view, gauge, theme), moving=not _stays(figure, wheel))
-            parts.append(Part(wheel.centre, wheel.centre, wheel.arm or wheel.centre, layers))
+            stays = _stays(figure, wheel)
+            ends = wheel.centre, wheel.centre, wheel.arm or wheel.centre
+            rim, *holes, edge = _wheel(wheel, pair, (view, gauge, theme), moving=not stays)
+            # the outline of a pulley has equal sides instead of teeth
+            fold = (wheel.teeth or len(rim.loops[0])) if stays else 1
+            parts.append(Part(*ends, (rim, edge), fold=fold))
+            parts += [Part(*ends, (hole,), fold=_HOLES if stays else 1) for hole in holes]
         if pair.planetary and not pair.driven.teeth:
             far = abs(figure.start(pair.driven.centre) - figure.start(pair.driver.centre)) * view.scale
             belt = (0j, complex(far), pair.driver.radius * view.scale, pair.driven.radius * view.scale)
@@ -75,32 +78,6 @@ def _wheel(
     holes = [way * (_HOLED * root) + disc(_HOLE * root) for way in ways]
     line = stroke(rim[0], gauge.outline, closed=True)
     return Layer(tone, rim), Layer(mixed(tone, theme.background, 0.6), holes), Layer(edge, line)
-
-
-def turning_apart(figure: Figure, parts: Sequence[Part]) -> tuple[tuple[Part, ...], ...]:
-    """Return the parts of wheels in sets that never lie over each other: rims with their lines, and holes.
-
-    None where a wheel goes round, or lies before another's holes.
-    """
-    turning = [wheel for wheel in wheels(figure) if wheel.arm or not _stays(figure, wheel)]
-    if not all(_stays(figure, wheel) for wheel in turning) or _overlapping(figure, turning):
-        return ()
-    rims = (replace(part, layers=(part.layers[0], part.layers[2])) for part in parts)
-    # the outline of a pulley has equal sides instead of teeth
-    folds = (wheel.teeth or len(part.layers[0].loops[0]) for part, wheel in zip(parts, turning, strict=True))
-    return (
-        tuple(replace(rim, fold=fold) for rim, fold in zip(rims, folds, strict=True)),
-        tuple(replace(part, layers=part.layers[1:2], fold=_HOLES) for part in parts),
-    )
-
-
-def _overlapping(figure: Figure, turning: Sequence[Wheel]) -> bool:
-    """Return whether one of these wheels reaches to where another has its holes."""
-    holed = _HOLED + _HOLE
-    return any(
-        abs(figure.start(one.centre) - figure.start(other.centre)) < one.reach + holed * other.radius
-        for one, other in permutations(turning, 2)
-    )
 
 
 def _tone(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:

@@ -101,7 +101,7 @@ def _repeated(feet: Loop, outline: Loop) -> Outlines:
 
 
 @dataclass(frozen=True)
-class Cushion:
+class Damping:
     """A damper to draw: how far it reaches, its cylinder's length in pixels, and what does not change.
 
     `cylinder` lies along the real axis from its closed end at 0, `head` about 0.
@@ -144,7 +144,7 @@ def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil,
     return tuple(found)
 
 
-def cushions(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Cushion, ...]:
+def dampings(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Damping, ...]:
     """Return the scene's dampers and driving cylinder, each as long as its stroke needs, if there is room."""
     found = []
     for item in figure.cylinders:
@@ -157,7 +157,7 @@ def cushions(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Cu
             barrel(0.0, length, radius, gauge, theme),
             piston(0.16 * length, radius, gauge, theme),
         )
-        found.append(Cushion(item.between, span, length, 2.4 * gauge.line, cylinder, head))
+        found.append(Damping(item.between, span, length, 2.4 * gauge.line, cylinder, head))
     return tuple(found)
 
 

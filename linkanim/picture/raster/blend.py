@@ -41,13 +41,6 @@ class Mix(NamedTuple):
         bytes_ = slice(4 * begin, 4 * end)
         return Mix(self.place[begin:end], self.keep[bytes_], self.add[bytes_])
 
-    def within(self, area: pygame.Rect, width: int) -> Mix:
-        """Return the pixels that lie in an area of a surface so many pixels wide."""
-        y, x = np.divmod(self.place, width)
-        inside = (area.left <= x) & (x < area.right) & (area.top <= y) & (y < area.bottom)
-        keep, add = (part.reshape(-1, 4)[inside].ravel() for part in (self.keep, self.add))
-        return Mix(self.place[inside], keep, add)
-
 
 def shares(cover: Counts | Floats) -> Shares:
     """Return coverage as it is mixed by."""
@@ -62,12 +55,6 @@ def mixed_in(place: Ints, share: Shares, ink: Words) -> Mix:
     add = ink.view(np.uint8) * of_bytes
     add += _HALF
     return Mix(place, np.float32(1) - of_bytes, add)
-
-
-def laid_on(place: Ints, through: Words, ink: Words) -> Mix:
-    """Return what colours on black do, of what is below so much showing through (0 to 255)."""
-    kept = (through * np.uint32(0x01010101)).view(np.uint8).astype(np.float32)
-    return Mix(place, kept / np.float32(255), ink.view(np.uint8) + _HALF)
 
 
 def mix(pixels: Words, what: Mix, *, clear: bool) -> None:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.picture.raster.directions import folded, lengths
+from linkanim.picture.raster.directions import folded
 from linkanim.picture.raster.raster import Colour, Layer, Loop, Outlines, outlines_of
 from linkanim.picture.raster.shapes import rounded, unit
 
@@ -78,11 +78,6 @@ class Part:
     def placed(self, places: Places) -> list[Layer]:
         """Return the layers where the joints now lie."""
         return self._sheaf.laid(places[self.at] + self.turn(places) * self._sheaf.points)
-
-    @cached_property
-    def reach(self) -> float:
-        """How far from its joint it reaches, in pixels."""
-        return float(lengths(self._sheaf.points).max(initial=0.0))
 
     def turn(self, places: Places) -> complex:
         """Return the direction that the part is turned by."""

@@ -13,7 +13,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from linkanim.picture.raster.blend import WHOLE, Mix, Shares, Words, laid_on, mix, mixed_in, shares, words
+from linkanim.picture.raster.blend import WHOLE, Shares, Words, mix, mixed_in, shares, words
 from linkanim.picture.raster.cells import Edges, Ints, Room, Runs, covered, on_grid, pixel_of, room
 from linkanim.picture.raster.cells import Loop as Loop
 
@@ -102,6 +102,47 @@ class _Pixels(NamedTuple):
     bounds: Ints
 
 
+class Cover:
+    """What layers do to every surface of a size and kind: worked out once, put on it any number of times."""
+
+    def __init__(self, found: Sequence[_Pixels]) -> None:
+        self._full: _Pixels | None = found[0] if found else None
+        self._mixes = [
+            (mixed_in(part.place, part.share, part.ink), part.bounds.tolist()) for part in found[1:]
+        ]
+
+    @property
+    def nbytes(self) -> int:
+        """The memory that it takes."""
+        full = self._full.place.nbytes + self._full.ink.nbytes if self._full else 0
+        return full + sum(what.place.nbytes + what.keep.nbytes + what.add.nbytes for what, _ in self._mixes)
+
+    def put(self, surface: pygame.Surface) -> None:
+        """Fill the pixels that are covered in full and mix the others, level by level."""
+        if self._full is None:
+            return
+        pixels, clear, full = pixels_of(surface), is_clear(surface), self._full
+        bounds = full.bounds.tolist()
+        for level in range(len(bounds) - 1):
+            inside = slice(bounds[level], bounds[level + 1])
+            if inside.start < inside.stop:
+                pixels[full.place[inside]] = full.ink[inside]
+            for mixed, at in self._mixes:
+                if at[level] < at[level + 1]:
+                    mix(pixels, mixed.part(at[level], at[level + 1]), clear=clear)
+
+
+def cover(
+    surface: pygame.Surface,
+    layers: Iterable[Layer],
+    *,
+    ends: tuple[int, int] | None = None,
+    over: Iterable[Layer] = (),
+) -> Cover:
+    """Return what `paint` would do to surfaces like this one."""
+    return Cover(_covered(surface, layers, ends or surface.get_size(), over))
+
+
 def paint(
     surface: pygame.Surface,
     layers: Iterable[Layer],
@@ -114,32 +155,7 @@ def paint(
     Where there are `ends`, columns and rows from them on are left as they are; those `over` the layers may
     reach beyond. Where the surface has alpha, it is kept straight (not multiplied into the colours).
     """
-    _put(surface, _covered(surface, layers, ends or surface.get_size(), over))
-
-
-def paint_noting(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int]) -> Ints:
-    """Fill layers as `paint` does, and return the pixels that are painted on."""
-    found = _covered(surface, layers, ends, ())
-    _put(surface, found)
-    return np.concatenate([np.zeros(0, np.int64), *(part.place for part in found)])
-
-
-def stencil(layers: Iterable[Layer], like: pygame.Surface, *, ends: tuple[int, int] | None = None) -> Mix:
-    """Return what layers do to surfaces like this one, worked out once, to be mixed in again and again.
-
-    It is found on a black and a white surface: what differs there shows through, the rest was put on.
-    """
-    masks = like.get_masks()[:3]
-    black, white = (pygame.Surface(like.get_size(), 0, 32, (*masks, 0)) for _ in range(2))
-    white.fill((255, 255, 255))
-    kept = list(layers)
-    for surface in (black, white):
-        paint(surface, kept, ends=ends)
-    put, over = (pixels_of(surface) & np.uint32(sum(masks)) for surface in (black, white))
-    through = over - put >> np.uint32(like.get_shifts()[1]) & np.uint32(255)
-    place = np.flatnonzero(through < 255)
-    opacity = (255 - through) * np.uint32(0x01010101) & np.uint32(0xFFFFFFFF ^ sum(masks))
-    return laid_on(place, through[place], (put | opacity)[place])
+    cover(surface, layers, ends=ends, over=over).put(surface)
 
 
 def keep_memory() -> None:
@@ -270,20 +286,3 @@ def _places(begin: Ints, counts: Ints) -> Ints:
     steps[:1] = begin[:1]
     steps[after[:-1]] = begin[1:] - begin[:-1] - counts[:-1] + 1
     return np.cumsum(steps, out=steps)
-
-
-def _put(surface: pygame.Surface, found: Sequence[_Pixels]) -> None:
-    """Fill the pixels that are covered in full and mix the others, level by level."""
-    if not found:
-        return
-    full, *partly = found
-    pixels, clear = pixels_of(surface), is_clear(surface)
-    mixes = [(mixed_in(part.place, part.share, part.ink), part.bounds.tolist()) for part in partly]
-    bounds = full.bounds.tolist()
-    for level in range(len(bounds) - 1):
-        inside = slice(bounds[level], bounds[level + 1])
-        if inside.start < inside.stop:
-            pixels[full.place[inside]] = full.ink[inside]
-        for mixed, at in mixes:
-            if at[level] < at[level + 1]:
-                mix(pixels, mixed.part(at[level], at[level + 1]), clear=clear)

@@ -117,6 +117,19 @@ def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:
     return list(np.stack((begin - side, end - side, end + side, begin + side), axis=1))
 
 
+def cut(loop: Loop, limit: float, *, down: bool = False) -> Loop:
+    """Return a closed loop without what reaches right of a limit, or below it (Sutherland, Hodgman 1974)."""
+    place = loop.imag if down else loop.real
+    inside, after = place <= limit, np.roll(loop, -1)
+    if inside.all():
+        return loop
+    crosses, step = inside != np.roll(inside, -1), np.roll(place, -1) - place
+    share = (limit - place) / np.where(crosses, step, 1)
+    points = np.stack((loop, loop + share * (after - loop)), axis=1)
+    found: Loop = points[np.stack((inside, crosses), axis=1)]
+    return found
+
+
 def arrows(feet: ArrayLike, reaches: ArrayLike, width: float, rim: ArrayLike = 0.0) -> list[Loop]:
     """Return an arrow from each foot, widened all round by a rim (one for all, or one for each).
 

@@ -18,8 +18,8 @@ from linkanim.scenes.editing.handles import span
 
 _HINT = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
 _LIST_HINT = "↑ ↓ choose   letters sift   Enter charts   Esc closes"
-_STRIP = "Space pause · Tab next · drag the pin · H keys"
-_STRIP_FRAMES = 6 * FRAMES_PER_SECOND
+_BAR = "Space pause · Tab next · drag the pin · H keys"
+_BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _IDLE = 45 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
 _STEPS = 12
@@ -33,7 +33,7 @@ def overlay(state: State, hover: str | None = None) -> Overlay:
         _kept(state, items),
         toast=state.toast.text if state.toast else None,
         chip=_chip(state),
-        strip=_strip(state),
+        hint=_hint_bar(state),
         measured=_measured(state, items),
         glow=state.held.joint if state.held else hover,
         grip=state.look.chart is not None,
@@ -79,15 +79,15 @@ def _chip(state: State) -> Fading | None:
     return Fading(state.chip.text, min(state.chip.until - state.frame, 8)) if state.chip else None
 
 
-def _strip(state: State) -> Fading | None:
-    """Return the strip: in the first seconds until a key is pressed, and now and then when none is."""
+def _hint_bar(state: State) -> Fading | None:
+    """Return the hint bar: in the first seconds until a key is pressed, and now and then when none is."""
     busy = state.clock.paused or state.mode != "play" or state.help or state.recording or state.attract
     idle = state.frame - state.touched
     if busy or state.toast or state.chip or 0 < state.touched > state.frame - _IDLE:
         return None
     since = idle % _IDLE
-    eighths = min(since, _STRIP_FRAMES - since, 32) // 4
-    return Fading(_STRIP, eighths) if eighths > 0 else None
+    eighths = min(since, _BAR_FRAMES - since, 32) // 4
+    return Fading(_BAR, eighths) if eighths > 0 else None
 
 
 def _measured(state: State, items: tuple[Dimension, ...]) -> tuple[str, str, str] | None:

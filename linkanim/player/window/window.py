@@ -23,8 +23,8 @@ from linkanim.player.state.handlers.shelf import renewed
 from linkanim.player.state.state import State, Take
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.window import display, files
-from linkanim.player.window.easel import Easel
 from linkanim.player.window.files import SceneFile
+from linkanim.player.window.screen import Screen
 from linkanim.player.window.show import kept, overlay
 from linkanim.scenes.editing.write import save
 
@@ -38,7 +38,7 @@ _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "fullscreen", "quit", "back"})
 
 
 class Window:
-    """One open window: `state` is what it shows, and `easel` how.
+    """One open window: `state` is what it shows, and `screen` how.
 
     A tape plays in it until a key is pressed. A scene file that it was opened on is watched.
     """
@@ -49,7 +49,7 @@ class Window:
         self._tape = tape
         self._taping: Taping | None = None
         self._renderings: Queue | None = None
-        self.easel = Easel(state)
+        self.screen = Screen(state)
         self._keyboard, self._mouse = Keyboard(), Mouse()
         self._notes: list[str] = []
         self._windowed = display.frame()
@@ -106,7 +106,7 @@ class Window:
         """Yield an action; what depends on an open list or shelf, as what it means there."""
         browsing, listing = self.state.browsing, self.state.listing
         if action.name == "row" and browsing and isinstance(action.value, int):
-            yield Action("point", self.easel.shelf_beside(browsing, action.value))
+            yield Action("point", self.screen.shelf_beside(browsing, action.value))
         elif action.name == "pick" and browsing:
             yield Action("put", browsing.chosen)
         elif action.name == "pick" and listing:
@@ -133,16 +133,16 @@ class Window:
 
     def _show(self) -> None:
         """Paint and flip; a scene that cannot be painted gives way to the last that could."""
-        hover = self._mouse.hovered(self.easel) if self._good else None
+        hover = self._mouse.hovered(self.screen) if self._good else None
         try:
-            self.easel.show(self.state, overlay(self.state, hover))
+            self.screen.show(self.state, overlay(self.state, hover))
         except Exception as error:
             if self._good is None:
                 raise
             self._carry_out(Action("report", report(self.state.shown, error, phase=self.state.phase)))
             self._taping = None
             self.state = recovered(self.state, self._good, error)
-            self.easel.show(self.state, overlay(self.state))
+            self.screen.show(self.state, overlay(self.state))
         self._good = self.state
 
     def _news(self) -> tuple[Action, ...]:
@@ -168,7 +168,7 @@ class Window:
             case "render":
                 self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
-                picture = self.easel.picture(self.state, kept(self.state))
+                picture = self.screen.picture(self.state, kept(self.state))
                 self._notes.append(str(files.screenshot(picture, self.state.scene.name)))
             case "svg":
                 self._notes.append(str(files.vector(self.state, pygame.display.get_window_size())))
@@ -226,9 +226,9 @@ class Window:
         if event.type == pygame.QUIT:
             return (Action("quit"),)
         if event.type in _UNCOVERED:
-            self.easel.uncovered()
+            self.screen.uncovered()
         if event.type in _MOUSE:
-            return self._mouse.actions(event, self.easel)
+            return self._mouse.actions(event, self.screen)
         if event.type != pygame.KEYDOWN:
             return ()
         press = self._keyboard.press(event)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import pygame
 from numpy.typing import NDArray
 
 from linkanim.digits import stepped
@@ -29,7 +28,7 @@ from linkanim.picture.diagrams.chart import (
 from linkanim.picture.diagrams.course import Course, Floats, course
 from linkanim.picture.diagrams.quantities import Series, cleared, quantity, series_of
 from linkanim.picture.figure import Figure
-from linkanim.picture.items import Caption, Item, draw
+from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import Layout
 from linkanim.picture.raster.parts import Stamp
 from linkanim.picture.raster.raster import Colour, Layer
@@ -43,7 +42,7 @@ _GAP = 1.2
 
 
 @dataclass(frozen=True)
-class Strip:
+class ChartPanel:
     """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back)."""
 
     figure: Figure
@@ -52,7 +51,7 @@ class Strip:
     pen: Pen
     speed: float
 
-    def at(self, speed: float) -> Strip:
+    def at(self, speed: float) -> ChartPanel:
         """Return the chart of the same motion at another speed; nothing is solved for it."""
         return self if speed == self.speed else replace(self, speed=speed)
 
@@ -93,11 +92,7 @@ class Strip:
         """Whether there is room for a line below the tick labels."""
         return self.rect.height >= 9 * self.pen.small
 
-    def draw(self, surface: pygame.Surface) -> None:
-        """Draw all that stands still: axes and their titles, the limits of a swing, the curves."""
-        draw(surface, self.items(), self.pen.type)
-
-    def items(self) -> Iterator[Item]:
+    def still(self) -> Iterator[Item]:
         """Yield what stands still, back to front."""
         title, pen = self.course.title, self.pen
         yield from axes(self.plot if self._has_foot else beside_title(self.plot, title, pen), pen)
@@ -161,10 +156,6 @@ class Strip:
             for label, value in zip(self.series.labels, values, strict=True)
         )
 
-    def draw_reading(self, surface: pygame.Surface, pose: Pose) -> None:
-        """Draw the pose's values."""
-        draw(surface, self.readings(pose), self.pen.type)
-
     def readings(self, pose: Pose) -> Iterator[Item]:
         """Yield the pose's values at the right above the plot, of several curves each with its colour."""
         pen, words = self.pen, self.reading(self.values_at(pose))
@@ -197,10 +188,10 @@ class Strip:
         return float(self.course.phase_of(share * self.course.span)) % self.course.period
 
 
-def strip(figure: Figure, token: str, layout: Layout, pen: Pen) -> Strip:
+def chart_panel(figure: Figure, token: str, layout: Layout, pen: Pen) -> ChartPanel:
     """Return the chart of a quantity for a window, at the scene's own speed.
 
     BadInput where the scene has no such quantity.
     """
     rect = layout.chart or Rect(0, 0, *layout.size)
-    return Strip(figure, quantity(figure.scene, token), rect, pen, figure.linkage.drive.speed)
+    return ChartPanel(figure, quantity(figure.scene, token), rect, pen, figure.linkage.drive.speed)

@@ -1,13 +1,13 @@
-"""The easel: the painter that fits the scene, size and look of the moment, and what it painted last."""
+"""The window's picture: the one that fits the scene, size and look of the moment, and what was shown last."""
 
 from __future__ import annotations
 
 import pygame
 
-from linkanim.picture.canvas import Canvas
-from linkanim.picture.painter import Painter
 from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.shelf import Grid, ShelfPainter, by_chapter, grid
+from linkanim.picture.picture import Picture
+from linkanim.picture.shelf import Grid, ShelfPrinter, by_chapter, grid
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.player.state.browsing import Browsing
 from linkanim.player.state.state import State
 from linkanim.player.window import display
@@ -17,41 +17,42 @@ from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.scene import Scene
 
 
-class Easel:
+class Screen:
     """Paints states into the window; a picture that is there already is not painted again.
 
     For the mouse it knows where things are in the picture it painted last.
     """
 
     def __init__(self, state: State) -> None:
-        self._canvas: Canvas | None = None
-        self._passing: Canvas | None = None
+        self._picture: Picture | None = None
+        self._passing: Picture | None = None
         self._approach: Approach | None = None
         self._shown: object = None
         self._state = state
         self._titled: str | None = None
-        self._shelf = ShelfPainter()
+        self._shelf = ShelfPrinter()
         self._fade = Fade()
+        self._printer = SurfacePrinter()
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
         surface = display.surface()
         self._state = state
         self._name(state.scene.title)
-        canvas, veiled = self._shown_on(state, surface.get_size()), self._fade.strength(state, surface)
-        picture = (canvas, state.phase, state.clock.speed, over, veiled)
-        if picture != self._shown:
-            self._paint(surface, canvas, state, over)
+        picture, veiled = self._shown_on(state, surface.get_size()), self._fade.strength(state, surface)
+        shown = (picture, state.phase, state.clock.speed, over, veiled)
+        if shown != self._shown:
+            self._paint(surface, picture, state, over)
             self._fade.draw(surface, veiled, over.shutter)
             pygame.display.flip()
-            self._shown = picture
+            self._shown = shown
 
-    def _paint(self, surface: pygame.Surface, canvas: Canvas, state: State, over: Overlay) -> None:
+    def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
         if over.shelf:
             self._shelf.draw(surface, over.shelf)
         else:
             self._shelf.close()
-            canvas.paint(surface, state.phase, state.clock.speed, over)
+            self._printer.print(surface, picture, state.phase, state.clock.speed, over)
 
     def _name(self, title: str) -> None:
         """Let the window bear the scene's title; the system is told only what is new to it."""
@@ -69,29 +70,27 @@ class Easel:
         self._paint(surface, self._fitting(state, surface.get_size()), state, over)
         return surface
 
-    def _fitting(self, state: State, size: tuple[int, int]) -> Canvas:
-        """Return the canvas that fits the state; a view other than the last one's, it is approached."""
-        before, listed = self._canvas, _is_listed(state)
-        if before and before.fits(state.shown, size, state.look, listed=listed):
+    def _fitting(self, state: State, size: tuple[int, int]) -> Picture:
+        """Return the picture that fits the state; a view other than the last one's, it is approached."""
+        before, listed, held = self._picture, _is_listed(state), state.held is not None
+        if before and before.fits(state.shown, size, state.look, listed=listed, held=held):
             return before
-        self._canvas = Canvas(state.shown, size, state.look, before, both=True, listed=listed)
-        if before and _has_moved(before.painter, self._canvas.painter):
-            self._approach = Approach((self._passing or before).painter.view, state.frame)
-        elif before and not _is_framed_alike(before.painter, self._canvas.painter):
+        made = Picture(state.shown, size, state.look, before, both=True, listed=listed, held=held)
+        if before and _has_moved(before, made):
+            self._approach = Approach((self._passing or before).view, state.frame)
+        elif before and not _is_framed_alike(before, made):
             self._approach = None
-        return self._canvas
+        self._picture = made
+        return made
 
-    def _shown_on(self, state: State, size: tuple[int, int]) -> Canvas:
-        """Return the canvas for this frame: one on the way to the fitting one while that is approached."""
-        canvas, self._passing = self._fitting(state, size), None
+    def _shown_on(self, state: State, size: tuple[int, int]) -> Picture:
+        """Return the picture for this frame: one on the way to the fitting one while that is approached."""
+        goal, self._passing = self._fitting(state, size), None
         if self._approach is None or self._approach.over(state.frame):
             self._approach = None
-            return canvas
-        goal = canvas.painter
-        fitted = goal.drawing.scenery.fitted
-        look = self._approach.look(state.look, fitted, goal.view, size, state.frame)
-        listed = _is_listed(state)
-        self._passing = Canvas(state.shown, size, look, canvas, both=True, listed=listed, brief=True)
+            return goal
+        look = self._approach.look(state.look, goal.fitted, goal.view, size, state.frame)
+        self._passing = Picture(state.shown, size, look, goal, both=True, listed=_is_listed(state))
         return self._passing
 
     @property
@@ -111,7 +110,7 @@ class Easel:
 
     def crank_pin(self) -> tuple[float, float]:
         """Return where the input crank's pin is, in pixels."""
-        return self._painter.crank_pin_px(self.scene.pose(self.phase, 0))
+        return self._last.crank_pin_px(self.scene.pose(self.phase, 0))
 
     def handle_at(self, x: float, y: float, reach: float) -> str | None:
         """Return the joint under a pixel that can be dragged while the list is open; None elsewhere."""
@@ -128,11 +127,11 @@ class Easel:
 
     def world(self, x: float, y: float) -> tuple[float, float]:
         """Return the point of the scene under a pixel."""
-        return self._painter.view.to_world(x, y)
+        return self._last.view.to_world(x, y)
 
     def pixel(self, x: float, y: float) -> tuple[float, float]:
         """Return where a point of the scene is in the window."""
-        return self._painter.view.to_pixel(x, y)
+        return self._last.view.to_pixel(x, y)
 
     def shelf_beside(self, browsing: Browsing, rows: int) -> int:
         """Return the place on a shelf so many rows below the chosen one; it need not be painted yet."""
@@ -153,13 +152,13 @@ class Easel:
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
-        return self._painter.chart_phase_at(x, y)
+        return self._last.chart_phase_at(x, y)
 
     @property
-    def _painter(self) -> Painter:
-        canvas = self._passing or self._canvas
-        assert canvas is not None
-        return canvas.painter
+    def _last(self) -> Picture:
+        picture = self._passing or self._picture
+        assert picture is not None
+        return picture
 
 
 def _is_listed(state: State) -> bool:
@@ -167,13 +166,12 @@ def _is_listed(state: State) -> bool:
     return state.editing.open or state.listing is not None
 
 
-def _has_moved(one: Painter, other: Painter) -> bool:
+def _has_moved(one: Picture, other: Picture) -> bool:
     """Return whether one scene in one window is fitted into another place of it."""
-    fitted = one.drawing.scenery.fitted, other.drawing.scenery.fitted
-    return one.scene is other.scene and one.size == other.size and fitted[0] != fitted[1]
+    return one.scene is other.scene and one.size == other.size and one.fitted != other.fitted
 
 
-def _is_framed_alike(one: Painter, other: Painter) -> bool:
+def _is_framed_alike(one: Picture, other: Picture) -> bool:
     """Return whether one scene in one window is zoomed and panned alike."""
-    looks = ((painter.look.zoom, painter.look.pan, painter.size) for painter in (one, other))
+    looks = ((picture.look.zoom, picture.look.pan, picture.size) for picture in (one, other))
     return one.scene is other.scene and len(set(looks)) == 1

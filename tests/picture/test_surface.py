@@ -6,7 +6,6 @@ import math
 import subprocess
 import sys
 from dataclasses import replace
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -16,19 +15,20 @@ from fidelity import frame_decibels
 from pictures import BARE, SMALL, alphas, painted, pixels
 
 from linkanim.errors import BadInput
-from linkanim.picture import drawing
-from linkanim.picture import painter as painting
-from linkanim.picture.arrangement import staging
+from linkanim.picture.arrangement import fit
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look, ThemeName
-from linkanim.picture.painter import Painter
 from linkanim.picture.panels.overlay import EditRow, Overlay, Panel, Quantities
 from linkanim.picture.parts.bodies import colours_of
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
 from linkanim.picture.raster.shapes import hull
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.fonts import Fonts
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load, names
+from linkanim.scenes.editing.closures import ghost_of
+from linkanim.scenes.editing.edit import passing
 from linkanim.scenes.scene import Scene
 
 FULL = Look(vectors=frozenset("va"), chart="B.velocity")
@@ -51,13 +51,14 @@ def test_every_scene_is_painted_on_its_theme(name: str, theme: ThemeName) -> Non
 @pytest.mark.parametrize("look", [FULL, replace(FULL, theme="dark"), BARE, replace(BARE, background=False)])
 def test_the_same_pose_gives_the_same_bytes_whatever_came_between(look: Look) -> None:
     scene = load("press")
-    painter, surface = Painter(scene, (640, 360), look), offscreen((640, 360), alpha=not look.background)
-    painter.paint(surface, scene.pose(1.0))
+    painter, surface = Picture(scene, (640, 360), look), offscreen((640, 360), alpha=not look.background)
+    printer = SurfacePrinter()
+    printer.paint(surface, painter, scene.pose(1.0))
     first = _bytes(surface)
     for phase in (2.0, 3.5, 100.0):
-        painter.paint(surface, scene.pose(phase), Overlay(paused=True, toast="between"))
+        printer.paint(surface, painter, scene.pose(phase), Overlay(paused=True, toast="between"))
         assert _bytes(surface) != first
-    painter.paint(surface, scene.pose(1.0))
+    printer.paint(surface, painter, scene.pose(1.0))
     assert _bytes(surface) == first
     assert _bytes(painted(scene, 1.0, look, (640, 360))) == first
 
@@ -81,43 +82,20 @@ def test_each_choice_of_the_look_changes_the_picture(change: dict[str, Any]) -> 
     assert _bytes(painted(scene, 1.0, look)) != _bytes(painted(scene, 1.0, Look()))
 
 
-def test_what_stands_still_is_drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    calls: dict[str, int] = {}
-
-    def counted(module: ModuleType, name: str) -> None:
-        real = getattr(module, name)
-
-        def count(*args: Any, **named: Any) -> Any:
-            calls[name] = calls.get(name, 0) + 1
-            return real(*args, **named)
-
-        monkeypatch.setattr(module, name, count)
-
-    of_painter, of_drawing = (
-        ("staged", "strip"),
-        ("ground_layers", "wheel_layers", "traces", "body_parts"),
-    )
-    for module, once in ((painting, of_painter), (drawing, of_drawing)):
-        for name in once:
-            counted(module, name)
-    scene, surface = load("press"), offscreen((640, 360))
-    painter = Painter(scene, (640, 360), FULL)
-    for step in range(5):
-        painter.paint(surface, scene.pose(0.1 * step))
-    assert calls == dict.fromkeys((*of_painter, *of_drawing), 1)
-
-
-@pytest.mark.slow
-def test_nothing_grows_with_the_number_of_frames() -> None:
-    scene, surface = load("press"), offscreen((640, 360))
-    painter = Painter(scene, (640, 360), FULL)
-    kept = []
-    for turn in range(3):
-        for step in range(60):
-            overlay = Overlay(toast=f"file {turn} {step % 3}", recording=f"REC {step}")
-            painter.paint(surface, scene.pose(0.1 * step + 7 * turn), overlay)
-        kept.append((len(painter._type._glyphs), len(painter._panels._kept)))
-    assert kept[1] == kept[2]
+def test_what_is_kept_of_a_picture_has_a_bound() -> None:
+    """Shapes that come again take no more than a few pictures, labels no more than a few frames'."""
+    scene, size, printer = load("press"), SMALL, SurfacePrinter()
+    picture, surface = Picture(scene, size, replace(FULL, names=2)), offscreen(size)
+    taken = []
+    for step in range(120):
+        printer.paint(surface, picture, scene.pose(0.0137 * step))
+        taken.append(sum(cover.nbytes for _, cover in printer._covers.values()))
+    assert 0 < max(taken) <= 4 * surface.get_buffer().length
+    before, look = picture, replace(FULL, names=2)
+    for step in range(60):
+        before = Picture(scene, (320 + 2 * step, 180), look, before)
+        printer.paint(offscreen(before.size), before, scene.pose(0.5))
+    assert len(printer._labels._kept) < 120
 
 
 @pytest.mark.parametrize("name", ["press", "crank-rocker", "slider-crank"])
@@ -130,48 +108,49 @@ def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str
 @pytest.mark.parametrize("size", [(640, 360), (320, 180)])
 def test_a_painter_that_takes_over_paints_as_one_that_begins(look: Look, size: tuple[int, int]) -> None:
     scene, overlay = load("press"), Overlay(help=(("look", (("H", "help"),)),), toast="told")
-    before = Painter(load("press"), (640, 360), FULL)
-    before.paint(offscreen((640, 360)), scene.pose(0.5), overlay)
+    before = Picture(load("press"), (640, 360), FULL)
+    SurfacePrinter().paint(offscreen((640, 360)), before, scene.pose(0.5), overlay)
     pictures = []
-    for painter in (Painter(scene, size, look), Painter(scene, size, look, before=before)):
+    for painter in (Picture(scene, size, look), Picture(scene, size, look, before=before)):
         surface = offscreen(size)
-        painter.paint(surface, scene.pose(1.0), overlay)
+        SurfacePrinter().paint(surface, painter, scene.pose(1.0), overlay)
         pictures.append(_bytes(surface))
     assert pictures[0] == pictures[1]
 
 
 def test_a_painter_that_takes_over_renders_no_glyph_again(monkeypatch: pytest.MonkeyPatch) -> None:
     scene, surface = load("press"), offscreen((640, 360))
-    before = Painter(scene, (640, 360), FULL)
-    before.paint(surface, scene.pose(0.5), Overlay(toast="told"))
+    before = Picture(scene, (640, 360), FULL)
+    SurfacePrinter().paint(surface, before, scene.pose(0.5), Overlay(toast="told"))
 
     def refused(*_: object) -> None:
         raise AssertionError("a glyph is rendered again")
 
     monkeypatch.setattr(Fonts, "render", refused)
-    Painter(scene, (640, 360), FULL, before=before).paint(surface, scene.pose(0.5), Overlay(toast="told"))
+    SurfacePrinter().paint(
+        surface, Picture(scene, (640, 360), FULL, before=before), scene.pose(0.5), Overlay(toast="told")
+    )
 
 
 def test_a_step_of_a_pan_measures_the_hud_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = load("press")
-    before = Painter(scene, (640, 360), Look())
+    before = Picture(scene, (640, 360), Look(), both=True)
 
     def refused(*_: object) -> None:
         raise AssertionError("the scene is measured again")
 
-    for name in ("said_of", "sweep_of", "figure", "arranged"):
-        monkeypatch.setattr(staging, name, refused)
-    after = Painter(scene, (640, 360), replace(Look(), pan=(0.1, 0.2), zoom=2.0), before=before)
+    for name in ("widest_rows", "sweep_of", "figure", "arranged"):
+        monkeypatch.setattr(fit, name, refused)
+    after = Picture(scene, (640, 360), replace(Look(), pan=(0.1, 0.2), zoom=2.0), before=before, both=True)
     assert after.view != before.view
-    assert after._hud is before._hud
-    Painter(scene, (640, 360), replace(Look(), theme="dark"), before=before)
+    Picture(scene, (640, 360), replace(Look(), theme="dark"), before=before, both=True)
 
 
 @pytest.mark.parametrize("change", [{"theme": "dark"}, {"vectors": frozenset("va")}, {"chart": "3.angle"}])
 def test_a_hud_follows_its_theme_and_its_place(change: dict[str, Any]) -> None:
     scene, look = load("press"), replace(Look(), **change)
-    before = Painter(scene, (640, 360), Look())
-    taken, new = (Painter(scene, (640, 360), look, before=first)._hud for first in (before, None))
+    before = Picture(scene, (640, 360), Look())
+    taken, new = (Picture(scene, (640, 360), look, before=first)._hud for first in (before, None))
     assert taken is not None
     assert new is not None
     assert (taken.place, taken.block, taken.theme) == (new.place, new.block, new.theme)
@@ -195,30 +174,33 @@ def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
 )
 def test_a_surface_of_another_kind_or_size_gets_the_same_picture(surface: pygame.Surface) -> None:
     scene = load("press")
-    painter, wanted = Painter(scene, SMALL, BARE), pixels(painted(scene, 1.0))
+    painter, wanted = Picture(scene, SMALL, BARE), pixels(painted(scene, 1.0))
     for phase in (0.5, 1.0):
-        painter.paint(surface, scene.pose(phase))
+        SurfacePrinter().paint(surface, painter, scene.pose(phase))
     assert np.array_equal(pixels(surface)[: SMALL[1], : SMALL[0]], wanted)
 
 
 def test_zoom_enlarges_about_the_middle_and_pan_shifts_by_the_height() -> None:
     scene = load("crank-rocker")
-    fitted, near = Painter(scene, SMALL, BARE).view, Painter(scene, SMALL, replace(BARE, zoom=2.0)).view
+    fitted, near = (
+        Picture(scene, SMALL, BARE, both=True).view,
+        Picture(scene, SMALL, replace(BARE, zoom=2.0)).view,
+    )
     assert near.scale == pytest.approx(2 * fitted.scale)
     assert near.to_world(160, 90) == pytest.approx(fitted.to_world(160, 90))
-    shifted = Painter(scene, SMALL, replace(BARE, pan=(0.5, -0.25))).view
+    shifted = Picture(scene, SMALL, replace(BARE, pan=(0.5, -0.25))).view
     assert (shifted.x - fitted.x, shifted.y - fitted.y) == pytest.approx((90, -45))
 
 
 def test_the_crank_pin_lies_where_the_pose_has_it() -> None:
     scene = load("press")
-    painter, pose = Painter(scene, SMALL, Look()), scene.pose(0.7)
+    painter, pose = Picture(scene, SMALL, Look()), scene.pose(0.7)
     assert painter.view.to_world(*painter.crank_pin_px(pose)) == pytest.approx(pose.position["A"])
 
 
 def test_the_chart_tells_the_phase_under_a_pixel() -> None:
     scene = load("kite")
-    painter = Painter(scene, (640, 360), Look(chart="rocker.angle"))
+    painter = Picture(scene, (640, 360), Look(chart="rocker.angle"))
     assert painter.chart_phase_at(320, 100) is None
     low, high = (painter.chart_phase_at(px, 320) for px in (45, 625))
     assert low is not None
@@ -227,20 +209,20 @@ def test_the_chart_tells_the_phase_under_a_pixel() -> None:
     for phase, turned in ((low, 0.0), (high, 2 * math.tau)):
         away = math.remainder(scene.linkage.drive.start + phase - turned, scene.period)
         assert away == pytest.approx(0.0, abs=0.3)
-    assert Painter(scene, (640, 360), Look()).chart_phase_at(320, 320) is None
+    assert Picture(scene, (640, 360), Look()).chart_phase_at(320, 320) is None
 
 
 def test_an_unknown_chart_is_answered_with_the_list() -> None:
     with pytest.raises(BadInput, match=r"rocker\.colour.*crank\.angle, .*B\.velocity"):
-        Painter(load("crank-rocker"), SMALL, Look(chart="rocker.colour"))
+        Picture(load("crank-rocker"), SMALL, Look(chart="rocker.colour"))
 
 
 def test_the_ghost_is_drawn_where_the_look_asks_and_behind_this_closure() -> None:
     scene = load("crank-rocker")
     other = scene.pose(2.5)
-    plain = pixels(painted(scene, 1.0))
-    assert np.array_equal(pixels(painted(scene, 1.0, ghost=other)), plain)
-    haunted = pixels(painted(scene, 1.0, replace(BARE, ghost=True), ghost=other))
+    look = replace(BARE, ghost=True)
+    plain = pixels(painted(scene, 1.0, look))
+    haunted = pixels(painted(scene, 1.0, look, ghost=other))
     changed = np.any(haunted != plain, axis=-1)
     assert changed.mean() > 0.02
     assert np.abs(haunted - plain)[changed].mean() < 80
@@ -249,12 +231,63 @@ def test_the_ghost_is_drawn_where_the_look_asks_and_behind_this_closure() -> Non
     assert np.array_equal(haunted[solid], plain[solid])
 
 
-def test_what_stands_beside_the_scene_fits_into_the_view_too() -> None:
-    scene, wide = load("crank-rocker"), load("press")
-    alone, both = Painter(scene, SMALL, BARE).view, Painter(scene, SMALL, BARE, beside=wide).view
+# As a window shows it: with the ghost, zoomed, panned; else the scene has all the room.
+@pytest.mark.parametrize(
+    ("look", "whole"),
+    [
+        (BARE, False),
+        (replace(BARE, ghost=True), True),
+        (replace(BARE, zoom=2.0), True),
+        (replace(BARE, pan=(0.1, 0.0)), True),
+        (replace(BARE, pan=(0.0, 0.1)), True),
+    ],
+)
+def test_both_closures_are_in_view_where_the_window_would_show_them(look: Look, whole: bool) -> None:
+    scene = load("crank-rocker")
+    alone, both = Picture(scene, SMALL, BARE).fitted, Picture(scene, SMALL, BARE, both=True).fitted
     assert both.scale < alone.scale
-    for point in wide.cycle(30).position["C"]:
-        assert 0 < both.to_pixel(*point)[1] < SMALL[1]
+    assert Picture(scene, SMALL, look).fitted == (both if whole else alone)
+
+
+# A scene, and one on the way to it, whose ghost has its lengths.
+@pytest.mark.parametrize("gone", [False, True])
+def test_the_ghost_is_the_other_closure_at_the_same_phase(gone: bool) -> None:
+    scene = load("crank-rocker")
+    shown = passing(scene, {("four-bar", "crank"): 45.0}) if gone else scene
+    other, look = ghost_of(shown), replace(BARE, ghost=True)
+    assert other is not None
+    pose, (faint,) = Picture(shown, SMALL, look).poses(1.0, 2.0)
+    assert (pose.input_speed, faint.phase) == (2.0, 1.0)
+    for joint, place in other.pose(1.0, 0).position.items():
+        assert faint.position[joint] == pytest.approx(place)
+    assert Picture(shown, SMALL, BARE, both=True).poses(1.0)[1] == ()
+
+
+@pytest.mark.parametrize("crank", [20.0, 45.0])
+def test_a_scene_on_the_way_is_as_large_as_the_one_it_becomes_and_in_its_place(crank: float) -> None:
+    scene = load("crank-rocker")
+    theirs = Picture(scene, SMALL, BARE)
+    ours = Picture(passing(scene, {("four-bar", "crank"): crank}), SMALL, BARE, theirs)
+    shown, whole = ours.figure.box, theirs.figure.box
+    assert ours.view.to_pixel(*shown.middle) == pytest.approx(theirs.view.to_pixel(*whole.middle))
+    wide = ours.view.scale * (shown.right - shown.left) / (whole.right - whole.left)
+    high = ours.view.scale * (shown.high - shown.low) / (whole.high - whole.low)
+    assert max(wide, high) == pytest.approx(theirs.view.scale)
+
+
+# Instant centres lie where they lie; the centrodes, and a scene zoomed or panned, run under the words.
+@pytest.mark.parametrize(
+    ("look", "overrun"),
+    [
+        (Look(), False),
+        (Look(centres=1), False),
+        (Look(centres=2), True),
+        (Look(zoom=0.5), True),
+        (Look(pan=(0.0, -0.1)), True),
+    ],
+)
+def test_words_need_a_backing_where_something_may_lie_under_them(look: Look, overrun: bool) -> None:
+    assert look.overrun == overrun
 
 
 @pytest.mark.parametrize(
@@ -271,21 +304,21 @@ def test_what_stands_beside_the_scene_fits_into_the_view_too() -> None:
 )
 def test_each_part_of_an_overlay_shows_and_goes(overlay: Overlay) -> None:
     scene = load("crank-rocker")
-    painter, surface, pose = Painter(scene, (640, 360), Look()), offscreen((640, 360)), scene.pose(1.0)
-    painter.paint(surface, pose)
+    painter, surface, pose = Picture(scene, (640, 360), Look()), offscreen((640, 360)), scene.pose(1.0)
+    SurfacePrinter().paint(surface, painter, pose)
     plain = _bytes(surface)
-    painter.paint(surface, pose, overlay)
+    SurfacePrinter().paint(surface, painter, pose, overlay)
     assert _bytes(surface) != plain
-    painter.paint(surface, pose)
+    SurfacePrinter().paint(surface, painter, pose)
     assert _bytes(surface) == plain
 
 
 def test_a_panel_that_is_kept_follows_what_it_says() -> None:
     scene = load("crank-rocker")
-    painter, surface, pose = Painter(scene, (640, 360), Look()), offscreen((640, 360)), scene.pose(1.0)
+    painter, surface, pose = Picture(scene, (640, 360), Look()), offscreen((640, 360)), scene.pose(1.0)
     pictures = []
     for toast in ("one", "another", "one"):
-        painter.paint(surface, pose, Overlay(toast=toast))
+        SurfacePrinter().paint(surface, painter, pose, Overlay(toast=toast))
         pictures.append(_bytes(surface))
     assert pictures[0] != pictures[1]
     assert pictures[0] == pictures[2]
@@ -297,7 +330,7 @@ def test_a_long_help_fits_any_window(size: tuple[int, int]) -> None:
     surface = offscreen(size)
     rows = tuple((f"key {n}", "what it does, in a few words") for n in range(24))
     overlay = Overlay(help=(("one", rows[:9]), ("two", rows[9:])))
-    Painter(scene, size, Look(chart="B.velocity")).paint(surface, scene.pose(1.0), overlay)
+    SurfacePrinter().paint(surface, Picture(scene, size, Look(chart="B.velocity")), scene.pose(1.0), overlay)
     background = (*theme_of("light").background, 255)
     assert all(tuple(surface.get_at((x, size[1] // 2))) == background for x in (0, size[0] - 1))
     assert all(tuple(surface.get_at((size[0] // 2, y))) == background for y in (0, size[1] - 1))
@@ -317,7 +350,7 @@ def test_an_edit_list_stays_inside_the_window_and_shows_the_chosen_row_at_a_size
     scene, surface = load("crank-rocker"), offscreen(size)
     rows = tuple(EditRow(f"joints.A{n}.length", "55 mm", n == chosen) for n in range(count))
     overlay = Overlay(panel=Panel(rows, error=LONG, hint=HINT))
-    Painter(scene, size, Look()).paint(surface, scene.pose(1.0), overlay)
+    SurfacePrinter().paint(surface, Picture(scene, size, Look()), scene.pose(1.0), overlay)
     theme = theme_of("light")
     edge = [(x, y) for x in range(0, size[0] // 2, 7) for y in (0, size[1] - 1)]
     assert all(tuple(surface.get_at(place)) == (*theme.background, 255) for place in edge)
@@ -346,7 +379,7 @@ def test_a_pin_that_passes_behind_a_bar_does_not_show_on_it(
 ) -> None:
     """Such a pin would look like a joint of that bar, which the linkage does not have."""
     scene, size, look = load(name), (1280, 720), replace(BARE, theme=theme)
-    x, y = Painter(scene, size, look).view.to_pixel(*scene.pose(phase).position[pin])
+    x, y = Picture(scene, size, look).view.to_pixel(*scene.pose(phase).position[pin])
     drawn = painted(scene, phase, look, size)
     wanted = colours_of(figure(scene), theme_of(theme))[bar]
     assert tuple(drawn.get_at((int(x), int(y))))[:3] == wanted
@@ -369,7 +402,7 @@ def test_a_curve_is_not_cut_where_it_enters_a_plate(name: str, phase: float, the
 
 def _curve_behind_plates(scene: Scene, phase: float, size: tuple[int, int]) -> list[tuple[float, float]]:
     """Return pixels of the traced joint's curve that lie well inside a plate, and behind no bar."""
-    shown, painter, pose = figure(scene), Painter(scene, size, BARE), scene.pose(phase)
+    shown, painter, pose = figure(scene), Picture(scene, size, BARE), scene.pose(phase)
     at = {name: painter.view.place(place) for name, place in pose.position.items()}
     plates = [[at[name] for name in body.joints] for body in shown.bodies if len(body.joints) > 2]
     bars = [[at[name] for name in body.joints] for body in shown.bodies if len(body.joints) == 2]
@@ -395,52 +428,42 @@ def _distance(point: complex, one: complex, other: complex) -> float:
     return abs(point - one - min(max(along, 0.0), 1.0) * (other - one))
 
 
-def test_a_painter_for_a_pose_or_two_prepares_nothing_for_more(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene, size = load("press"), (640, 360)
-    whole, surface = painted(scene, 1.0, BARE, size), offscreen(size)
-    unwanted = "a stencil for one pose"
-    monkeypatch.setattr("linkanim.picture.painter.stencil", lambda *_, **__: pytest.fail(unwanted))
-    Painter(scene, size, BARE, brief=True).paint(surface, scene.pose(1.0))
-    assert np.abs(pixels(surface) - pixels(whole)).max() <= 3
-    Painter(replace(scene, towards=scene), size, BARE).paint(surface, scene.pose(1.0))
-    assert np.abs(pixels(surface) - pixels(whole)).max() <= 3
-
-
 def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        "linkanim.picture.arrangement.staging.said_of", lambda *_: pytest.fail("no HUD is shown")
+        "linkanim.picture.arrangement.fit.widest_rows", lambda *_: pytest.fail("no HUD is shown")
     )
-    Painter(load("press"), (640, 360), Look(), listed=True)
+    Picture(load("press"), (640, 360), Look(), listed=True)
 
 
 @pytest.mark.parametrize("name", ["press", "epicyclic-hypocycloid", "six-bar"])
-def test_frames_in_any_order_are_those_that_a_fresh_painter_paints(name: str) -> None:
-    """Nothing of a frame is left in what a painter keeps for the next."""
+def test_frames_in_any_order_are_those_that_a_fresh_printer_prints(name: str) -> None:
+    """Nothing of a frame is left in what a printer keeps for the next."""
     scene = load(name)
     look = Look(vectors=frozenset("va"), names=2, ghost=name == "six-bar", chart="input.angular_velocity")
-    one, surface = Painter(scene, SMALL, look), offscreen(SMALL)
+    one, surface, printer = Picture(scene, SMALL, look), offscreen(SMALL), SurfacePrinter()
     for phase in (5.1, 0.4, 3.3, 0.4):
         ghost = scene.pose(phase + 1.0)
         fresh = offscreen(SMALL)
-        Painter(scene, SMALL, look).paint(fresh, scene.pose(phase), ghost=ghost)
-        one.paint(surface, scene.pose(phase), ghost=ghost)
+        SurfacePrinter().paint(fresh, Picture(scene, SMALL, look), scene.pose(phase), faint=(ghost,))
+        printer.paint(surface, one, scene.pose(phase), faint=(ghost,))
         assert pixel_bytes(surface) == pixel_bytes(fresh)
 
 
 _FAULTS = """
 from resource import RUSAGE_SELF, getrusage
 from linkanim.picture.look import Look
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.painter import Painter
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes import load
 scene, size = load("crank-rocker"), (1280, 720)
-painter, surface = Painter(scene, size, Look()), offscreen(size)
+picture, surface, printer = Picture(scene, size, Look()), offscreen(size), SurfacePrinter()
 poses = [scene.pose(0.1 * frame) for frame in range(40)]
 for pose in poses[:20]:
-    painter.paint(surface, pose)
+    printer.paint(surface, picture, pose)
 before = getrusage(RUSAGE_SELF).ru_minflt
 for pose in poses[20:]:
-    painter.paint(surface, pose)
+    printer.paint(surface, picture, pose)
 print((getrusage(RUSAGE_SELF).ru_minflt - before) / 20)
 """
 

@@ -1,4 +1,4 @@
-"""Where names can stand at each moment of a cycle: round joints, on links, beside what is measured."""
+"""Where labels may stand: round joints, on links, beside what is measured; what is in their way."""
 
 from __future__ import annotations
 
@@ -7,17 +7,19 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import pi
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.picture.figure import SAMPLES, Figure
-from linkanim.picture.labels.placing import MOMENTS, Clutter, Obstacles, Solid, Wish
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.parts.ground import away
 from linkanim.picture.parts.turning import Turning
+from linkanim.picture.placing import MOMENTS, NO_BARS, Clutter, LabelPlaces, Obstacles, Solid
+from linkanim.picture.raster.directions import lengths
 from linkanim.picture.raster.raster import Loop
 from linkanim.picture.raster.shapes import hull
 from linkanim.picture.view import View
@@ -36,13 +38,67 @@ _BESIDE = 0.4
 """What a place beside a bar costs, where one on it is free."""
 _FARTHER = 1.0
 """What a place farther from its joint costs."""
+_ROUND = 16
+"""So many places lie round a joint."""
+_CLEAR = 1.3
+"""How far off a bar's middle a label beside it begins, in half widths of a bar."""
 _BLOCK = 2.7
 """How far a slider's block reaches, in half widths of a bar."""
 
 
+class Spots(NamedTuple):
+    """Places (k,) in the frame of the joint `at`, whose direction and unit is the way to `head`.
+
+    A place lies so far along the line from `begin` to `end` in that frame, `aside` of it (+1 or -1: off the
+    line and `further` pixels more; 0: on it), and then `off` in pixels.
+    """
+
+    at: str
+    head: str
+    begin: Loop
+    end: Loop
+    share: NDArray[np.float64]
+    aside: NDArray[np.float64]
+    further: NDArray[np.float64]
+    off: Loop
+
+    def picked(self, which: int) -> Spots:
+        """Return one of them."""
+        return Spots(self.at, self.head, *(part[which] for part in self[2:]))
+
+    def middles(self, at: ArrayLike, head: ArrayLike, sides: ArrayLike, bar: float) -> Loop:
+        """Return the middles in pixels where the joints are, of labels with these sides (w + hi)."""
+        at, sides = np.asarray(at, np.complex128), np.asarray(sides, np.complex128)
+        span = np.asarray(head, np.complex128) - at
+        along = (self.end - self.begin) * span
+        normal = 1j * _units(along)
+        clear = 0.5 * (np.abs(normal.real) * sides.real + np.abs(normal.imag) * sides.imag) + _CLEAR * bar
+        middles: Loop = (
+            at
+            + self.begin * span
+            + self.share * along
+            + self.aside * (clear + self.further) * normal
+            + self.off
+        )
+        return middles
+
+
+def stacked(spots: Sequence[Spots]) -> Spots:
+    """Return single spots in one, each of its own joints."""
+    return Spots("", "", *(np.array(part) for part in list(zip(*spots, strict=True))[2:]))
+
+
 @dataclass(frozen=True)
-class Whereabouts:
-    """Where all is that names stand by or keep off, at each of the moments for which they are placed."""
+class LabelSpots:
+    """Where a label may stand, and what is to be placed of it."""
+
+    spots: Spots
+    candidates: LabelPlaces
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """Where all is that labels stand by or keep off, at each of the moments for which they are placed."""
 
     figure: Figure
     view: View
@@ -57,89 +113,98 @@ class Whereabouts:
             for name in self.figure.shown
         }
 
-    def apart(self, one: str, other: str) -> float:
-        """Return how far apart two joints are on the whole, 0 for one and the same."""
-        return float(np.mean(np.abs(self._paths[other] - self._paths[one])))
-
-    def around(self, name: str, size: Size, rings: int = 2) -> Wish:
+    def around(self, name: str, size: Size, rings: int = 3) -> LabelSpots:
         """Return places all round a joint, in rings ever farther; up and to the right is best."""
-        radius, path = self._radius(name), self._paths[name]
-        turns = np.exp(-2j * pi * np.arange(24) / 24)
+        turns = np.exp(-2j * pi * np.arange(_ROUND) / _ROUND)
         turned = 0.04 * np.abs(np.angle(turns / np.exp(-0.25j * pi)))
-        rounds = [_off(turns, size, radius + 0.7 * n * size[1]) for n in range(rings)]
+        rounds = [_off(turns, size, self._radius(name) + 0.7 * n * size[1]) for n in range(rings)]
         price = np.concatenate([_FARTHER * n + turned for n in range(rings)])
-        return Wish(size, path[:, None] + np.concatenate(rounds), price, (path, np.ones_like(path)))
+        return self._candidates((name, name), size, price, off=np.concatenate(rounds))
 
-    def by_slider(self, name: str, size: Size) -> Wish:
+    def by_slider(self, name: str, size: Size) -> LabelSpots:
         """Return places round a slider's block, off every link: also off the bar that leads to it."""
-        wish = self.around(name, size, 3)
-        return wish._replace(shunned=_everywhere(wish, self._others(())))
+        return _shunning(self.around(name, size, 6), self._others(()))
 
-    def on(self, body: Body, size: Size) -> Wish:
+    def on(self, body: Body, size: Size) -> LabelSpots:
         """Return places on a link: along a bar and beside it, or inside a plate."""
         return self._inside(body, size) if self._is_plate(body) else self._along(body, size)
 
-    def _along(self, body: Body, size: Size) -> Wish:
-        first, second = (self._paths[name] for name in body.joints[:2])
-        wish = self._line((first, second), (first, _units(second - first)), size, _SIDES)
-        beside = np.arange(len(wish.price)) >= len(_ALONG)
+    def _along(self, body: Body, size: Size) -> LabelSpots:
+        first, second, *_ = body.joints
+        found = self._line((first, second), (0, 1), size, _SIDES)
+        beside = np.arange(len(found.candidates.price)) >= len(_ALONG)
         shunned = np.where(beside[:, None], self._others(body.joints), self._in_front(body))
-        return wish._replace(own=self._numbers(body), shunned=shunned)
+        mine = found.candidates._replace(own=self._numbers.get(body.joints, ()), shunned=shunned)
+        return LabelSpots(found.spots, mine)
 
-    def _inside(self, body: Body, size: Size) -> Wish:
-        corners = [self._paths[name] for name in body.joints]
-        middle = sum(corners[1:], corners[0]) / len(corners)
+    def _inside(self, body: Body, size: Size) -> LabelSpots:
+        first, second, *_ = body.joints
+        places = [complex(self._paths[name][0]) for name in body.joints]
+        corners = [(place - places[0]) / (places[1] - places[0]) for place in places]
+        middle = sum(corners) / len(corners)
         sides = [(one + other) / 2 for one, other in pairwise((*corners, corners[0]))]
         towards = [(share, end) for share in _INSIDE for end in (*corners, *sides)]
-        inside = [middle, *((1 - share) * middle + share * end for share, end in towards)]
+        inside = np.array([middle, *((1 - share) * middle + share * end for share, end in towards)])
         price = np.array([0.0, *(share for share, _ in towards)])
-        frame = corners[0], _units(corners[1] - corners[0])
-        wish = Wish(size, np.stack(inside, axis=1), price, frame, self._numbers(body))
-        return wish._replace(shunned=_everywhere(wish, self._in_front(body)))
+        found = self._candidates((first, second), size, price, begin=inside, end=inside)
+        mine = found.candidates._replace(own=self._numbers.get(body.joints, ()))
+        return _shunning(LabelSpots(found.spots, mine), self._in_front(body))
 
-    def beside(self, begin: str, end: str, size: Size) -> Wish:
+    def beside(self, begin: str, end: str, size: Size) -> LabelSpots:
         """Return places beside the line from joint to joint."""
-        line = self._paths[begin], self._paths[end]
-        return self._beside(line, line, size, {begin, end})
+        return self._beside((begin, end), (0, 1), size, {begin, end})
 
-    def leg(self, point: Rigid, which: int, size: Size) -> Wish:
+    def leg(self, point: Rigid, which: int, size: Size) -> LabelSpots:
         """Return places beside the first or the second leg of a point: along its body, or to its left."""
-        begin, end = frame = self._paths[point.on[0]], self._paths[point.on[1]]
-        corner: Loop = begin + self.view.scale * point.at[0] * _units(end - begin)
-        line = (corner, self._paths[point.name]) if which else (begin, corner)
-        return self._beside(line, frame, size, set(point.on))
+        first, second = point.on
+        span = abs(self._paths[second][0] - self._paths[first][0]) / self.view.scale
+        along, left = point.at
+        corner, there = complex(along / span), complex(along, -left) / span
+        return self._beside((first, second), (corner, there) if which else (0, corner), size, set(point.on))
 
-    def by_arc(self, turning: Turning, size: Size) -> Wish:
+    def by_arc(self, turning: Turning, size: Size) -> LabelSpots:
         """Return places outside the arc of the input's angle, best at its middle."""
-        path, pin = self._paths[turning.pivot], self._paths[turning.pin]
-        bars = np.angle(np.conj(pin - path))
+        bars = np.angle(np.conj(self._paths[turning.pin] - self._paths[turning.pivot]))
         angles = np.array([turning.turned(float(angle)) for angle in bars])
-        middle = np.full_like(angles, pi / 6) if self.figure.scene.info.full_turn else angles / 2
-        turns = np.exp(-1j * (middle[:, None] + np.linspace(-0.8, 0.8, 9)))
-        price = 0.3 * np.abs(np.linspace(-1, 1, 9))
-        places = path[:, None] + _off(turns, size, turning.arc + 0.1 * size[1])
-        return Wish(size, places, price, (path, np.ones_like(path)))
+        middle = pi / 6 if self.figure.scene.info.full_turn else angles.mean() / 2
+        ways = np.linspace(-1, 1, 9)
+        off = _off(np.exp(-1j * (middle + 0.8 * ways)), size, turning.arc + 0.1 * size[1])
+        return self._candidates((turning.pivot, turning.pivot), size, 0.3 * np.abs(ways), off=off)
 
     def _beside(
-        self, line: tuple[Loop, Loop], frame: tuple[Loop, Loop], size: Size, own: Iterable[str]
-    ) -> Wish:
-        """Return places beside a line, in the frame of two joints, off the bars of other joints than its own.
+        self, frame: tuple[str, str], line: tuple[complex, complex], size: Size, own: Iterable[str]
+    ) -> LabelSpots:
+        """Return places beside a line in the frame of two joints, off the bars of other joints than its own.
 
         What is measured may lie on a plate, whose number is not mistaken for a length.
         """
-        wish = self._line(line, (frame[0], _units(frame[1] - frame[0])), size, (1, -1))
-        return wish._replace(shunned=_everywhere(wish, self._others(own) & self._bars))
+        return _shunning(self._line(frame, line, size, (1, -1)), self._others(own) & self._bars)
 
     def _line(
-        self, line: tuple[Loop, Loop], frame: tuple[Loop, Loop], size: Size, sides: Sequence[float]
-    ) -> Wish:
-        begin, along = line[0], line[1] - line[0]
-        normal = 1j * _units(along)
-        clear = _support(normal, size) + 1.3 * self.gauge.bar
-        aways = [np.sign(side) * (clear + (max(abs(side), 1) - 1) * size[1]) for side in sides]
-        places = [begin + share * along + away * normal for away in aways for share in _ALONG]
-        price = np.array([_BESIDE * abs(side) + abs(share - 0.5) for side in sides for share in _ALONG])
-        return Wish(size, np.stack(places, axis=1), price, frame)
+        self, frame: tuple[str, str], line: tuple[complex, complex], size: Size, sides: Sequence[float]
+    ) -> LabelSpots:
+        aside, share = np.array([(side, share) for side in sides for share in _ALONG]).T
+        price = _BESIDE * np.abs(aside) + np.abs(share - 0.5)
+        further = (np.maximum(np.abs(aside), 1) - 1) * size[1]
+        begin, end = (np.full(len(share), place, np.complex128) for place in line)
+        where = {"begin": begin, "end": end, "share": share, "aside": np.sign(aside), "further": further}
+        return self._candidates(frame, size, price, **where)
+
+    def _candidates(
+        self,
+        frame: tuple[str, str],
+        size: Size,
+        price: NDArray[np.float64],
+        **parts: NDArray[Any],
+    ) -> LabelSpots:
+        """Return places with their prices, at each moment; of the parts of spots what is left out is 0."""
+        none, nowhere = np.zeros(len(price)), np.zeros(len(price), np.complex128)
+        lacking = {"begin": nowhere, "end": nowhere, "share": none, "aside": none, "further": none}
+        known = {"off": nowhere, **lacking, **parts}
+        spots = Spots(*frame, *(known[part] for part in Spots._fields[2:]))
+        at, head = (self._paths[name][:, None] for name in frame)
+        middles = spots.middles(at, head, complex(*size), self.gauge.bar)
+        return LabelSpots(spots, LabelPlaces(size, middles, price))
 
     def _radius(self, name: str) -> float:
         """Return how far what is drawn at a joint reaches."""
@@ -152,7 +217,7 @@ class Whereabouts:
         pins = [0.85 * radius if radius > gauge.bar else gauge.pin + gauge.outline for radius in radii]
         discs = np.stack(list(self._paths.values()), axis=1)
         room = layout.stage.inset(2)
-        return Clutter(discs, np.array(pins), layout.words, room, self._obstacles(), self._solids)
+        return Clutter(room, layout.words, discs, np.array(pins), self._obstacles(), self._solids)
 
     @cached_property
     def _solids(self) -> tuple[Solid, ...]:
@@ -203,16 +268,12 @@ class Whereabouts:
             found[: self.figure.bodies.index(body) + 1] = False
         return found
 
-    def _numbers(self, body: Body) -> tuple[int, ...]:
-        """Return which of the obstacles are the sides of a body."""
-        return self._numbered.get(id(body), ())
-
     @cached_property
-    def _numbered(self) -> dict[int, tuple[int, ...]]:
+    def _numbers(self) -> dict[tuple[str, ...], tuple[int, ...]]:
         """The numbers of the obstacles that are the sides of each body."""
-        found: dict[int, tuple[int, ...]] = {}
+        found: dict[tuple[str, ...], tuple[int, ...]] = {}
         for n, (body, _) in enumerate(self._sides()):
-            found[id(body)] = (*found.get(id(body), ()), n)
+            found[body.joints] = (*found.get(body.joints, ()), n)
         return found
 
     def _sides(self) -> Iterator[tuple[Body, tuple[str, str]]]:
@@ -235,15 +296,15 @@ class Whereabouts:
             foot = self._paths[name] + away(figure, name) * 2 * bar
             rows.append((self._paths[name], foot, 1.6 * bar, 1.0))
         if not rows:
-            none = np.zeros((1, 0))
-            return Obstacles(none.astype(np.complex128), none.astype(np.complex128), none[0], none[0])
+            return NO_BARS
         begins, ends, half, weights = zip(*rows, strict=True)
         return Obstacles(np.stack(begins, axis=1), np.stack(ends, axis=1), np.array(half), np.array(weights))
 
 
-def _everywhere(wish: Wish, which: Flags) -> Flags:
-    """Return the same flags for each of the places."""
-    return np.tile(which, (len(wish.price), 1))
+def _shunning(found: LabelSpots, which: Flags) -> LabelSpots:
+    """Return a label that shuns the same solids at each of its places."""
+    shunned = np.tile(which, (len(found.candidates.price), 1))
+    return LabelSpots(found.spots, found.candidates._replace(shunned=shunned))
 
 
 def _off(turns: Loop, size: tuple[float, float], radius: float) -> Loop:
@@ -252,14 +313,8 @@ def _off(turns: Loop, size: tuple[float, float], radius: float) -> Loop:
     return off
 
 
-def _support(normal: Loop, size: tuple[float, float]) -> NDArray[np.float64]:
-    """Return how far a label's middle must lie from a line to stay off it."""
-    support: NDArray[np.float64] = np.abs(normal.real) * size[0] / 2 + np.abs(normal.imag) * size[1] / 2
-    return support
-
-
 def _units(vectors: Loop) -> Loop:
     """Return the directions; to the right where there is none."""
-    length = np.abs(vectors)
+    length = lengths(vectors)
     directions: Loop = np.where(length > 0, vectors / np.where(length > 0, length, 1), 1)
     return directions

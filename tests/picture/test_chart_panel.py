@@ -17,13 +17,14 @@ from pictures import pixels
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.chart import pen_for
-from linkanim.picture.diagrams.strip import Strip, strip
+from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look
-from linkanim.picture.painter import Painter
+from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
@@ -37,16 +38,16 @@ WINDOWS = [
 ]
 
 
-def _strip(scene: str, token: str, speed: float | None = None) -> Strip:
-    drawn = strip(figure(load(scene)), token, WINDOW, pen_for(WINDOW, Type(), LIGHT))
+def _strip(scene: str, token: str, speed: float | None = None) -> ChartPanel:
+    drawn = chart_panel(figure(load(scene)), token, WINDOW, pen_for(WINDOW, Type(), LIGHT))
     return drawn if speed is None else drawn.at(speed)
 
 
-def _pose(chart: Strip, phase: float) -> Pose:
+def _pose(chart: ChartPanel, phase: float) -> Pose:
     return chart.figure.scene.pose(phase, speed=chart.speed)
 
 
-def _share(chart: Strip, phase: float) -> float:
+def _share(chart: ChartPanel, phase: float) -> float:
     """Return how far along the chart the cursor stands."""
     line = chart.cursor(_pose(chart, phase))[0].loops[0]
     return float((line.real.mean() - chart.plot.area.x) / chart.plot.area.width)
@@ -106,9 +107,9 @@ def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:
     assert _strip("crank-rocker", "rocker.angle").course.marks == ()
 
 
-def _worded(chart: Strip) -> Iterator[Rect]:
+def _worded(chart: ChartPanel) -> Iterator[Rect]:
     """Yield where the words of a chart stand."""
-    for item in chart.items():
+    for item in chart.still():
         if isinstance(item, Caption) and item.text:
             wide = chart.pen.type.width(item.text, item.size)
             left = item.at[0] - wide * {"left": 0.0, "centre": 0.5, "right": 1.0}[item.anchor]
@@ -121,7 +122,7 @@ def _worded(chart: Strip) -> Iterator[Rect]:
 def test_no_words_of_a_chart_lie_on_others(size: tuple[int, int], beside: bool, name: str) -> None:
     window = layout(size, chart=True, beside=beside)
     for token in ("rocker.angle", "rocker.angular_velocity"):
-        chart = strip(figure(load(name)), token, window, pen_for(window, Type(), LIGHT))
+        chart = chart_panel(figure(load(name)), token, window, pen_for(window, Type(), LIGHT))
         rects = list(_worded(chart))
         assert len(rects) >= 5
         assert not [pair for pair in combinations(rects, 2) if pair[0].meets(pair[1])]
@@ -186,7 +187,7 @@ def test_the_ends_of_a_curve_are_the_values_there_wherever_the_drive_starts(toke
     scene = load("crank-rocker")
     drive = replace(scene.linkage.drive, start=0.1234, speed=speed)
     scene = replace(scene, linkage=replace(scene.linkage, drive=drive))
-    chart = strip(figure(scene), token, WINDOW, pen_for(WINDOW, Type(), LIGHT))
+    chart = chart_panel(figure(scene), token, WINDOW, pen_for(WINDOW, Type(), LIGHT))
     x, values = chart.curves
     for end in (0, -1):
         exact = chart.quantity.shown(scene.pose(float(chart.course.phase_of(x[end]))))
@@ -237,26 +238,26 @@ def test_a_pixel_of_the_chart_is_a_phase_also_just_beside_its_ends(
 
 def test_a_constant_quantity_is_a_level_line_not_noise() -> None:
     chart = _strip("parallelogram", "coupler.angular_velocity")
-    surface = offscreen((640, 360))
-    chart.draw(surface)
     values = chart.plot.place(np.zeros(722), chart.curves[1][:, 0]).imag
     assert np.ptp(values) < 0.01
 
 
-def test_the_painter_s_chart_follows_the_running_speed_and_direction() -> None:
+def test_the_picture_s_chart_follows_the_running_speed_and_direction() -> None:
     scene, size = load("press"), (640, 360)
-    painter, surface = Painter(scene, size, Look(chart="cushion.force")), offscreen(size)
+    painter, surface = Picture(scene, size, Look(chart="cushion.force")), offscreen(size)
     pictures: dict[float, Pixels] = {}
     for speed in (2.0, -2.0, 4.0, 2.0):
-        painter.paint(surface, scene.pose(1.0, speed=speed))
+        SurfacePrinter().paint(surface, painter, scene.pose(1.0, speed=speed))
         again = pictures.setdefault(speed, pixels(surface))
         assert (again == pixels(surface)).all()
         fresh = offscreen(size)
-        Painter(scene, size, Look(chart="cushion.force")).paint(fresh, scene.pose(1.0, speed=speed))
+        SurfacePrinter().paint(
+            fresh, Picture(scene, size, Look(chart="cushion.force")), scene.pose(1.0, speed=speed)
+        )
         assert (pixels(fresh) == pixels(surface)).all()
     assert (pictures[2.0] != pictures[-2.0]).any()
     assert (pictures[2.0] != pictures[4.0]).any()
-    painter.paint(surface, scene.pose(1.0, speed=0.0))
+    SurfacePrinter().paint(surface, painter, scene.pose(1.0, speed=0.0))
 
 
 # window, quantity: titles are there, and in the smallest windows, too
@@ -271,7 +272,7 @@ def test_the_axes_are_titled(size: tuple[int, int], monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(Type, "draw", noting)
     scene = load("crank-rocker")
-    painter = Painter(scene, size, Look(chart="rocker.angular_velocity"))
-    painter.paint(offscreen(size), scene.pose(1.0))
+    painter = Picture(scene, size, Look(chart="rocker.angular_velocity"))
+    SurfacePrinter().paint(offscreen(size), painter, scene.pose(1.0))
     assert "crank angle θ₂ (°)" in drawn
     assert any(text.endswith("ω₄ (rad/s)") for text in drawn)

@@ -1,0 +1,277 @@
+"""The one description of a picture: a scene at a size and look, its poses in groups for every printer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.arrangement.fit import SceneFit, fitted, request_of
+from linkanim.picture.diagrams.chart import pen_for
+from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
+from linkanim.picture.drawing import Drawing, DrawSetting
+from linkanim.picture.figure import Figure, figure
+from linkanim.picture.items import Caption, Group, grouped
+from linkanim.picture.layout import Layout
+from linkanim.picture.look import Look
+from linkanim.picture.panels.hud import Hud
+from linkanim.picture.panels.legend import Legend, legend_for
+from linkanim.picture.panels.marks import glow, grip, measure
+from linkanim.picture.panels.overlay import DimensionLine, Overlay
+from linkanim.picture.parts.turning import turning_of
+from linkanim.picture.text.text import Type
+from linkanim.picture.theme import Theme, theme_of
+from linkanim.picture.view import Rect, View, moved
+from linkanim.scenes.editing.closures import ghost_of
+from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from linkanim.picture.diagrams.polygons import Polygon
+    from linkanim.picture.labels.names import Names
+
+
+class Picture:
+    """A scene at one pixel size and look: what stands where is measured once, `groups` is a pose of it.
+
+    The view fits the scene's other closure too with `both`, so that it stays when one changes into the
+    other, and where the look has it in view or zooms or pans. `listed` leaves room for the edit list,
+    instead of the HUD. With `apart` each joint has a group of its own. What `before` measured of the same
+    scene is taken over; names keep their places on one that is zoomed, on its way to another, or `held` by
+    the hand. Raises BadInput where the look's chart is no quantity of the scene.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        size: tuple[int, int],
+        look: Look,
+        before: Picture | None = None,
+        *,
+        both: bool = False,
+        listed: bool = False,
+        held: bool = False,
+        apart: bool = False,
+    ) -> None:
+        self.scene, self.size, self.look = scene, size, look
+        self._made_for = (size, look, listed, held)
+        self._goal = scene.towards or scene
+        self.type: Type = before.type if before else Type()
+        self.theme: Theme = theme_of(look.theme)
+        self._beside = self._other_closure(before) if both or look.ghost or look.framed else None
+        request, last = request_of(size, look, listed=listed), before.fit if before else None
+        self.fit: SceneFit = fitted(self._goal, self._beside, request, self.type, before=last)
+        self.figure: Figure = figure(scene) if scene.towards else self.fit.subject.figure
+        self.layout: Layout = self.fit.arrangement.layout
+        self.fitted: View = self.fit.view_of(self.figure)
+        """The view before it is zoomed and panned."""
+        (width, height), (right, down) = size, look.pan
+        about, shift = (width / 2, height / 2), (right * height, down * height)
+        self.view: View = moved(self.fitted, about, zoom=look.zoom, pan=shift)
+        gauge = self.fit.arrangement.gauge
+        setting = DrawSetting(self.figure, self.view, gauge, self.theme, self.layout, look, self.type)
+        self.drawing = Drawing(setting, apart=apart)
+        self._chart = self._chart_panel()
+        self.names: Names | None = self._named(before, held=held) if look.names else None
+        self._behind: tuple[float, tuple[Group, ...]] | None = None
+        self._apart = apart
+
+    def fits(
+        self, scene: Scene, size: tuple[int, int], look: Look, *, listed: bool = False, held: bool = False
+    ) -> bool:
+        """Return whether it is made for these."""
+        return self.scene is scene and self._made_for == (size, look, listed, held)
+
+    def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
+        """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
+        faint = (self._ghost.pose(phase, 0),) if self._ghost else ()
+        return self.scene.pose(phase, speed=speed), faint
+
+    def groups(
+        self,
+        pose: Pose,
+        overlay: Overlay = Overlay(),  # noqa: B008 -- frozen
+        *,
+        faint: Sequence[Pose] = (),
+    ) -> Iterator[Group]:
+        """Yield all that is drawn of a pose, back to front, with `faint` poses behind it."""
+        yield from self._behind_at(pose.input_speed)
+        yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
+        for n, other in enumerate(faint, start=1):
+            yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
+        if self._moves_behind:
+            yield from self._standing
+        yield from self._within(self.drawing.moving(pose))
+        yield from (polygon.group(pose) for polygon in self._polygons)
+        yield from self._on_chart(pose, grasped=overlay.grip)
+        yield from self._within(self._named_groups(pose))
+        yield from self._words(pose, noted=overlay.noted)
+        yield from self._handled(pose, overlay)
+
+    @property
+    def edge(self) -> Rect | None:
+        """What the scene is kept within; None where that is the whole picture."""
+        reach = self.layout.reach
+        return None if (reach.right, reach.bottom) == self.size else reach
+
+    def _within(self, groups: Iterable[Group]) -> Iterator[Group]:
+        """Yield groups of the scene, which end where something stands beside it; words end before, or go."""
+        edge = self.edge
+        if edge is None:
+            yield from groups
+            return
+        for group in groups:
+            words = [*filter(self._clear, group.captions)] if group.captions else ()
+            yield group._replace(captions=words, within=edge)
+
+    def _behind_at(self, speed: float) -> tuple[Group, ...]:
+        """Return what stands still behind all that moves; the chart and the key go by the speed."""
+        if self._behind is None or (self._behind[0] != speed and (self._chart or self._legend)):
+            self._behind = speed, tuple(self._still_behind(speed))
+        return self._behind[1]
+
+    def _still_behind(self, speed: float) -> Iterator[Group]:
+        yield from self._within([self._discs])
+        if not self._moves_behind:
+            yield from self._standing
+        if self._chart:
+            self._chart = self._chart.at(speed)
+            yield grouped("chart", self._chart.still(), still=True)
+        if self._legend and not self.look.overrun:
+            yield self._legend.group(speed)
+
+    @cached_property
+    def _discs(self) -> Group:
+        return self.drawing.discs()
+
+    @cached_property
+    def _standing(self) -> tuple[Group, ...]:
+        """What stands still before all that moves behind."""
+        return tuple(self._within(self.drawing.standing()))
+
+    @cached_property
+    def _moves_behind(self) -> bool:
+        """Whether something moves behind what else stands still."""
+        return self._apart or bool(self.drawing.parts.wheels) or self.look.ghost
+
+    def _on_chart(self, pose: Pose, *, grasped: bool) -> Iterator[Group]:
+        """Yield the chart's cursor and what is read there, and its grip where it can be grasped."""
+        if self._chart:
+            at_foot = grip(self._chart.foot(pose), self.layout.unit, self.theme) if grasped else []
+            yield grouped("reading", [*self._chart.cursor(pose), *at_foot, *self._chart.readings(pose)])
+
+    def _named_groups(self, pose: Pose) -> Iterator[Group]:
+        """Yield the words on the scene."""
+        words = [*self.drawing.dead_centres.captions] if self.drawing.dead_centres else []
+        if self.names:
+            words += self.names.captions(pose, self.drawing.places(pose))
+        if words:
+            yield Group("names", (), words)
+
+    def _clear(self, line: Caption) -> bool:
+        """Return whether a line of text ends before what stands beside the scene."""
+        edge = self.edge
+        wide = self.type.width(line.text, line.size, strong=line.strong) if edge else 0
+        right = line.at[0] + {"left": 1.0, "centre": 0.5, "right": 0.0}[line.anchor] * wide
+        return edge is None or (right <= edge.right and line.at[1] + line.size <= edge.bottom)
+
+    def _words(self, pose: Pose, *, noted: bool) -> Iterator[Group]:
+        """Yield the words about the scene, on a backing where something may lie under them."""
+        if self._hud is None:
+            return
+        if self.look.overrun:
+            yield self._backing
+            yield from (legend.group(pose.input_speed) for legend in [self._legend] if legend)
+        values = self._hud.values(pose)
+        notes = self._hud.notes(pose) if noted and values else ()
+        yield Group("words", (), [*self._hud_still, *values, *notes])
+
+    @cached_property
+    def _hud_still(self) -> tuple[Caption, ...]:
+        assert self._hud
+        return tuple(self._hud.still())
+
+    @cached_property
+    def _backing(self) -> Group:
+        assert self._hud
+        return Group("backing", [self._hud.backing(self.layout.legend)], still=True, over=True)
+
+    def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
+        """Yield what is there for the hand: the chosen bar, and the joint to be dragged."""
+        gauge = self.fit.arrangement.gauge
+        if overlay.measured:
+            begin, end, text = overlay.measured
+            shown = DimensionLine((pose.position[begin], pose.position[end]), text)
+            yield from measure(self.type, self.layout, self.theme, (self.view, gauge), shown)
+        if overlay.glow:
+            yield Group("glow", list(glow(self.view, pose, overlay.glow, gauge)), over=True)
+
+    def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
+        """Return where the pin that the phase drives lies, in pixels."""
+        return self.view.to_pixel(*pose.position[self.scene.linkage.drive.joint])
+
+    def chart_phase_at(self, px: float, py: float) -> float | None:
+        """Return the phase under a pixel of the chart, 0 to one true period; None beside the chart."""
+        return self._chart.phase_at(px, py) if self._chart else None
+
+    def _other_closure(self, before: Picture | None) -> Scene | None:
+        if before and before._goal is self._goal and before._beside:
+            return before._beside
+        return ghost_of(self._goal)
+
+    @cached_property
+    def _ghost(self) -> Scene | None:
+        if not self.look.ghost:
+            return None
+        return ghost_of(self.scene) if self.scene.towards else self._beside
+
+    @cached_property
+    def _hud(self) -> Hud | None:
+        block, place = self.fit.arrangement.block, self.layout.hud
+        if block is None or place is None:
+            return None
+        return Hud(self.fit.subject.figure.scene, block, place, self.type, self.theme)
+
+    @cached_property
+    def _legend(self) -> Legend | None:
+        return legend_for(self.drawing.parts.arrows, self.layout, self.type, self.theme)
+
+    def _chart_panel(self) -> ChartPanel | None:
+        if self.look.chart is None:
+            return None
+        pen = pen_for(self.layout, self.type, self.theme)
+        return chart_panel(self.figure, self.look.chart, self.layout, pen)
+
+    @cached_property
+    def _polygons(self) -> tuple[Polygon, ...]:
+        if not self.layout.polygons:
+            return ()
+        from linkanim.picture.diagrams.polygons import polygons_of
+
+        return polygons_of(self.figure, self.layout.polygons, pen_for(self.layout, self.type, self.theme))
+
+    def _named(self, before: Picture | None, *, held: bool) -> Names:
+        """Return the names of joints and links, and their dimensions, placed as the scene fits the window.
+
+        Those of a picture `before` keep their places where it differs by its zoom and pan alone, or while
+        the scene is on its way to another.
+        """
+        kept = before.names if before and self._named_as(before, held=held) else None
+        if kept:
+            return kept.measuring(self.drawing.symbols, self.scene.length_unit)
+        from linkanim.picture.labels.names import LabelStyle, names_of
+
+        centres = self.drawing.dead_centres
+        words = (*self.layout.words, *(centres.rects() if centres else ()))
+        gauge = self.fit.arrangement.gauge
+        style = LabelStyle(self.type, replace(self.layout, words=words), self.theme, gauge)
+        turning = turning_of(self.figure, self.fitted, gauge, self.theme)
+        return names_of(self.figure, self.fitted, style, turning, self.drawing.symbols)
+
+    def _named_as(self, other: Picture, *, held: bool) -> bool:
+        """Return whether the names on another picture are this one's."""
+        alike = (self.size, self.theme, self.look.names) == (other.size, other.theme, other.look.names)
+        same = (self.scene, self.fitted, self.layout) == (other.scene, other.fitted, other.layout)
+        follows = held or self.scene.towards is not None
+        return alike and (same or (follows and self.figure.shown == other.figure.shown))

@@ -1,0 +1,193 @@
+"""The printer for surfaces: what stands still is one bitmap, what comes again is worked out once."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Iterator, Sequence
+from itertools import groupby
+
+import pygame
+
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.items import Caption, Group, flat
+from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.panels.panels import Panels
+from linkanim.picture.picture import Picture
+from linkanim.picture.raster.raster import Cover, cover, is_clear, keep_memory, paints
+from linkanim.picture.text.lettering import Lettering
+from linkanim.picture.text.text import Type
+
+_MOST_PICTURES = 4
+"""What is kept of shapes that come again takes no more memory than so many pictures."""
+_SPARE_LABELS = 48
+"""So many labels are kept that the last frame had not."""
+
+
+class SurfacePrinter:
+    """Prints pictures on surfaces: the same pose of the same picture has the same bytes, whatever was before.
+
+    What of the last picture comes again is kept; nothing of it is needed.
+    """
+
+    def __init__(self) -> None:
+        keep_memory()
+        self._picture: Picture | None = None
+        self._still: tuple[tuple[Group, ...], pygame.Surface] | None = None
+        self._covers: dict[Hashable, tuple[tuple[Group, ...], Cover]] = {}
+        self._labels = _Labels()
+        self._panels: Panels | None = None
+
+    def print(
+        self, surface: pygame.Surface, picture: Picture, phase: float, speed: float, overlay: Overlay
+    ) -> Pose:
+        """Print a phase of a picture, what it has of the other closure behind it; return its pose."""
+        pose, faint = picture.poses(phase, speed)
+        self.paint(surface, picture, pose, overlay, faint=faint)
+        return pose
+
+    def paint(
+        self,
+        surface: pygame.Surface,
+        picture: Picture,
+        pose: Pose,
+        overlay: Overlay = Overlay(),  # noqa: B008 -- frozen
+        *,
+        faint: Sequence[Pose] = (),
+    ) -> None:
+        """Print a pose of a picture, and what lies over it; changes the surface only.
+
+        A surface that is not as large as the picture is painted from its top left corner.
+        """
+        if picture is not self._picture:
+            self._picture, self._still = picture, None
+            self._covers.clear()
+        first, *others = _runs(picture.groups(pose, overlay, faint=faint))
+        canvas = self._on_still(surface, picture, first)
+        for n, run in enumerate(others):
+            self._shapes(canvas, picture, run, n)
+            self._words(canvas, picture.type, run)
+        self._labels.let_go()
+        self._panels_of(picture).draw(canvas, overlay)
+        if canvas is not surface:
+            surface.blit(canvas, (0, 0))
+
+    def _on_still(
+        self, surface: pygame.Surface, picture: Picture, still: tuple[Group, ...]
+    ) -> pygame.Surface:
+        """Return the surface, or where it is of another kind one to work on, with what stands still on it."""
+        if self._still is None or not _same(self._still[0], still):
+            self._still = still, self._bitmap(picture, still)
+        bitmap = self._still[1]
+        alike = surface.get_size() == picture.size and surface.get_masks() == bitmap.get_masks()
+        canvas = surface if alike and paints(surface) else bitmap.copy()
+        if is_clear(canvas):
+            canvas.fill((0, 0, 0, 0))
+        canvas.blit(bitmap, (0, 0))
+        return canvas
+
+    def _bitmap(self, picture: Picture, still: tuple[Group, ...]) -> pygame.Surface:
+        """Return the background with what stands still on it."""
+        filled = picture.look.background
+        bitmap = pygame.Surface(picture.size, 0 if filled else pygame.SRCALPHA, 32)
+        bitmap.fill((*picture.theme.background, 255 if filled else 0))
+        _cover(bitmap, still).put(bitmap)
+        self._words(bitmap, picture.type, still)
+        return bitmap
+
+    def _shapes(self, canvas: pygame.Surface, picture: Picture, run: tuple[Group, ...], n: int) -> None:
+        """Fill the shapes of groups that lie over each other in their order."""
+        if run[0].still:
+            self._kept(canvas, picture, n, run).put(canvas)
+            return
+        for key, groups in groupby(run, key=lambda group: group.key):
+            some = tuple(groups)
+            if key is None:
+                _cover(canvas, some).put(canvas)
+            else:
+                self._kept(canvas, picture, key, some).put(canvas)
+
+    def _kept(
+        self, canvas: pygame.Surface, picture: Picture, key: Hashable, groups: tuple[Group, ...]
+    ) -> Cover:
+        """Return what groups do to the canvas, worked out once for each key."""
+        if key not in self._covers:
+            found = _cover(canvas, groups)
+            taken = sum(kept.nbytes for _, kept in self._covers.values()) + found.nbytes
+            if taken > _MOST_PICTURES * canvas.get_buffer().length:
+                self._covers.clear()
+            self._covers[key] = groups, found
+        return self._covers[key][1]
+
+    def _words(self, canvas: pygame.Surface, type_: Type, run: tuple[Group, ...]) -> None:
+        """Write the words of groups; in a halo to a part of a pixel, as labels on a drawing are."""
+        for line in (line for group in run for line in group.captions):
+            if line.halo:
+                self._labels.draw(canvas, line, type_)
+            else:
+                text, at, size, colour, anchor, strong, *_ = line
+                type_.draw(canvas, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
+
+    def _panels_of(self, picture: Picture) -> Panels:
+        if self._panels is None or (self._panels.layout, self._panels.theme) != (
+            picture.layout,
+            picture.theme,
+        ):
+            self._panels = Panels(picture.layout, picture.type, picture.theme)
+        return self._panels
+
+
+class _Labels:
+    """Lines in their halo as they were drawn: those of the last frame, and a few more."""
+
+    def __init__(self) -> None:
+        self._kept: dict[Hashable, Lettering] = {}
+        self._drawn: set[Hashable] = set()
+
+    def draw(self, surface: pygame.Surface, line: Caption, type_: Type) -> None:
+        """Draw a line in its halo, as strongly as it shows."""
+        assert line.halo
+        key = (line.text, line.size, line.colour, line.halo)
+        self._drawn.add(key)
+        if key not in self._kept:
+            colours = line.colour, line.halo.colour
+            self._kept[key] = Lettering(line.text, type_, line.size, colours, line.halo.width)
+        letters = self._kept[key]
+        aside = {"left": 0.5, "centre": 0.0, "right": -0.5}[line.anchor] * letters.size[0]
+        letters.draw(surface, complex(line.at[0] + aside, line.at[1] + letters.drop), line.strength)
+
+    def let_go(self) -> None:
+        """Forget what the frame that ends here had not, where that is more than a few."""
+        if len(self._kept) > len(self._drawn) + _SPARE_LABELS:
+            self._kept = {key: self._kept[key] for key in self._drawn}
+        self._drawn.clear()
+
+
+def _runs(groups: Iterable[Group]) -> Iterator[tuple[Group, ...]]:
+    """Yield groups in runs, shapes of which are all below the words of the run; what stands still apart."""
+    run: list[Group] = []
+    for group in groups:
+        if run and (group.over or group.still != run[-1].still):
+            yield tuple(run)
+            run = []
+        run.append(group)
+    if run:
+        yield tuple(run)
+
+
+def _same(one: tuple[Group, ...], other: tuple[Group, ...]) -> bool:
+    return len(one) == len(other) and all(a is b for a, b in zip(one, other, strict=True))
+
+
+def _cover(surface: pygame.Surface, groups: Sequence[Group]) -> Cover:
+    """Return what the shapes of groups do to a surface."""
+    edge = next((group.within for group in groups if group.within), None)
+    kept, free = ([group for group in groups if bool(group.within) is bounded] for bounded in (True, False))
+    ends = (int(edge.right), int(edge.bottom)) if edge else None
+    return cover(surface, flat(kept), ends=ends, over=flat(free))
+
+
+def printed(surface: pygame.Surface, groups: Iterable[Group], type_: Type) -> None:
+    """Print groups on a surface, once."""
+    printer = SurfacePrinter()
+    for run in _runs(groups):
+        _cover(surface, run).put(surface)
+        printer._words(surface, type_, run)

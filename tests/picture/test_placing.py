@@ -1,0 +1,234 @@
+"""A name stands on or by what it names, on no other link; of crowded places it takes the one that is free."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from pictures import standing
+
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.labels.candidates import Surroundings
+from linkanim.picture.look import Look
+from linkanim.picture.parts.turning import Turning
+from linkanim.picture.picture import Picture
+from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placed, Solid, place
+from linkanim.picture.raster.shapes import hull
+from linkanim.picture.view import Rect
+from linkanim.scenes import load
+
+NONE = np.zeros((MOMENTS, 0), np.complex128)
+
+
+def _off(point: complex, corners: list[complex]) -> float:
+    """Return how far a point is from what corners enclose, 0 inside."""
+    ends = list(zip(corners, corners[1:] + corners[:1], strict=True))
+    turned = [((end - begin).conjugate() * (point - begin)).imag for begin, end in ends]
+    if len(corners) > 2 and (min(turned) > 0 or max(turned) < 0):
+        return 0.0
+    shares = [((point - begin) / (end - begin)).real for begin, end in ends]
+    feet = zip(ends, shares, strict=True)
+    return min(abs(point - begin - min(max(share, 0), 1) * (end - begin)) for (begin, end), share in feet)
+
+
+def _links(painter: Picture, pose: Pose) -> Iterator[tuple[str, tuple[str, ...], list[complex]]]:
+    """Yield every link, spring and damper: what it is called, its joints, and its corners in pixels."""
+    shown, places = painter.figure, painter.drawing.places(pose)
+    called = {body.name: number for body, number in shown.numbers.items()}
+    for body in shown.bodies:
+        corners = hull([places[joint] for joint in body.joints])
+        yield called.get(body.name, body.name), body.joints, corners
+    for strut in shown.struts:
+        yield strut.name, strut.between, [places[joint] for joint in strut.between]
+
+
+SCENES = ("wiper", "roberts-line", "triple-rocker", "pumpjack", "hoecken", "jansen", "watt-1", "klann")
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_no_link_s_name_stands_on_another_link(name: str) -> None:
+    """Where its middle is, nothing lies that is drawn over its own; off its own, no other link at all."""
+    scene = load(name)
+    painter = Picture(scene, (1280, 720), Look(names=1))
+    bar, bodies = painter.drawing.setting.gauge.bar, [body.joints for body in painter.figure.bodies]
+    words = {body.name: number for body, number in painter.figure.numbers.items()}
+    for phase in np.linspace(0, scene.period, 31):
+        pose = scene.pose(float(phase))
+        links = list(_links(painter, pose))
+        for text, box in standing(painter, pose):
+            own = next((one for one in links if words.get(text, text) == one[0]), None)
+            if own is None:
+                continue
+            middle = complex(box.x + box.width / 2, box.y + box.height / 2)
+            on_it, wide = _off(middle, own[2]) < bar, len(own[2]) > 2
+            for other, joints, corners in links:
+                hides = len(corners) == 2 and (wide or bodies.index(joints) > bodies.index(own[1]))
+                if joints != own[1] and joints in bodies and (hides or not on_it):
+                    assert _off(middle, corners) > bar - 1.0, (text, other, phase)
+
+
+@pytest.mark.parametrize("name", ["press", "slider-crank", "scotch-yoke", "elliptic-trammel"])
+def test_a_slider_s_name_stands_by_its_block_and_on_no_link(name: str) -> None:
+    """Also not on the bar that leads to the block, nor on a spring below it."""
+    scene = load(name)
+    painter = Picture(scene, (1280, 720), Look(names=1))
+    bar, numbers = painter.drawing.setting.gauge.bar, painter.figure.numbers
+    sliders = {text: body.slider for body in numbers if body.slider for text in (body.name, numbers[body])}
+    seen = 0
+    for phase in np.linspace(0, scene.period, 31):
+        pose = scene.pose(float(phase))
+        for text, box in standing(painter, pose):
+            middle = complex(box.x + box.width / 2, box.y + box.height / 2)
+            for other, _, corners in _links(painter, pose) if text in sliders else ():
+                seen += 1
+                assert _off(middle, corners) > bar - 1.0, (text, other, phase)
+    assert seen > 10
+
+
+def _surroundings(name: str) -> Surroundings:
+    picture = Picture(load(name), (640, 360), Look(names=1))
+    return Surroundings(picture.figure, picture.fitted, picture.drawing.setting.gauge, picture.layout)
+
+
+def _path(ground: Surroundings, joint: str) -> np.ndarray:
+    return ground.figure.path(joint, ground.view)[:: 720 // MOMENTS]
+
+
+@pytest.mark.parametrize(
+    ("name", "joint", "reach"),
+    # a pin, and a slider's block
+    [("crank-rocker", "B", 1.0), ("slider-crank", "B", 2.7)],
+)
+def test_round_a_joint_a_name_stands_off_it_up_and_right_first(name: str, joint: str, reach: float) -> None:
+    ground, size = _surroundings(name), (30.0, 12.0)
+    found = ground.around(joint, size).candidates
+    away = found.places - _path(ground, joint)[:, None]
+    assert np.ptp(away, axis=0) == pytest.approx(np.zeros(len(found.price)), abs=1e-9)
+    best = away[0, found.price.argmin()]
+    assert best.real == pytest.approx((reach * ground.gauge.bar + 15) / np.sqrt(2), rel=1e-9)
+    assert best.real > 0 > best.imag
+    for ring, places in enumerate(np.split(away[0], 3)):
+        radius = reach * ground.gauge.bar + 0.7 * 12 * ring
+        assert places[0] == pytest.approx(radius + 15)
+        assert places[len(places) // 4] == pytest.approx(-1j * (radius + 6))
+    costs = [part.min() for part in np.split(found.price, 3)]
+    assert costs == pytest.approx([float(n) for n in range(3)])
+
+
+def test_what_is_measured_has_its_length_clear_of_it_on_either_side() -> None:
+    ground = _surroundings("crank-rocker")
+    begin, end = (_path(ground, joint) for joint in ("O2", "A"))
+    found = ground.beside("O2", "A", (60.0, 12.0)).candidates
+    along = (end - begin) / np.abs(end - begin)
+    off = ((found.places - begin[:, None]) * along.conj()[:, None]).imag
+    wide = np.abs(along.imag) * 30 + np.abs(along.real) * 6 + 1.3 * ground.gauge.bar
+    assert np.abs(off) == pytest.approx(np.broadcast_to(wide[:, None], off.shape))
+    assert (np.sign(off) > 0).sum(axis=1).tolist() == [7] * MOMENTS
+
+
+def test_a_link_s_name_stands_on_its_bar_or_within_its_plate() -> None:
+    ground, size = _surroundings("crank-rocker"), (30.0, 12.0)
+    bodies = {body.name: body for body in ground.figure.bodies}
+    for name, body in bodies.items():
+        places = ground.on(body, size).candidates.places
+        ends = [_path(ground, joint) for joint in body.joints]
+        for moment in (0, 40, 100):
+            corners = hull([complex(path[moment]) for path in ends])
+            on_it = places[moment, : None if len(corners) > 2 else 7]
+            assert max(_off(complex(place), corners) for place in on_it) < 1e-9, name
+    assert len(ground.on(bodies["coupler"], size).candidates.price) == 1 + 3 * 6
+    assert len(ground.on(bodies["crank"], size).candidates.price) == 5 * 7
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "double-rocker"])
+def test_the_angle_s_symbol_stands_outside_its_arc(name: str) -> None:
+    ground, size = _surroundings(name), (20.0, 12.0)
+    turning = Picture(load(name), (640, 360), Look(names=1)).drawing.parts.turning
+    assert isinstance(turning, Turning)
+    found = ground.by_arc(turning, size).candidates
+    away = np.abs(found.places - _path(ground, turning.pivot)[:, None])
+    assert away.min() > turning.arc + 6.0
+
+
+def test_labels_keep_off_pins_and_blocks_and_three_joints_in_line_are_a_bar() -> None:
+    ground = _surroundings("elliptic-trammel")
+    gauge, radii = ground.gauge, ground.clutter().radii
+    travels = [ground.figure.linkage.joint(name).travels for name in ground.figure.shown]
+    wanted = [0.85 * 2.7 * gauge.bar if moves else gauge.pin + gauge.outline for moves in travels]
+    assert radii == pytest.approx(wanted)
+    rod = next(body for body in ground.figure.bodies if body.name == "rod")
+    assert len(rod.joints) > 2
+    assert len(ground.on(rod, (30.0, 12.0)).candidates.price) == 5 * 7
+
+
+def test_names_stay_off_all_sides_of_plates_and_more_so_of_bars() -> None:
+    ground = _surroundings("press")
+    sides = [len(body.joints) for body in ground.figure.bodies]
+    assert set(sides) == {2, 3}
+    weights = [weight for count in sides for weight in ([1.0] if count == 2 else [0.4] * count)]
+    assert ground.clutter().bars.weight[: len(weights)].tolist() == weights
+
+
+ROOM = Rect(0, 0, 400, 400)
+
+
+def _clutter(solids: tuple[Solid, ...] = (), discs: np.ndarray = NONE) -> Clutter:
+    return Clutter(ROOM, discs=discs, radii=np.full(discs.shape[1], 5.0), solids=solids)
+
+
+def _label(places: list[complex], price: list[float], moments: int = MOMENTS) -> LabelPlaces:
+    return LabelPlaces((20.0, 10.0), np.tile(np.array(places, complex), (moments, 1)), np.array(price))
+
+
+def _one(label: LabelPlaces, clutter: Clutter) -> Placed:
+    (found,) = place([label], clutter)
+    return found
+
+
+# Labels are 20 x 10; the room ends at 0 and 400. On a chart there is one moment.
+@pytest.mark.parametrize("moments", [1, MOMENTS])
+@pytest.mark.parametrize(("edge", "out"), [(10 + 90j, -1), (390 + 90j, 1), (90 + 5j, -1j), (90 + 395j, 1j)])
+def test_a_label_stands_at_an_edge_but_not_over_it(edge: complex, out: complex, moments: int) -> None:
+    middle, near, over = 200 + 200j, edge - 0.1 * out, edge + 0.1 * out
+    for asked, which in ((near, 0), (over, 1)):
+        found = _one(_label([asked, middle], [0.0, 0.5], moments), Clutter(ROOM))
+        assert (found.which, found.shown.min()) == (which, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("corners", "which"),
+    [
+        # the middle of a plate, far from its sides; of either turn
+        ((0j, 200 + 0j, 200 + 200j, 200j), 1),
+        ((0j, 200j, 200 + 200j, 200 + 0j), 1),
+        # a bar right through it, and a bar that ends before it
+        ((0 + 100j, 200 + 100j), 1),
+        ((200 + 100j, 300 + 100j), 0),
+        # a plate beside it
+        ((200 + 0j, 300 + 0j, 300 + 200j), 0),
+    ],
+)
+def test_a_label_keeps_off_the_solids_that_it_shuns(corners: tuple[complex, ...], which: int) -> None:
+    clutter = _clutter((Solid(np.tile(np.array(corners), (MOMENTS, 1)), 8.0),))
+    careless = _label([100 + 100j, 100 + 300j], [0.0, 0.5])
+    heedful = careless._replace(shunned=np.ones((2, 1), np.bool_))
+    found = _one(heedful, clutter)
+    assert (found.which, found.shown.min()) == (which, 1.0)
+    assert _one(careless, clutter).which == 0
+
+
+def test_a_label_takes_the_place_where_nothing_comes_and_is_gone_where_it_must_be() -> None:
+    """A disc sweeps over the only place of one label, and past one of two places of another."""
+    disc = np.full((MOMENTS, 1), 500 + 500j)
+    disc[60:66] = 100 + 100j
+    only, free = _label([100 + 100j], [0.0]), _label([100 + 100j, 100 + 120j], [0.0, 0.1])
+    stuck = _one(only, _clutter(discs=disc))
+    assert stuck.shown[60:66].tolist() == [0.0] * 6
+    assert stuck.shown[110] == 1.0
+    assert np.abs(np.diff(stuck.shown)).max() < 0.2
+    assert _one(free, _clutter(discs=disc))._replace(shown=np.ones(0)).which == 1
+    first, second, other = place([only, only, free], _clutter())
+    assert first.shown.all()
+    assert not second.shown.any()
+    assert (other.which, other.shown.min()) == (1, 1.0)
