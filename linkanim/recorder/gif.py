@@ -4,6 +4,10 @@ A process of its own reads from stdin what changed from frame to frame, so that 
 overlap. Only the rectangle that changed is written, and what did not change in it is transparent, save
 where its colour carries on from beside it: the longer the runs of one value, the shorter their code
 (Welch 1984). That makes 3 to 8 % over leaving out all that did not change.
+
+ffmpeg's `paletteuse` with the same palette has the same delays, loop and transparency in as much time. Its
+files are larger (press 2.16 MB for 2.02, jansen 1.50 for 1.45, at 1280×720) and 0.4 to 1.6 dB further from
+the frames.
 """
 
 from __future__ import annotations

@@ -78,6 +78,10 @@ FAULTS: dict[str, tuple[str, list[str]]] = {
         "length = [90, 80]\n[joints.P]\non = ['A', 'B']\nat = [0, 0]\n",
         ["ground.O4", "joints.A.length", "joints.P.at"],
     ),
+    "a shorthand that is no table has its joints all the same": (
+        "four-bar = 3\n[joints.Q]\non = ['O4', 'B']\nat = [1, 2]\n[trace]\njoints = ['P', 'Q']\n",
+        ["four-bar"],
+    ),
     "a drive and a spring, each in two ways": (
         "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
         "[drive]\nspeed = '0 rpm'\nstart = 3\n[springs.s]\nbetween = ['A', 'A']\nstiffness = 3\n",

@@ -6,7 +6,7 @@ and the coupler points P (on the coupler) and P2 (on coupler2), traced unless [t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -162,8 +162,8 @@ SHORTHANDS: Mapping[str, Form] = {
 """The shorthands by the name of their table."""
 
 
-def names_of(key: str, table: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the names of all joints that a shorthand's table states."""
-    stated = [one for one in SHORTHANDS[key].fields if one.usual is NEEDED or one.key in table]
+def names_of(key: str, keys: Container[str]) -> tuple[str, ...]:
+    """Return the names of all joints that a shorthand's table with these keys states."""
+    stated = [one for one in SHORTHANDS[key].fields if one.usual is NEEDED or one.key in keys]
     ends = (name for one in stated if one.drag != "direction" for span in one.spans for name in span)
     return tuple(dict.fromkeys(ends))

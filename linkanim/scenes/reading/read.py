@@ -80,14 +80,19 @@ def _names(section: object) -> list[str]:
 
 
 def _shorthand_names(top: Table) -> list[str]:
-    tables = {key: top.values[key] for key in SHORTHANDS if isinstance(top.values.get(key), Mapping)}
-    return [name for key, table in tables.items() for name in names_of(key, table)]
+    """Return the names of the joints that a shorthand states; all that it may state where it is no table."""
+    stated = {key: top.values[key] for key in SHORTHANDS if key in top}
+    tables = (
+        (key, table if isinstance(table, Mapping) else SHORTHANDS[key].keys) for key, table in stated.items()
+    )
+    return [name for key, table in tables for name in names_of(key, table)]
 
 
 def _with_joints(top: Table) -> tuple[Table, Expansion]:
     """Return the file's table with its sound joints known, and what its shorthand stands for."""
-    pins, moving = _part(top, "ground") or {}, _part(top, "joints") or {}
+    pins = _part(top, "ground") or {}
     short = top.attempt(_expansion, top, pins.get("O2", Pin("O2", (0.0, 0.0))))
+    moving = _part(top, "joints") or {}
     if not (any(key in top for key in SHORTHANDS) or "joints" in top):
         reason = f"describes no linkage; give it [joints], or one of {', '.join(SHORTHANDS)}"
         top.context.problems.append(top.wrong(reason))
