@@ -32,7 +32,7 @@ class Graph:
         return found
 
     def constant(self, number: float) -> float:
-        """Return a number as it is noted: with the one that it stands for where the digits are to be many."""
+        """Return a number as it is recorded: with the one that it stands for where digits are to be many."""
         return Constant(number) if self.exact else float(number)
 
     def node(self, op: str, *args: Expr | float | str) -> Expr:
@@ -143,7 +143,7 @@ def _add(a: Expr, b: Value) -> Value:
 
 def _subtract(a: Value, b: Value) -> Value:
     graph = _graph_of(a, b)
-    a, b = _noted(graph, a), _noted(graph, b)
+    a, b = _recorded(graph, a), _recorded(graph, b)
     if not isinstance(b, Expr) and b == 0:
         return a
     if not isinstance(a, Expr) and a == 0:
@@ -161,7 +161,7 @@ def _graph_of(a: Value, b: Value) -> Graph:
     return b.graph if isinstance(b, Expr) else a.graph if isinstance(a, Expr) else Graph()
 
 
-def _noted(graph: Graph, value: Value) -> Value:
+def _recorded(graph: Graph, value: Value) -> Value:
     return value if isinstance(value, Expr) else graph.constant(value)
 
 
@@ -200,7 +200,7 @@ def _scale(a: Expr, factor: float) -> Value:
 
 def _divide(a: Value, b: Value) -> Value:
     graph = _graph_of(a, b)
-    a, b = _noted(graph, a), _noted(graph, b)
+    a, b = _recorded(graph, a), _recorded(graph, b)
     if not isinstance(b, Expr):
         return a * (1.0 / b) if math.frexp(b)[0] in (0.5, -0.5) else graph.node("div", a, b)
     if not isinstance(a, Expr) and a == 0:
@@ -210,7 +210,7 @@ def _divide(a: Value, b: Value) -> Value:
 
 
 def beside(number: float, value: Value) -> float:
-    """Return a number as it is noted with a value; with a float that computes, as a float."""
+    """Return a number as it is recorded with a value; with a float that computes, as a float."""
     return value.graph.constant(number) if isinstance(value, Expr) else float(number)
 
 
