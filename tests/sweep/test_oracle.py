@@ -7,16 +7,23 @@ the number of its scene: `made(seed, number)` makes it again.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import count, islice
 from pathlib import Path
 from random import Random
 
 import pytest
 from limits import Limits
-from outputs import EVERYTHING, MEGABYTES, OUTPUTS, SECONDS, Case, Failure, Output, is_good, written
-from random_scenes import scene
+from oracle import (
+    ROTATION,
+    SHARES,
+    fault,
+    faults,
+    faults_apart,
+    good_scenes,
+    output_of,
+    start_nothing,
+)
+from outputs import EVERYTHING, MEGABYTES, OUTPUTS, Case, Failure, Output, written
 from typed_linkages import Document
 
 from linkanim.cli.exits import guarded
@@ -25,94 +32,37 @@ from linkanim.player.window import rendering
 SEED = 20
 PARTS = 10
 """Tests that many scenes are shared among, so that they run side by side."""
-ALWAYS = ("checked", "solved", "swept")
-SHARES = {
-    "charted": 8,
-    "classified": 6,
-    "drawn": 4,
-    "painted": 3,
-    "printed": 1,
-    "framed": 1,
-    "recorded": 1,
-    "reported": 1,
-    "taped": 1,
-    "played": 1,
-}
-"""How many of 27 scenes are made into each of the outputs: more into what takes little time."""
-ROTATION = tuple(name for name, share in SHARES.items() for _ in range(share))
-
-
-class _Done:
-    def poll(self) -> int:
-        return 0
 
 
 @pytest.fixture(autouse=True)
 def no_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A recording begun in a window starts no process of its own."""
-    monkeypatch.setattr(rendering, "_start", lambda command, said: _Done())
-
-
-def made(seed: int, number: int) -> Document:
-    """Return the document of a scene that a failure names."""
-    return scene(seed, number)[1]
-
-
-def good_scenes(seed: int, part: int = 0, parts: int = 1) -> Iterator[int]:
-    """Yield the numbers of the scenes that the reader takes."""
-    return (number for number in count(part, parts) if is_good(made(seed, number)))
-
-
-def output_of(number: int) -> str:
-    return ROTATION[number % len(ROTATION)]
-
-
-def failures(seed: int, numbers: Iterable[int], folder: Path) -> list[str]:
-    """Return a line for every output that could not be made, with the seed and number of its scene.
-
-    Each scene is checked, solved and swept, and made into the one output that its number chooses.
-    """
-    limits = Limits(SECONDS, MEGABYTES)
-    found = []
-    for number in numbers:
-        words, document = scene(seed, number)
-        case = written(document, folder / str(number), Random(f"{seed}:{number}"))
-        for name in (*ALWAYS, output_of(number)):
-            if said := fault(OUTPUTS[name], case, limits):
-                found.append(f"made({seed}, {number}), {words}: {name}: {said}")
-        case.clear()
-    return found
-
-
-def fault(output: Output, case: Case, limits: Limits) -> str | None:
-    """Return why an output cannot be made of a scene within the limits; None where it can."""
-    try:
-        with limits.held():
-            output(case)
-    except Exception as error:
-        return f"{type(error).__name__}: {error}"
-    return None
+    """A recording begun in a window renders nothing."""
+    monkeypatch.setattr(rendering, "_start", start_nothing)
 
 
 @pytest.mark.slow
 def test_a_few_good_scenes_are_made_into_everything(tmp_path: Path) -> None:
     numbers = [next(good_scenes(SEED, turn, len(ROTATION))) for turn in map(ROTATION.index, SHARES)]
     assert {output_of(number) for number in numbers} == SHARES.keys()
-    assert failures(SEED, numbers, tmp_path) == []
+    assert [line for number in numbers for line in faults(SEED, number, tmp_path)] == []
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("part", range(PARTS))
 def test_five_hundred_good_scenes_are_made_into_everything(part: int, tmp_path: Path) -> None:
-    numbers = islice(good_scenes(SEED, part, PARTS), 500 // PARTS)
-    assert failures(SEED, numbers, tmp_path) == []
+    assert faults_apart(SEED, part, PARTS, 500 // PARTS, tmp_path) == []
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("part", range(PARTS))
 def test_twenty_thousand_good_scenes_are_made_into_everything(part: int, tmp_path: Path) -> None:
-    numbers = islice(good_scenes(SEED + 1, part, PARTS), 20_000 // PARTS)
-    assert failures(SEED + 1, numbers, tmp_path) == []
+    assert faults_apart(SEED + 1, part, PARTS, 20_000 // PARTS, tmp_path) == []
+
+
+@pytest.mark.slow
+def test_a_process_that_does_not_end_well_is_a_fault_with_its_last_scene(tmp_path: Path) -> None:
+    [line] = faults_apart(SEED, 3, 1, 1, tmp_path / "missing")
+    assert re.match(r"made\(20, \d+\): the process ended with 1: .*FileNotFoundError", line, re.DOTALL)
 
 
 def _endless(case: Case) -> None:

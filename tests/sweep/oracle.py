@@ -1,0 +1,132 @@
+"""Random good scenes, each made into outputs within limits; also a process of its own, which a fault may end.
+
+    python tests/sweep/oracle.py SEED FIRST STEP COUNT FOLDER
+
+prints the number of each scene before it is made into anything, and a line for each fault.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import warnings
+from collections.abc import Iterator
+from itertools import count, islice
+from pathlib import Path
+from random import Random
+from typing import Any
+
+from limits import Limits
+from outputs import MEGABYTES, OUTPUTS, SECONDS, Case, Output, is_good, written
+from random_scenes import scene
+from typed_linkages import Document
+
+from linkanim import child
+from linkanim.player.window import rendering
+
+ALWAYS = ("checked", "solved", "swept")
+SHARES = {
+    "charted": 8,
+    "classified": 6,
+    "drawn": 4,
+    "painted": 3,
+    "printed": 1,
+    "framed": 1,
+    "recorded": 1,
+    "reported": 1,
+    "taped": 1,
+    "played": 1,
+}
+"""How many of 27 scenes are made into each of the outputs: more into what takes little time."""
+ROTATION = tuple(name for name, share in SHARES.items() for _ in range(share))
+
+
+class _Ended:
+    """What a recording begun in a window starts here: a process that has ended well."""
+
+    def poll(self) -> int:
+        return 0
+
+
+def start_nothing(command: list[str], log: int) -> Any:
+    """Return a process that has ended, in place of one that renders."""
+    return _Ended()
+
+
+def made(seed: int, number: int) -> Document:
+    """Return the document of a scene that a fault names."""
+    return scene(seed, number)[1]
+
+
+def good_scenes(seed: int, first: int = 0, step: int = 1) -> Iterator[int]:
+    """Yield the numbers of the scenes that the reader takes, or cannot read within the limits."""
+    return (number for number in count(first, step) if _is_good(made(seed, number)))
+
+
+def _is_good(document: Document) -> bool:
+    try:
+        with Limits(SECONDS, MEGABYTES).held():
+            return is_good(document)
+    except Exception:
+        return True  # to be checked, and found at fault
+
+
+def output_of(number: int) -> str:
+    """Return the one output that a scene is made into beside those that all are."""
+    return ROTATION[number % len(ROTATION)]
+
+
+def faults(seed: int, number: int, folder: Path) -> list[str]:
+    """Return a line for every output that could not be made of a scene, with its seed and number.
+
+    Each scene is checked, solved and swept, and made into the one output that its number chooses.
+    """
+    words, document = scene(seed, number)
+    limits = Limits(SECONDS, MEGABYTES)
+    case = written(document, folder / str(number), Random(f"{seed}:{number}"))
+    reasons = {name: fault(OUTPUTS[name], case, limits) for name in (*ALWAYS, output_of(number))}
+    case.clear()
+    return [f"made({seed}, {number}), {words}: {name}: {why}" for name, why in reasons.items() if why]
+
+
+def fault(output: Output, case: Case, limits: Limits) -> str | None:
+    """Return why an output cannot be made of a scene within the limits; None where it can."""
+    try:
+        with limits.held():
+            output(case)
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+    return None
+
+
+def faults_apart(seed: int, first: int, step: int, most: int, folder: Path) -> list[str]:
+    """Return the faults of so many good scenes, made in a process of their own, and how that ended if ill."""
+    words = (str(word) for word in (seed, first, step, most, folder))
+    done = subprocess.run(
+        child.python(__file__, *words),
+        env=child.env(**child.ONE_CORE),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    lines = done.stdout.splitlines()
+    found = [line for line in lines if not line.isdecimal()]
+    if done.returncode:
+        last = next((line for line in reversed(lines) if line.isdecimal()), first)
+        found.append(f"made({seed}, {last}): the process ended with {done.returncode}: {done.stderr[-2000:]}")
+    return found
+
+
+def main(seed: int, first: int, step: int, most: int, folder: Path) -> None:
+    """Print the number of each of so many good scenes, and its faults."""
+    warnings.simplefilter("error")
+    for number in islice(good_scenes(seed, first, step), most):
+        print(number, flush=True)
+        for line in faults(seed, number, folder):
+            print(" ".join(line.split()), flush=True)
+
+
+if __name__ == "__main__":
+    rendering._start = start_nothing
+    seed, first, step, most = map(int, sys.argv[1:5])
+    main(seed, first, step, most, Path(sys.argv[5]))
