@@ -18,6 +18,8 @@ if sys.platform == "linux":
     import resource
 
 _PROC = Path("/proc/self")
+_ADDRESSES = 4
+"""Times the memory as address space: threads and what we start, an encoder, take more of it than they use."""
 
 
 class TooLongError(Exception):
@@ -37,13 +39,16 @@ class Limits:
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Hold the block to the limits: `TooLongError`, or `MemoryError` as Python raises it."""
+        """Hold the block to the limits: `TooLongError`, or `MemoryError` at once or at its end."""
         before, begun = _peak_mb(), time.process_time()
-        with _alarm(self._seconds) as rung, _room(self._megabytes):
+        with _alarm(self._seconds) as rung, _room(_ADDRESSES * self._megabytes):
             yield
         spent = time.process_time() - begun
         self.most_seconds = max(self.most_seconds, spent)
-        self.most_mb = max(self.most_mb, _peak_mb(reset=False) - before)
+        more = _peak_mb(reset=False) - before
+        self.most_mb = max(self.most_mb, more)
+        if more > self._megabytes:
+            raise MemoryError(f"{more:.0f} MB")
         if rung:  # and the alarm was swallowed
             raise TooLongError(f"{spent:.2f} s of processor time")
 

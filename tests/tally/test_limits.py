@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 from contextlib import suppress
+from mmap import mmap
 
 import pytest
 from limits import Limits, TooLongError
@@ -40,6 +41,16 @@ def test_memory_beyond_the_limit_is_refused_and_there_again_after() -> None:
     with pytest.raises(MemoryError), Limits(1.0, 50).held():
         bytearray(1_000_000_000)
     assert len(bytearray(60_000_000)) == 60_000_000
+
+
+@linux
+@pytest.mark.parametrize("size", [70_000_000, 1_000_000_000])
+def test_memory_in_use_counts_not_what_could_be(size: int) -> None:
+    limits = Limits(1.0, 50)
+    with limits.held(), mmap(-1, 70_000_000) as untouched:
+        assert len(untouched) == 70_000_000
+    with pytest.raises(MemoryError), limits.held():
+        assert len(b"x" * size) == size
 
 
 @linux
