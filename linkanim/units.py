@@ -150,6 +150,11 @@ def length(value: object, *, unit: str) -> float:
     return _rounded(number, factor, value, _LENGTH)
 
 
+def unit_of(metres: float) -> str:
+    """Return the unit of length that is so many metres; "" where there is none."""
+    return next((unit for unit in LENGTH_UNITS if metre(unit) == metres), "")
+
+
 def metre(unit: str) -> float:
     """Return one `unit` of length in metres (0.001 for mm); UnitError for a unit that is not a length."""
     return float(_LENGTH.factors[_length_unit(unit)])

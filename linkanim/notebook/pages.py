@@ -26,7 +26,6 @@ from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
-from linkanim.units import LENGTH_UNITS, metre
 
 _FIGURE, _CHART = (560, 360), (640, 260)
 _ENDS = 5
@@ -54,8 +53,7 @@ def _beside(picture: str, table: str) -> str:
 
 def _unit(motion: Motion) -> str:
     """Return the unit of length of a motion."""
-    scale = motion.setting.linkage.metre
-    return next((unit for unit in LENGTH_UNITS if metre(unit) == scale), "")
+    return motion.setting.linkage.unit
 
 
 def _quantities(motion: Motion) -> Mapping[str, Quantity]:

@@ -111,7 +111,7 @@ def test_ends_that_meet_and_part_the_way_they_came_are_refused() -> None:
 
 
 def test_a_slider_that_keeps_out_of_reach_of_the_next_line_is_refused() -> None:
-    with pytest.raises(AssemblyError, match=r"^joint S2: the bar of 4 cannot reach its line of travel"):
+    with pytest.raises(AssemblyError, match=r"^joint S2: the bar of 4 m cannot reach its line of travel"):
         mechanism(two_sliders(4.0))
 
 

@@ -136,8 +136,8 @@ def test_a_phase_is_found_for_every_angle_of_its_range() -> None:
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        pytest.param(lambda: boom(90.0, 200.0), "it can be 102.237 to 302.237 long", id="too short"),
-        pytest.param(lambda: boom(200.0, 303.0), "it can be 102.237 to 302.237 long", id="too long"),
+        pytest.param(lambda: boom(90.0, 200.0), "it can be 102.237 to 302.237 m long", id="too short"),
+        pytest.param(lambda: boom(200.0, 303.0), "it can be 102.237 to 302.237 m long", id="too long"),
         pytest.param(
             lambda: boom(200.0, 300.0, Pin("Q", (700.0, 0.0)), RRR("B", ("A", "Q"), (300.0, 350.0))),
             "turn the crank",

@@ -175,10 +175,10 @@ def test_the_force_that_drives_a_piston_is_along_its_line() -> None:
 @pytest.mark.parametrize(
     ("ends", "words"),
     [
-        ((70.0, 150.0), "run from 80 to 150 only, not from 70 to 150"),
-        ((90.0, 170.0), "run from 90 to 160 only"),
-        ((70.0, 170.0), "run from 80 to 160 only"),
-        ((170.0, 70.0), "run from 80 to 160 only, not from 170 to 70"),
+        ((70.0, 150.0), "run from 80 to 150 m only, not from 70 to 150 m"),
+        ((90.0, 170.0), "run from 90 to 160 m only"),
+        ((70.0, 170.0), "run from 80 to 160 m only"),
+        ((170.0, 70.0), "run from 80 to 160 m only, not from 170 to 70 m"),
         ((200.0, 300.0), "cannot meet at any angle"),
     ],
 )
@@ -192,7 +192,7 @@ AWAY, ABOVE = Pin("P", (100.0, 40.0)), RRR("X", ("A", "P"), (60.0, 50.0))
 # At its dead centres the crank has no rate, and neither has what stands on it; before them it does not close.
 BESIDE = {
     "a slot that just misses": ((80.0, 160.0), (Pin("P", (0.0, 100.0)), RPR("X", "P", "A", 1.0, 59.99)), ""),
-    "a slot on a bar": ((1e-13, 160.0), (RPR("X", "C", "A", 1.0),), "joint A: .* from 80 to 160 only"),
+    "a slot on a bar": ((1e-13, 160.0), (RPR("X", "C", "A", 1.0),), "joint A: .* from 80 to 160 m only"),
     "a slot of a pin": ((0.0, 160.0), (Pin("P", (0, 100.0)), RPR("X", "P", "A", 1.0)), "joint A: .* from 80"),
     "a dyad beside it": ((80.0, 160.0), (AWAY, ABOVE), "joint X: .* travel run from"),
     "a dyad on a dyad": ((80.0, 150.0), (AWAY, ABOVE, RRR("Y", ("X", "C"), (70.0, 80.0))), "joint X: .* run"),

@@ -189,7 +189,7 @@ def test_bars_that_cannot_meet_on_one_body_are_told_what_would_do() -> None:
             "C": {"from": ["O2", "O4"], "length": [20, 50]},
         },
     }
-    with pytest.raises(AssemblyError, match="100 apart on one rigid body, and 30 to 70 would do"):
+    with pytest.raises(AssemblyError, match="100 mm apart on one rigid body, and 30 to 70 mm would do"):
         scene_from(document, name="my", where="my")
 
 

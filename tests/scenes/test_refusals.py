@@ -313,7 +313,7 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("endless length", FOUR_BAR.replace("30", f'"{"3" * 5000} mm"'), "more than 1,000 digits", "line 3"),
     # What no digits and no pixels show together, or at all.
     ("sizes far apart", FOUR_BAR.replace("30", "3e11"), "four-bar: a bar of 80", "1e+09 times"),
-    ("a pin far away", "[ground]\nG = [1e11, 0]\n" + FOUR_BAR, "four-bar: a bar of 30", "the 1e+11 of G"),
+    ("a pin far away", "[ground]\nG = [1e11, 0]\n" + FOUR_BAR, "four-bar: a bar of 30", "the 1e+11 mm of G"),
     ("a point on its joint", FOUR_BAR + "coupler_point = [0, 1e-12]\n", "a bar of 1e-12", "too short"),
     ("a length in light-years", FOUR_BAR.replace("30", "1e13"), "four-bar.crank", "less than 1e+12"),
     ("a start turns away", FOUR_BAR + '[drive]\nstart = "36001 deg"\n', "drive.start", "whole turns out"),
@@ -397,13 +397,23 @@ UNASSEMBLED: list[tuple[str, str, str, str]] = [
         "joint C",
     ),
     # A brace on one body either fits or does not, whatever the input does.
-    ("brace too short", LONG + "[joints.T]\nfrom = ['A', 'B']\nlength = [40, 40]\n", "joints.T", "90 apart"),
-    ("brace too long", LONG + "[joints.T]\nfrom = ['A', 'B']\nlength = [10, 110]\n", "joints.T", "90 apart"),
+    (
+        "brace too short",
+        LONG + "[joints.T]\nfrom = ['A', 'B']\nlength = [40, 40]\n",
+        "joints.T",
+        "90 mm apart",
+    ),
+    (
+        "brace too long",
+        LONG + "[joints.T]\nfrom = ['A', 'B']\nlength = [10, 110]\n",
+        "joints.T",
+        "90 mm apart",
+    ),
     (
         "brace on one point",
         FOUR_BAR + ON_B + "[joints.T]\nfrom = ['P', 'B']\nlength = [9, 9]\n",
         "joints.T",
-        "0 apart",
+        "0 mm apart",
     ),
 ]
 

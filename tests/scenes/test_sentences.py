@@ -229,7 +229,7 @@ def test_bars_that_cannot_meet_are_told_how_far_their_ends_ever_are(ends: tuple[
     needs = f"these bars reach {least / 2:.4g}" if far else f"these bars need {2 * most:.4g}"
     with pytest.raises(AssemblyError) as refused:
         scene_from({**document, "joints": document["joints"] | dyad}, name="my", where="my")
-    told = re.search(r"–(\w+) is (at \w+) ([\d.]+); (these bars \w+) ([\d.]+)$", str(refused.value))
+    told = re.search(r"–(\w+) is (at \w+) ([\d.]+) mm; (these bars \w+) ([\d.]+) mm$", str(refused.value))
     assert told is not None, refused.value
     assert f"{ends[0]}–{ends[1]}" in str(refused.value)
     assert f"{told[2]} {float(told[3]):.4g}" == said

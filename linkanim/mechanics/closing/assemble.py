@@ -112,7 +112,7 @@ def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Arc) -> int:
     if first != last:
         return 1
     for name, loop in others.items():
-        arcs = arcs_of(linkage.joint(name), loop.root) or ()
+        arcs = arcs_of(linkage.joint(name), loop.root, linkage.unit) or ()
         own = [other.shifted(turns) for other in arcs for turns in (-1, 0, 1)]
         low = any(abs(float(other.low - arc.low)) <= OWN_LIMIT for other in own)
         high = any(abs(float(other.high - arc.high)) <= OWN_LIMIT for other in own)

@@ -76,9 +76,8 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
     first = found.shut.argmax(axis=0)
     if found.shut.any(axis=0).all():
         name = found.names[int(first.max())]
-        raise AssemblyError(
-            f"joint {name}: {linkage.joint(name).why_apart(*_most(assembly, name, found.phases))}"
-        )
+        most = _most(assembly, name, found.phases)
+        raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
     on_swing, limited = found, assembly
     for _ in range(CUTS):
         swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing)))

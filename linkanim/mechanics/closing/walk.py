@@ -158,7 +158,7 @@ class Walk:
         u, w = closing.u, closing.w
         if not (isinstance(u, float) and isinstance(w, float) and u * w < 0):
             return AT_ITS_LIMIT
-        return self.linkage.joint(name).why_apart(u, w)
+        return self.linkage.joint(name).why_apart(u, w, self.linkage.unit)
 
     def place_of(self, pin: Pin) -> Vec:
         """Return where a fixed pin stands."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -205,11 +206,11 @@ def cylinder_stroke(linkage: Linkage, unscale: float, arcs: list[Arc] | None) ->
     )
     arm = (frame[joint] - frame[crank.pivot]) / (frame[crank.name] - frame[crank.pivot]) * crank.length
     sides = ground.length, abs(arm)
-    _check(cylinder, sides)
+    _check(cylinder, sides, linkage.unit)
     own = exact_angle(math.atan2(arm.imag, arm.real))
     base = ground.angle - own
-    ends = cylinder.first, cylinder.last
-    paths = [CylinderStroke(*ends, sides, base, side, ground.rest, unscale=unscale) for side in (1, -1)]
+    stroke = partial(CylinderStroke, cylinder.first, cylinder.last, unscale=unscale, unit=linkage.unit)
+    paths = [stroke(sides, base, side, ground.rest) for side in (1, -1)]
     start = drive.stated_start
     held = (path for path in paths if start is not None and path.holds(start))
     return _with_room(next(held, paths[0]).around(drive.start), arcs)
@@ -228,11 +229,11 @@ def _with_room(path: CylinderStroke, arcs: list[Arc] | None) -> CylinderStroke:
     )
 
 
-def _check(cylinder: Cylinder, sides: tuple[float, float]) -> None:
+def _check(cylinder: Cylinder, sides: tuple[float, float], unit: str) -> None:
     low, high = abs(sides[0] - sides[1]), sum(sides)
     for length in cylinder.lengths:
         if not low < length < high:
             raise AssemblyError(
-                f"a cylinder of length {length:g} between {' and '.join(cylinder.between)}: it can be "
-                f"{low:g} to {high:g} long, ends not included"
+                f"a cylinder of length {length:g} {unit} between {' and '.join(cylinder.between)}: it can be "
+                f"{low:g} to {high:g} {unit} long, ends not included"
             )

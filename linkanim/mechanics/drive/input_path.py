@@ -261,6 +261,8 @@ class Stroke(ThereAndBack):
     first: float
     last: float
     unscale: float = field(default=1.0, kw_only=True)
+    unit: str = field(default="", kw_only=True)
+    """The scene's unit of length, as in sentences."""
 
     runs: ClassVar[str]
     """What runs to and fro, in words."""
@@ -295,6 +297,6 @@ class Stroke(ThereAndBack):
         least, most = sorted(ends)
         first, last = self.first * self.unscale, self.last * self.unscale
         raise AssemblyError(
-            f"joint {dyad}: it lets the {self.runs} run from {least:.6g} to {most:.6g} only, "
-            f"not from {first:g} to {last:g}; choose other ends"
+            f"joint {dyad}: it lets the {self.runs} run from {least:.6g} to {most:.6g} {self.unit} only, "
+            f"not from {first:g} to {last:g} {self.unit}; choose other ends"
         )

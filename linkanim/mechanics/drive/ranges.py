@@ -53,20 +53,20 @@ def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Arc] | None:
     for name, loop in loops.items():
         if loop.pin == linkage.drive.joint:
             unscale = linkage.crank(loop.pin).length / loop.crank.length
-            own = arcs_of(linkage.joint(name), loop.root, unscale)
+            own = arcs_of(linkage.joint(name), loop.root, linkage.unit, unscale)
             arcs = own if arcs is None else arcs if own is None else list(_common(arcs, own))
             if arcs == []:
                 raise AssemblyError(f"joint {name}: the bars of the linkage leave its input no common range")
     return arcs
 
 
-def arcs_of(joint: Joint, root: LoopRoot, unscale: float = 1.0) -> list[Arc] | None:
+def arcs_of(joint: Joint, root: LoopRoot, unit: str, unscale: float = 1.0) -> list[Arc] | None:
     """Return a loop's open ranges in the crank's own angle; times `unscale` its lengths are the joint's."""
     if min(root.u.most, root.w.most) == 0:
         raise AssemblyError(f"joint {joint.name}: {ONE_PLACE}")
     if min(root.u.most, root.w.most) < 0:
-        most = (factor.most * root.unit * unscale**2 for factor in (root.u, root.w))
-        raise AssemblyError(f"joint {joint.name}: {joint.why_apart(*most)}")
+        u, w = (factor.most * root.unit * unscale**2 for factor in (root.u, root.w))
+        raise AssemblyError(f"joint {joint.name}: {joint.why_apart(u, w, unit)}")
     ends, reference = (joint.name, joint.name), root.reference
     u_limits, w_limits = root.u.kind is Kind.LIMIT, root.w.kind is Kind.LIMIT
     if u_limits and w_limits:

@@ -106,4 +106,4 @@ class SliderStroke(Stroke):
 
 def slider_stroke(linkage: Linkage, unscale: float, arcs: list[Arc] | None) -> SliderStroke:
     """Return the path of a linkage that a slider drives; no loop on a crank limits it."""
-    return SliderStroke(*linkage.drive.actuator.lengths, unscale=unscale)
+    return SliderStroke(*linkage.drive.actuator.lengths, unscale=unscale, unit=linkage.unit)

@@ -73,16 +73,16 @@ class RRR(Joint):
         product = one * other.conjugate()
         return np.arctan2(abs(product.imag), abs(product.real))
 
-    def why_apart(self, u: float, w: float) -> str:
+    def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say how near its ends come, or how far apart: U = (a + b)² - L², W = L² - (a - b)²."""
         a, b = self.lengths
         least, most = math.sqrt(max((a + b) ** 2 - u, 0.0)), math.sqrt(max((a - b) ** 2 + w, 0.0))
         if w < 0:
-            apart = f"at most {most:.6g}; these bars need {abs(a - b):g}"
+            apart = f"at most {most:.6g} {unit}; these bars need {abs(a - b):g} {unit}"
         else:
-            apart = f"at least {least:.6g}; these bars reach {a + b:g}"
+            apart = f"at least {least:.6g} {unit}; these bars reach {a + b:g} {unit}"
         ends = "–".join(self.ends)
-        return f"the bars of {a:g} and {b:g} cannot meet at any angle of the input: {ends} is {apart}"
+        return f"the bars of {a:g} and {b:g} {unit} cannot meet at any angle of the input: {ends} is {apart}"
 
 
 class SliderDyad(Joint):
@@ -164,10 +164,10 @@ class RRP(SliderDyad):
             bar = bar * axis.conjugate()
         return np.arctan2(abs(bar.real), abs(bar.imag))
 
-    def why_apart(self, u: float, w: float) -> str:
+    def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say that the bar is too short for its line."""
         return (
-            f"the bar of {self.length:g} cannot reach its line of travel from {self.end} "
+            f"the bar of {self.length:g} {unit} cannot reach its line of travel from {self.end} "
             "at any angle of the input; make it longer or the offset smaller"
         )
 
@@ -243,10 +243,10 @@ class RPR(Joint):
         arm = abs(place(self.through) - place(self.pivot))
         return np.arccos(np.minimum(abs(self.offset) / arm, 1.0))
 
-    def why_apart(self, u: float, w: float) -> str:
+    def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say that the slot's offset is too large."""
         return (
-            f"the slot's offset {self.offset:g} is more than the pin {self.through} is ever away "
+            f"the slot's offset {self.offset:g} {unit} is more than the pin {self.through} is ever away "
             f"from {self.pivot}; make it smaller"
         )
 

@@ -142,7 +142,7 @@ class Joint(ABC):
         """Return the rigid bodies with the joint in them: a body of its own for each of its bars."""
         return (*bodies, *({start: 0j, self.name: complex(length)} for start, length in self.bars))
 
-    def why_apart(self, u: float, w: float) -> str:
+    def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say in words and numbers why it cannot be assembled at any angle of the input.
 
         `u` and `w` are the greatest that its root's factors come to.

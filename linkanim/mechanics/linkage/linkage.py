@@ -13,6 +13,7 @@ from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.joint import Joint, Point, RigidBody
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.linkage.rigid_bodies import rigid_bodies
+from linkanim.units import unit_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +88,11 @@ class Linkage:
     """One unit of length in metres (0.001 for mm); forces need it."""
     gravity: float = 0.0
     """How fast masses fall, in m/s², down; 0 where nothing is said of it."""
+
+    @property
+    def unit(self) -> str:
+        """The unit of its lengths, as in sentences."""
+        return unit_of(self.metre)
 
     @property
     def forceful(self) -> bool:

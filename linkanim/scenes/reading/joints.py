@@ -163,13 +163,13 @@ def _refuse_apart(table: Table, names: tuple[str, ...], bodies: tuple[RigidBody,
 def _refuse_loose(table: Table, joint: RRR, frame: RigidBody) -> None:
     """Refuse a dyad between two joints of one body whose bars are too short or too long for it."""
     first, second = joint.ends
-    a, b = joint.lengths
+    (a, b), unit = joint.lengths, table.context.unit
     distance = abs(frame[first] - frame[second])
     if coincide(frame, first, second) or not abs(a - b) <= distance <= a + b:
         raise unassembled(
             table,
-            f"the bars of {a:g} and {b:g} cannot meet: {first} and {second} are "
-            f"{distance:g} apart on one rigid body, and {abs(a - b):g} to {a + b:g} would do",
+            f"the bars of {a:g} and {b:g} {unit} cannot meet: {first} and {second} are "
+            f"{distance:g} {unit} apart on one rigid body, and {abs(a - b):g} to {a + b:g} {unit} would do",
         )
 
 

@@ -24,8 +24,8 @@ def refuse_apart(top: Table, linkage: Linkage) -> Linkage:
         joints = top.table("joints")
         short = next((key for key in SHORTHANDS if key in top), "ground")
         raise (joints.table(name) if name in joints else top.table(short)).wrong(
-            f"a bar of {shortest:g} is too short beside the {longest:g} of {what}; "
-            f"nothing may be more than {MOST_APART:g} times as long as the shortest bar"
+            f"a bar of {shortest:g} {linkage.unit} is too short beside the {longest:g} {linkage.unit} "
+            f"of {what}; nothing may be more than {MOST_APART:g} times as long as the shortest bar"
         )
     return linkage
 
