@@ -103,7 +103,7 @@ CASES = {
     "gif": Case(("-m", "linkanim", "record", "kite", *SMALL, "-o", "kite.gif"), "kite.gif", is_picture),
     "png": Case(("-m", "linkanim", "record", "kite", *SMALL, "-o", "IMG.png"), "IMG-0*.png", is_picture),
     "report": Case(("-m", "linkanim", "report", "scotch-yoke", "-o", "into"), "into/[!tp.]*", is_page),
-    "gallery": Case(("-c", GALLERY), "into/[!p]*.[gp]*", is_picture),
+    "gallery": Case(("-c", GALLERY), "into/[!.p]*.[gp]*", is_picture),
     "Ctrl+S": Case(("-c", SAVED), "kite-*.toml", is_scene),
 }
 

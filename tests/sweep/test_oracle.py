@@ -77,7 +77,7 @@ def _endless_command(case: Case) -> None:
 
 
 def _greedy(case: Case) -> None:
-    kept = b"x" * (2 * MEGABYTES * 1_000_000)
+    kept = bytearray(5 * MEGABYTES * 1_000_000)
     OUTPUTS["solved"](case)
     assert kept
 
