@@ -234,8 +234,8 @@ def _rounded(number: str, factor: Fraction, value: object, units: Units) -> floa
     nearest = float(number)
     if not math.isfinite(nearest):
         raise UnitError(f"{shown(value)} is not a finite number; write {units.noun} as {_examples(1, units)}")
-    if nearest == 0.0:
-        return 0.0
+    if nearest == 0.0 or factor == 1:
+        return nearest + 0.0
     try:
         return float(Fraction(Decimal(number)) * factor)
     except OverflowError:

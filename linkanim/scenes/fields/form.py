@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Literal
 
 from linkanim.scenes.fields.table import Table
@@ -79,14 +80,14 @@ class Form:
     refuse: Callable[[Table, Mapping[str, Any]], None] = lambda table, values: None
     together: Mapping[str, str] = field(default_factory=dict)
 
-    @property
-    def keys(self) -> tuple[str, ...]:
-        """The keys that are known."""
-        return tuple(one.key for one in self.fields)
+    @cached_property
+    def keys(self) -> Mapping[str, Field]:
+        """The fields by their keys, which are those that are known."""
+        return {one.key: one for one in self.fields}
 
     def field(self, key: str) -> Field:
         """Return the field of a key, which must be known."""
-        return next(one for one in self.fields if one.key == key)
+        return self.keys[key]
 
     def fits(self, values: Mapping[str, Any]) -> bool:
         """Tell whether a table is of this form, by the keys in it."""
@@ -101,15 +102,16 @@ class Form:
 
         `known` are the keys that are no slips, the form's own unless stated.
         """
-        table.refuse_unknown(known or self.keys)
+        if not table.values.keys() <= self.keys.keys():
+            table.refuse_unknown(known or self.keys)
         values: dict[str, Any] = {}
+        sound = True
         for one in self.fields:
             if one.stated(table):
                 value = table.attempt(one.read, table)
+                sound = sound and value is not None
                 values |= value if one.into == SPREAD and value else {one.into or one.key: value}
-        if any(value is None for value in values.values()):
-            return None
-        return table.attempt(self._make, table, values, given)
+        return table.attempt(self._make, table, values, given) if sound else None
 
     def _make(self, table: Table, values: Mapping[str, Any], given: tuple[object, ...]) -> Any:
         self.refuse(table, values)
@@ -148,8 +150,8 @@ class Named:
             return place and self.make(name, place)
         table = group.table(name)
         form = self.form(table.values)
-        akin = [one for one in self.forms if form is None or one.mark == form.mark]
-        known = dict.fromkeys(key for one in akin for key in one.keys)
+        akin = (one for one in self.forms if form is None or one.mark == form.mark)
+        known = (key for one in akin for key in one.keys)
         if form:
             return form.made(table, name, known=known)
         table.refuse_unknown(known)

@@ -57,7 +57,7 @@ class Table(Section):
 
     def refuse_unknown(self, known: Iterable[str]) -> None:
         """Count every key that is not `known` among the problems, each with the nearest known one."""
-        known = tuple(known)
+        known = tuple(dict.fromkeys(known))
         for key in self.values:
             if key not in known and len(self.context.problems) < MOST_PROBLEMS:
                 reason = f"unknown key{meant(key, known)}; known here: {', '.join(known)}"
