@@ -188,12 +188,12 @@ class Page:
         """Yield a dot at each extreme, and its value and angle where there is room to say them."""
         pen, found = self.pen, list(self._extremes(plots, sides))
         words = [_peak_words(plot, peak, self.curves, curve) for plot, curve, peak, _ in found]
-        asked = [
+        to_place = [
             _about(plot, peak, pen.type.width(text, pen.small), pen, high=high)
             for (plot, _, peak, high), text in zip(found, words, strict=True)
         ]
-        placed = place(asked, Clutter(plots[0].area))
-        for (plot, curve, peak, _), text, label, spot in zip(found, words, asked, placed, strict=True):
+        placed = place(to_place, Clutter(plots[0].area))
+        for (plot, curve, peak, _), text, label, spot in zip(found, words, to_place, placed, strict=True):
             yield from point_layers(plot, [(peak.x, peak.value)], self.colour(curve), _finer(pen))
             if spot.shown[0]:
                 (wide, tall), middle = label.size, complex(label.places[0, spot.which])

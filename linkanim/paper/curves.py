@@ -90,13 +90,13 @@ class Curves:
         """Return what sets a curve off from the others: quantity, component, speed, as far as they differ."""
         several = len({other.quantity.token for other in self.curves}) > 1
         paces = len({other.pace for other in self.curves}) > 1
-        said = curve.quantity.words + " " + curve.quantity.symbol if several or not paces else ""
-        return ", ".join(part for part in (said, curve.label, curve.pace.words if paces else "") if part)
+        words = curve.quantity.words + " " + curve.quantity.symbol if several or not paces else ""
+        return ", ".join(part for part in (words, curve.label, curve.pace.words if paces else "") if part)
 
 
-def curves_of(scene: Scene, wanted: ChartRequest) -> Curves:
-    """Return the curves that are wanted; BadInput where the scene has no such quantity, or none is named."""
-    quantities = tuple(dict.fromkeys(wanted.tokens))
+def curves_of(scene: Scene, request: ChartRequest) -> Curves:
+    """Return the curves requested; BadInput where the scene has no such quantity, or none is named."""
+    quantities = tuple(dict.fromkeys(request.tokens))
     if not quantities:
         raise BadInput(
             "--quantity names none; give one, such as rocker.angle, or several with commas between"
@@ -105,10 +105,13 @@ def curves_of(scene: Scene, wanted: ChartRequest) -> Curves:
     periods = min(round(scene.period / tau), _MOST_PERIODS)
     cycle = scene.cycle(SAMPLES * periods)
     found = tuple(
-        curve for one in known for pace in wanted.paces for curve in _of(scene, one, pace, wanted.over, cycle)
+        curve
+        for one in known
+        for pace in request.paces
+        for curve in _of(scene, one, pace, request.over, cycle)
     )
     return _along(
-        scene, found, [course(scene, pace.speed, wanted.over) for pace in wanted.paces], wanted.over
+        scene, found, [course(scene, pace.speed, request.over) for pace in request.paces], request.over
     )
 
 
@@ -193,12 +196,12 @@ def table(curves: Curves) -> tuple[list[str], list[Floats]]:
     several = len({curve.pace for curve in curves.curves}) > 1
     for pace in dict.fromkeys(curve.pace for curve in curves.curves):
         paced = motion.paced(pace.speed / scene.linkage.drive.speed)
-        said = f"@{pace.words}" if several else ""
-        names.append(f"time{said}")
+        words = f"@{pace.words}" if several else ""
+        names.append(f"time{words}")
         columns.append(phases / pace.speed)
         for one in dict.fromkeys(curve.quantity for curve in curves.curves):
             values = np.asarray(one.read(paced), float)
             for label, column in zip(one.columns, np.atleast_2d(values.T), strict=True):
-                names.append(".".join(filter(None, (one.token, label))) + said)
+                names.append(".".join(filter(None, (one.token, label))) + words)
                 columns.append(column)
     return names, columns

@@ -16,7 +16,7 @@ from linkanim.picture.raster.raster import Cover, cover, is_clear, keep_memory, 
 from linkanim.picture.text.lettering import Lettering
 from linkanim.picture.text.text import Type
 
-_MOST_PICTURES = 4
+_MOST_PICTURES = 8
 """What is kept of shapes that come again takes no more memory than so many pictures."""
 _SPARE_LABELS = 48
 """So many labels are kept that the last frame had not."""

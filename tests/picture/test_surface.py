@@ -90,7 +90,7 @@ def test_what_is_kept_of_a_picture_has_a_bound() -> None:
     for step in range(120):
         printer.paint(surface, picture, scene.pose(0.0137 * step))
         taken.append(sum(cover.nbytes for _, cover in printer._covers.values()))
-    assert 0 < max(taken) <= 4 * surface.get_buffer().length
+    assert 0 < max(taken) <= 8 * surface.get_buffer().length
     before, look = picture, replace(FULL, names=2)
     for step in range(60):
         before = Picture(scene, (320 + 2 * step, 180), look, before)

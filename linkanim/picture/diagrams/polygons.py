@@ -152,12 +152,12 @@ class Polygon:
         middle = sum((arrow.middle for arrow in found), 0j) / max(len(found), 1)
         long = [arrow for arrow in found if abs(arrow.reach) >= _LABELLED * pen.small]
         arrows_ = sorted(long, key=lambda arrow: arrow.side.sort not in _ABSOLUTE)
-        asked = [
+        to_place = [
             _beside(arrow, middle, pen.type.width(arrow.side.symbol, pen.small), pen.small)
             for arrow in arrows_
         ]
         room = self.rect.inset(-2.0 * pen.text)
-        for arrow, label, placed in zip(arrows_, asked, place(asked, Clutter(room)), strict=True):
+        for arrow, label, placed in zip(arrows_, to_place, place(to_place, Clutter(room)), strict=True):
             if placed.shown[0]:
                 at = complex(label.places[0, placed.which])
                 top = at.real, at.imag - pen.small / 2

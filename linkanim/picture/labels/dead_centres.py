@@ -61,8 +61,8 @@ class DeadCentres:
             lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
         feet = (*zip(self._ends, (-1, 1), strict=True), (sum(self._ends) / 2, 0))
         wide = [self.type.width(text, size, strong=True) for text in lines]
-        asked = [self._candidates(*foot, complex(w, size)) for foot, w in zip(feet, wide, strict=False)]
-        found = place(asked, Clutter(self.layout.stage, self.layout.words))
+        to_place = [self._candidates(*foot, complex(w, size)) for foot, w in zip(feet, wide, strict=False)]
+        found = place(to_place, Clutter(self.layout.stage, self.layout.words))
         return tuple(
             Caption(
                 text,
@@ -73,7 +73,7 @@ class DeadCentres:
                 True,
                 Halo(self.theme.background, halo),
             )
-            for text, label, placed in zip(lines, asked, found, strict=True)
+            for text, label, placed in zip(lines, to_place, found, strict=True)
             if placed.shown[0]
             for at in [complex(label.places[0, placed.which])]
         )

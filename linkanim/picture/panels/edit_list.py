@@ -67,12 +67,12 @@ def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...],
     facts, hint = more
     wide = board.layout.lists.width
     room = wide - 2.4 * size
-    said = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
+    lines = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
     foot = [(line, board.theme.warning) for line in board.type.wrapped(panel.error or "", size, room)]
     foot += [(line, board.theme.dim) for line in board.type.wrapped(hint, size, room, gap="   ")]
     chosen = next((n for n, row in enumerate(panel.rows) if row.chosen), 0)
-    left = int(_room(board, size) - len(foot) - len(said))
-    return _Division(size, wide, said, foot, around(len(panel.rows), chosen, left))
+    left = int(_room(board, size) - len(foot) - len(lines))
+    return _Division(size, wide, lines, foot, around(len(panel.rows), chosen, left))
 
 
 def _needed(board: Board, panel: Panel, size: int) -> float:

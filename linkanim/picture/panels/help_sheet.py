@@ -44,12 +44,12 @@ class _Laid(NamedTuple):
     high: float
 
 
-def help_sheet(board: Board, told: tuple[Help, int]) -> pygame.Surface:
+def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
     """Return the help, its text as large as lets it stand in a room so wide, and in the window's height.
 
     Where not all of it can be read there, the last subjects are left out.
     """
-    groups, room = told
+    groups, room = shown
     ways = _ways(board, groups, _WIDEST * room)
     fitting = next(filter(partial(_fits, (room, board.layout.size[1])), ways), None)
     size, columns, wide, high = fitting or _laid(board, groups[:1], _LEAST, _WIDEST * room)
