@@ -24,6 +24,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="one object")
     form.add_argument("--markdown", action="store_true", help="the table of speed and error as in the README")
+    parser.add_argument("--path", action="store_true", help="measure what `linkanim path` finds instead")
+    parser.add_argument(
+        "--seconds", type=float, default=600.0, metavar="S", help="of its global search (default: 600)"
+    )
     parser.add_argument(
         "--into",
         type=Path,
@@ -40,6 +44,9 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     before anything is measured.
     """
     require_extra()
+    if options.path:
+        _run_paths(options, progress)
+        return
     from linkanim.bench import drawing, report, result
     from linkanim.manifest import single
 
@@ -50,6 +57,16 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     form = report.as_json if options.json else report.as_markdown if options.markdown else report.as_text
     print(form(found))
     print(drawing.draw(found, chart), file=sys.stderr)
+
+
+def _run_paths(options: Namespace, progress: Progress | None) -> None:
+    """Measure what is found for paths, and print it."""
+    from linkanim.bench import paths
+    from linkanim.bench.result import this_machine
+
+    rows = paths.run(options.seconds, paths.CURVES, progress)
+    form = paths.as_json if options.json else paths.as_markdown if options.markdown else paths.as_text
+    print(form(rows, this_machine().line))
 
 
 def require_extra(found: Callable[[str], object] = find_spec) -> None:

@@ -11,10 +11,8 @@ import numpy as np
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.refine import FEW
 from linkanim.synthesis.task import PathTask
-
-FEW = 12
-"""Points that say nothing about the way between them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +65,7 @@ class Fit:
         """By what answers are ranked: the root mean square, and a way between the points that strays."""
         if len(self.angles) <= FEW:
             return self.rms
-        return math.hypot(self.rms, max(0.0, self.stray - self.task.curve.longest_step / 2))
+        return math.hypot(self.rms, max(0.0, self.stray - self.largest - self.task.curve.longest_step / 2))
 
 
 def scene_of(task: PathTask, row: Real, closure: float, angles: Real) -> Scene:

@@ -17,7 +17,11 @@ from linkanim.synthesis.kinds import Complex, LinkageKind, Real, TracedPoints
 from linkanim.synthesis.match import Candidates
 from linkanim.synthesis.requirements import Requirements
 
-_FIRST_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-3, 1e-15, 1e8
+FEW = 12
+"""Points that say nothing about the way between them."""
+_FIRST_DAMPING, _LEAST_DAMPING = 1e-3, 1e-15
+_STANDING, _PATIENCE, _EXACT = 1e-6, 12, 1e-31
+"""A share of the merit that is no gain, in how many steps on end, and a merit that is rounding."""
 _NEARER = 0.1
 """What a step leaves of the slack of a limit that it would break otherwise."""
 _OF_GAP = 0.45
@@ -43,6 +47,11 @@ class LeastSquares:
     timing: Real | None = None
     free_start: bool = True
 
+    @property
+    def dense(self) -> bool:
+        """Whether the points say where the curve goes between them."""
+        return self.timing is None and len(self.points) > FEW
+
 
 class _State(NamedTuple):
     """Candidates with what is known at them: traced points, slack of the limits, and the merit."""
@@ -67,35 +76,67 @@ def _merged(mine: _State, other: _State, where: NDArray[np.bool_]) -> _State:
     )
 
 
-def refined(problem: LeastSquares, candidates: Candidates, steps: int) -> tuple[Candidates, Real]:
+def refined(
+    problem: LeastSquares, candidates: Candidates, steps: int, *, guarded: bool = True
+) -> tuple[Candidates, Real]:
     """Return the candidates after so many steps at the most, and each one's merit: its mean square error.
 
-    Infinite where a candidate cannot be closed; limits that are broken weigh on it.
+    Infinite where a candidate cannot be closed; limits that are broken weigh on it, and where it is
+    `guarded` ways that stray between points: good answers may lie behind such ways.
     """
-    state = _state(problem, candidates)
+    state = _state(problem, candidates, guarded=guarded)
     damping = np.full(len(state.cost), _FIRST_DAMPING)
+    resting = np.zeros(len(state.cost))
     for _ in range(steps):
-        trial = _state(problem, _stepped(problem, state, damping))
+        trial = _state(problem, _stepped(problem, state, damping), guarded=guarded)
         better = trial.cost < state.cost
-        if not better.any() and (damping > _MOST_DAMPING).all():
-            break
+        slowly = ~(state.cost - trial.cost > _STANDING * state.cost)
+        resting = np.where(slowly, resting + 1, 0)
         state = _merged(state, trial, better)
+        if ((resting >= _PATIENCE) | (state.cost < _EXACT)).all():
+            break
         damping = np.where(better, np.maximum(damping * 0.2, _LEAST_DAMPING), damping * 6)
     return state.found, state.cost
 
 
-def _state(problem: LeastSquares, found: Candidates) -> _State:
+def merit(problem: LeastSquares, candidates: Candidates) -> Real:
+    """Return each candidate's merit, ways that stray between points counted."""
+    return _state(problem, candidates, guarded=True).cost
+
+
+def _state(problem: LeastSquares, found: Candidates, *, guarded: bool) -> _State:
     with np.errstate(all="ignore"):
         traced = problem.kind.trace(found.rows, found.closure, found.angles)
         slack = problem.requirements.slack(problem.kind, found.rows)
         mask, values = problem.requirements.held(problem.kind)
         missing = (found.rows - values) * mask
         off = np.abs(problem.points - traced.point) ** 2 * problem.weights
+        between = _between(problem, found, traced) if guarded and problem.dense else 0.0
         turning = 2 if problem.requirements.full_turn else 0
         broken = np.minimum(slack[:, turning:], 0.0)
-        cost = off.mean(axis=1) + _BROKEN * ((broken**2).sum(axis=1) + (missing**2).sum(axis=1))
+        cost = off.mean(axis=1) + between + _BROKEN * ((broken**2).sum(axis=1) + (missing**2).sum(axis=1))
         cost = np.where(np.isfinite(cost) & (slack[:, :turning] > 0).all(axis=1), cost, np.inf)
     return _State(found, traced, slack, missing, cost)
+
+
+def _between(problem: LeastSquares, found: Candidates, traced: TracedPoints) -> Real:
+    """Return the mean square of how far the curve strays halfway between points, beyond what is usual there.
+
+    That is as far as the next point is, and as far as the curve is off at the points themselves.
+    """
+    before = 0 if problem.closed else 1
+    points, angles, places = problem.points, found.angles, traced.point
+    last = angles[:, -1:] - 2 * np.pi * found.sense[:, None]
+    angles = np.concatenate([last, angles], axis=1)[:, before:]
+    points = np.append(points[-1], points)[before:]
+    off = np.abs(places - problem.points)
+    off = np.concatenate([off[:, -1:], off], axis=1)[:, before:]
+    halfway = problem.kind.points(found.rows, found.closure, (angles[:, 1:] + angles[:, :-1]) / 2)
+    chord = np.diff(points)
+    share = np.clip((np.conj(chord) * (halfway - points[:-1])).real / np.abs(chord) ** 2, 0, 1)
+    far = np.abs(halfway - points[:-1] - share * chord)
+    usual = np.maximum(off[:, 1:], off[:, :-1]) + np.abs(chord)
+    return np.asarray((np.maximum(far - usual, 0.0) ** 2).sum(axis=1))
 
 
 def _stepped(problem: LeastSquares, state: _State, damping: Real) -> Candidates:

@@ -11,10 +11,10 @@ import numpy as np
 from linkanim.errors import BadInput
 from linkanim.synthesis.atlas import atlas
 from linkanim.synthesis.check import checked
-from linkanim.synthesis.fit import FEW, Fit
+from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import Indices, Real
 from linkanim.synthesis.match import Candidates, joined, matched, matched_few, matched_in_time
-from linkanim.synthesis.refine import refined
+from linkanim.synthesis.refine import FEW, merit, refined
 from linkanim.synthesis.task import PathTask
 
 Progress = Callable[[int, int], None]
@@ -49,6 +49,17 @@ def found(task: PathTask, count: int, progress: Progress | None = None) -> tuple
     return fits
 
 
+def answers(task: PathTask, count: int) -> Iterator[tuple[Fit, ...]]:
+    """Yield the atlas's best as soon as it is known, where it is an answer, then the refined ones.
+
+    What is drawn can so be followed at once; `refitted` takes it on from there when points or given values
+    change. BadInput as `found`.
+    """
+    if first := glimpsed(task):
+        yield (first,)
+    yield found(task, count)
+
+
 def _none_fits(task: PathTask) -> str:
     limits = ["the box"] if task.requirements.box else []
     limits += [f"the given {name}" for name in task.requirements.given]
@@ -62,7 +73,7 @@ def glimpsed(task: PathTask) -> Fit | None:
     everything, points = task.scaled(start), task.normal.points
     off = np.abs(task.kind.points(start.rows, start.closure, start.angles) - points).max(axis=1)
     for n in np.argsort(off):
-        if fit := checked(task, everything.rows[n], everything.closure[n], everything.angles[n]):
+        if fit := checked(task, everything.rows[n], float(everything.closure[n]), everything.angles[n]):
             return fit
     return None
 
@@ -83,22 +94,36 @@ def started(task: PathTask, count: int) -> Candidates:
 
 def _searched(task: PathTask, count: int, progress: Progress | None) -> tuple[Fit, ...]:
     start = started(task, _stages(task)[0].candidates)
-    return _best(_checked(task, refined_through(task, start, progress)), count)
+    return _best(_enough(_checked(task, refined_through(task, start, progress)), count), count)
+
+
+def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
+    """Yield answers, the best first, until so many differ and one more follows."""
+    seen: list[Fit] = []
+    for fit in fits:
+        yield fit
+        seen += [] if any(_same(fit, other) for other in seen) else [fit]
+        if len(seen) > count:
+            return
 
 
 def refined_through(task: PathTask, start: Candidates, progress: Progress | None = None) -> Candidates:
     """Return the best candidates after all stages, at size 1, the best first, at all points' angles."""
     chosen = np.arange(len(task.normal.points))
     now, cost = start, np.zeros(len(start.rows))
-    for number, stage in enumerate(_stages(task)):
+    stages = _stages(task)
+    for number, stage in enumerate(stages):
         if progress:
-            progress(number, len(_STAGES))
+            progress(number, len(stages))
         now = now.take(np.argsort(cost, kind="stable")[: stage.candidates])
         before, chosen = chosen, task.normal.thinned(stage.points)
         now = now._replace(angles=_spread(task, now, before, chosen))
-        now, cost = refined(task.problem(chosen), now, stage.steps)
+        problem = task.problem(chosen)
+        now, cost = refined(problem, now, stage.steps, guarded=stage is stages[-1])
+        if number:
+            cost = merit(problem, now)
     if progress:
-        progress(len(_STAGES), len(_STAGES))
+        progress(len(stages), len(stages))
     now = now._replace(angles=_spread(task, now, chosen, np.arange(len(task.normal.points))))
     return now.take(np.argsort(cost, kind="stable")[: int(np.isfinite(cost).sum())])
 

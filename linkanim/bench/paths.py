@@ -1,0 +1,178 @@
+"""What `linkanim path` finds: random coupler curves, published problems, and shapes that no four-bar traces.
+
+Beside the shapes stands what a global search finds in the time that it is given: scipy's differential
+evolution over the same parameters, each point counted to the nearest of 240 points of the curve, whatever
+their order. Published figures are sums of squared distances: the eighteen points are those of S. Kunjur and
+S. Krishnamurty, with the crank's steps of 20°.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from linkanim.synthesis.curve import drawn
+from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
+from linkanim.synthesis.request import path
+
+SEARCH_SECONDS = 600.0
+CURVES = 200
+TITLES = ("problem", "measure", "linkanim", "beside it", "seconds")
+EIGHTEEN = (
+    0.5 + 1.1j, 0.4 + 1.1j, 0.3 + 1.1j, 0.2 + 1.0j, 0.1 + 0.9j, 0.05 + 0.75j, 0.02 + 0.6j, 0.5j, 0.4j,
+    0.03 + 0.3j, 0.1 + 0.25j, 0.15 + 0.2j, 0.2 + 0.3j, 0.3 + 0.4j, 0.4 + 0.5j, 0.5 + 0.7j, 0.6 + 0.9j,
+    0.6 + 1j,
+)  # fmt: skip
+LINE = tuple(complex(20, 20 + 5 * step) for step in range(6))
+_SEED = 7
+_SAMPLES = 240
+_BOUNDS = [(-4, 4)] * 2 + [(0.01, 4), (0.01, 8), (-8, 8), (-8, 8)] + [(-4, 4)] * 2 + [(0.01, 8), (-1, 1)]
+"""Of the search, in curve sizes: the four-bar's parameters, and the closure's sign."""
+
+Progress = Callable[[int, int], None]
+
+
+class PathRow(NamedTuple):
+    """A problem, what is measured, the figure here, the one beside it, and the processor time here."""
+
+    problem: str
+    measure: str
+    here: str
+    beside: str
+    seconds: float
+
+
+def run(seconds: float, curves: int, progress: Progress | None = None) -> list[PathRow]:
+    """Measure all problems, the global search for so many seconds of processor time for each shape."""
+    path(LINE, count=1)  # the atlas is made
+    jobs: list[Callable[[], PathRow]] = [
+        lambda: _random(curves),
+        lambda: _published("18 points, steps of 20°", EIGHTEEN, 9.115e-3, timing=math.radians(20)),
+        lambda: _published("6 points of a line", LINE, 9e-28),
+        *((lambda name=name: _shape(name, seconds)) for name in SHAPES),
+    ]
+    rows = []
+    for number, job in enumerate(jobs):
+        rows.append(job())
+        if progress:
+            progress(number + 1, len(jobs))
+    return rows
+
+
+def _timed(points: Any, **options: Any) -> tuple[Any, float]:
+    start = time.process_time()
+    return path(points, **options), time.process_time() - start
+
+
+def _random(count: int) -> PathRow:
+    """Find random coupler curves of crank-rockers and drag-links again, 64 points each."""
+    random = np.random.default_rng(_SEED)
+    rows = FOUR_BAR.random_rows(random, 40 * count)
+    rows = rows[(FOUR_BAR.slack(rows, math.radians(1)) > 0).all(axis=1)][:count]
+    angles = np.tile(2 * math.pi * np.arange(64) / 64, (len(rows), 1))
+    found = [_timed(points, count=1) for points in FOUR_BAR.points(rows, np.ones(len(rows)), angles)]
+    errors = np.array([100 * fits[0].rms / fits[0].curve_size for fits, _ in found])
+    good = f"{np.mean(errors <= 0.01):.1%} to 0.01 %"
+    here = f"median {np.median(errors):.0e} %, {good}, worst {errors.max():.2g} %"
+    seconds = float(np.mean([spent for _, spent in found]))
+    return PathRow(f"{count} random coupler curves", "rms in % of the diagonal", here, "", seconds)
+
+
+def _published(name: str, points: tuple[complex, ...], best: float, **options: Any) -> PathRow:
+    fits, seconds = _timed(points, **options)
+    least = min(fit.rms**2 * len(points) for fit in fits)
+    return PathRow(name, "sum of squares", f"{least:.4g}", f"published: {best:.4g}", seconds)
+
+
+def _shape(name: str, seconds: float) -> PathRow:
+    points = SHAPES[name]
+    fits, spent = _timed(points)
+    found = min(100 * fit.rms / fit.curve_size for fit in fits)
+    beside = f"global search, {seconds:g} s: {100 * global_search(points, seconds):.2f} %"
+    return PathRow(name, "rms in % of the diagonal", f"{found:.2f} %", beside, spent)
+
+
+def global_search(points: Complex, seconds: float) -> float:
+    """Return the least root mean square, in curve sizes, that differential evolution finds in that time."""
+    from scipy.optimize import differential_evolution
+
+    curve, end = drawn(points, closed=True), time.process_time() + seconds
+    sought = (curve.points - curve.centre) / curve.size
+    best = math.inf
+    seed = 0
+    while time.process_time() < end:
+        found = differential_evolution(
+            lambda columns: _off(columns.T, sought),
+            _BOUNDS,
+            vectorized=True,
+            updating="deferred",
+            maxiter=3000,
+            polish=False,
+            rng=seed,
+            callback=lambda *_, **__: time.process_time() > end,
+        )
+        best, seed = min(best, float(found.fun)), seed + 1
+    return best
+
+
+def _off(rows: Real, sought: Complex) -> Real:
+    """Return each linkage's root mean square distance, beyond 10 where its crank does not turn fully."""
+    slack = FOUR_BAR.slack(rows[:, :9], 0.0).min(axis=1)
+    turning = np.flatnonzero(slack > 0)
+    off = 10.0 - np.minimum(slack, 0.0)
+    if len(turning):
+        angles = np.tile(np.linspace(0, 2 * math.pi, _SAMPLES, endpoint=False), (len(turning), 1))
+        closure = np.where(rows[turning, 9] > 0, 1.0, -1.0)
+        way = FOUR_BAR.points(rows[turning, :9], closure, angles)
+        nearest = np.abs(way[:, :, None] - sought).min(axis=1)
+        off[turning] = np.sqrt((nearest**2).mean(axis=1))
+    return np.asarray(off)
+
+
+def _outline(*corners: complex, count: int) -> Complex:
+    """Return points equally far along a polygon."""
+    return drawn(corners, closed=True).at(np.arange(count) / count)
+
+
+def _by_hand(count: int) -> Complex:
+    """Return a loop as a hand draws it: smooth, and a little unsteady."""
+    turn = 2 * math.pi * np.arange(count) / count
+    radius = 3 + 0.6 * np.cos(2 * turn + 1) + 0.4 * np.sin(3 * turn) + 0.02 * np.sin(17 * turn)
+    return np.asarray(radius * np.exp(1j * turn) * (1 + 0.5j * np.sin(turn)))
+
+
+SHAPES: dict[str, Complex] = {
+    "square": _outline(0, 1, 1 + 1j, 1j, count=80),
+    "star": _outline(*((1 - 0.55 * (k % 2)) * 1j ** (1 + 0.4 * k) for k in range(10)), count=100),
+    "letter L": _outline(0, 6, 6 + 2j, 2 + 2j, 2 + 9j, 9j, count=90),
+    "loop by hand": _by_hand(90),
+}
+
+
+def as_markdown(rows: list[PathRow], machine: str) -> str:
+    """Return the table for the README, and where it was measured."""
+    lines = [TITLES, ("---", "---", "---:", "---:", "---:"), *_cells(rows)]
+    table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    return f"{table}\n\nSeconds of processor time, the atlas apart. Measured on {machine}.\n"
+
+
+def _cells(rows: list[PathRow]) -> Iterator[tuple[str, ...]]:
+    return ((*row[:4], f"{row.seconds:.2f}") for row in rows)
+
+
+def as_text(rows: list[PathRow], machine: str) -> str:
+    """Return the machine and the table in columns."""
+    from linkanim.export import columns
+
+    return f"{machine}\n\n{columns([TITLES, *_cells(rows)])}"
+
+
+def as_json(rows: list[PathRow], machine: str) -> str:
+    """Return one object."""
+    found = {"machine": machine, "rows": [row._asdict() for row in rows]}
+    return json.dumps(found, indent=2, ensure_ascii=False)
