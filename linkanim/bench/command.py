@@ -43,10 +43,10 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     BadInput where the extra is not installed, the folder cannot be one or the chart's name in it is taken,
     before anything is measured.
     """
-    require_extra()
     if options.path:
         _run_paths(options, progress)
         return
+    require_extra()
     from linkanim.bench import drawing, report, result
     from linkanim.manifest import single
 
@@ -60,7 +60,8 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
 
 
 def _run_paths(options: Namespace, progress: Progress | None) -> None:
-    """Measure what is found for paths, and print it."""
+    """Measure what is found for paths, and print it; BadInput where there is no scipy to search beside it."""
+    require_extra(needed=("scipy",))
     from linkanim.bench import paths
     from linkanim.bench.result import this_machine
 
@@ -69,9 +70,9 @@ def _run_paths(options: Namespace, progress: Progress | None) -> None:
     print(form(rows, this_machine().line))
 
 
-def require_extra(found: Callable[[str], object] = find_spec) -> None:
+def require_extra(found: Callable[[str], object] = find_spec, needed: tuple[str, ...] = ()) -> None:
     """Raise BadInput where a package of the extra is not installed, naming what installs it."""
-    missing = [name for name in NEEDED if found(name) is None]
+    missing = [name for name in needed or NEEDED if found(name) is None]
     if missing:
         raise BadInput(
             f"bench compares with {', '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "

@@ -72,10 +72,10 @@ def _along(kind: LinkageKind, rows: Real) -> tuple[Real, Complex]:
     length /= length[:, -1:]
     own = 2.0 * np.arange(len(rows))[:, None]
     places = np.arange(POINTS) / POINTS
-    flat, wanted = (length + own).ravel(), (places + own).ravel()
-    angles = np.interp(wanted, flat, np.tile(turn, len(rows))).reshape(len(rows), POINTS)
-    after = np.clip(np.searchsorted(flat, wanted, side="right"), 1, len(flat) - 1)
-    share = (wanted - flat[after - 1]) / np.maximum(flat[after] - flat[after - 1], 1e-300)
+    flat, sought = (length + own).ravel(), (places + own).ravel()
+    angles = np.interp(sought, flat, np.tile(turn, len(rows))).reshape(len(rows), POINTS)
+    after = np.clip(np.searchsorted(flat, sought, side="right"), 1, len(flat) - 1)
+    share = (sought - flat[after - 1]) / np.maximum(flat[after] - flat[after - 1], 1e-300)
     ravelled = points.ravel()
     between = ravelled[after - 1] + share * (ravelled[after] - ravelled[after - 1])
     return angles, between.reshape(len(rows), POINTS)

@@ -90,7 +90,7 @@ def refined(
     for _ in range(steps):
         trial = _state(problem, _stepped(problem, state, damping), guarded=guarded)
         better = trial.cost < state.cost
-        slowly = ~(state.cost - trial.cost > _STANDING * state.cost)
+        slowly = ~(trial.cost < (1.0 - _STANDING) * state.cost)
         resting = np.where(slowly, resting + 1, 0)
         state = _merged(state, trial, better)
         if ((resting >= _PATIENCE) | (state.cost < _EXACT)).all():
