@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-MOST_NAMES = 500
-"""Joints, pins, bodies, springs or dampers of a scene, each."""
+MOST_NAMES = 64
+"""Joints, pins, bodies, springs or dampers of a scene, each: so many run smoothly with all their names."""
 MOST_TURNS = 1_000
 """Turns of the input, or ways there and back, after which every joint is back."""
 MOST_DYAD_TURNS = 2_000

@@ -17,7 +17,7 @@ from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
-FEW, MANY = 8, 32
+FEW, MANY = 5, 20
 LINEAR = 1.3 * MANY / FEW
 """What four times the joints may take, a third more than four times as much."""
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -68,6 +69,16 @@ class Clutter:
     radii: _Floats = field(default_factory=lambda: np.zeros(0))
     bars: Obstacles = NO_BARS
     solids: tuple[Solid, ...] = ()
+
+    @cached_property
+    def boxes(self) -> tuple[Loop, Loop, _Floats]:
+        """Two corners of a box round each solid (n moments, m), and how much more it covers."""
+        parts = [(solid.corners.real, solid.corners.imag) for solid in self.solids]
+        low, high = (
+            np.stack([end(x, axis=1) + 1j * end(y, axis=1) for x, y in parts], axis=1)
+            for end in (np.min, np.max)
+        )
+        return low, high, np.array([solid.half for solid in self.solids])
 
     def some(self) -> Clutter:
         """Return it at the moments at which places are chosen."""
@@ -157,8 +168,11 @@ def _misleading(label: LabelPlaces, clutter: Clutter) -> _Bools:
     """Return whether the label's middle would lie on a solid that it shuns there."""
     assert label.shunned is not None
     misleading, close = np.zeros(label.places.shape, np.bool_), _CLOSE * label.size[1]
-    for shunned, solid in zip(label.shunned.T, clutter.solids, strict=True):
-        which = np.flatnonzero(shunned)
+    if not clutter.solids:
+        return misleading
+    low, high, half = clutter.boxes
+    for n in _near(label.places, low, high, half + close, half + close):
+        which, solid = np.flatnonzero(label.shunned[:, n]), clutter.solids[n]
         if which.size:
             off = _off(label.places[:, which], solid.corners)
             misleading[:, which] |= off < solid.half + close

@@ -83,7 +83,7 @@ def test_what_a_scene_states_of_masses_springs_and_dampers_can_be_edited() -> No
     assert found["Link 3 centre of mass, to the left"] == (15.0, "mm", "offset")
     assert found["Return, stiffness"] == (4000.0, "N/m", "stiffness")
     assert found["Return, free length"] == (280.0, "mm", "length")
-    assert found["Damping, damping"] == (200.0, "N s/m", "damping")
+    assert found["Cushion, damping"] == (200.0, "N s/m", "damping")
     keys = {item.label: item.key for item in dimensions(press)}
     other = with_dimensions(
         press,
@@ -91,7 +91,7 @@ def test_what_a_scene_states_of_masses_springs_and_dampers_can_be_edited() -> No
             keys["Link 3 centre of mass, to the left"]: "2 cm",
             keys["Return, stiffness"]: "5 N/mm",
             keys["Return, free length"]: 300,
-            keys["Damping, damping"]: 150,
+            keys["Cushion, damping"]: 150,
         },
     ).linkage
     assert next(body.com for body in other.bodies if body.name == "3") == (141.5, 20.0)
