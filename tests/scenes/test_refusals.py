@@ -499,7 +499,7 @@ def test_more_entries_than_are_drawn_are_refused(section: str) -> None:
 
 
 def test_a_list_of_names_to_choose_from_stays_short() -> None:
-    pins = "\n".join(f"x{k} = [0, {k}]" for k in range(100))
+    pins = "\n".join(f"x{k} = [0, {k}]" for k in range(60))
     text = f"{FOUR_BAR}\n[ground]\n{pins}\n[trace]\njoints = ['Q']"
     with pytest.raises(SceneError, match=r"x\d+ and \d+ more$"):
         scene_from(parse(text, "my.toml"), name="my", where="my.toml")
