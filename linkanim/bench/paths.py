@@ -2,8 +2,8 @@
 
 Beside the shapes stands what a global search finds in the time that it is given: scipy's differential
 evolution over the same parameters, each point counted to the nearest of 240 points of the curve, whatever
-their order. Published figures are sums of squared distances: the eighteen points are those of S. Kunjur and
-S. Krishnamurty, with the crank's steps of 20°.
+their order. Published figures are sums of squared distances: the eighteen points are those of Kunjur and
+Krishnamurty (1997), with the crank's steps of 20°.
 """
 
 from __future__ import annotations

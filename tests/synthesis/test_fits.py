@@ -20,7 +20,7 @@ KUNJUR = [
     (0.03, 0.3), (0.1, 0.25), (0.15, 0.2), (0.2, 0.3), (0.3, 0.4), (0.4, 0.5), (0.5, 0.7), (0.6, 0.9),
     (0.6, 1.0),
 ]  # fmt: skip
-"""S. Kunjur and S. Krishnamurty, Genetic algorithms in mechanism synthesis, 1997: the crank turns by 20°."""
+"""The eighteen points of Kunjur and Krishnamurty (1997): the crank turns by 20° from each to the next."""
 LINE = [(20, 20 + 5 * step) for step in range(6)]
 SQUARE = [(x, 0) for x in range(10)] + [(10, y) for y in range(10)]
 SQUARE += [(10 - x, 10) for x in range(10)] + [(0, 10 - y) for y in range(10)]
