@@ -83,6 +83,7 @@ def test_any_motion_can_be_shown(name: str, given: dict[str, Any], charted: bool
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_scene_s_cycle_can_be_shown(name: str, shown: Shown) -> None:
     assert list(parsed(load(name).cycle(12), shown).iter(f"{SVG}path"))
 

@@ -94,6 +94,7 @@ def _strips(name: str) -> tuple[Figure, dict[str, ChartPanel]]:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_chart_shows_what_solve_prints(name: str, solved: Callable[..., str]) -> None:
     shown, strips = _strips(name)
     compared = 0
@@ -117,6 +118,7 @@ def test_the_chart_shows_what_solve_prints(name: str, solved: Callable[..., str]
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_hud_says_what_solve_prints_and_where_the_cursor_stands(
     name: str, solved: Callable[..., str]
 ) -> None:
@@ -146,6 +148,7 @@ def test_the_hud_says_what_solve_prints_and_where_the_cursor_stands(
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_words_of_solve_hold_its_json(name: str, solved: Callable[..., str]) -> None:
     links = load(name).info.link_names
     for speed, phase in MOTIONS[::3]:

@@ -218,6 +218,7 @@ def test_only_dimensions_can_be_changed() -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_dimension_given_its_own_value_changes_nothing(name: str) -> None:
     scene = load(name)
     for dimension in dimensions(scene):
@@ -253,6 +254,7 @@ def edited(scene: Scene) -> Scene:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_a_scene_written_and_read_back_moves_the_same_to_the_last_bit(name: str, tmp_path: Path) -> None:
     scene = load(name)
     for one in (scene, edited(scene)):

@@ -47,6 +47,7 @@ def turning_bodies(scene: Scene) -> list[str]:
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.sampled
 def test_what_is_said_to_turn_fully_does_and_nothing_else(name: str) -> None:
     scene = load(name)
     turning = [body for body in turning_bodies(scene) if turns_fully(scene, body)]
@@ -58,6 +59,7 @@ def test_what_is_said_to_turn_fully_does_and_nothing_else(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.sampled
 def test_a_link_that_is_called_crank_turns_and_one_called_rocker_swings(name: str) -> None:
     scene = load(name)
     fixed = {pin.name for pin in scene.linkage.pins}
