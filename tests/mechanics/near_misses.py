@@ -108,17 +108,38 @@ def near_miss(rng: Random) -> NearMiss:
 
 
 def _extreme(solved: Mechanism, ends: tuple[str, str], *, far: bool) -> tuple[float, float]:
-    """Return the input's angle at which two joints are furthest apart (or nearest), and how far that is."""
-    sign, reach = (1.0 if far else -1.0), 2 * math.pi * solved.periods
+    """Return the input's angle at which two joints are furthest apart (or nearest), and how far that is.
+
+    Behind a fast gear many extremes are all but alike: each that may be the best is refined.
+    """
+    sign, period = (1.0 if far else -1.0), 2 * math.pi * solved.periods
     fastest = max(abs(joint.gear.ratio) if joint.gear else 1 for joint in solved.linkage.cranks)
-    count, middle = 200 * solved.periods * math.ceil(fastest), reach / 2
-    while reach > 1e-9:
-        angles = np.linspace(middle - reach / 2, middle + reach / 2, count)
-        at = solved.solve(angle=angles, speed=1.0, derivatives=0).position
-        ways = np.hypot(*(at[ends[0]] - at[ends[1]]).T)
+    count = 200 * solved.periods * math.ceil(fastest)
+    angles = np.arange(count) * (period / count)
+    ways = sign * _apart(solved, ends, angles)
+    peaks = (ways >= np.roll(ways, 1)) & (ways >= np.roll(ways, -1))
+    best = angles[peaks & (ways > ways.max() - 1e-3 * np.abs(ways).max())]
+    found = [_refined(solved, ends, sign, float(angle), 4 * period / count) for angle in best]
+    return max(found, key=lambda one: sign * one[1])
+
+
+def _refined(
+    solved: Mechanism, ends: tuple[str, str], sign: float, middle: float, reach: float
+) -> tuple[float, float]:
+    """Return an extreme near an angle, and how far the ends are apart there."""
+    while True:
+        angles = np.linspace(middle - reach / 2, middle + reach / 2, 41)
+        ways = _apart(solved, ends, angles)
         best = int((sign * ways).argmax())
-        middle, reach, count = float(angles[best]), reach * 4 / count, 41
-    return middle, float(ways[best])
+        middle, reach = float(angles[best]), reach / 10
+        if reach <= 1e-9:
+            return middle, float(ways[best])
+
+
+def _apart(solved: Mechanism, ends: tuple[str, str], angles: Array) -> Array:
+    """Return how far two joints are apart at angles of the input."""
+    at = solved.solve(angle=angles, speed=1.0, derivatives=0).position
+    return np.asarray(np.hypot(*(at[ends[0]] - at[ends[1]]).T))
 
 
 BESIDE = 10.0 ** -np.arange(1.0, 13.0)
