@@ -115,7 +115,7 @@ def _extreme(solved: Mechanism, ends: tuple[str, str], *, far: bool) -> tuple[fl
     sign, period = (1.0 if far else -1.0), 2 * math.pi * solved.periods
     fastest = max(abs(joint.gear.ratio) if joint.gear else 1 for joint in solved.linkage.cranks)
     count = 200 * solved.periods * math.ceil(fastest)
-    angles = np.arange(count) * (period / count)
+    angles = np.linspace(0.0, period, count, endpoint=False)
     ways = sign * _apart(solved, ends, angles)
     peaks = (ways >= np.roll(ways, 1)) & (ways >= np.roll(ways, -1))
     best = angles[peaks & (ways > ways.max() - 1e-3 * np.abs(ways).max())]
