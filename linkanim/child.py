@@ -32,9 +32,9 @@ def path_of_programs() -> str:
     return os.pathsep.join(place for place in places if os.path.isabs(place) and not _is_here(place))  # noqa: PTH117
 
 
-def python(*words: str) -> list[str]:
-    """Return the command of a Python with these words, which goes with `env`."""
-    return [sys.executable, "-P", *words]
+def module(name: str, *words: str) -> list[str]:
+    """Return the command that runs a module of ours with these words; it goes with `env`."""
+    return [sys.executable, "-P", "-m", name, *words]
 
 
 def env(**more: str) -> dict[str, str]:

@@ -55,6 +55,13 @@ def columns(rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(form.format(*row).rstrip() for row in rows)
 
 
+def markdown(rows: Sequence[Sequence[str]]) -> str:
+    """Return rows as a table of Markdown, the first its titles; all cells but the first to the right."""
+    titles, *others = rows
+    rule = ["---", *["---:"] * (len(titles) - 1)]
+    return "\n".join(f"| {' | '.join(row)} |" for row in (titles, rule, *others))
+
+
 def json_text(value: object, *, indent: int | None = None) -> str:
     """Return the value as strict JSON; NaN and infinities, at any depth, are null."""
     return json.dumps(finite(value), indent=indent, allow_nan=False, ensure_ascii=False)

@@ -8,7 +8,6 @@ Krishnamurty (1997), with the crank's steps of 20°.
 
 from __future__ import annotations
 
-import json
 import math
 import time
 from collections.abc import Callable, Iterator
@@ -16,11 +15,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from linkanim.export import columns, json_text, markdown
 from linkanim.synthesis.curve import drawn
 from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
 from linkanim.synthesis.request import path
 
-SEARCH_SECONDS = 600.0
 CURVES = 200
 TITLES = ("problem", "measure", "linkanim", "beside it", "seconds")
 EIGHTEEN = (
@@ -156,8 +155,7 @@ SHAPES: dict[str, Complex] = {
 
 def as_markdown(rows: list[PathRow], machine: str) -> str:
     """Return the table for the README, and where it was measured."""
-    lines = [TITLES, ("---", "---", "---:", "---:", "---:"), *_cells(rows)]
-    table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    table = markdown([TITLES, *_cells(rows)])
     return f"{table}\n\nSeconds of processor time, the atlas apart. Measured on {machine}.\n"
 
 
@@ -167,12 +165,9 @@ def _cells(rows: list[PathRow]) -> Iterator[tuple[str, ...]]:
 
 def as_text(rows: list[PathRow], machine: str) -> str:
     """Return the machine and the table in columns."""
-    from linkanim.export import columns
-
     return f"{machine}\n\n{columns([TITLES, *_cells(rows)])}"
 
 
 def as_json(rows: list[PathRow], machine: str) -> str:
     """Return one object."""
-    found = {"machine": machine, "rows": [row._asdict() for row in rows]}
-    return json.dumps(found, indent=2, ensure_ascii=False)
+    return json_text({"machine": machine, "rows": [row._asdict() for row in rows]}, indent=2)

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
 from linkanim.bench.accuracy import Score
-from linkanim.bench.result import Measured, Result, Target
-from linkanim.export import columns, json_text
+from linkanim.bench.result import Measured, Result
+from linkanim.export import columns, json_text, markdown
 
 TITLES = (
     "method",
@@ -27,18 +27,16 @@ NOTE = (
 
 
 def as_text(result: Result) -> str:
-    """Return the machine, the tables and the targets in aligned columns."""
+    """Return the machine and the tables in aligned columns."""
     tables = [f"{name}\n{columns([TITLES, *rows])}" for name, rows in _by_mechanism(result)]
-    return "\n\n".join([result.machine.line, *tables, _note(result), columns(target_lines(result.targets))])
+    return "\n\n".join([result.machine.line, *tables, _note(result)])
 
 
 def as_markdown(result: Result) -> str:
     """Return the table, its mechanisms one after the other, and where it was measured, for the README."""
-    rule = ["---", *["---:"] * (len(TITLES) - 1)]
     blank = [""] * (len(TITLES) - 1)
     rows = [line for name, lines in _by_mechanism(result) for line in ([f"**{name}**", *blank], *lines)]
-    table = "\n".join(f"| {' | '.join(line)} |" for line in (TITLES, rule, *rows))
-    return f"{table}\n\n{_note(result)} Measured on {result.machine.line}.\n"
+    return f"{markdown([TITLES, *rows])}\n\n{_note(result)} Measured on {result.machine.line}.\n"
 
 
 def _by_mechanism(result: Result) -> Iterator[tuple[str, list[Sequence[str]]]]:
@@ -64,20 +62,6 @@ def _line(row: Measured) -> Sequence[str]:
     )
 
 
-def target_lines(targets: Sequence[Target]) -> list[Sequence[str]]:
-    """Return the titles and a line for each target."""
-    rows = [
-        (
-            target.what,
-            f"{target.measured:.3g} {target.unit}",
-            f"{'≥' if target.least else '≤'} {target.bound:g} {target.unit}",
-            "met" if target.met else "missed",
-        )
-        for target in targets
-    ]
-    return [("target", "measured", "bound", ""), *rows]
-
-
 def _time(nanos: float) -> str:
     return f"{nanos:,.1f}" if nanos < 100 else f"{float(f'{nanos:.3g}'):,.0f}"
 
@@ -92,15 +76,6 @@ def _errors(score: Score) -> str:
 
 
 def as_json(result: Result) -> str:
-    """Return one object: machine, rows with every case, targets; null where there is no number."""
-    found = {
-        "machine": result.machine._asdict(),
-        "rows": [asdict(row) for row in result.rows],
-        "targets": [_target(target) for target in result.targets],
-    }
+    """Return one object: machine, rows with every case; null where there is no number."""
+    found = {"machine": result.machine._asdict(), "rows": [asdict(row) for row in result.rows]}
     return json_text(found, indent=2)
-
-
-def _target(target: Target) -> dict[str, object]:
-    bound = {"least" if target.least else "most": target.bound}
-    return {"what": target.what, "measured": target.measured, **bound, "unit": target.unit, "met": target.met}

@@ -104,7 +104,7 @@ def _gif(
 ) -> Iterator[Callable[[Frame], None]]:
     width, height = stream.size
     one_core = child.env(**child.ONE_CORE)
-    with running(child.python("-m", "linkanim.recorder.gif"), env=one_core) as write:
+    with running(child.module("linkanim.recorder.gif"), env=one_core) as write:
         colours = tuple(palette()) or ((0, 0, 0),)
         job = Job(str(part), width, height, round(100 / stream.rate), colours, stream.alpha)
         write(json.dumps(asdict(job)).encode() + b"\n")

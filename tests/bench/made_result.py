@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, nan
 
 from linkanim.bench.accuracy import Score
-from linkanim.bench.result import Machine, Measured, Result, Target
+from linkanim.bench.result import Machine, Measured, Result
 
 EASY = Score(360, 3e-16, 4e-16, 5e-16, 0, 0)
 HARD = Score(5198, 8.5e-16, inf, 2.0, 0, 0)
@@ -31,8 +31,4 @@ def result() -> Result:
         row("newton 1", 1604.0, hard=LOST),
         row("batch", 20.0, 40.0, mechanism="press", easy=few),
     )
-    targets = (
-        Target("positions", 9.31, 15.0, "ns"),
-        Target("times faster", 9.0, 10.0, "×", least=True),
-    )
-    return Result(Machine("A processor", 2, "3.11.7", "2.4.6", ("X86_V3",)), rows, targets)
+    return Result(Machine("A processor", 2, "3.11.7", "2.4.6", ("X86_V3",)), rows)

@@ -83,7 +83,7 @@ def test_json_is_all_that_is_on_stdout(
 ) -> None:
     pytest.importorskip("matplotlib")
     command.run(options("--json", "--into", str(tmp_path)))
-    assert set(json.loads(capsys.readouterr().out)) == {"machine", "rows", "targets"}
+    assert set(json.loads(capsys.readouterr().out)) == {"machine", "rows"}
 
 
 def test_the_machine_is_told() -> None:

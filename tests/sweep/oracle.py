@@ -103,7 +103,7 @@ def faults_apart(seed: int, first: int, step: int, most: int, folder: Path) -> l
     """Return the faults of so many good scenes, made in a process of their own, and how that ended if ill."""
     words = (str(word) for word in (seed, first, step, most, folder))
     done = subprocess.run(
-        child.python(__file__, *words),
+        [sys.executable, "-P", __file__, *words],
         env=child.env(**child.ONE_CORE),
         capture_output=True,
         text=True,

@@ -103,7 +103,7 @@ class Queue:
             self._running.close()
         if self._waiting:
             rest = [str(path) for kept in self._waiting for path in kept]
-            _start(child.python("-m", "linkanim.cli.commands.record", *rest), subprocess.DEVNULL)
+            _start(child.module("linkanim.cli.commands.record", *rest), subprocess.DEVNULL)
 
     def _go_on(self) -> None:
         if self._running is None and self._waiting:
@@ -122,7 +122,7 @@ def keep(tape: Tape, form: str) -> Kept:
 def render(kept: Kept) -> Rendering:
     """Start rendering a tape beside; WorkFailed where that cannot be."""
     target = kept.target
-    command = child.python("-m", "linkanim", "record", str(kept.tape), "-o", str(target), "--progress")
+    command = child.module("linkanim", "record", str(kept.tape), "-o", str(target), "--progress")
     number, name = tempfile.mkstemp()
     # it stays open as long as the rendering
     log = Path(name).open("rb", buffering=0)  # noqa: SIM115
