@@ -88,3 +88,9 @@ def moved(view: View, about: tuple[float, float], *, zoom: float, pan: tuple[flo
     """Return the view enlarged `zoom` times about a pixel, then shifted right and down in pixels."""
     x = about[0] + (view.x - about[0]) * zoom + pan[0]
     return View(view.scale * zoom, x, about[1] + (view.y - about[1]) * zoom + pan[1])
+
+
+def eased(share: float) -> float:
+    """Return 0 up to 0, 1 from 1 on, and a smooth step between."""
+    share = min(max(share, 0.0), 1.0)
+    return share * share * (3.0 - 2.0 * share)

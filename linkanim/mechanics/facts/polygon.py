@@ -91,7 +91,7 @@ class _Images:
 
     def _relative(self) -> Iterator[Chain]:
         """Yield the chains of bars, of points of bodies from which others are found, and of what slides."""
-        needed = {need.joint for joint in self.linkage.joints for need in joint.needs}
+        needed = {need for joint in self.linkage.joints for need in joint.needs}
         for joint in self.linkage.joints:
             starts = [start for start, _ in joint.bars]
             if isinstance(joint, Rigid) and joint.name in needed:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
-from linkanim.mechanics.linkage.joint import Joint, Line, Need, Slide
+from linkanim.mechanics.linkage.joint import Joint, Line, Slide
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,9 +29,9 @@ class RRR(Joint):
     dyad: ClassVar[bool] = True
 
     @property
-    def needs(self) -> tuple[Need, ...]:
+    def needs(self) -> tuple[str, ...]:
         """The far ends of its two bars."""
-        return Need("from", self.ends[0]), Need("from", self.ends[1])
+        return self.ends
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
@@ -96,11 +96,6 @@ class SliderDyad(Joint):
     travels: ClassVar[bool] = True
 
     @property
-    def moved_by(self) -> tuple[Need, ...]:
-        """What moves the slider, or a line that is carried."""
-        return self.needs
-
-    @property
     def body(self) -> tuple[str, ...]:
         """The joints of the body that carries its line."""
         return self.line.body
@@ -123,9 +118,9 @@ class RRP(SliderDyad):
     sides: ClassVar[tuple[str, str]] = ("forward", "backward")
 
     @property
-    def needs(self) -> tuple[Need, ...]:
+    def needs(self) -> tuple[str, ...]:
         """The bar's far end, and the joints of its line."""
-        return Need("from", self.end), *self.line.needs("line")
+        return self.end, *self.line.needs
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
@@ -190,14 +185,9 @@ class RPR(Joint):
     dyad: ClassVar[bool] = True
 
     @property
-    def needs(self) -> tuple[Need, ...]:
+    def needs(self) -> tuple[str, ...]:
         """The pivot, and the joint in the slot."""
-        return Need("slot.pivot", self.pivot), Need("slot.through", self.through)
-
-    @property
-    def moved_by(self) -> tuple[Need, ...]:
-        """The joint in the slot, or the pivot."""
-        return self.needs[::-1]
+        return self.pivot, self.through
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
@@ -263,9 +253,9 @@ class RPP(SliderDyad):
     slot: float = math.pi / 2
 
     @property
-    def needs(self) -> tuple[Need, ...]:
+    def needs(self) -> tuple[str, ...]:
         """The pin in the slot, and the joints of the line."""
-        return Need("slide.pin", self.pin), *self.line.needs("slide.line")
+        return self.pin, *self.line.needs
 
     @property
     def pins(self) -> tuple[str, ...]:

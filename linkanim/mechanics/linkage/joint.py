@@ -8,20 +8,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 Point = tuple[float, float]
 
 RigidBody = dict[str, complex]
 """Where the joints of one rigid body lie in its own frame, as x + yi."""
-
-
-class Need(NamedTuple):
-    """A joint that another one is found from: the key that names it in a scene file, and what it must be."""
-
-    key: str
-    joint: str
-    must: Literal["", "fixed", "crank"] = ""
 
 
 class Slide(NamedTuple):
@@ -50,10 +42,10 @@ class Line:
     offset: float = 0.0
     on: tuple[str, str] | None = None
 
-    def needs(self, key: str) -> tuple[Need, ...]:
-        """Return the joints that the line is known by, `key` being its own in a scene file."""
-        through = Need(f"{key}.through", self.through, "" if self.on else "fixed")
-        return (through, *(Need(f"{key}.on", name) for name in self.on or ()))
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The joints that the line is known by."""
+        return self.through, *(self.on or ())
 
     @property
     def body(self) -> tuple[str, ...]:
@@ -85,13 +77,8 @@ class Joint(ABC):
     fixed: ClassVar[bool] = False
 
     @property
-    def needs(self) -> tuple[Need, ...]:
+    def needs(self) -> tuple[str, ...]:
         """The joints that this one is found from."""
-        return ()
-
-    @property
-    def moved_by(self) -> tuple[Need, ...]:
-        """Those of its needs of which at least one must move, or nothing would."""
         return ()
 
     @property

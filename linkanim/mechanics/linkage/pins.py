@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import ClassVar
 
-from linkanim.mechanics.linkage.joint import Joint, Line, Need, Point, RigidBody, Slide
+from linkanim.mechanics.linkage.joint import Joint, Line, Point, RigidBody, Slide
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,11 +67,9 @@ class Crank(Joint):
     gear: Gear | None = None
 
     @property
-    def needs(self) -> tuple[Need, ...]:
+    def needs(self) -> tuple[str, ...]:
         """Its pivot, and the crank that it is geared to."""
-        if self.gear is None:
-            return (Need("crank", self.pivot, "fixed"),)
-        return Need("crank", self.pivot), Need("gear.with", self.gear.mate, "crank")
+        return (self.pivot, self.gear.mate) if self.gear else (self.pivot,)
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
@@ -97,9 +95,9 @@ class DrivenSlider(Joint):
     travels: ClassVar[bool] = True
 
     @property
-    def needs(self) -> tuple[Need, ...]:
+    def needs(self) -> tuple[str, ...]:
         """The joint that its line runs through."""
-        return self.line.needs("line")
+        return self.line.needs
 
     @property
     def slides(self) -> tuple[Slide, ...]:

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import reduce
 
 from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.joint import Joint, Need, Point, RigidBody
+from linkanim.mechanics.linkage.joint import Joint, Point, RigidBody
 
 _ONE_POINT = 1e-12
 
@@ -52,9 +52,9 @@ class Rigid(Joint):
     at: Point
 
     @property
-    def needs(self) -> tuple[Need, ...]:
+    def needs(self) -> tuple[str, ...]:
         """The two joints that its body is known by."""
-        return Need("on", self.on[0]), Need("on", self.on[1])
+        return self.on
 
     @property
     def body(self) -> tuple[str, ...]:
@@ -90,11 +90,6 @@ class Brace(Rigid):
     """A point of a body stated by its distances from two joints of it: a corner of a rigid triangle."""
 
     reach: tuple[float, float]
-
-    @property
-    def needs(self) -> tuple[Need, ...]:
-        """The far ends of its two bars."""
-        return Need("from", self.on[0]), Need("from", self.on[1])
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:

@@ -11,6 +11,7 @@ from linkanim.mechanics.facts.effort import effort_token
 from linkanim.mechanics.facts.register import Quantity, register
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.parts.driven import driven_words, sign_of, speed_in, speed_unit, speed_words
+from linkanim.picture.view import eased
 from linkanim.scenes.scene import Scene
 
 _NEAR_LIMIT = 0.06 * pi
@@ -155,12 +156,6 @@ def _nearness(pose: Pose, away: float, near: float) -> float:
     by_angle = eased(2.0 - 2.0 * away / near)
     seconds = away / abs(pose.input_speed) if pose.input_speed else inf
     return max(by_angle, eased(1.0 + (_HELD - seconds) / _EASED))
-
-
-def eased(share: float) -> float:
-    """Return 0 up to 0, 1 from 1 on, and a smooth step between."""
-    share = min(max(share, 0.0), 1.0)
-    return share * share * (3.0 - 2.0 * share)
 
 
 def notes(scene: Scene) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from linkanim.errors import LinkanimError
+from linkanim.picture.view import eased
 from linkanim.scenes.editing.edit import dimensions, passing
 from linkanim.scenes.fields.form import Key
 from linkanim.scenes.scene import Scene
@@ -58,9 +59,8 @@ def followed(way: Glide, after: Scene, frame: int) -> Glide | None:
 
 def _on_the_way(way: Glide, after: Scene, part: float) -> Scene | None:
     """Return the scene after a part of the way; None where it cannot be assembled all along."""
-    eased = part * part * (3.0 - 2.0 * part)
     try:
-        scene = passing(after, {key: start + (end - start) * eased for key, start, end in way.ways})
+        scene = passing(after, {key: start + (end - start) * eased(part) for key, start, end in way.ways})
     except LinkanimError:
         return None
     return scene if closes(scene) else None

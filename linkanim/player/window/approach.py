@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from linkanim.picture.look import Look
-from linkanim.picture.view import View
+from linkanim.picture.view import View, eased
 
 APPROACH_FRAMES = 14
 
@@ -36,7 +36,7 @@ class Approach:
 
 def between(one: View, other: View, share: float) -> View:
     """Return the view so far from one to the other, slow at both ends; every point moves straight."""
-    part = share * share * (3.0 - 2.0 * share)
+    part = eased(share)
     scale, x, y = (
         begin + (end - begin) * part
         for begin, end in ((one.scale, other.scale), (one.x, other.x), (one.y, other.y))

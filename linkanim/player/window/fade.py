@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pygame
 
+from linkanim.picture.view import eased
 from linkanim.player.state.state import FADE_FRAMES, State
 
 _WHITE = 0.7
@@ -26,8 +27,7 @@ class Fade:
             self._old, self._since = surface.copy(), state.faded
         if self._old is None or self._old.get_size() != surface.get_size():
             return 0
-        part = min((state.frame - state.faded + 1) / FADE_FRAMES, 1.0)
-        return round(255 * (1.0 - part * part * (3.0 - 2.0 * part)))
+        return round(255 * (1.0 - eased((state.frame - state.faded + 1) / FADE_FRAMES)))
 
     def draw(self, surface: pygame.Surface, strength: int, shutter: int) -> None:
         """Lay the old picture over the new one, and the shutter's white, in eighths, over both."""

@@ -97,7 +97,7 @@ def _at(table: Table, key: Key, reason: str) -> BadInput:
 def _needs(stated: Stated, name: str) -> list[str]:
     """Return the joints that one is found from; none of one that has a fault."""
     joint = stated[name]
-    return [need.joint for need in joint.needs if need.joint in stated] if joint else []
+    return [need for need in joint.needs if need in stated] if joint else []
 
 
 def _solved_order(stated: Stated) -> list[str]:
@@ -129,7 +129,7 @@ def _rigid(top: Table, joints: Iterable[Joint | None]) -> Table:
     found: dict[str, Joint] = {}
     bodies = rigid_bodies(())
     for joint in joints:
-        if joint is None or any(need.joint not in found for need in joint.needs):
+        if joint is None or any(need not in found for need in joint.needs):
             continue
         placed = top.attempt(_on_one_body, top, joint, bodies)
         if placed is not None:
