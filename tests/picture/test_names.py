@@ -23,6 +23,7 @@ from linkanim.picture.text.text import Type
 from linkanim.picture.view import Rect, View
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import with_dimensions
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 SIZES = [(320, 180), (1280, 720), (720, 1280)]
@@ -109,6 +110,18 @@ def test_every_joint_and_link_is_named_for_most_of_the_cycle(name: str) -> None:
     assert joints <= shown.keys()
     assert {scene.info.link_names.get(body.name, body.name) for body in scene.linkage.bodies} <= shown.keys()
     assert np.mean(list(shown.values())) > 0.8
+
+
+def test_a_crank_that_is_part_of_a_plate_has_the_plates_number() -> None:
+    document = {
+        "ground": {"O2": [0, 0]},
+        "joints": {
+            "A": {"crank": "O2", "length": 78},
+            "D": {"from": ["O2", "A"], "length": [31.4, 79.5]},
+        },
+        "bodies": {"arm": {"joints": ["O2", "A"]}},
+    }
+    assert symbols(figure(scene_from(document, name="my", where="my.toml"))).input == "θ₂"
 
 
 def _table(scene: Scene) -> dict[str, float]:

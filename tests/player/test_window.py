@@ -69,6 +69,15 @@ THERE_AND_BACK: dict[str, tuple[Key, Key, Callable[[State], object]]] = {
 }
 
 
+ONE_CRANK = """
+[ground]
+O2 = [0, 0]
+[joints.Q]
+crank = "O2"
+length = 10
+"""
+
+
 @pytest.mark.parametrize(("there", "back", "read"), THERE_AND_BACK.values(), ids=THERE_AND_BACK)
 def test_a_key_changes_state_and_picture_and_changes_back(
     player: Player, there: Key, back: Key, read: Callable[[State], object]
@@ -414,6 +423,19 @@ def test_the_crank_is_dragged_by_its_pin(player: Player) -> None:
         angle = player.state.phase - target
         assert abs(math.remainder(angle, math.tau)) < 0.1
     assert player.state.clock.paused
+
+
+def test_a_scene_without_the_joint_under_the_mouse_takes_the_place_of_one_that_has_it(
+    here: Path, player: Player
+) -> None:
+    """The light stands round the drive's joint as long as the mouse is over it, and goes with its scene."""
+    other = here / "other.toml"
+    other.write_text(ONE_CRANK, encoding="utf-8")
+    player.mouse(pygame.MOUSEMOTION, player.window.screen.crank_pin(), rel=(0, 0), buttons=(0, 0, 0))
+    player.window.state = begin(load(other))
+    player.tick()
+    assert player.state.scene.linkage.drive.joint == "Q"
+    assert not list(here.rglob("*fault*"))
 
 
 def test_the_charts_cursor_is_dragged(player: Player) -> None:

@@ -128,8 +128,10 @@ def _bar(figure: Figure, number: str, begin: str, end: str) -> Distance:
 
 
 def _angle(figure: Figure) -> str:
-    body = driven_body(figure.linkage)
-    return f"θ{_lowered(figure.numbers[body] if body else '2')}"
+    driven = driven_body(figure.linkage)
+    joints = set(driven.joints) if driven else {""}
+    number = next((n for body, n in figure.numbers.items() if joints <= set(body.joints)), "2")
+    return f"θ{_lowered(number)}"
 
 
 def _symbol(number: str) -> str:

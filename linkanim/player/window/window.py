@@ -134,6 +134,8 @@ class Window:
     def _show(self) -> None:
         """Paint and flip; a scene that cannot be painted gives way to the last that could."""
         hover = self._mouse.hovered(self.screen) if self._good else None
+        if hover not in self.state.shown.linkage.by_name:
+            hover = None  # a joint of the scene that was there until now
         try:
             self.screen.show(self.state, overlay(self.state, hover))
         except Exception as error:
