@@ -51,7 +51,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     _mark_quick(items)
     no_display = pytest.mark.skip(reason="needs a display; .ci/run starts one")
     for item in items:
-        if "window" in item.keywords and not os.environ.get("DISPLAY"):
+        if item.get_closest_marker("window") and not os.environ.get("DISPLAY"):
             item.add_marker(no_display)
         item.user_properties += [(*mark.args, 1)[:2] for mark in item.iter_markers(MARK)]
 
@@ -59,7 +59,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def _leave_to_long_runs(items: list[pytest.Item]) -> None:
     """Mark the cases of sampled tests about scenes beside the sample as long."""
     for item in items:
-        if "sampled" in item.keywords and isinstance(item, pytest.Function):
+        if item.get_closest_marker("sampled") and isinstance(item, pytest.Function):
             about = item.callspec.params
             if about.get("name", about.get("scene")) not in SAMPLE:
                 item.add_marker(pytest.mark.long)
@@ -70,7 +70,8 @@ def _mark_quick(items: list[pytest.Item]) -> None:
     seen: set[str] = set()
     for item in items:
         test = item.nodeid.split("[")[0]
-        if test not in seen and not {"slow", "long", "window"} & set(item.keywords) and "/bench/" not in test:
+        marks = {mark.name for mark in item.iter_markers()}
+        if test not in seen and not {"slow", "long", "window"} & marks and "/bench/" not in test:
             item.add_marker(pytest.mark.quick)
         seen.add(test)
 

@@ -28,8 +28,7 @@ SUFFIXES = (".svg", ".png", ".pdf")
 class Figured:
     """What a figure shows of a scene: a phase, and over it `poses` faint ones spread over the period.
 
-    Its words are for `speed`, the scene's own where none is given. With `both` the view fits both closures,
-    as a window's does.
+    Its words are for `speed`, the scene's own where none is given.
     """
 
     scene: Scene
@@ -38,12 +37,11 @@ class Figured:
     phase: float = 0.0
     poses: int = 0
     speed: float | None = None
-    both: bool = False
 
     @cached_property
     def picture(self) -> Picture:
         """The picture that it is a pose of."""
-        return Picture(self.scene, self.size, self.look, both=self.both, apart=True)
+        return Picture(self.scene, self.size, self.look, apart=True)
 
     @cached_property
     def _poses(self) -> tuple[Pose, tuple[Pose, ...]]:

@@ -35,11 +35,11 @@ if TYPE_CHECKING:
 class Picture:
     """A scene at one pixel size and look: what stands where is measured once, `groups` is a pose of it.
 
-    The view fits the scene's other closure too with `both`, so that it stays when one changes into the
-    other, and where the look has it in view or zooms or pans. `listed` leaves room for the edit list,
-    instead of the HUD. With `apart` each joint has a group of its own. What `before` measured of the same
-    scene is taken over; names keep their places on one that is zoomed, on its way to another, or `held` by
-    the hand. Raises BadInput where the look's chart is no quantity of the scene.
+    The view fits what is shown: the scene, and its other closure where the look has it in view. `listed`
+    leaves room for the edit list, instead of the HUD. With `apart` each joint has a group of its own. What
+    `before` measured of the same scene is taken over; names keep their places on one that is zoomed, on its
+    way to another, or `held` by the hand. Raises BadInput where the look's chart is no quantity of the
+    scene.
     """
 
     def __init__(
@@ -49,7 +49,6 @@ class Picture:
         look: Look,
         before: Picture | None = None,
         *,
-        both: bool = False,
         listed: bool = False,
         held: bool = False,
         apart: bool = False,
@@ -59,7 +58,7 @@ class Picture:
         self._goal = scene.towards or scene
         self.type: Type = before.type if before else Type()
         self.theme: Theme = theme_of(look.theme)
-        self._beside = self._other_closure(before) if both or look.ghost or look.framed else None
+        self._beside = self._other_closure(before) if look.ghost else None
         request, last = request_of(size, look, listed=listed), before.fit if before else None
         self.fit: SceneFit = fitted(self._goal, self._beside, request, self.type, before=last)
         self.figure: Figure = figure(scene) if scene.towards else self.fit.subject.figure

@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from linkanim.player.tape.tape import Tape
     from linkanim.recorder.process import Frame
 
-_WHOLE_VIEW = frozenset(("closure", "ghost", "zoom", "pan"))
-"""Actions that need the window's view, which holds both closures; else the one shown takes the room."""
-
 
 class TapeFrames:
     """Pictures of what a tape does. Drawn in their order each costs one; going back starts anew."""
@@ -36,7 +33,6 @@ class TapeFrames:
         self.alpha = not tape.start.look.background
         self.colours = tuple(colour for theme in _themes(tape) for colour in theme_colours(theme))
         self._tape = tape
-        self._both = any(action.name in _WHOLE_VIEW for _, action in tape.actions)
         self._fps = fps
         self._surface = offscreen(size, alpha=self.alpha)
         self._picture: Picture | None = None
@@ -59,7 +55,7 @@ class TapeFrames:
 
     def _picture_of(self, state: State) -> Picture:
         if self._picture is None or not self._picture.fits(state.shown, self.size, state.look):
-            self._picture = Picture(state.shown, self.size, state.look, self._picture, both=self._both)
+            self._picture = Picture(state.shown, self.size, state.look, self._picture)
         return self._picture
 
 

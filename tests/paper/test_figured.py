@@ -65,8 +65,8 @@ def test_the_png_is_what_the_window_draws(name: str) -> None:
 def test_chart_words_and_key_stand_as_in_the_window(look: Look) -> None:
     scene, size, surface = load("press"), (960, 540), offscreen((960, 540))
     look = replace(look, chart="C.acceleration", vectors=frozenset("va"))
-    SurfacePrinter().print(surface, Picture(scene, size, look, both=True), 1.0, 4.0, Overlay())
-    figured = Figured(scene, size, look, phase=1.0, speed=4.0, both=True)
+    SurfacePrinter().print(surface, Picture(scene, size, look), 1.0, 4.0, Overlay())
+    figured = Figured(scene, size, look, phase=1.0, speed=4.0)
     assert psnr(_levels(figured.surface()), _levels(surface)) > (30 if look.framed else 45)
     assert {"chart", "words", "key"} <= _groups(figured).keys()
 
@@ -147,8 +147,7 @@ def test_a_figure_of_which_nothing_is_asked_is_of_one_pose_and_one_closure() -> 
     assert "pose-1" not in _groups(bare)
     assert "pose-1" in _groups(ghost)
     assert "pose-2" not in _groups(ghost)
-    one, both = (figured.picture.view for figured in (bare, replace(bare, both=True)))
-    assert one != both
+    assert bare.picture.view != ghost.picture.view
 
 
 def test_instant_centres_are_where_the_quantity_says_and_pins_are_not_marked() -> None:

@@ -56,7 +56,7 @@ def _wordless(groups: Iterable[Group]) -> Iterator[Group]:
 def _window(name: str, look: Look, monkeypatch: pytest.MonkeyPatch) -> Pixels:
     """Return the shapes of the picture as the window has it."""
     scene, surface = load(name), offscreen(SIZE, alpha=not look.background)
-    picture = Picture(scene, SIZE, look, both=True)
+    picture = Picture(scene, SIZE, look)
     pose, faint = picture.poses(PHASE)
     groups = list(_wordless(picture.groups(pose, faint=faint)))
     monkeypatch.setattr(picture, "groups", lambda *_, **__: groups)
@@ -66,7 +66,7 @@ def _window(name: str, look: Look, monkeypatch: pytest.MonkeyPatch) -> Pixels:
 
 def _compared(name: str, look: Look, monkeypatch: pytest.MonkeyPatch) -> None:
     window = _window(name, look, monkeypatch)
-    figured = Figured(load(name), SIZE, look, PHASE, both=True)
+    figured = Figured(load(name), SIZE, look, PHASE)
     groups = list(_wordless(figured.groups()))
     background = figured.picture.theme.background if look.background else None
     # the reader of SVG that comes with pygame (nanosvg)

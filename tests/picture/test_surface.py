@@ -134,16 +134,16 @@ def test_a_painter_that_takes_over_renders_no_glyph_again(monkeypatch: pytest.Mo
 
 def test_a_step_of_a_pan_measures_the_hud_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = load("press")
-    before = Picture(scene, (640, 360), Look(), both=True)
+    before = Picture(scene, (640, 360), Look())
 
     def refused(*_: object) -> None:
         raise AssertionError("the scene is measured again")
 
     for name in ("widest_rows", "sweep_of", "figure", "arranged"):
         monkeypatch.setattr(fit, name, refused)
-    after = Picture(scene, (640, 360), replace(Look(), pan=(0.1, 0.2), zoom=2.0), before=before, both=True)
+    after = Picture(scene, (640, 360), replace(Look(), pan=(0.1, 0.2), zoom=2.0), before=before)
     assert after.view != before.view
-    Picture(scene, (640, 360), replace(Look(), theme="dark"), before=before, both=True)
+    Picture(scene, (640, 360), replace(Look(), theme="dark"), before=before)
 
 
 @pytest.mark.parametrize("change", [{"theme": "dark"}, {"vectors": frozenset("va")}, {"chart": "3.angle"}])
@@ -183,7 +183,7 @@ def test_a_surface_of_another_kind_or_size_gets_the_same_picture(surface: pygame
 def test_zoom_enlarges_about_the_middle_and_pan_shifts_by_the_height() -> None:
     scene = load("crank-rocker")
     fitted, near = (
-        Picture(scene, SMALL, BARE, both=True).view,
+        Picture(scene, SMALL, BARE).view,
         Picture(scene, SMALL, replace(BARE, zoom=2.0)).view,
     )
     assert near.scale == pytest.approx(2 * fitted.scale)
@@ -232,21 +232,12 @@ def test_the_ghost_is_drawn_where_the_look_asks_and_behind_this_closure() -> Non
 
 
 # As a window shows it: with the ghost, zoomed, panned; else the scene has all the room.
-@pytest.mark.parametrize(
-    ("look", "whole"),
-    [
-        (BARE, False),
-        (replace(BARE, ghost=True), True),
-        (replace(BARE, zoom=2.0), True),
-        (replace(BARE, pan=(0.1, 0.0)), True),
-        (replace(BARE, pan=(0.0, 0.1)), True),
-    ],
-)
-def test_both_closures_are_in_view_where_the_window_would_show_them(look: Look, whole: bool) -> None:
+def test_the_other_closure_takes_room_only_where_it_is_shown() -> None:
     scene = load("crank-rocker")
-    alone, both = Picture(scene, SMALL, BARE).fitted, Picture(scene, SMALL, BARE, both=True).fitted
-    assert both.scale < alone.scale
-    assert Picture(scene, SMALL, look).fitted == (both if whole else alone)
+    alone, both = (Picture(scene, SMALL, look).fitted for look in (BARE, replace(BARE, ghost=True)))
+    assert both.scale < 0.8 * alone.scale
+    for look in (replace(BARE, zoom=2.0), replace(BARE, pan=(0.1, 0.0)), replace(BARE, pan=(0.0, 0.1))):
+        assert Picture(scene, SMALL, look).fitted == alone
 
 
 # A scene, and one on the way to it, whose ghost has its lengths.
@@ -260,7 +251,7 @@ def test_the_ghost_is_the_other_closure_at_the_same_phase(gone: bool) -> None:
     assert (pose.input_speed, faint.phase) == (2.0, 1.0)
     for joint, place in other.pose(1.0, 0).position.items():
         assert faint.position[joint] == pytest.approx(place)
-    assert Picture(shown, SMALL, BARE, both=True).poses(1.0)[1] == ()
+    assert Picture(shown, SMALL, BARE).poses(1.0)[1] == ()
 
 
 @pytest.mark.parametrize("crank", [20.0, 45.0])

@@ -43,6 +43,22 @@ def test_the_view_glides_to_where_a_list_or_a_chart_leaves_room(player: Player, 
         assert player.settle() == before
 
 
+def test_the_view_glides_with_the_other_closure_and_fills_the_window_with_what_is_shown(
+    player: Player,
+) -> None:
+    before, way = player.settle(), [_pin(player)]
+    player.press(pygame.K_b, text="b")
+    for _ in range(APPROACH_FRAMES + 2):
+        way.append(_pin(player))
+        player.tick()
+    whole, steps = abs(way[-1] - way[0]), np.abs(np.diff(way))
+    assert whole > 50
+    assert steps.max() < 0.2 * whole
+    assert steps[-1] == 0
+    player.press(pygame.K_b, text="b")
+    assert player.settle() == before
+
+
 def test_a_second_change_on_the_way_begins_where_the_first_had_come_to(player: Player) -> None:
     player.press(pygame.K_e, text="e")
     player.tick(4)

@@ -380,7 +380,7 @@ def test_edits_are_followed_and_undone_to_the_same_pixels(player: Player) -> Non
     assert player.pixels not in {pixels, *on_the_way}
     player.press(pygame.K_z, CTRL, "\x1a")
     player.tick(20)
-    assert player.pixels == pixels
+    assert player.settle() == pixels
 
 
 def middle_of(size: tuple[int, int]) -> tuple[float, float]:

@@ -17,7 +17,7 @@ from linkanim.picture.layout import Gauge, Layout, gauge
 from linkanim.picture.panels.hud import WordBlock
 from linkanim.picture.view import Box, Rect, View
 
-HIGH, WIDE = 0.86, 0.61
+HIGH, WIDE = 0.86, 0.7
 """The least share of the stage that a scene takes, of its height or of its width."""
 _STEPS = 10
 _CORNERS = (((0, 0), 0.0), ((1, 0), 0.05), ((0, 1), 0.06), ((1, 1), 0.08))

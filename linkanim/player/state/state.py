@@ -91,6 +91,11 @@ class State:
         return "list" if self.listing else "shelf" if self.browsing else "play"
 
     @property
+    def listed(self) -> bool:
+        """Whether a list is open, beside which the scene has less room."""
+        return self.editing.open or self.listing is not None
+
+    @property
     def typing(self) -> bool:
         """Whether something has been begun in the open list."""
         return self.editing.typed != "" if self.editing.open else bool(self.listing and self.listing.sieve)

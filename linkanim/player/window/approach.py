@@ -1,11 +1,16 @@
-"""The way from one view of a scene to another: eased, so that the eye can follow what makes room for what."""
+"""The pictures of states: each fits what is shown, and another view of it is approached, eased.
+
+The eye can follow what makes room for what. Window and recordings share it.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
 from linkanim.picture.look import Look
+from linkanim.picture.picture import Picture
 from linkanim.picture.view import View, eased
+from linkanim.player.state.state import State
 
 APPROACH_FRAMES = 14
 
@@ -42,3 +47,60 @@ def between(one: View, other: View, share: float) -> View:
         for begin, end in ((one.scale, other.scale), (one.x, other.x), (one.y, other.y))
     )
     return View(scale, x, y)
+
+
+class Framing:
+    """The picture of each state that comes, and the last one; a list in a window takes its room."""
+
+    def __init__(self) -> None:
+        self._fitting: Picture | None = None
+        self._passing: Picture | None = None
+        self._approach: Approach | None = None
+
+    @property
+    def last(self) -> Picture:
+        """The picture that was given last; there must be one."""
+        picture = self._passing or self._fitting
+        assert picture is not None
+        return picture
+
+    def fitting(self, state: State, size: tuple[int, int]) -> Picture:
+        """Return the picture that fits the state; a view other than the last one's, it is approached."""
+        before, how = self._fitting, {"listed": state.listed, "held": state.held is not None}
+        if before and before.fits(state.shown, size, state.look, **how):
+            return before
+        made = Picture(state.shown, size, state.look, before, **how)
+        if before and _has_moved(before, made):
+            self._approach = Approach((self._passing or before).view, state.frame)
+        elif before and not _is_framed_alike(before, made):
+            self._approach = None
+        self._fitting = made
+        return made
+
+    def at(self, state: State, size: tuple[int, int]) -> Picture:
+        """Return the picture for this frame: one on the way to the fitting one while that is approached."""
+        goal, self._passing = self.fitting(state, size), None
+        if self._approach is None or self._approach.over(state.frame):
+            self._approach = None
+            return goal
+        look = self._approach.look(state.look, goal.fitted, goal.view, size, state.frame)
+        self._passing = Picture(state.shown, size, look, goal, listed=state.listed)
+        return self._passing
+
+
+def _has_moved(one: Picture, other: Picture) -> bool:
+    """Return whether one linkage, of either closure, in one window is fitted into another place of it."""
+    return _are_one(one, other) and one.size == other.size and one.fitted != other.fitted
+
+
+def _is_framed_alike(one: Picture, other: Picture) -> bool:
+    """Return whether one linkage in one window is zoomed and panned alike."""
+    looks = ((picture.look.zoom, picture.look.pan, picture.size) for picture in (one, other))
+    return _are_one(one, other) and len(set(looks)) == 1
+
+
+def _are_one(one: Picture, other: Picture) -> bool:
+    """Return whether both are of one scene, or of one before and after an exchange that is no glide."""
+    scenes = (one.scene, other.scene)
+    named = one.scene.name == other.scene.name and not any(scene.towards for scene in scenes)
+    return one.scene is other.scene or named

@@ -11,7 +11,7 @@ from linkanim.picture.surface import SurfacePrinter
 from linkanim.player.state.browsing import Browsing
 from linkanim.player.state.state import State
 from linkanim.player.window import display
-from linkanim.player.window.approach import Approach
+from linkanim.player.window.approach import Framing
 from linkanim.player.window.fade import Fade
 from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.scene import Scene
@@ -24,9 +24,7 @@ class Screen:
     """
 
     def __init__(self, state: State) -> None:
-        self._picture: Picture | None = None
-        self._passing: Picture | None = None
-        self._approach: Approach | None = None
+        self._framing = Framing()
         self._shown: object = None
         self._state = state
         self._titled: str | None = None
@@ -39,7 +37,7 @@ class Screen:
         surface = display.surface()
         self._state = state
         self._name(state.scene.title)
-        picture, veiled = self._shown_on(state, surface.get_size()), self._fade.strength(state, surface)
+        picture, veiled = self._framing.at(state, surface.get_size()), self._fade.strength(state, surface)
         shown = (picture, state.phase, state.clock.speed, over, veiled)
         if shown != self._shown:
             self._paint(surface, picture, state, over)
@@ -67,31 +65,8 @@ class Screen:
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
         """Return the state painted on a surface of its own, as large as the window."""
         surface = display.surface().copy()
-        self._paint(surface, self._fitting(state, surface.get_size()), state, over)
+        self._paint(surface, self._framing.fitting(state, surface.get_size()), state, over)
         return surface
-
-    def _fitting(self, state: State, size: tuple[int, int]) -> Picture:
-        """Return the picture that fits the state; a view other than the last one's, it is approached."""
-        before, listed, held = self._picture, _is_listed(state), state.held is not None
-        if before and before.fits(state.shown, size, state.look, listed=listed, held=held):
-            return before
-        made = Picture(state.shown, size, state.look, before, both=True, listed=listed, held=held)
-        if before and _has_moved(before, made):
-            self._approach = Approach((self._passing or before).view, state.frame)
-        elif before and not _is_framed_alike(before, made):
-            self._approach = None
-        self._picture = made
-        return made
-
-    def _shown_on(self, state: State, size: tuple[int, int]) -> Picture:
-        """Return the picture for this frame: one on the way to the fitting one while that is approached."""
-        goal, self._passing = self._fitting(state, size), None
-        if self._approach is None or self._approach.over(state.frame):
-            self._approach = None
-            return goal
-        look = self._approach.look(state.look, goal.fitted, goal.view, size, state.frame)
-        self._passing = Picture(state.shown, size, look, goal, both=True, listed=_is_listed(state))
-        return self._passing
 
     @property
     def scene(self) -> Scene:
@@ -110,7 +85,7 @@ class Screen:
 
     def crank_pin(self) -> tuple[float, float]:
         """Return where the input crank's pin is, in pixels."""
-        return self._last.crank_pin_px(self.scene.pose(self.phase, 0))
+        return self._framing.last.crank_pin_px(self.scene.pose(self.phase, 0))
 
     def handle_at(self, x: float, y: float, reach: float) -> str | None:
         """Return the joint under a pixel that can be dragged while the list is open; None elsewhere."""
@@ -127,11 +102,11 @@ class Screen:
 
     def world(self, x: float, y: float) -> tuple[float, float]:
         """Return the point of the scene under a pixel."""
-        return self._last.view.to_world(x, y)
+        return self._framing.last.view.to_world(x, y)
 
     def pixel(self, x: float, y: float) -> tuple[float, float]:
         """Return where a point of the scene is in the window."""
-        return self._last.view.to_pixel(x, y)
+        return self._framing.last.view.to_pixel(x, y)
 
     def shelf_beside(self, browsing: Browsing, rows: int) -> int:
         """Return the place on a shelf so many rows below the chosen one; it need not be painted yet."""
@@ -152,26 +127,4 @@ class Screen:
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
-        return self._last.chart_phase_at(x, y)
-
-    @property
-    def _last(self) -> Picture:
-        picture = self._passing or self._picture
-        assert picture is not None
-        return picture
-
-
-def _is_listed(state: State) -> bool:
-    """Return whether a list is open, beside which the scene has less room."""
-    return state.editing.open or state.listing is not None
-
-
-def _has_moved(one: Picture, other: Picture) -> bool:
-    """Return whether one scene in one window is fitted into another place of it."""
-    return one.scene is other.scene and one.size == other.size and one.fitted != other.fitted
-
-
-def _is_framed_alike(one: Picture, other: Picture) -> bool:
-    """Return whether one scene in one window is zoomed and panned alike."""
-    looks = ((picture.look.zoom, picture.look.pan, picture.size) for picture in (one, other))
-    return one.scene is other.scene and len(set(looks)) == 1
+        return self._framing.last.chart_phase_at(x, y)
