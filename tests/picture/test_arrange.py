@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pygame
@@ -17,7 +18,7 @@ from linkanim.picture.arrangement.sweep import Sweep
 from linkanim.picture.diagrams.quantities import quantities
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import EditRow, Overlay, Panel
+from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.surface import SurfacePrinter
@@ -178,6 +179,38 @@ def test_words_over_a_zoomed_scene_have_a_backing() -> None:
     assert covered.mean() > 0.5
     light = np.abs(told - BACKGROUND).max(axis=-1) < 12
     assert light.mean() > 0.6
+
+
+PASSING = Overlay(
+    paused=True,
+    recording="REC GIF 0:03",
+    chip=Fading("names and dimensions"),
+    hint=Fading("Space pause · Tab next · drag the pin · H keys"),
+    toast="recordings/crank-rocker-1.gif: 45 %",
+)
+
+
+# A chart beside the scene, or one below, leaves it little room; the key to the arrows is the lowest row.
+@pytest.mark.parametrize("size", [(640, 360), (720, 1280)])
+@pytest.mark.parametrize(
+    ("name", "chart"), [("press", None), ("press", "H.velocity"), ("watt-1", "E.velocity")]
+)
+@pytest.mark.parametrize("framed", [{}, {"zoom": 1.25}, {"pan": (-0.2, -0.1)}])
+def test_nothing_that_comes_and_goes_erases_a_word_about_the_scene(
+    name: str, chart: str | None, size: tuple[int, int], framed: dict[str, Any]
+) -> None:
+    scene, look = load(name), Look(vectors=frozenset("v"), chart=chart)
+    bare, shown = replace(look, pan=(30.0, 0.0)), replace(look, **framed)
+    words, over = (offscreen(size), offscreen(size))
+    painter = Picture(scene, size, bare)
+    SurfacePrinter().print(words, painter, 0.5, 4.0, Overlay())
+    SurfacePrinter().print(over, Picture(scene, size, shown), 0.5, 4.0, PASSING)
+    for place in (painter.layout.hud, painter.layout.legend):
+        assert place is not None
+        before, after = (_part(surface, place).sum(axis=-1, dtype=int) for surface in (words, over))
+        ink = before < 450
+        assert ink.sum() > 100
+        assert (ink & (np.abs(after - before) > 150)).sum() <= 10
 
 
 def test_the_view_makes_room_for_the_edit_list() -> None:

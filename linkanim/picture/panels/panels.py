@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -20,6 +22,7 @@ from linkanim.picture.raster.raster import Layer, Loop, paint
 from linkanim.picture.raster.shapes import box, disc
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme
+from linkanim.picture.view import Rect
 
 _VEIL = 170
 _BACKING = 0.7
@@ -33,7 +36,7 @@ class Panels:
     layout: Layout
     type: Type
     theme: Theme
-    _kept: dict[str, tuple[Any, pygame.Surface]] = field(default_factory=dict)
+    _kept: dict[str, tuple[Any, Any]] = field(default_factory=dict)
 
     @property
     def board(self) -> Board:
@@ -42,7 +45,6 @@ class Panels:
 
     def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw all that an overlay holds: the help beside the edit list, a toast on the stage's foot."""
-        stage = self.layout.stage
         self._marks(surface, overlay)
         if overlay.help:
             surface.blit(self._keep("veil", None, self._veil), (0, 0))
@@ -61,9 +63,8 @@ class Panels:
             surface.blit(drawn, at)
         self._passing(surface, overlay)
         if overlay.toast:
-            drawn = self._keep("toast", overlay.toast, self._toast)
-            across = stage.x + (stage.width - drawn.get_width()) / 2
-            surface.blit(drawn, (round(across), round(stage.bottom - drawn.get_height() - self.board.margin)))
+            drawn, at = self._keep("toast", overlay.toast, self._toast)
+            surface.blit(drawn, at)
 
     def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
         """Return where a list stands: at the top of its place, or at the window's foot."""
@@ -78,7 +79,9 @@ class Panels:
             drawn = self._keep("chip", overlay.chip.text, partial(chip, self.board))
             marks = 1.5 * self.layout.text_size * (bool(overlay.recording) + overlay.paused)
             left = place.x if self._marks_lead else place.right - drawn.get_width()
-            put(surface, drawn, (left, place.y + marks), overlay.chip)
+            beside = left, place.y + marks
+            free = self._off_words(drawn, [beside, *self._edges(drawn)])
+            put(surface, drawn, free or beside, overlay.chip)
         if overlay.hint:
             words = self._keep("hint", overlay.hint.text, partial(hint_bar, self.board))
             at = self.layout.hint or room
@@ -93,7 +96,24 @@ class Panels:
         place, stage = self.layout.marks, self.layout.stage
         return place.x - stage.x < stage.right - place.right
 
-    def _keep(self, kind: str, value: Any, make: Any) -> pygame.Surface:
+    def _off_words(
+        self, drawn: pygame.Surface, places: Iterable[tuple[float, float]]
+    ) -> tuple[float, float] | None:
+        """Return the first of some places at which a sheet lies on no word about the scene; else None."""
+        layout, size = self.layout, drawn.get_size()
+        busy = (*layout.words, *([layout.legend] if layout.legend else []))
+        return next((at for at in places if not any(Rect(*at, *size).meets(one) for one in busy)), None)
+
+    def _edges(self, drawn: pygame.Surface) -> Iterator[tuple[float, float]]:
+        """Yield places of a sheet along the foot and the head of the scene's room."""
+        room = self.layout.stage.inset(self.board.margin)
+        for low, right in product((1, 0), (0.5, 1, 0)):
+            yield (
+                room.x + right * (room.width - drawn.get_width()),
+                room.y + low * (room.height - drawn.get_height()),
+            )
+
+    def _keep(self, kind: str, value: Any, make: Any) -> Any:
         if kind not in self._kept or self._kept[kind][0] != value:
             self._kept[kind] = (value, make(value))
         return self._kept[kind][1]
@@ -122,9 +142,23 @@ class Panels:
                 paint(surface, [Layer(colour, [middle + loop for loop in sign(size)])])
                 top += 1.5 * size
 
-    def _toast(self, text: str) -> pygame.Surface:
-        size = self.layout.text_size
-        lines = self.type.wrapped(text, size, 0.9 * self.layout.stage.width - 2 * size)
+    def _toast(self, text: str) -> tuple[pygame.Surface, tuple[float, float]]:
+        """Return a toast and its place: where nothing is drawn, else off the words about the scene."""
+        small, hint = self.layout.small_size, self.layout.hint
+        if hint and self.type.width(text, small) + 2 * small <= hint.width:
+            sheet = self._lines(text, small, hint.width)
+            return sheet, (hint.x + (hint.width - sheet.get_width()) / 2, hint.bottom - sheet.get_height())
+        sheets = [
+            self._lines(text, size, share * self.layout.stage.width)
+            for size, share in ((self.layout.text_size, 0.9), (small, 0.9), (small, 0.6), (small, 0.4))
+        ]
+        found = ((sheet, self._off_words(sheet, self._edges(sheet))) for sheet in sheets)
+        free = next(((sheet, at) for sheet, at in found if at), None)
+        return free or (sheets[0], next(self._edges(sheets[0])))
+
+    def _lines(self, text: str, size: int, room: float) -> pygame.Surface:
+        """Return words on a sheet, in lines no wider than some room."""
+        lines = self.type.wrapped(text, size, room - 2 * size)
         wide = max((self.type.width(line, size) for line in lines), default=0)
         sheet = self.board.sheet(wide + 2 * size, (1.25 * len(lines) + 0.75) * size)
         for n, line in enumerate(lines):

@@ -66,10 +66,10 @@ class Framing:
 
     def fitting(self, state: State, size: tuple[int, int]) -> Picture:
         """Return the picture that fits the state; a view other than the last one's, it is approached."""
-        before, how = self._fitting, {"listed": state.listed, "held": state.held is not None}
-        if before and before.fits(state.shown, size, state.look, **how):
+        before, listed, held = self._fitting, state.listed, state.held is not None
+        if before and before.fits(state.shown, size, state.look, listed=listed, held=held):
             return before
-        made = Picture(state.shown, size, state.look, before, **how)
+        made = Picture(state.shown, size, state.look, before, listed=listed, held=held)
         if before and _has_moved(before, made):
             self._approach = Approach((self._passing or before).view, state.frame)
         elif before and not _is_framed_alike(before, made):
