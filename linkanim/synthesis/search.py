@@ -30,9 +30,15 @@ class _Stage(NamedTuple):
 
 _FEW_STAGES = (_Stage(300, FEW, 25), _Stage(80, FEW, 60), _Stage(12, FEW, 200))
 _STAGES = (_Stage(80, 32, 12), _Stage(24, 64, 40), _Stage(8, 200, 150))
+_WIDER_STAGES = (_Stage(2000, 32, 8), _Stage(300, 64, 40), _Stage(40, 64, 200))
 _REFIT_STEPS = 30
 _GOOD = 1e-3
 """Of the curve's size: where an open curve is followed no better by a crank that turns, it may swing."""
+_FOLLOWED, _FOREIGN = 1e-4, 1e-2
+"""Of the curve's size: between them the best answer is likely a false minimum, and more candidates are tried.
+
+Below, the curve is followed; above, it is none of this kind's, and more candidates do not help.
+"""
 _SAME = 1e-4
 """Of the curve's size: parameters that differ by less are one answer."""
 _FITTED = 1e-6
@@ -93,8 +99,18 @@ def started(task: PathTask, count: int) -> Candidates:
 
 
 def _searched(task: PathTask, count: int, progress: Progress | None) -> tuple[Fit, ...]:
-    start = started(task, _stages(task)[0].candidates)
-    return _best(_enough(_checked(task, refined_through(task, start, progress)), count), count)
+    fits = _through(task, _stages(task), count, progress)
+    off = fits[0].error / task.curve.size if fits else _FOLLOWED
+    if len(task.curve.points) <= FEW or not _FOLLOWED <= off <= _FOREIGN:
+        return fits
+    return _best([*fits, *_through(task, _WIDER_STAGES, count, progress)], count)
+
+
+def _through(
+    task: PathTask, stages: tuple[_Stage, ...], count: int, progress: Progress | None
+) -> tuple[Fit, ...]:
+    start = started(task, stages[0].candidates)
+    return _best(_enough(_checked(task, refined_through(task, start, stages, progress)), count), count)
 
 
 def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
@@ -107,11 +123,12 @@ def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
             return
 
 
-def refined_through(task: PathTask, start: Candidates, progress: Progress | None = None) -> Candidates:
+def refined_through(
+    task: PathTask, start: Candidates, stages: tuple[_Stage, ...], progress: Progress | None = None
+) -> Candidates:
     """Return the best candidates after all stages, at size 1, the best first, at all points' angles."""
     chosen = np.arange(len(task.normal.points))
     now, cost = start, np.zeros(len(start.rows))
-    stages = _stages(task)
     for number, stage in enumerate(stages):
         if progress:
             progress(number, len(stages))
