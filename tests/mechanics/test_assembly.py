@@ -174,7 +174,7 @@ def test_every_four_bar_that_can_be_assembled_loads_with_either_name(
 ) -> None:
     # Grashof, triple rockers, parallelograms, kites and rhombi among them.
     assert len(SMALL) > 60
-    for lengths in SMALL[:: 1 if side == 1 else 3]:
+    for lengths in SMALL[:: 2 if side == 1 else 6]:
         assert is_closed(mechanism(build(lengths, side=side)), lengths), lengths
 
 

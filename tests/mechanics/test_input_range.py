@@ -110,13 +110,13 @@ MAKES = driven_by_a_cylinder, bar_that_limits_the_input, slot_that_limits_the_in
 
 @pytest.mark.parametrize("make", MAKES, ids=lambda make: make.__name__)
 def test_the_ends_of_a_random_range_are_in_it_and_beyond_is_not_a_number(make: Make) -> None:
-    for _, solved in islice(solved_linkages(make), 5):
+    for _, solved in islice(solved_linkages(make), 2):
         check_ends(solved)
 
 
 def test_the_ends_of_a_random_swing_are_in_it_and_beyond_is_not_a_number() -> None:
     rng = random.Random(4)
-    for _ in range(40):
+    for _ in range(12):
         g, r, a = (rng.uniform(1, 9) for _ in range(3))
         rocker = rng.uniform(max(abs(g - r) - a, a - g - r, 0.1), g + r + a)
         tilt = rng.choice([0.0, rng.uniform(-3, 3)])

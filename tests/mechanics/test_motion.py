@@ -253,6 +253,7 @@ def test_coefficients_do_not_depend_on_speed(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_coefficients_are_rates_over_the_input_s(name: str) -> None:
     scene = load(name)
     motion = scene.solve(phase=[0.4, 1.7, 2.9, 4.1])

@@ -21,7 +21,7 @@ Lengths = tuple[float, float, float, float]
 PHASES = np.linspace(0.0, 4 * math.pi, 161)
 length = st.floats(10.0, 100.0).map(lambda value: round(value, 3))
 phase = st.floats(-30.0, 30.0)
-EXAMPLES = settings(max_examples=10)
+EXAMPLES = settings(max_examples=5)
 
 
 def ordered(shortest: int) -> Callable[[list[float]], Lengths]:

@@ -38,6 +38,7 @@ def test_batches_of_any_size_hold_the_same_bits(scene: str) -> None:
 
 
 @every_scene
+@pytest.mark.sampled
 def test_a_pose_alone_holds_the_bits_of_a_batch(scene: str) -> None:
     solved = load(scene)
     phases = np.concatenate([MANY[:40], FAR, [0.0, math.pi / 2, math.pi, 2 * math.pi]])
@@ -48,6 +49,7 @@ def test_a_pose_alone_holds_the_bits_of_a_batch(scene: str) -> None:
 
 
 @every_scene
+@pytest.mark.sampled
 def test_fewer_derivatives_change_no_bit(scene: str) -> None:
     solved = load(scene)
     whole = dict(rows(solved.solve(phase=PHASES)))

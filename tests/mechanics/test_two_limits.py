@@ -38,7 +38,7 @@ def _limit(linkage: Linkage, near: Any) -> Any:
     return mp.findroot(lambda angle: abs(places(base, angle)["B"] - mp.mpc(230, 60)) - reach, near)
 
 
-@pytest.mark.parametrize("gap", [1e-2, 3e-4, 1e-5, 1e-6, 1e-8])
+@pytest.mark.parametrize("gap", [1e-2, 1e-5, 1e-8])
 def test_a_limit_beside_another_one_has_its_velocity(gap: float) -> None:
     linkage = stopped_before_a_limit(gap)
     solved = mechanism(linkage)
