@@ -211,7 +211,8 @@ def test_an_extreme_at_the_end_of_a_curve_is_told_beside_its_dot() -> None:
         assert right < _extent(dot).left or words.at[0] > _extent(dot).right
 
 
-@pytest.mark.parametrize("name", names()[::3])
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_a_scene_has_its_chart(name: str) -> None:
     page = _page(name, *telling(load(name))[:4], size=(320, 180))
     assert len(np.unique(pygame.surfarray.array3d(page.surface()).reshape(-1, 3), axis=0)) > 8

@@ -78,7 +78,7 @@ def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, 
     words = painter.layout.words
     assert words
     painter._hud = None
-    for phase in _moments(name, 16):
+    for phase in _moments(name, 8):
         SurfacePrinter().paint(surface, painter, scene.pose(float(phase)))
         for rect in words:
             assert (_part(surface, rect) == BACKGROUND).all(), phase
@@ -91,7 +91,7 @@ def test_all_that_is_drawn_lies_in_the_window(name: str) -> None:
     painter, surface = Picture(scene, size, Look(hud=False)), offscreen(size)
     edge = np.ones((size[1], size[0]), bool)
     edge[2:-2, 2:-2] = False
-    for phase in _moments(name, 16):
+    for phase in _moments(name, 8):
         SurfacePrinter().paint(surface, painter, scene.pose(float(phase)))
         assert (pixels(surface)[edge] == BACKGROUND).all(), phase
 
@@ -213,11 +213,12 @@ def test_nothing_that_comes_and_goes_erases_a_word_about_the_scene(
         assert (ink & (np.abs(after - before) > 150)).sum() <= 10
 
 
-def test_the_view_makes_room_for_the_edit_list() -> None:
-    for name in names():
-        staging = fitted(load(name), None, FitRequest((1280, 720), False, 0, True, True), type_of_words())
-        box, layout = staging.subject.sweep.box, staging.arrangement.layout
-        assert staging.arrangement.view.to_pixel(box.left, 0.0)[0] > layout.lists.right
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_the_view_makes_room_for_the_edit_list(name: str) -> None:
+    staging = fitted(load(name), None, FitRequest((1280, 720), False, 0, True, True), type_of_words())
+    box, layout = staging.subject.sweep.box, staging.arrangement.layout
+    assert staging.arrangement.view.to_pixel(box.left, 0.0)[0] > layout.lists.right
 
 
 @pytest.mark.parametrize("size", [(320, 180), (360, 640), (480, 270), (640, 480), (720, 1280), (1920, 1080)])
@@ -280,6 +281,7 @@ def test_a_toast_does_not_lie_on_the_chart(name: str) -> None:
 
 @pytest.mark.parametrize("size", [(640, 360)])
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) -> None:
     layout = fitted(
         load(name), None, FitRequest(size, False, 0, True, False), type_of_words()
@@ -319,13 +321,13 @@ def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, r
     assert beyond_title(title, class_name) == rest
 
 
-@pytest.mark.slow
-def test_a_chart_does_not_drive_out_the_words() -> None:
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_a_chart_does_not_drive_out_the_words(name: str) -> None:
     wanted = FitRequest((480, 270), True, 2, True, False)
-    for name in names():
-        block = fitted(load(name), None, wanted, type_of_words()).arrangement.block
-        assert block is not None
-        assert block.rows, name
+    block = fitted(load(name), None, wanted, type_of_words()).arrangement.block
+    assert block is not None
+    assert block.rows
 
 
 @pytest.mark.parametrize(
@@ -358,7 +360,7 @@ def test_the_strip_lies_on_nothing_that_moves_or_is_said(name: str, size: tuple[
     assert place is not None
     assert place.x >= 0
     assert place.right <= size[0]
-    for phase in _moments(name, 12):
+    for phase in _moments(name, 6):
         SurfacePrinter().paint(surface, painter, scene.pose(float(phase)))
         part = _part(surface, place)
         assert (part == BACKGROUND).all(), phase

@@ -171,6 +171,7 @@ def test_the_curve_is_that_of_the_running_motion(name: str, token: str, speed: f
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_another_speed_costs_no_solving(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     chart = _strip(name, f"{load(name).linkage.drive.joint}.acceleration")
     before = chart.curves[1]

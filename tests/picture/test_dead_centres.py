@@ -85,6 +85,7 @@ def test_else_there_are_none(name: str, named: int) -> None:
 
 @pytest.mark.parametrize("size", [SIZE, (480, 270), (540, 960)])
 @pytest.mark.parametrize("name", [name for name in names() if load(name).info.dead_centres])
+@pytest.mark.sampled
 def test_the_words_stand_on_the_stage(name: str, size: tuple[int, int]) -> None:
     found = drawing(name, size=size).dead_centres
     assert found is not None

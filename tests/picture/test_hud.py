@@ -168,7 +168,7 @@ def test_names_and_values_never_touch_at_any_speed(name: str, size: tuple[int, i
     block, key = arrangement.block, arrangement.layout.legend
     assert block is not None
     for speed in (1.0, -10.0):
-        for phase in np.linspace(0, scene.period, 24, endpoint=False):
+        for phase in np.linspace(0, scene.period, 12, endpoint=False):
             pose = scene.pose(float(phase), speed=speed * scene.linkage.drive.speed)
             for row in (row for row in rows(scene, pose) if row.label in block.rows):
                 words = type_.width(row.label, block.size) + type_.width(row.value, block.size, strong=True)

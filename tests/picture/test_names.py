@@ -46,7 +46,7 @@ def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size:
     painter = Picture(scene, size, Look(names=1, chart="A.velocity" if name == "press" else None))
     gauge, words, reach = painter.drawing.setting.gauge, painter.layout.words, painter.layout.reach
     assert words
-    for phase in np.linspace(0, scene.period, 16):
+    for phase in np.linspace(0, scene.period, 10):
         pose = scene.pose(float(phase))
         labels = list(standing(painter, pose))
         pins = [painter.drawing.places(pose)[pin] for pin in painter.figure.pins]

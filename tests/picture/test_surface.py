@@ -87,13 +87,13 @@ def test_what_is_kept_of_a_picture_has_a_bound() -> None:
     scene, size, printer = load("press"), SMALL, SurfacePrinter()
     picture, surface = Picture(scene, size, replace(FULL, names=2)), offscreen(size)
     taken = []
-    for step in range(120):
-        printer.paint(surface, picture, scene.pose(0.0137 * step))
+    for step in range(24):
+        printer.paint(surface, picture, scene.pose(0.0685 * step))
         taken.append(sum(cover.nbytes for _, cover in printer._covers.values()))
     assert 0 < max(taken) <= 8 * surface.get_buffer().length
     before, look = picture, replace(FULL, names=2)
-    for step in range(60):
-        before = Picture(scene, (320 + 2 * step, 180), look, before)
+    for step in range(12):
+        before = Picture(scene, (320 + 10 * step, 180), look, before)
         printer.paint(offscreen(before.size), before, scene.pose(0.5))
     assert len(printer._labels._kept) < 120
 
@@ -315,7 +315,7 @@ def test_a_panel_that_is_kept_follows_what_it_says() -> None:
     assert pictures[0] == pictures[2]
 
 
-@pytest.mark.parametrize("size", [(320, 180), (640, 360), (3840, 2160), (500, 700)])
+@pytest.mark.parametrize("size", [(320, 180), (640, 360), (1920, 1080), (500, 700)])
 def test_a_long_help_fits_any_window(size: tuple[int, int]) -> None:
     scene = load("crank-rocker")
     surface = offscreen(size)
@@ -333,7 +333,7 @@ LONG = "s + l = 180 > p + q = 130: the crank cannot turn fully; it swings −115
 HINT = "↑ ↓ choose   ← → nudge   digits type   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
 
 
-@pytest.mark.parametrize("size", [(640, 360), (1280, 720), (3840, 2160), (500, 700)])
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720), (500, 700)])
 @pytest.mark.parametrize(("count", "chosen"), [(8, 7), (30, 0), (30, 11), (30, 29)])
 def test_an_edit_list_stays_inside_the_window_and_shows_the_chosen_row_at_a_size_that_reads(
     count: int, chosen: int, size: tuple[int, int]

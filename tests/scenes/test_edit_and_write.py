@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError, WorkFailed
@@ -271,6 +271,7 @@ OFFSETS = st.floats(-1e9, 1e9)
 TITLES = st.text(st.characters(codec="utf-8"), max_size=20).filter(lambda title: not control_in(title))
 
 
+@settings(max_examples=40)
 @given(
     title=TITLES,
     lengths=st.lists(LENGTHS, min_size=4, max_size=4),

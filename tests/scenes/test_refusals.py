@@ -466,7 +466,7 @@ JUNK: st.SearchStrategy[object] = st.recursive(
 )
 
 
-@settings(max_examples=300)
+@settings(max_examples=120)
 @given(st.data())
 @pytest.mark.slow
 def test_a_scene_spoilt_anywhere_is_refused_or_read_but_never_fails(data: st.DataObject) -> None:

@@ -143,6 +143,7 @@ def test_the_offset_slider_cranks_way_forward_is_the_shorter_one() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.sampled
 def test_an_input_swings_as_far_as_it_is_said_to(name: str) -> None:
     scene = load(name)
     angle = scene.cycle(SAMPLES).coordinate

@@ -60,7 +60,7 @@ def squares(fit: Fit) -> float:
 @pytest.mark.parametrize("closed", [True, False])
 @pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
 def test_a_coupler_curve_is_found_again(kind: str, closed: bool) -> None:
-    for points in curves(kind, 2, seed=11, turn=1.0 if closed else 0.4):
+    for points in curves(kind, 1, seed=11, turn=1.0 if closed else 0.4):
         best = linkanim.path(as_pairs(points), closed, kind=kind, count=1)[0]
         verify(best, points, closed=closed)
         assert best.rms < 0.01 * PERCENT * best.curve_size
@@ -109,7 +109,7 @@ def test_six_points_of_a_line_are_passed_exactly() -> None:
     assert min(map(squares, within)) <= 1e-20
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_five_points_at_random_are_passed_exactly(seed: int) -> None:
     points = np.random.default_rng(seed).uniform(0, 50, (5, 2))
     best = linkanim.path(points, count=1)[0]
@@ -164,7 +164,7 @@ LIMITS = {
 
 @pytest.mark.parametrize(("options", "holds"), LIMITS.values(), ids=LIMITS)
 def test_limits_are_kept(options: dict[str, Any], holds: Any) -> None:
-    fits = linkanim.path(SQUARE, **options)
+    fits = linkanim.path(SQUARE, count=2, **options)
     assert fits
     for fit in fits:
         assert holds(fit)
