@@ -59,15 +59,27 @@ def run(here: Path, words: list[str], more: Mapping[str, str] | None = None) -> 
     assert (done.returncode, "Traceback" in done.stderr) == (0, False), done.stderr
 
 
-COMMANDS = [
-    pytest.param(["record", "my.toml", "--size", "64x36", "--seconds", "0.1", "-o", "a.gif"], id="gif"),
-    pytest.param(["record", "my.toml", "--size", "64x36", "--seconds", "0.1", "-o", "a.mp4"], id="mp4"),
-    pytest.param(["report", "my.toml", "-o", "report"], id="report"),
-]
+COMMANDS = {
+    "gif": ["record", "my.toml", "--size", "64x36", "--seconds", "0.1", "-o", "a.gif"],
+    "mp4": ["record", "my.toml", "--size", "64x36", "--seconds", "0.1", "-o", "a.mp4"],
+    "report": ["report", "my.toml", "-o", "report"],
+}
 
 
-@pytest.mark.parametrize("start", ["a script", "-m"])
-@pytest.mark.parametrize("words", COMMANDS)
+@pytest.mark.parametrize(
+    ("words", "start"),
+    [
+        pytest.param(COMMANDS[name], start, id=f"{name}, {start}", marks=marks)
+        for name, start, *marks in [
+            ("gif", "a script"),
+            ("gif", "-m", pytest.mark.long),
+            ("mp4", "a script", pytest.mark.long),
+            ("mp4", "-m"),
+            ("report", "a script"),
+            ("report", "-m", pytest.mark.long),
+        ]
+    ],
+)
 @pytest.mark.slow
 def test_no_command_executes_what_lies_in_the_current_folder(
     here: Path, start: str, words: list[str]
@@ -82,7 +94,7 @@ def test_no_command_executes_what_lies_in_the_current_folder(
 
 
 # An empty entry of PYTHONPATH is the current folder, and so is what -c begins with.
-@pytest.mark.parametrize("path", [os.pathsep, ".", "HERE"])
+@pytest.mark.parametrize("path", [os.pathsep, pytest.param(".", marks=pytest.mark.long), "HERE"])
 @pytest.mark.slow
 def test_no_encoder_executes_it_however_python_was_started(here: Path, path: str) -> None:
     words = [*["record", "my.toml", "--size", "64x36", "--seconds", "0.1"], "-o", "a.gif"]

@@ -1,4 +1,4 @@
-"""Two places that show one number agree: picture and commands, at five speeds, both ways, for every scene.
+"""Two places that show one number agree: picture and commands, at three speeds, both ways.
 
 What is compared is what a reader sees: the words of the HUD, the chart's curve, cursor and reading, and what
 `linkanim solve` prints in words and as JSON.
@@ -34,8 +34,8 @@ from linkanim.scenes import load, names
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
-SPEEDS = (0.3, 1.0, 2 * math.pi / 3, 4 * math.pi / 3, 11.0)
-PHASES = (0.4, 1.7, 2.9, 4.1, 5.5)
+SPEEDS = (0.3, 2 * math.pi / 3, 11.0)
+PHASES = (0.4, 2.9, 5.5)
 MOTIONS = [(speed * way, PHASES[n]) for n, speed in enumerate(SPEEDS) for way in (1, -1)]
 COMPONENTS = (".velocity.x", ".acceleration.y", ".position.x")
 
@@ -151,7 +151,7 @@ def test_the_hud_says_what_solve_prints_and_where_the_cursor_stands(
 @pytest.mark.sampled
 def test_the_words_of_solve_hold_its_json(name: str, solved: Callable[..., str]) -> None:
     links = load(name).info.link_names
-    for speed, phase in MOTIONS[::3]:
+    for speed, phase in MOTIONS[::4]:
         printed = json.loads(solved(name, phase, speed, "--json"))
         told = _tables(solved(name, phase, speed))
         for body, known in printed["bodies"].items():
@@ -209,6 +209,7 @@ def _at(node: Any, path: tuple[str | int, ...]) -> float:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_every_quantity_is_the_same_in_json_csv_chart_hud_and_api(name: str) -> None:
     scene = _started(name)
     known = register(scene.linkage)

@@ -39,7 +39,7 @@ import sys
 from linkanim import recorder
 from linkanim.cli.exits import guarded
 from linkanim.recorder import gallery
-gallery.SIZE, gallery.RATES = (64, 36), (10.0,)
+gallery.SIZE, gallery.RATES = (64, 36), (5.0,)
 from pathlib import Path
 sys.exit(guarded(lambda: gallery.make_gallery(Path("into"), ["kite", "scotch-yoke"])))
 """
@@ -163,7 +163,7 @@ def kill_at_random(what: str, moments: int, here: Path) -> None:
 
 
 @pytest.mark.withstands("faults survived", 2)
-@pytest.mark.parametrize("what", CASES)
+@pytest.mark.parametrize("what", ["png", "gallery", "Ctrl+S"])
 @pytest.mark.slow
 def test_a_killed_command_takes_nothing_away_and_leaves_nothing_half(what: str, tmp_path: Path) -> None:
     kill_at_random(what, 2, tmp_path)

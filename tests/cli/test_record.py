@@ -54,16 +54,16 @@ def test_the_path_is_on_stdout_and_what_it_holds_on_stderr(capsys: pytest.Captur
     [
         ([], ["crank-rocker.gif"]),
         (["--for", "web"], ["crank-rocker.gif"]),
-        (["--for", "beamer"], [f"crank-rocker-{number:04}.png" for number in range(1, 31)]),
+        (["--for", "beamer"], ["crank-rocker-0001.png", "crank-rocker-0002.png"]),
         (["-o", "a.mp4"], ["a.mp4"]),
-        (["-o", "a.PNG", "--seconds", "0.2"], ["a-0001.PNG", "a-0002.PNG"]),
+        (["-o", "a.PNG"], ["a-0001.PNG", "a-0002.PNG"]),
     ],
     ids=lambda value: " ".join(value) if value and value[0].startswith("-") else None,
 )
 def test_the_file_is_named_after_the_scene_where_no_name_is_given(
     words: list[str], made: list[str], tmp_path: Path
 ) -> None:
-    assert main(["record", "crank-rocker", *SMALL, *words]) == 0
+    assert main(["record", "crank-rocker", *SMALL, "--seconds", "0.2", *words]) == 0
     assert [name for name in files(tmp_path) if not name.startswith(".linkanim-")] == made
 
 
@@ -171,7 +171,7 @@ def test_what_is_no_tape_is_one_line(text: str, capsys: pytest.CaptureFixture[st
 def test_progress_is_told_where_it_is_asked_for(
     words: list[str], seen: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["record", "crank-rocker", *SMALL, *words]) == 0
+    assert main(["record", "crank-rocker", *SMALL, "--seconds", "0.4", *words]) == 0
     message = capsys.readouterr().err
     assert ("frames [" in message) is seen
     assert message.count("\n") == 1  # its line is used again

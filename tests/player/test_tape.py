@@ -41,7 +41,7 @@ def shown(state: State) -> object:
     return state.shown.linkage, state.look, state.clock.paused
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def live() -> State:
     """A window some time after its start, with an edit behind it that can still be undone."""
     state = begin(replace(load("six-bar"), name="mine"))
@@ -52,7 +52,7 @@ def live() -> State:
     return state
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def tape(live: State) -> Tape:
     """That session, taped."""
     return Tape(starting(live), 90, SESSION, (640, 360))

@@ -92,7 +92,11 @@ class Stop(BaseException):
 
 
 @needs_proc
-@pytest.mark.parametrize("error", [KeyboardInterrupt, Stop, MemoryError])
+@pytest.mark.parametrize(
+    ("form", "error"),
+    [("gif", KeyboardInterrupt), ("mp4", Stop), ("png", MemoryError), ("mp4", MemoryError)],
+    indirect=["form"],
+)
 def test_whatever_interrupts_leaves_nothing(target: Path, form: Format, error: type[BaseException]) -> None:
     def interrupt() -> None:
         raise error
@@ -242,7 +246,7 @@ FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (MOST, MOST))
 @needs_proc
 def test_a_full_disk_is_one_line(target: Path, form: Format) -> None:
     limit = "300" if form == "png" else "5000"
-    with start(target, form, FULL.replace("MOST", limit), periods=10) as process:
+    with start(target, form, FULL.replace("MOST", limit), periods=3) as process:
         _, message = process.communicate()
     assert process.returncode == 1
     assert len(message.splitlines()) == 1
@@ -329,8 +333,6 @@ def test_numbered_frames_that_cannot_all_move_do_not_move_at_all(tmp_path: Path)
     assert contents(tmp_path) == before
 
 
-@pytest.mark.parametrize("seconds", [0.04, 2.0])
-def test_a_short_clip_is_written_as_a_long_one(tmp_path: Path, seconds: float, form: Format) -> None:
-    frames = disc(form, TWO_SECONDS._replace(seconds=seconds))
-    made = write(frames, frames.plan, tmp_path / f"disc.{form}")
-    assert made.frames == round(seconds * 25)
+def test_a_clip_of_one_frame_is_written(tmp_path: Path, form: Format) -> None:
+    frames = disc(form, TWO_SECONDS._replace(seconds=0.04))
+    assert write(frames, frames.plan, tmp_path / f"disc.{form}").frames == 1

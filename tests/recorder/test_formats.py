@@ -29,7 +29,7 @@ def steps(shown: list[Pixels]) -> NDArray[np.float64]:
     )
 
 
-@pytest.mark.parametrize("fps", [10, 25, 30, 50])
+@pytest.mark.parametrize("fps", [10, 30])
 def test_a_gif_loops_for_ever_and_every_frame_stands_as_long_as_planned(tmp_path: Path, fps: float) -> None:
     frames = disc("gif", TWO_SECONDS._replace(fps=fps))
     write(frames, frames.plan, tmp_path / "disc.gif")
@@ -52,7 +52,7 @@ def test_a_gif_of_one_frame_is_a_picture(tmp_path: Path) -> None:
 
 
 def test_a_gif_shows_what_was_drawn_and_flat_colours_exactly(tmp_path: Path) -> None:
-    frames = disc("gif", size=(320, 180))
+    frames = disc("gif", TWO_SECONDS._replace(seconds=0.6), size=(320, 180))
     write(frames, frames.plan, tmp_path / "disc.gif")
     shown = frames_of(tmp_path / "disc.gif")
     drawn = [frames.rgb(k) for k in range(frames.plan.frames)]
@@ -138,7 +138,7 @@ def test_odd_mp4_sizes_are_padded_with_the_edge_and_never_scaled(
 
 
 def test_an_mp4_keeps_colours(tmp_path: Path) -> None:
-    frames = disc("mp4", size=(320, 180))
+    frames = disc("mp4", TWO_SECONDS._replace(seconds=0.6), size=(320, 180))
     write(frames, frames.plan, tmp_path / "disc.mp4")
     for k, shown in enumerate(video(tmp_path / "disc.mp4")):
         flat = (frames.rgb(k) == DISC).all(axis=2)
@@ -176,7 +176,7 @@ def test_memory_does_not_grow_with_the_number_of_frames(tmp_path: Path) -> None:
         return most
 
     peak(1)
-    assert peak(20) <= 1.1 * peak(1)
+    assert peak(6) <= 1.1 * peak(1)
 
 
 def test_progress_counts_up_to_all_frames(tmp_path: Path) -> None:

@@ -40,10 +40,10 @@ BARE = Look(hud=False, trace=False)
 
 
 # of every chapter some, with true periods of several turns; that each scene's period closes, mechanics holds
-@pytest.mark.parametrize("name", [*names()[::10], "kite", "press", "geared-five-bar-3-2"])
+@pytest.mark.parametrize("name", [*names()[::20], "kite", "press", "geared-five-bar-3-2"])
 def test_a_scene_loops_over_its_true_period_without_a_seam(tmp_path: Path, name: str) -> None:
     scene = load(name)
-    made = record(scene, tmp_path / "out.gif", size=SIZE, fps=20, look=BARE)
+    made = record(scene, tmp_path / "out.gif", size=SIZE, fps=12.5, look=BARE)
     assert loops_for_ever(made.path)
     assert sum(durations(made.path)) == pytest.approx(
         1000 * scene.period / abs(scene.linkage.drive.speed), abs=25
@@ -227,6 +227,7 @@ def test_the_gallery_is_small_whole_and_the_same_every_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gallery, "SIZE", (192, 108))
+    monkeypatch.setattr(gallery, "RATES", (12.5,))
     chosen = ("kite", "press")
     one, two = (make_gallery(tmp_path / name, chosen) for name in ("one", "two"))
     files = {path.name: path.read_bytes() for path in (tmp_path / "one").iterdir()}
@@ -266,7 +267,7 @@ def test_a_gallery_recording_that_is_too_large_at_any_rate_is_smaller(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gallery, "SIZE", (160, 90))
-    monkeypatch.setattr(gallery, "RATES", gallery.RATES[-1:])
+    monkeypatch.setattr(gallery, "RATES", (5.0,))
     monkeypatch.setattr(gallery, "LARGEST", 0)
     (large,) = make_gallery(tmp_path, ["kite"]).recordings
     monkeypatch.setattr(gallery, "MOST", large.file_bytes - 1)
@@ -314,6 +315,7 @@ def test_a_gallery_that_fails_on_the_way_keeps_what_it_finished_and_goes_on_the_
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gallery, "SIZE", SIZE)
+    monkeypatch.setattr(gallery, "RATES", (12.5,))
     make_gallery(tmp_path, ["kite", "press"])
     press = (tmp_path / "press.gif").read_bytes()
     monkeypatch.setattr(gallery, "SIZE", (80, 45))
