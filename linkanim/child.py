@@ -37,9 +37,9 @@ def module(name: str, *words: str) -> list[str]:
     return [sys.executable, "-P", "-m", name, *words]
 
 
-def env(**more: str) -> dict[str, str]:
-    """Return an environment in which Python finds what we find, with more variables in it."""
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(_places()), **more}
+def env() -> dict[str, str]:
+    """Return an environment in which Python finds what we find."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(_places())}
 
 
 def _places() -> list[str]:

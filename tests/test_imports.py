@@ -65,7 +65,7 @@ THIRD_PARTIES = {
     "picture": {"numpy", "pygame"},
     "paper": {"numpy", "pygame", "fpdf"},
     "player": {"numpy", "pygame"},
-    "recorder": {"numpy", "imageio", "imageio_ffmpeg", "PIL"},
+    "recorder": {"numpy", "imageio", "imageio_ffmpeg"},
     "bench": {"numpy", "mpmath", "pylinkage", "scipy", "matplotlib"},
     "cli": {"numpy", "tqdm"},
     "linkanim": set(),

@@ -1,20 +1,20 @@
-"""Frames to a file: a GIF by a process of ours, MP4 and PNG by the ffmpeg that imageio-ffmpeg carries.
+"""Frames to a file, by the ffmpeg that imageio-ffmpeg carries.
 
-Frames, or of a GIF what changes in them, go through a pipe as they are drawn, so that drawing and
-encoding overlap and memory does not grow with their number. An MP4 is H.264 as slides play it, its
-colours tagged bt709 so that they come back as they were.
+Frames go through a pipe as they are drawn, so that drawing and encoding overlap and memory does not grow
+with their number. A GIF has one palette, which we choose, and of each frame holds what changed. An MP4 is
+H.264 as slides play it, its colours tagged bt709 so that they come back as they were.
 """
 
 from __future__ import annotations
 
-import json
+import base64
 import os
 import re
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
@@ -22,15 +22,13 @@ from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim import child
 from linkanim.errors import RecordingFailed
-from linkanim.recorder.changes import Comparing
-from linkanim.recorder.gif import Job, count_pictures
-from linkanim.recorder.palette import Colour
+from linkanim.recorder.palette import MOST, Colour
 from linkanim.recorder.plan import Format
 from linkanim.recorder.process import Frame, not_started, running
 
 _THREADS = 2
 """Fixed, for H.264's bytes depend on it."""
-_AHEAD = {"mp4": 20, "png": 6}
+_AHEAD = {"gif": 6, "mp4": 20, "png": 6}
 """How many frames may be on their way; H.264 looks seventeen ahead."""
 
 _BT709 = "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"
@@ -53,22 +51,18 @@ def encoding(
 ) -> AbstractContextManager[Callable[[Frame], None]]:
     """Give a function that takes the frames, one after the other, and have them encoded into `part`.
 
-    `part` is a file, for PNG a folder that gets 0001.png, ...; the palette, for GIF, is asked for while
-    the encoder starts. Of a frame nothing is kept. When the block ends the encoder is done; whatever
-    else ends it, the encoder is gone. `RecordingFailed` where the encoder cannot be started, stops early
-    or reports an error.
+    `part` is a file, for PNG a folder that gets 0001.png, ...; `palette` gives a GIF's colours, 255 at
+    most, and is called for no other. Of a frame nothing is kept. When the block ends the encoder is
+    done; whatever else ends it, the encoder is gone. `RecordingFailed` where the encoder cannot be
+    started, stops early or reports an error.
     """
-    if form == "gif":
-        return _gif(stream, part, palette)
-    return running(_ffmpeg_to(stream, form, part), ahead=_AHEAD[form])
+    return running(_command(stream, form, part, palette), ahead=_AHEAD[form])
 
 
 def count_frames(part: Path, form: Format) -> int:
     """Read back how many frames a file (for PNG: a folder) holds; 0 where it cannot be read."""
     if form == "png":
         return sum(1 for _ in part.glob("*.png"))
-    if form == "gif":
-        return count_pictures(part)
     # a line for each frame: how many it copied ffmpeg 7 does not say otherwise
     copied = ["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]
     command = [ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied]
@@ -98,27 +92,34 @@ def ffmpeg() -> str:
     return found
 
 
-@contextmanager
-def _gif(
-    stream: Stream, part: Path, palette: Callable[[], Sequence[Colour]]
-) -> Iterator[Callable[[Frame], None]]:
-    width, height = stream.size
-    one_core = child.env(**child.ONE_CORE)
-    with running(child.module("linkanim.recorder.gif"), env=one_core) as write:
-        colours = tuple(palette()) or ((0, 0, 0),)
-        job = Job(str(part), width, height, round(100 / stream.rate), colours, stream.alpha)
-        write(json.dumps(asdict(job)).encode() + b"\n")
-        changed = Comparing()
-        yield lambda frame: write(changed(frame))
-
-
-def _ffmpeg_to(stream: Stream, form: Format, part: Path) -> list[str]:
+def _command(stream: Stream, form: Format, part: Path, palette: Callable[[], Sequence[Colour]]) -> list[str]:
     width, height = stream.size
     pixels = "bgra" if stream.alpha else "bgr0"
     raw = f"-f rawvideo -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
-    into = [*_png(stream), _numbered(part)] if form == "png" else [*_mp4(stream), f"file:{part}"]
+    match form:
+        case "gif":
+            into = [*_gif(stream, palette()), f"file:{part}"]
+        case "mp4":
+            into = [*_mp4(stream), f"file:{part}"]
+        case "png":
+            into = [*_png(stream), _numbered(part)]
     quiet = ["-hide_banner", "-nostdin", "-loglevel", "error", "-y"]
-    return [ffmpeg(), *quiet, *raw.split(), *_EXACT, *_TELLING, *into]
+    return [ffmpeg(), *quiet, *raw.split(), *into[:-1], *_EXACT, *_TELLING, into[-1]]
+
+
+def _gif(stream: Stream, palette: Sequence[Colour]) -> list[str]:
+    """Return a second input, the palette as a picture of 16 by 16 pixels, and how it is used.
+
+    Its last pixel alone is transparent, for what stays as it was and for what shows through.
+    """
+    colours = [*palette, *[(0, 0, 0)] * (MOST - len(palette))]
+    picture = b"".join(bytes((*colour, 255)) for colour in colours) + bytes(4)
+    data = "data:application/octet-stream;base64," + base64.b64encode(picture).decode()
+    second = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", "16x16", "-i", data]
+    used = "-filter_complex_threads 1 -lavfi paletteuse=dither=none:diff_mode=rectangle -loop 0 -f gif"
+    # its crop to what is opaque loses pixels of the lowest row
+    whole = ["-gifflags", "-offsetting"] if stream.alpha else []
+    return [*second, *whole, *used.split()]
 
 
 def _numbered(folder: Path) -> str:

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from threading import Semaphore, Thread
 from typing import IO
@@ -32,18 +32,16 @@ class _GoneError(Exception):
 
 
 @contextmanager
-def running(
-    command: Sequence[str], *, ahead: int | None = None, env: Mapping[str, str] | None = None
-) -> Iterator[Callable[[Frame], None]]:
+def running(command: Sequence[str], *, ahead: int) -> Iterator[Callable[[Frame], None]]:
     """Run the encoder and give the function that writes to it, not too far ahead of what is encoded.
 
-    One that queues frames tells of each it is done with by a line on stdout, and gets no more than
-    `ahead` of them; so its memory is the same for few frames and for many. `env` is its
-    environment, ours where None. When the block ends well, the encoder has; else it is gone.
+    It tells of each frame that it is done with by a line on stdout, and gets no more than `ahead` of
+    them; so its memory is the same for few frames and for many. When the block ends well, the encoder
+    has; else it is gone.
     `RecordingFailed` where it cannot be started, stops early or reports an error.
     """
-    process = _started(command, env)
-    room = Semaphore(_ROOM_FOR_ALL if ahead is None else ahead)
+    process = _started(command)
+    room = Semaphore(ahead)
     words: deque[bytes] = deque(maxlen=_LAST_WORDS)
     frames, stdout, stderr = _pipes(process)
     _widen(frames)
@@ -72,13 +70,11 @@ def running(
     _refuse_failure(process.returncode, words)
 
 
-def _started(command: Sequence[str], env: Mapping[str, str] | None) -> subprocess.Popen[bytes]:
+def _started(command: Sequence[str]) -> subprocess.Popen[bytes]:
     """Start the encoder in a session of its own: Ctrl-C in the terminal is for us, and we stop it."""
     pipe = subprocess.PIPE
     try:
-        return subprocess.Popen(
-            command, stdin=pipe, stdout=pipe, stderr=pipe, env=env, start_new_session=True
-        )
+        return subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, start_new_session=True)
     except OSError as error:
         raise not_started(command, error) from error
 

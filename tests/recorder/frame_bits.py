@@ -1,4 +1,4 @@
-"""The bytes of some frames, of a tape's and of GIFs: one hash each, kept beside this file.
+"""The bytes of some frames, of a tape's and of palettes: one hash each, kept beside this file.
 
 `python tests/recorder/frame_bits.py` prints the hashes; with --write it keeps them, which is what a change
 of the picture asks for. Those of pictures with words are compared within one machine alone: letters are
@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import json
 import sys
-import tempfile
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +18,8 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
 from linkanim.recorder.plan import Clip, make_plan
-from linkanim.recorder.scene_frames import SceneFrames, record
+from linkanim.recorder.recording import palette_of
+from linkanim.recorder.scene_frames import SceneFrames
 from linkanim.recorder.tape_frames import TapeFrames
 from linkanim.scenes import load
 
@@ -52,9 +52,9 @@ DONE = (
 
 
 def hashes() -> dict[str, str]:
-    """Return the hashes of frames by their scene, that of a tape's, and those of GIFs."""
+    """Return the hashes of frames by their scene, that of a tape's, and those of GIFs' palettes."""
     found = {name: _frames(name.removeprefix(WORDED), look) for name, look in LOOKS.items()}
-    return {**found, "tape": _tape(), **{f"{name}.gif": _gif(name) for name in CLIPS}}
+    return {**found, "tape": _tape(), **{f"{name}, palette": _palette(name) for name in CLIPS}}
 
 
 def kept() -> dict[str, str]:
@@ -86,10 +86,11 @@ def _tape() -> str:
     return found.hexdigest()
 
 
-def _gif(name: str) -> str:
-    with tempfile.TemporaryDirectory() as folder:
-        made = record(load(name), Path(folder, "out.gif"), size=(160, 90), fps=5.0, look=BARE)
-        return hashlib.sha256(made.path.read_bytes()).hexdigest()
+def _palette(name: str) -> str:
+    scene = load(name)
+    plan = make_plan(Clip(scene.linkage.drive.speed, scene.period, 5.0), "gif")
+    colours = palette_of(SceneFrames(scene, plan, (160, 90), BARE), plan.frames)
+    return hashlib.sha256(bytes(sum(colours, ()))).hexdigest()
 
 
 if __name__ == "__main__":

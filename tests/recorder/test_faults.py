@@ -24,7 +24,6 @@ pytestmark = pytest.mark.withstands("faults survived")
 FORMS: tuple[Format, ...] = ("gif", "mp4", "png")
 BEFORE = b"what was there before"
 
-by_ffmpeg = pytest.mark.parametrize("form", FORMS[1:], indirect=True)
 needs_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds processes through /proc")
 
 
@@ -121,7 +120,6 @@ def test_a_killed_encoder_is_one_line(target: Path, form: Format) -> None:
     assert untouched(target.parent)
 
 
-@by_ffmpeg
 def test_an_encoder_that_cannot_be_started_is_one_line(
     target: Path, form: Format, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -137,7 +135,6 @@ def no_ffmpeg() -> str:
     raise RuntimeError("No ffmpeg exe could be found.")
 
 
-@by_ffmpeg
 def test_an_encoder_that_is_not_installed_is_one_line(
     target: Path, form: Format, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -146,12 +143,6 @@ def test_an_encoder_that_is_not_installed_is_one_line(
     with pytest.raises(RecordingFailed, match="IMAGEIO_FFMPEG_EXE"):
         write(frames, frames.plan, target)
     assert untouched(target.parent)
-
-
-def test_a_gif_needs_no_ffmpeg(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(encode, "get_ffmpeg_exe", no_ffmpeg)
-    frames = disc("gif")
-    assert write(frames, frames.plan, tmp_path / "disc.gif").path.is_file()
 
 
 def test_missing_frames_are_noticed(target: Path, form: Format, monkeypatch: pytest.MonkeyPatch) -> None:

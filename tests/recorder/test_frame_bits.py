@@ -1,4 +1,4 @@
-"""Frames and GIFs are the same bytes on every machine, and with numpy's vector units off."""
+"""Frames and palettes are the same bytes on every machine, and with numpy's vector units off."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def found() -> dict[str, str]:
     return hashes()
 
 
-def test_frames_and_gifs_are_the_bytes_that_are_kept(found: dict[str, str]) -> None:
+def test_frames_and_palettes_are_the_bytes_that_are_kept(found: dict[str, str]) -> None:
     """`python tests/recorder/frame_bits.py --write` keeps new ones, after a change that is meant."""
     assert without_words(found) == kept()
 

@@ -104,7 +104,7 @@ def faults_apart(seed: int, first: int, step: int, most: int, folder: Path) -> l
     words = (str(word) for word in (seed, first, step, most, folder))
     done = subprocess.run(
         [sys.executable, "-P", __file__, *words],
-        env=child.env(**child.ONE_CORE),
+        env={**child.env(), **child.ONE_CORE},
         capture_output=True,
         text=True,
         check=False,
