@@ -53,33 +53,30 @@ class Units(NamedTuple):
     noun: str
     factors: dict[str, Fraction]
 
+    def read(self, value: object) -> float:
+        """Return a quantity with its unit in the base unit; UnitError as in `angle`."""
+        return _with_unit(value, self)
+
 
 _ONE = Fraction(1)
-_ANGLE = Units("an angle", {"deg": _PI / 180, "rad": _ONE})
-_SPEED = Units("an angular speed", {"rpm": _PI / 30, "rad/s": _ONE, "deg/s": _PI / 180})
-_ACCELERATION = Units("an angular acceleration", {"rad/s^2": _ONE, "deg/s^2": _PI / 180})
+ANGLE = Units("an angle", {"deg": _PI / 180, "rad": _ONE})
+SPEED = Units("an angular speed", {"rpm": _PI / 30, "rad/s": _ONE, "deg/s": _PI / 180})
+ANGULAR_ACCELERATION = Units("an angular acceleration", {"rad/s^2": _ONE, "deg/s^2": _PI / 180})
 _FASTEST = 1.05e6
 """In rad/s, 1e7 rpm and rounding."""
 _LENGTH = Units("a length", {"mm": _ONE / 1000, "cm": _ONE / 100, "m": _ONE, "in": Fraction(254, 10000)})
-_STIFFNESS = Units("a stiffness", {"N/m": _ONE, "N/mm": _ONE * 1000, "kN/m": _ONE * 1000})
-_DAMPING = Units("a damping coefficient", {"N s/m": _ONE, "N s/mm": _ONE * 1000, "kN s/m": _ONE * 1000})
-_MASS = Units("a mass", {"kg": _ONE, "g": _ONE / 1000, "t": _ONE * 1000})
-_INERTIA = Units(
+STIFFNESS = Units("a stiffness", {"N/m": _ONE, "N/mm": _ONE * 1000, "kN/m": _ONE * 1000})
+DAMPING = Units("a damping coefficient", {"N s/m": _ONE, "N s/mm": _ONE * 1000, "kN s/m": _ONE * 1000})
+MASS = Units("a mass", {"kg": _ONE, "g": _ONE / 1000, "t": _ONE * 1000})
+INERTIA = Units(
     "a moment of inertia",
     {"kg m^2": _ONE, "kg cm^2": _ONE / 10**4, "kg mm^2": _ONE / 10**6, "g mm^2": _ONE / 10**9},
 )
-_FALL = Units("an acceleration", {"m/s^2": _ONE, "mm/s^2": _ONE / 1000})
+FALL = Units("an acceleration", {"m/s^2": _ONE, "mm/s^2": _ONE / 1000})
 _SPELLINGS = (("°", "deg"), ("²", "2"), ("^2", "2"))
 """Other ways to write what is in a unit, and the one that they come to."""
 
 LENGTH_UNITS = tuple(_LENGTH.factors)
-ANGLE_UNITS = tuple(_ANGLE.factors)
-SPEED_UNITS = tuple(_SPEED.factors)
-STIFFNESS_UNITS = tuple(_STIFFNESS.factors)
-DAMPING_UNITS = tuple(_DAMPING.factors)
-MASS_UNITS = tuple(_MASS.factors)
-INERTIA_UNITS = tuple(_INERTIA.factors)
-FALL_UNITS = tuple(_FALL.factors)
 
 
 def angle(value: object) -> Angle:
@@ -88,11 +85,11 @@ def angle(value: object) -> Angle:
     A multiple of 90 degrees comes back as that multiple of `math.pi / 2`, rounded once. UnitError
     where the unit is missing or unknown, or the number is not finite.
     """
-    nearest = _with_unit(value, _ANGLE)
+    nearest = _with_unit(value, ANGLE)
     if nearest == 0.0:
         return Angle(nearest)
-    number, unit = _split(value, _ANGLE)
-    exact = _ANGLE.factors[unit] * Fraction(Decimal(number))
+    number, unit = _split(value, ANGLE)
+    exact = ANGLE.factors[unit] * Fraction(Decimal(number))
     if unit == "deg":
         exact *= 1 + Fraction(PI_REST) / _PI
     return Angle(nearest, float(exact - Fraction(nearest)))
@@ -103,40 +100,10 @@ def angular_speed(value: object) -> float:
 
     UnitError as in `angle`, and for what is faster than anything turns.
     """
-    speed = _with_unit(value, _SPEED)
+    speed = _with_unit(value, SPEED)
     if abs(speed) > _FASTEST:
         raise UnitError(f'{shown(value)} is faster than anything turns; write at most "1e7 rpm"')
     return speed
-
-
-def angular_acceleration(value: object) -> float:
-    """Return an angular acceleration in rad/s²: "2 rad/s^2", "90 deg/s^2"; UnitError as in `angle`."""
-    return _with_unit(value, _ACCELERATION)
-
-
-def stiffness(value: object) -> float:
-    """Return a spring's stiffness in N/m: "4000 N/m", "4 N/mm"; UnitError as in `angle`."""
-    return _with_unit(value, _STIFFNESS)
-
-
-def damping(value: object) -> float:
-    """Return a damper's coefficient in N·s/m: "200 N s/m"; UnitError as in `angle`."""
-    return _with_unit(value, _DAMPING)
-
-
-def mass(value: object) -> float:
-    """Return a mass in kg: "3 kg", "250 g"; UnitError as in `angle`."""
-    return _with_unit(value, _MASS)
-
-
-def inertia(value: object) -> float:
-    """Return a moment of inertia in kg·m²: "0.02 kg m^2", "350 kg mm^2"; UnitError as in `angle`."""
-    return _with_unit(value, _INERTIA)
-
-
-def acceleration(value: object) -> float:
-    """Return an acceleration in m/s²: "9.81 m/s^2"; UnitError as in `angle`."""
-    return _with_unit(value, _FALL)
 
 
 def length(value: object, *, unit: str) -> float:

@@ -75,7 +75,7 @@ def _random(count: int) -> PathRow:
     rows = rows[(FOUR_BAR.slack(rows, math.radians(1)) > 0).all(axis=1)][:count]
     angles = np.tile(2 * math.pi * np.arange(64) / 64, (len(rows), 1))
     found = [_timed(points, count=1) for points in FOUR_BAR.points(rows, np.ones(len(rows)), angles)]
-    errors = np.array([100 * fits[0].rms / fits[0].curve_size for fits, _ in found])
+    errors = np.array([100 * fits[0].rms / fits[0].task.curve.size for fits, _ in found])
     good = f"{np.mean(errors <= 0.01):.1%} to 0.01 %"
     here = f"median {np.median(errors):.0e} %, {good}, worst {errors.max():.2g} %"
     seconds = float(np.mean([spent for _, spent in found]))
@@ -91,7 +91,7 @@ def _published(name: str, points: tuple[complex, ...], best: float, **options: A
 def _shape(name: str, seconds: float) -> PathRow:
     points = SHAPES[name]
     fits, spent = _timed(points)
-    found = min(100 * fit.rms / fit.curve_size for fit in fits)
+    found = min(100 * fit.rms / fit.task.curve.size for fit in fits)
     beside = f"global search, {seconds:g} s: {100 * global_search(points, seconds):.2f} %"
     return PathRow(name, "rms in % of the diagonal", f"{found:.2f} %", beside, spent)
 

@@ -16,7 +16,6 @@ from linkanim.errors import LinkanimError
 DONE = 0
 FAILED = 1
 INTERRUPTED = 130
-TERMINATED = 143
 HUNG_UP = 129
 
 _ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))

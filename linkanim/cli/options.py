@@ -143,7 +143,7 @@ def solve(parser: Parser) -> None:
     _speed(parser)
     parser.add_argument(
         "--acceleration",
-        type=units.angular_acceleration,
+        type=units.ANGULAR_ACCELERATION.read,
         default=0.0,
         metavar="ACC",
         help='such as "2 rad/s^2" (default: 0)',

@@ -75,13 +75,13 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
 def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
     """Return every quantity of a scene at one instant, at each speed."""
     motions = [scene.solve(phase=instant.phase, speed=pace.speed) for pace in paces]
-    said = f"{input_symbol(scene.linkage)} = {_input_words(scene, float(motions[0].coordinate))}"
+    place = f"{input_symbol(scene.linkage)} = {_input_words(scene, float(motions[0].coordinate))}"
     sections: dict[str, list[Finding]] = {}
     for quantity in scene.quantities.values():
         rows = sections.setdefault(_section(quantity), [])
         rows += _rows(scene, quantity, motions)
     found = tuple((title, tuple(rows)) for title, rows in sections.items())
-    return Sheet(f"{said} ({instant.words})" if instant.words else said, found)
+    return Sheet(f"{place} ({instant.words})" if instant.words else place, found)
 
 
 def _input_words(scene: Scene, angle: float) -> str:
@@ -92,11 +92,11 @@ def _input_words(scene: Scene, angle: float) -> str:
 def _rows(scene: Scene, quantity: Quantity, motions: list[Motion]) -> Iterator[Finding]:
     """Yield the row of a number; a vector is told by its components, which have tokens of their own."""
     if len(quantity.columns) == 1:
-        values = tuple(_told(float(quantity.shown(motion))) for motion in motions)
+        values = tuple(_digits(float(quantity.shown(motion))) for motion in motions)
         yield Finding(quantity, quantity.shown_unit(scene.length_unit), values)
 
 
-def _told(value: float) -> str:
+def _digits(value: float) -> str:
     return typeset(significant(value, 7)) if isfinite(value) else "∞" if value > 0 else "–"
 
 
@@ -116,8 +116,8 @@ def charted(scene: Scene) -> Iterator[tuple[str, str]]:
     bodies = {body.name for body in scene.linkage.bodies}
     for token, quantity in scene.quantities.items():
         owner, _, rest = token.partition(".")
-        told_in_tables = owner in joints - bodies or rest.startswith("pole")
-        if not told_in_tables and rest not in ("position", "com_position") and _changes(quantity, cycle):
+        in_tables = owner in joints - bodies or rest.startswith("pole")
+        if not in_tables and rest not in ("position", "com_position") and _changes(quantity, cycle):
             yield _section(quantity), token
 
 

@@ -78,11 +78,6 @@ class Plan:
         return self.clip.period / abs(self.speed)
 
     @property
-    def delay_cs(self) -> int:
-        """How long a GIF's frame stands, in hundredths of a second."""
-        return int(_CENTISECONDS / self.rate)
-
-    @property
     def speed_text(self) -> str:
         """The speed as recorded, in words."""
         return rpm(self.speed)

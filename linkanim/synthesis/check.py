@@ -56,7 +56,6 @@ def _fit(
     off, stray, least = found
     return Fit(
         scene=scene,
-        kind=task.kind.name,
         parameters=parameters_of(task, row),
         closure=task.kind.sides[closure < 0],
         angles=angles,
@@ -65,7 +64,6 @@ def _fit(
         stray=stray,
         transmission_angle=least,
         size=float(task.kind.link_lengths(row[None])[0].max()),
-        curve_size=task.curve.size,
         task=task,
     )
 

@@ -20,7 +20,6 @@ class Fit:
     """A linkage beside the drawn curve; distances in the curve's unit, angles in radians."""
 
     scene: Scene
-    kind: str
     parameters: Mapping[str, float]
     """Pivots x, y, x4, y4, lengths, and the coupler point along A -> B and across, to its left."""
     closure: str
@@ -35,7 +34,6 @@ class Fit:
     transmission_angle: float
     size: float
     """The longest link."""
-    curve_size: float
     task: PathTask = field(repr=False)
     exact: Fit | None = field(default=None, repr=False)
     """The answer before its lengths were rounded."""

@@ -189,10 +189,10 @@ def _best(fits: list[Fit] | Iterator[Fit], count: int) -> tuple[Fit, ...]:
 
 
 def _rank(fit: Fit) -> tuple[float, float]:
-    return max(fit.error, _FITTED * fit.curve_size), -fit.transmission_angle
+    return max(fit.error, _FITTED * fit.task.curve.size), -fit.transmission_angle
 
 
 def _same(one: Fit, other: Fit) -> bool:
     return one.closure == other.closure and bool(
-        (np.abs(one.row - other.row) <= _SAME * one.curve_size).all()
+        (np.abs(one.row - other.row) <= _SAME * one.task.curve.size).all()
     )

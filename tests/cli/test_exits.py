@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from linkanim.cli import main
-from linkanim.cli.exits import HUNG_UP, TERMINATED, Ended, guarded
+from linkanim.cli.exits import HUNG_UP, Ended, guarded
 from linkanim.errors import BadInput, NoDisplay, RecordingFailed, SceneError
 
 
@@ -47,7 +47,7 @@ def raising(error: BaseException) -> Callable[[], None]:
         (BadInput("a \x1b[31m\u202e"), 2, "linkanim: a ?[31m?"),
         # from outside
         (KeyboardInterrupt(), 130, "linkanim: interrupted"),
-        (Ended(TERMINATED), 143, "linkanim: terminated"),
+        (Ended(143), 143, "linkanim: terminated"),
         (Ended(HUNG_UP), 129, "linkanim: the terminal was closed"),
     ],
 )

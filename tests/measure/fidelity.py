@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
+from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.raster.raster import Layer, paint
 from linkanim.picture.raster.shapes import rounded
 from linkanim.picture.surface import SurfacePrinter
@@ -63,14 +63,14 @@ def centre(cover: Pixels) -> complex:
 def _painted(painter: Picture, pose: Pose) -> Pixels:
     surface = offscreen(painter.size)
     SurfacePrinter().paint(surface, painter, pose)
-    return _levels(pixel_bytes(surface), painter.size)
+    return _levels(bytes(pixel_view(surface)), painter.size)
 
 
 def _white(bar: NDArray[np.complex128]) -> Pixels:
     size = (340, 120)
     surface = offscreen(size)
     paint(surface, [Layer((255, 255, 255), [bar])])
-    return _levels(pixel_bytes(surface), size)[..., 0]
+    return _levels(bytes(pixel_view(surface)), size)[..., 0]
 
 
 def _levels(data: bytes, size: tuple[int, int]) -> Pixels:

@@ -21,7 +21,7 @@ from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.panels.overlay import EditRow, Overlay, Panel, Quantities
 from linkanim.picture.parts.bodies import colours_of
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
+from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.raster.shapes import hull
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.fonts import Fonts
@@ -437,7 +437,7 @@ def test_frames_in_any_order_are_those_that_a_fresh_printer_prints(name: str) ->
         fresh = offscreen(SMALL)
         SurfacePrinter().paint(fresh, Picture(scene, SMALL, look), scene.pose(phase), faint=(ghost,))
         printer.paint(surface, one, scene.pose(phase), faint=(ghost,))
-        assert pixel_bytes(surface) == pixel_bytes(fresh)
+        assert bytes(pixel_view(surface)) == bytes(pixel_view(fresh))
 
 
 _FAULTS = """

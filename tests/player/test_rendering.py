@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from linkanim.cli.commands import record as tapes
-from linkanim.cli.exits import TERMINATED
 from linkanim.errors import WorkFailed
 from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
@@ -154,8 +153,8 @@ def test_a_signal_ends_all_that_is_left_to_do(monkeypatch: pytest.MonkeyPatch) -
 
     def main(words: list[str]) -> int:
         recorded.append(words)
-        return TERMINATED
+        return 143
 
     monkeypatch.setattr(tapes, "main", main)
-    assert tapes.record_all(["a", "b", "c", "d"]) == TERMINATED
+    assert tapes.record_all(["a", "b", "c", "d"]) == 143
     assert recorded == [["record", "a", "-o", "b"]]

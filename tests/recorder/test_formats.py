@@ -35,7 +35,7 @@ def test_a_gif_loops_for_ever_and_every_frame_stands_as_long_as_planned(tmp_path
     write(frames, frames.plan, tmp_path / "disc.gif")
     assert loops_for_ever(tmp_path / "disc.gif")
     times = durations(tmp_path / "disc.gif")
-    assert times == [10 * frames.plan.delay_cs] * frames.plan.frames
+    assert times == [10 * int(100 / frames.plan.rate)] * frames.plan.frames
     assert sum(times) == 2000
 
 

@@ -21,7 +21,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.parts.wheels import teeth_a_second
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen, pixel_bytes
+from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.player.state.action import Action
@@ -79,7 +79,7 @@ def test_a_recording_warns_of_no_limit_unless_it_is_asked_to() -> None:
     SurfacePrinter().paint(
         surface, Picture(scene, size, Look()), scene.pose(plan.phase(0), speed=plan.speed), Overlay()
     )
-    assert plain == pixel_bytes(surface) == SceneFrames(scene, plan, size, Look()).draw(0)
+    assert plain == bytes(pixel_view(surface)) == SceneFrames(scene, plan, size, Look()).draw(0)
 
 
 def test_two_periods_show_one_twice(tmp_path: Path) -> None:

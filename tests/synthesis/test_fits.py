@@ -63,7 +63,7 @@ def test_a_coupler_curve_is_found_again(kind: str, closed: bool) -> None:
     for points in curves(kind, 2, seed=11, turn=1.0 if closed else 0.4)[:1]:
         best = linkanim.path(as_pairs(points), closed, kind=kind, count=1)[0]
         verify(best, points, closed=closed)
-        assert best.rms < 0.01 * PERCENT * best.curve_size
+        assert best.rms < 0.01 * PERCENT * best.task.curve.size
 
 
 @pytest.mark.long
@@ -72,7 +72,7 @@ def test_two_hundred_coupler_curves_are_found_again(kind: str, seed: int) -> Non
     errors = []
     for points in curves(kind, 200, seed=seed):
         best = linkanim.path(points, kind=kind, count=1)[0]
-        errors.append(best.rms / best.curve_size / PERCENT)
+        errors.append(best.rms / best.task.curve.size / PERCENT)
     assert np.mean(np.array(errors) <= 0.01) >= 0.99
     assert max(errors) <= 0.05
 
@@ -92,7 +92,7 @@ def test_answers_differ_and_the_best_come_first() -> None:
     for fit in fits:
         verify(fit, points)
     for one, other in pairwise(fits):
-        assert np.abs(one.row - other.row).max() > 1e-4 * one.curve_size
+        assert np.abs(one.row - other.row).max() > 1e-4 * one.task.curve.size
 
 
 def test_kunjurs_eighteen_points_are_passed_better_than_published() -> None:
@@ -139,7 +139,7 @@ def test_cognates_trace_the_same_curve() -> None:
             left = way[::40] - motion.position["P"] @ np.array([1.0, 1j])
             rate = motion.velocity["P"] @ np.array([1.0, 1j])
             start = start + (np.conj(rate) * left).real / np.abs(rate) ** 2
-        assert np.abs(traced(other, phase=start) - way[::40]).max() <= 1e-13 * first.curve_size
+        assert np.abs(traced(other, phase=start) - way[::40]).max() <= 1e-13 * first.task.curve.size
 
 
 def test_round_lengths_are_round_and_the_cost_is_known() -> None:
@@ -148,13 +148,13 @@ def test_round_lengths_are_round_and_the_cost_is_known() -> None:
     best = linkanim.path(points, count=1, rounding=0.5)[0]
     assert {value * 2 % 1 for value in best.parameters.values()} == {0.0}
     assert best.exact is not None
-    assert best.exact.rms < best.rms < 0.01 * best.curve_size
+    assert best.exact.rms < best.rms < 0.01 * best.task.curve.size
     verify(best, points)
 
 
 # Each limit, and what shows that it is kept.
 LIMITS = {
-    "largest": ({"largest": 1.2}, lambda fit: fit.size <= 1.2 * fit.curve_size * (1 + 1e-9)),
+    "largest": ({"largest": 1.2}, lambda fit: fit.size <= 1.2 * fit.task.curve.size * (1 + 1e-9)),
     "least_angle": ({"least_angle": 0.7}, lambda fit: fit.transmission_angle >= 0.7 - 1e-9),
     "box": ({"box": (12, -2, 10, 10)}, lambda fit: all(12 <= fit.parameters[x] <= 22 for x in ("x", "x4"))),
     "pivot": ({"pivots": [(14, 3)]}, lambda fit: (fit.parameters["x"], fit.parameters["y"]) == (14, 3)),

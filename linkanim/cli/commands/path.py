@@ -62,7 +62,7 @@ def _timing(timing: float | str | None, curve: CurveFile, where: str) -> float |
 
 
 def _percent(distance: float, fit: Fit) -> float:
-    return 100 * distance / fit.curve_size
+    return 100 * distance / fit.task.curve.size
 
 
 def _table(fits: Sequence[Fit], files: Sequence[Path]) -> str:
@@ -96,7 +96,7 @@ def _object(fit: Fit, file: Path) -> dict[str, object]:
         "transmission_angle": fit.transmission_angle,
         "largest_link": fit.size,
         "class": fit.class_name,
-        "parameters": {"kind": fit.kind, **fit.parameters, "closure": fit.closure},
+        "parameters": {"kind": fit.task.kind.name, **fit.parameters, "closure": fit.closure},
     }
     if fit.exact is not None:
         found["rms_before_rounding"] = fit.exact.rms

@@ -104,17 +104,17 @@ class InputPath(ABC):
     def cut(self, low: Limit, high: Limit) -> Shortened:
         """Return the part of the path between two phases; AssemblyError where it may not be shorter."""
 
-    @abstractmethod
     def place(self, phase: Sum) -> Sum:
-        """Return what names the place at a phase: an angle, or the phase where that is passed twice."""
+        """Return what names the place at a phase: the phase, for one that is passed there and back."""
+        return phase
 
-    @abstractmethod
     def coordinate_at(self, place: Sum) -> float:
         """Return the input's coordinate at a place."""
+        return float(self.coordinates(np.array(float(place))))
 
-    @abstractmethod
     def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
-        """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
+        """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference; of a slider, of the phase."""
+        return 0.0, 1.0
 
     @abstractmethod
     def state(self, phase: Value, pace: Slope) -> InputState:

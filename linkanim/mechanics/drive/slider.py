@@ -9,10 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import ClassVar, NoReturn
-
-import numpy as np
 
 from linkanim.errors import BadInput
 from linkanim.mechanics.drive.input_path import SAME_PLACE, LimitDistances, Stroke, nearer_way
@@ -56,18 +53,6 @@ class SliderStroke(Stroke):
     def coordinates(self, phases: Array) -> Array:
         """Return the slider's travel at phases."""
         return self.lengths(phases) * self.unscale
-
-    def place(self, phase: Sum) -> Sum:
-        """Return the phase: of a travel's two ways through it, each is a place of its own."""
-        return phase
-
-    def coordinate_at(self, place: Sum) -> float:
-        """Return the travel at a phase."""
-        return float(self.coordinates(np.array(float(place))))
-
-    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
-        """Return the least and greatest sin²(φ/2) of the phase."""
-        return 0.0, 1.0
 
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or symbolic expressions."""

@@ -109,14 +109,6 @@ class Swing(ThereAndBack):
                 return nearest_sum(exactly(self.low) + way * sine(exactly(phase) / 2) ** 2)
             return nearest_sum(exactly(self.high) - way * cosine(exactly(phase) / 2) ** 2)
 
-    def place(self, phase: Sum) -> Sum:
-        """Return the phase: of an angle's two ways through it, each is a place of its own."""
-        return phase
-
-    def coordinate_at(self, place: Sum) -> float:
-        """Return the angle at a phase."""
-        return float(self.coordinates(np.array(float(place))))
-
     def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
         """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
         return half_squares((self.low, self.high), reference, ratio)

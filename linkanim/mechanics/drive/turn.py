@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any, ClassVar
 
 import numpy as np
@@ -75,10 +74,6 @@ class Turn(InputPath):
     def coordinate_at(self, place: Sum) -> float:
         """Return the angle."""
         return float(place)
-
-    def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
-        """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
-        return 0.0, 1.0
 
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or symbolic expressions."""

@@ -214,9 +214,12 @@ def beside(number: float, value: Value) -> float:
     return value.graph.constant(number) if isinstance(value, Expr) else float(number)
 
 
-def _unary(op: str, plain: Callable[[float], float]) -> Callable[[Value], Value]:
-    def apply(x: Value) -> Value:
-        return x.graph.node(op, x) if isinstance(x, Expr) else plain(x)
+def _function(op: str, plain: Callable[..., float]) -> Callable[..., Value]:
+    def apply(*values: Value) -> Value:
+        for value in values:
+            if isinstance(value, Expr):
+                return value.graph.node(op, *values)
+        return plain(*values)
 
     return apply
 
@@ -226,36 +229,11 @@ def nearest_whole(x: float) -> float:
     return (x + WHOLE) - WHOLE or x * 0.0
 
 
-sqrt = _unary("sqrt", root)
-rint = _unary("rint", nearest_whole)
-
-
-def arctan2(y: Value, x: Value) -> Value:
-    """Return the angle of (x, y) by the C library: for an angle that is shown, not for one that is used."""
-    if isinstance(y, Expr):
-        return y.graph.node("arctan2", y, x)
-    return x.graph.node("arctan2", y, x) if isinstance(x, Expr) else math.atan2(y, x)
-
-
-def minimum(a: Value, b: Value) -> Value:
-    """Return the smaller of the two."""
-    if isinstance(a, Expr):
-        return a.graph.node("minimum", a, b)
-    return b.graph.node("minimum", a, b) if isinstance(b, Expr) else min(a, b)
-
-
-def maximum(a: Value, b: Value) -> Value:
-    """Return the larger of the two."""
-    if isinstance(a, Expr):
-        return a.graph.node("maximum", a, b)
-    return b.graph.node("maximum", a, b) if isinstance(b, Expr) else max(a, b)
-
-
-def select(a: Value, b: Value, below: Value, otherwise: Value) -> Value:
-    """Return `below` where a < b, else `otherwise`."""
-    for value in (a, b, below, otherwise):
-        if isinstance(value, Expr):
-            return value.graph.node("select", a, b, below, otherwise)
-    assert isinstance(a, float)
-    assert isinstance(b, float)
-    return below if a < b else otherwise
+sqrt = _function("sqrt", root)
+rint = _function("rint", nearest_whole)
+minimum = _function("minimum", min)
+maximum = _function("maximum", max)
+arctan2 = _function("arctan2", math.atan2)
+"""The angle of (x, y), from y and x, by the C library: for one that is shown, not used."""
+select = _function("select", lambda a, b, below, otherwise: below if a < b else otherwise)
+"""Of a, b, c and d: c where a < b, else d."""

@@ -8,7 +8,7 @@ from math import pi
 from linkanim.digits import short, typeset
 from linkanim.errors import UnitError
 from linkanim.scenes.scene import Scene
-from linkanim.units import SPEED_UNITS, split
+from linkanim.units import SPEED, split
 
 _PER_RADIAN = {"rad/s": 1.0, "rpm": 30 / pi, "deg/s": 180 / pi}
 _SIGNS = {"deg/s": "°/s"}
@@ -33,7 +33,7 @@ def _unit_of(stated: str) -> str:
     except UnitError:
         return "rpm"
     unit = _SPELT.get(unit, unit)
-    return unit if unit in SPEED_UNITS else "rpm"
+    return unit if unit in SPEED.factors else "rpm"
 
 
 def speed_in(unit: str, speed: float) -> float:

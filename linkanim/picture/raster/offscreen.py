@@ -13,11 +13,6 @@ def offscreen(size: tuple[int, int], *, alpha: bool = False) -> pygame.Surface:
     return pygame.Surface(size, pygame.SRCALPHA if alpha else 0, 32, (0xFF0000, 0xFF00, 0xFF, opacity))
 
 
-def pixel_bytes(surface: pygame.Surface) -> bytes:
-    """Return a copy of a surface's pixels, row by row."""
-    return surface.get_buffer().raw
-
-
 def pixel_view(surface: pygame.Surface) -> memoryview:
     """Return a surface's pixels, row by row, as they are; it cannot be drawn on while the view is held."""
     return memoryview(surface.get_buffer())  # type: ignore[arg-type]

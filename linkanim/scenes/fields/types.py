@@ -201,22 +201,21 @@ def _colour(table: Table, key: str) -> tuple[int, int, int]:
 
 LENGTH = _quantity("length", "a length", _length, units.LENGTH_UNITS, _not_above, bare=True)
 OFFSET = _quantity("offset", "a length of either sign", _length, units.LENGTH_UNITS, _far, bare=True)
-_ANGLES, _SPEEDS = (*units.ANGLE_UNITS, "°"), (*units.SPEED_UNITS, "°/s")
+_ANGLES, _SPEEDS = (*units.ANGLE.factors, "°"), (*units.SPEED.factors, "°/s")
 ANGLE = _quantity("angle", 'an angle, `"30 deg"`', _with_unit(units.angle), _ANGLES, _many_turns)
 SPEED = _quantity("speed", 'a speed, `"20 rpm"`', _with_unit(units.angular_speed), _SPEEDS, _standstill)
 
 
-def _above(
-    measure: Measure, words: str, parse: Callable[[object], float], names: tuple[str, ...]
-) -> ValueType:
-    return _quantity(measure, words, _with_unit(parse), names, partial(_not_above, most=_LARGEST))
+def _above(measure: Measure, words: str, of: units.Units) -> ValueType:
+    refusal = partial(_not_above, most=_LARGEST)
+    return _quantity(measure, words, _with_unit(of.read), tuple(of.factors), refusal)
 
 
-STIFFNESS = _above("stiffness", 'a stiffness, `"4000 N/m"`', units.stiffness, units.STIFFNESS_UNITS)
-DAMPING = _above("damping", 'a damping coefficient, `"200 N s/m"`', units.damping, units.DAMPING_UNITS)
-MASS = _above("mass", 'a mass, `"3 kg"`', units.mass, units.MASS_UNITS)
-INERTIA = _above("inertia", 'a moment of inertia, `"0.02 kg m^2"`', units.inertia, units.INERTIA_UNITS)
-GRAVITY = _above("gravity", 'an acceleration, `"9.81 m/s^2"`', units.acceleration, units.FALL_UNITS)
+STIFFNESS = _above("stiffness", 'a stiffness, `"4000 N/m"`', units.STIFFNESS)
+DAMPING = _above("damping", 'a damping coefficient, `"200 N s/m"`', units.DAMPING)
+MASS = _above("mass", 'a mass, `"3 kg"`', units.MASS)
+INERTIA = _above("inertia", 'a moment of inertia, `"0.02 kg m^2"`', units.INERTIA)
+GRAVITY = _above("gravity", 'an acceleration, `"9.81 m/s^2"`', units.FALL)
 RATIO = ValueType(
     _ratio,
     'a number, or a fraction as `"1/3"`',
