@@ -261,7 +261,8 @@ def _hud_agrees(scene: Scene, pose: Pose) -> None:
     about |= {f"input {token.partition('.')[2]}": token for token in ("input.torque", "input.force")}
     for item in scene.linkage.springs + scene.linkage.dampers:
         word = scene.linkage.strut_word(item)
-        about[f"{word} {item.name}"] = f"{item.name}.{'rate' if word == 'damper' else 'length'}"
+        part = "rate" if word == "damper" else "length"
+        about[f"{item.name} {word}, {part}"] = f"{item.name}.{part}"
     for label, token in about.items():
         if label in shown and token in known:
             value = float(known[token].shown(pose))

@@ -102,7 +102,7 @@ def _digits(value: float) -> str:
 
 def _section(quantity: Quantity) -> str:
     """Return the heading under which a quantity is told: what its words say it is told of."""
-    return quantity.words.partition(":")[0] if ":" in quantity.words else "The whole"
+    return quantity.words.partition(":")[0] if ":" in quantity.words else "Whole mechanism"
 
 
 def charted(scene: Scene) -> Iterator[tuple[str, str]]:

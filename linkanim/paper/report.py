@@ -56,7 +56,7 @@ class Report:
         if scene.look_at:
             yield html.paragraph(scene.look_at)
         yield html.figure(picture)
-        yield html.heading(2, "What it is")
+        yield html.heading(2, "Facts")
         yield html.facts(scene.info.lines)
         yield html.heading(2, "Dimensions")
         stated = ((item.label, f"{item.value:.10g} {item.unit}".strip()) for item in dimensions(scene))

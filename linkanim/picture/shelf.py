@@ -16,10 +16,10 @@ from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.overlay import Shelf
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.raster import Layer, Loop, paint
-from linkanim.picture.raster.shapes import box
+from linkanim.picture.raster.shapes import box, disc
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.text import Type, hyphened
-from linkanim.picture.theme import theme_of
+from linkanim.picture.theme import ORANGE, theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import chapter_of, load
 from linkanim.scenes.scene import Scene
@@ -192,6 +192,10 @@ class ShelfPrinter:
         for live, cell in zip(sheet.live, sheet.grid.cells, strict=False):
             if live.printed:
                 surface.blit(live.printed, (round(cell.x), round(cell.y)))
+        for cell in (sheet.grid.cells[n] for n in shelf.edited):
+            reach = 6 * sheet.board.layout.unit
+            middle = complex(cell.right - 2.2 * reach, cell.y + 2.2 * reach)
+            paint(surface, [Layer(ORANGE, [middle + disc(reach)])])
 
 
 def _due(sheet: _Sheet, shelf: Shelf) -> list[int]:

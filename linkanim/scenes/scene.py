@@ -50,7 +50,7 @@ class Scene:
     notes: tuple[str, ...] = ()
     """What a reader of its figures should know, such as where its source errs."""
     look_at: str = ""
-    """What to look at, in a sentence."""
+    """What to watch for, in a sentence."""
     styles: tuple[tuple[str, BodyStyle], ...] = ()
     """How it has its bodies drawn, by their names, of those of which it says anything."""
     document: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
@@ -101,7 +101,7 @@ class Scene:
             ("scene", f"{self.name}: {self.title}"),
             ("chapter", self.chapter),
             ("source", self.source),
-            ("look at", self.look_at),
+            ("watch for", self.look_at),
             *self.info.lines,
         )
 

@@ -59,7 +59,8 @@ def test_stroke_and_time_ratio_are_told_of_sliders(
 ) -> None:
     assert main(["info", name, "--json"]) == 0
     printed = json.loads(capsys.readouterr().out)
-    assert ("stroke" in printed, "time_ratio" in printed) == (has, has)
+    assert ("stroke" in printed, "swing" in printed) == (has, not has)
+    assert "time_ratio" in printed
 
 
 def test_the_slider_cranks_stroke_and_time_ratio_are_those_of_the_closed_form(
@@ -102,7 +103,7 @@ def test_the_words_are_a_label_and_a_value_a_line(capsys: pytest.CaptureFixture[
 def test_info_says_what_to_look_at(capsys: pytest.CaptureFixture[str]) -> None:
     scene = linkanim.load("hoecken")
     assert main(["info", "hoecken"]) == 0
-    assert f"look at             {scene.look_at}" in capsys.readouterr().out.splitlines()
+    assert f"watch for           {scene.look_at}" in capsys.readouterr().out.splitlines()
     assert main(["info", "hoecken", "--json"]) == 0
     printed = json.loads(capsys.readouterr().out)
     assert (printed["chapter"], printed["look_at"]) == ("four-bars", scene.look_at)
@@ -164,3 +165,30 @@ def test_the_true_period_is_told_in_drive_periods(
 ) -> None:
     assert main(["info", name]) == 0
     assert words in capsys.readouterr().out
+
+
+def test_info_counts_links_and_joints_and_tells_the_rockers_swing_and_time_ratio(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["info", "crank-rocker", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["link_count"], told["joint_count"], told["mobility"]) == (4, 4, 1)
+    ground, crank, coupler, rocker = 100.0, 50.0, 85.0, 80.0
+
+    def at_ground(reach: float, beside: float) -> float:
+        """Return the angle at the ground's end between it and a side of a triangle, by its three sides."""
+        return math.acos((ground**2 + beside**2 - reach**2) / (2 * ground * beside))
+
+    far, near = coupler + crank, coupler - crank
+    assert told["swing"] == pytest.approx(at_ground(far, rocker) - at_ground(near, rocker), rel=1e-9)
+    lag = at_ground(rocker, near) - at_ground(rocker, far)
+    assert told["time_ratio"] == pytest.approx((math.pi + lag) / (math.pi - lag), rel=1e-9)
+
+
+# A geared pair is a mesh between two cranks; a driving cylinder is two links and three joints.
+@pytest.mark.parametrize(
+    ("name", "counts"),
+    [("press", (7, 8, 1)), ("andrews", (8, 10, 1)), ("cardan-gears", (3, 2, 1)), ("excavator", (4, 4, 1))],
+)
+def test_links_and_joints_are_counted_as_gruebler_does(name: str, counts: tuple[int, int, int]) -> None:
+    assert linkanim.load(name).info.counts == counts

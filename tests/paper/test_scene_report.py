@@ -68,7 +68,7 @@ def test_the_page_s_headings_outline_it(press: Path) -> None:
     outline = [words for level, words in headings if level == "2"]
     assert headings[0] == ("1", html.escape(scene.title))
     assert {level for level, _ in headings} == {"1", "2", "3"}
-    assert outline[:2] == ["What it is", "Dimensions"]
+    assert outline[:2] == ["Facts", "Dimensions"]
     assert [words.partition(" =")[0] for words in outline[2:]] == [
         *["At θ₂"] * (len(outline) - 3),
         "Over one period, at 5 rad/s, 10 rad/s, 20 rad/s",
@@ -77,7 +77,9 @@ def test_the_page_s_headings_outline_it(press: Path) -> None:
     over = dict.fromkeys(html.escape(heading) for heading, _ in charted(scene))
     assert list(over) == [words for _, words in headings[last + 1 :]]
     parts = [words for level, words in headings if level == "3"]
-    assert {"Link 3", "Slider 5", "C", "Link 3, centre of mass", "Damper cushion", "The whole"} <= set(parts)
+    assert {"Link 3", "Slider 5", "C", "Link 3, centre of mass", "Damper cushion", "Whole mechanism"} <= set(
+        parts
+    )
     assert f"<p class='source'>{html.escape(scene.source)}</p>" in text
     assert f"<p>{html.escape(scene.look_at)}</p>" in text
     assert min(path.name.split("-")[1] for path in press.glob("chart-*.svg")).lstrip("0") == "1"

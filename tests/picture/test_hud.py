@@ -32,18 +32,18 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
     assert list(told) == [
         "crank angle",
         "input speed",
-        "spring return",
+        "return spring, length",
         "spring force",
-        "damper cushion",
+        "cushion damper, rate",
         "damper force",
         "input torque",
     ]
     assert told["crank angle"] == "87.0°"
     assert told["input speed"] == "20 rpm"
     spring, damper = pose.spring["return"], pose.damper["cushion"]
-    assert told["spring return"] == f"{spring.length:.1f} mm"
+    assert told["return spring, length"] == f"{spring.length:.1f} mm"
     assert told["spring force"].replace("−", "-") == f"{spring.force:.1f} N"
-    assert told["damper cushion"].replace("−", "-") == f"{damper.rate:.1f} mm/s"
+    assert told["cushion damper, rate"].replace("−", "-") == f"{damper.rate:.1f} mm/s"
     assert told["damper force"].replace("−", "-") == f"{damper.force:.1f} N"
     torque = input_effort(pose)
     assert told["input torque"].replace("−", "-") == f"{torque:.2f} N m"
@@ -103,7 +103,7 @@ def test_words_over_the_scene_are_backed_all_round(zoom: float, vectors: frozens
 def test_a_cylinder_that_keeps_its_length_is_no_damper() -> None:
     scene = load("excavator")
     told = dict(rows(scene, scene.pose(1.0)))
-    assert (told["cylinder stick"], told["cylinder bucket"]) == ("235.0 cm", "205.0 cm")
+    assert (told["stick cylinder, length"], told["bucket cylinder, length"]) == ("235.0 cm", "205.0 cm")
     assert told["driving cylinder"] == f"{182.5 - 32.5 * math.cos(1.0):.1f} cm"
     assert not any("damper" in label for label in told)
 
@@ -111,7 +111,7 @@ def test_a_cylinder_that_keeps_its_length_is_no_damper() -> None:
 def test_a_cylinder_is_told_by_its_length() -> None:
     scene = load("excavator")
     told = dict(rows(scene, scene.pose(0.0)))
-    assert (told["cylinder stick"], told["cylinder bucket"]) == ("235.0 cm", "205.0 cm")
+    assert (told["stick cylinder, length"], told["bucket cylinder, length"]) == ("235.0 cm", "205.0 cm")
     assert told["driving cylinder"] == "150.0 cm"
     assert dict(rows(scene, scene.pose(math.pi)))["driving cylinder"] == "215.0 cm"
 

@@ -281,7 +281,20 @@ def test_escape_closes_what_lies_on_top_first(crank: State) -> None:
     assert (state.editing.open, state.effects) == (False, ())
 
 
-def test_another_mechanism_begins_unedited(crank: State) -> None:
+def test_reset_goes_back_to_the_file_and_is_undone(crank: State) -> None:
+    changed = after(crank, Action("nudge", 1), Action("choose", 1), Action("nudge", 1))
+    again = after(changed, "reset")
+    assert again.scene == crank.scene
+    assert again.edited == frozenset()
+    assert after(again, "undo").scene == changed.scene
+    assert after(crank, "reset").editing.past == ()
+
+
+def test_another_mechanism_begins_unedited_and_the_first_is_as_it_was_left(crank: State) -> None:
+    edited = after(crank, Action("nudge", 1))
+    there = after(edited, Action("mechanism", 1))
+    assert after(there, Action("mechanism", -1)).editing == edited.editing
+    assert after(there, Action("mechanism", -1), "undo").scene == crank.scene
     state = after(crank, Action("nudge", 1), Action("mechanism", 1))
     assert state.editing.open
     assert not state.editing.changed

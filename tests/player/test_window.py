@@ -21,7 +21,7 @@ from linkanim.player.state.clock import STEP
 from linkanim.player.state.glide import FRAMES
 from linkanim.player.state.state import TOAST_FRAMES, State, begin
 from linkanim.player.tape.tape_file import read
-from linkanim.player.window import display
+from linkanim.player.window import display, rendering
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
 
@@ -185,7 +185,8 @@ def test_every_scene_runs_in_the_window(player: Player) -> None:
 def test_the_windows_title_is_the_scenes(player: Player) -> None:
     for key in (bare(pygame.K_TAB), plain("4"), bare(pygame.K_TAB, SHIFT), plain("b"), plain("9")):
         player.press(*key)
-        assert pygame.display.get_caption()[0] == f"{player.state.scene.title} – linkanim"
+        mark = " • edited" if key == plain("b") else ""
+        assert pygame.display.get_caption()[0] == f"{player.state.scene.title}{mark} – linkanim"
     assert player.state.scene.name == names()[8]
 
 
@@ -212,16 +213,69 @@ def test_r_goes_back_to_the_start(player: Player) -> None:
     assert (player.state.phase, player.pixels) == (0.0, start)
 
 
-CLOSING = {
-    "Q": plain("q"),
-    "Esc": bare(pygame.K_ESCAPE),
-}
+def test_q_closes_the_window_and_escape_never_does(player: Player) -> None:
+    for _ in range(3):
+        assert player.press(*bare(pygame.K_ESCAPE))
+        assert player.state.toast is not None
+        assert player.state.toast.text == "Q quits"
+    assert not player.press(*plain("q"))
 
 
-@pytest.mark.parametrize("key", CLOSING.values(), ids=CLOSING)
-def test_a_key_closes_the_window(player: Player, key: Key) -> None:
-    assert player.tick()
-    assert not player.press(*key)
+def test_escape_leaves_full_screen_then_stops_the_recording(
+    player: Player, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[list[str]] = []
+    monkeypatch.setattr(rendering, "_start", fake_start(started))
+    player.press(*bare(pygame.K_F11))
+    player.press(*plain("g"))
+    player.press(*plain("h"))
+    player.press(*bare(pygame.K_ESCAPE))
+    assert (player.state.help, display.is_full()) == (False, True)
+    player.press(*bare(pygame.K_ESCAPE))
+    assert (display.is_full(), player.state.recording is None) == (False, False)
+    player.press(*bare(pygame.K_ESCAPE))
+    assert player.state.recording is None
+    assert len(started) == 1
+
+
+def test_q_asks_once_while_something_is_recorded(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rendering, "_start", fake_start([]))
+    player.press(*plain("g"))
+    assert player.press(*plain("q"))
+    assert player.state.toast is not None
+    assert "Q again" in player.state.toast.text
+    player.tick(200)
+    assert player.press(*plain("q"))
+    assert not player.press(*plain("q"))
+
+
+def test_edits_stay_with_their_scene_and_r_twice_takes_them_back(
+    player: Player, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    captions: list[str] = []
+    monkeypatch.setattr(display, "name", captions.append)
+    player.press(*plain("e"))
+    player.type("60")
+    player.press(*bare(pygame.K_RETURN))
+    player.press(*bare(pygame.K_ESCAPE))
+    edited = player.state.scene
+    assert edited != load("crank-rocker")
+    player.press(*bare(pygame.K_TAB))
+    assert (player.state.editing.past, set(player.state.edited)) == ((), {0})
+    player.press(pygame.K_TAB, SHIFT)
+    assert player.state.scene == edited
+    assert captions[-1] == f"{edited.title} • edited"
+    for key, scene in (("r", edited), ("r", load("crank-rocker")), ("r", load("crank-rocker"))):
+        player.press(*plain(key))
+        assert player.state.scene == scene
+    assert captions[-1] == edited.title
+    player.press(pygame.K_z, CTRL, "\x1a")
+    assert player.state.scene == edited
+    player.tick(120)
+    player.press(*plain("r"))
+    player.tick(120)
+    player.press(*plain("r"))
+    assert player.state.scene == edited
 
 
 def test_the_cross_closes_the_window(player: Player) -> None:
@@ -465,7 +519,7 @@ def test_a_recording_is_taped_and_rendered_beside(
     assert started[0][2:6] == ["-m", "linkanim", "record", "recordings/crank-rocker-1.tape.json"]
     player.tick(15)
     assert player.state.toast is not None
-    assert "crank-rocker-1.gif is written" in player.state.toast.text
+    assert "crank-rocker-1.gif saved" in player.state.toast.text
     player.tick(TOAST_FRAMES)
     assert player.state.toast is None
 
@@ -476,7 +530,8 @@ def test_closing_the_window_finishes_a_recording(
     started: list[list[str]] = []
     monkeypatch.setattr("linkanim.player.window.rendering._start", fake_start(started))
     player.press(*plain("m"))
-    player.tick(10)
+    player.tick(9)
+    assert player.press(*plain("q"))
     assert not player.press(*plain("q"))
     player.window.close()
     assert started[0][-2].endswith("crank-rocker-1.mp4")

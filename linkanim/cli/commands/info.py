@@ -37,7 +37,8 @@ def as_object(scene: Scene) -> dict[str, object]:
 
     `links` is what each body is called by what it does. `transmission_angle` is the least and the greatest,
     π/2 at the most; `worst_transmission` says of which joint, and at which phase, it is least. `stroke` and
-    `time_ratio` are there for a linkage with a slider, and null where they have no meaning;
+    `time_ratio` are there for a linkage with a slider, and null where they have no meaning, `swing` and
+    `time_ratio` for one whose output is a rocker. `link_count` has the ground in it;
     `work_per_period` (J), peak and mean torque (N m; of a cylinder force, N) for one with forces or masses,
     null where they are unbounded.
     """
@@ -45,10 +46,14 @@ def as_object(scene: Scene) -> dict[str, object]:
     facts: dict[str, object] = {"scene": scene.name}
     facts |= {name: getattr(scene, name) for name in _OF_A_SCENE}
     facts |= {name: getattr(info, _CALLED.get(name, name)) for name in _OF_ITS_MOTION}
+    facts |= {"mobility": info.counts.mobility, "link_count": info.counts.links}
+    facts["joint_count"] = info.counts.joints
     if info.transmission:
         facts["worst_transmission"] = {"joint": info.transmission.dyad, "phase": info.transmission.phase}
     if any(body.slider for body in scene.linkage.bodies):
         facts |= {"stroke": info.stroke, "time_ratio": info.time_ratio}
+    elif info.swing:
+        facts |= {"swing": info.swing.stroke, "time_ratio": info.time_ratio}
     if info.demand is not None:
         work, peak, mean = info.demand
         name = info.effort[0]

@@ -23,7 +23,9 @@ from linkanim.mechanics.facts.naming import (
 from linkanim.mechanics.facts.register import driven_body, input_symbol
 from linkanim.mechanics.facts.transmission import Transmission, transmission
 from linkanim.mechanics.formulas.program import Array
-from linkanim.mechanics.motion.measures import output_slider
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.pins import DrivenSlider
+from linkanim.mechanics.motion.measures import output_body, output_slider
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.mechanics.motion.motion import Motion
 
@@ -128,13 +130,33 @@ class Info:
 
     @property
     def time_ratio(self) -> float | None:
-        """The output slider's slow way's time over its quick way's; None without a slider."""
-        return self._slider.time_ratio if self._slider else None
+        """The output's slow way's time over its quick way's; None where that is no slider and no rocker."""
+        found = self.swing or self._slider
+        return found.time_ratio if found else None
+
+    @property
+    def output_name(self) -> str:
+        """What the output is called; empty without one."""
+        body = output_body(self.mechanism.linkage)
+        return self.link_names[body.name] if body else ""
 
     @property
     def dead_centres(self) -> tuple[float, float] | None:
         """Phases of the output slider's dead centres, back and then forward; None where it rests."""
         return self._slider.dead_centres if self._slider else None
+
+    @cached_property
+    def counts(self) -> Counts:
+        """How many links, the ground among them, and joints there are, and the mobility by Grübler."""
+        return _counts(self.mechanism.linkage)
+
+    @cached_property
+    def swing(self) -> _ToAndFro | None:
+        """How far the output rocker swings (rad), and its time ratio; None where the output is none."""
+        body = output_body(self.mechanism.linkage)
+        if body is None or body.slider is not None or body.name in self.turning_links:
+            return None
+        return _to_and_fro(self.mechanism, body.name, "angle", "angular_velocity")
 
     @cached_property
     def demand(self) -> Demand | None:
@@ -197,7 +219,7 @@ class Info:
         return four_bar_of(self.mechanism)
 
     @cached_property
-    def _slider(self) -> _Slider | None:
+    def _slider(self) -> _ToAndFro | None:
         return _stroke(self.mechanism)
 
 
@@ -218,41 +240,67 @@ def _circuits(bar: FourBar) -> int:
     return 2 if bar.margin > 0 else 1
 
 
-class _Slider(NamedTuple):
-    """How a slider goes to and fro: the phases of its dead centres are None where it rests."""
+class Counts(NamedTuple):
+    """Links, the ground among them, joints of two links each, M = 3 (links - 1) - 2 joints - gear meshes."""
+
+    links: int
+    joints: int
+    mobility: int
+
+
+def _counts(linkage: Linkage) -> Counts:
+    """Count a crank or driven slider as a link and a joint, a dyad or a driving cylinder as two and three."""
+    inputs = len(tuple(linkage.cranks)) + isinstance(linkage.joint(linkage.drive.joint), DrivenSlider)
+    pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
+    links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
+    meshes = sum(crank.gear is not None for crank in linkage.cranks)
+    return Counts(links, joints, 3 * (links - 1) - 2 * joints - meshes)
+
+
+class _ToAndFro(NamedTuple):
+    """How a slider or rocker goes to and fro: the phases of its dead centres are None where it rests."""
 
     stroke: float
     time_ratio: float
     dead_centres: tuple[float, float] | None
 
 
-def _stroke(mechanism: Mechanism) -> _Slider | None:
-    """Return how the output slider goes to and fro; its time ratio is the slow way's over the quick way's.
+def _stroke(mechanism: Mechanism) -> _ToAndFro | None:
+    """Return how the output slider goes to and fro; None without one."""
+    slider = output_slider(mechanism.linkage)
+    return _to_and_fro(mechanism, slider.name, "travel", "travel_velocity") if slider else None
+
+
+def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAndFro:
+    """Return how a body goes to and fro; its time ratio is the slow way's over the quick way's.
 
     In a longer true period it goes so more than once: each way ends at the next dead centre.
     """
-    slider = output_slider(mechanism.linkage)
-    if slider is None:
-        return None
-    name, whole = slider.name, 2 * math.pi * mechanism.periods
+    whole = 2 * math.pi * mechanism.periods
+    samples = around(mechanism.periods, SAMPLES_A_TURN)
     reversals = sign_changes(
-        lambda phase: mechanism.solve(phase=phase, speed=1.0, derivatives=1).travel_velocity[name],
-        around(mechanism.periods, SAMPLES_A_TURN),
+        lambda phase: getattr(mechanism.solve(phase=phase, speed=1.0, derivatives=1), rate)[name], samples
     )
-    travel = mechanism.solve(phase=reversals, speed=1.0, derivatives=0).travel[name]
+    # Among the samples, along which an angle is continuous.
+    order = np.argsort(np.concatenate((reversals, samples)))
+    phases = np.concatenate((reversals, samples))[order]
+    along = getattr(mechanism.solve(phase=phases, speed=1.0, derivatives=0), place)[name]
+    travel = along[np.argsort(order)[: len(reversals)]]
     span = float(np.ptp(travel)) if len(travel) else 0.0
     if span == 0:
-        return _Slider(0.0, 1.0, None)
+        return _ToAndFro(0.0, 1.0, None)
     near = SAME_ANGLE * span
     backs, forwards = (reversals[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
     forth = (forwards - backs[:, None]) % whole
     row, column = np.unravel_index(int(forth.argmin()), forth.shape)
     ways = float(forth.min()), float(((backs - forwards[:, None]) % whole).min())
-    return _Slider(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
+    return _ToAndFro(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
 
 
 def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     yield "class", info.class_name
+    links, joints, mobility = info.counts
+    yield "links, joints", f"{links}, {joints}; mobility {mobility}"
     if info.grashof:
         yield "Grashof", info.grashof
     moves = info.mechanism.linkage.drive.actuator.moves
@@ -270,6 +318,8 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
         yield "transmission angle", _worst(info, info.transmission)
     if info.stroke is not None:
         yield "stroke", f"{significant(info.stroke, 6)} {unit}"
+    if info.swing is not None:
+        yield "swing", f"{degrees(info.swing.stroke)} of the {info.output_name}"
     if info.time_ratio is not None:
         yield "time ratio", f"{info.time_ratio:.4f}"
     if info.demand is not None:

@@ -35,7 +35,7 @@ GRASHOF = {
     "coupler": "double-rocker",
 }
 
-_PARTS = re.compile(r"(crank|rocker|coupler)\d*")
+_PARTS = re.compile(r"(crank|rocker|coupler|drag)\d*")
 """The names of bodies that say what they do."""
 _ORDINALS = {2: "second", 3: "third"}
 

@@ -50,7 +50,7 @@ class Quantities:
 @dataclass(frozen=True)
 class Shelf:
     """All mechanisms, those of the catalogue by their names, the chosen one's place, and how many frames it
-    has been open; `still` while paused.
+    has been open; `still` while paused. The places of `edited` are not as their files have them.
     """
 
     entries: tuple[Scene | str, ...]
@@ -58,6 +58,7 @@ class Shelf:
     frame: int
     theme: ThemeName
     still: bool = False
+    edited: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True)

@@ -101,7 +101,7 @@ def _strut_rows(scene: Scene) -> Iterator[Row]:
         word = linkage.strut_word(item)
         kind = "spring" if word == "spring" else "damper"
         part = "rate" if word == "damper" else "length"
-        yield Row(4, f"{word} {item.name}", _tenths(known[f"{item.name}.{part}"], unit))
+        yield Row(4, f"{item.name} {word}, {part}", _tenths(known[f"{item.name}.{part}"], unit))
         if item.forceful:
             yield Row(2, f"{kind} force", _tenths(known[f"{item.name}.force"], unit))
     if linkage.drive.actuator.along is not None:

@@ -68,15 +68,15 @@ KEYS: tuple[KeyRow, ...] = (
     KeyRow("play", "← → (Shift: ×10)", "pause, and step the crank", _steps("step")),
     KeyRow("play", "↑ ↓", "speed", _both("down", "up", "speed")),
     KeyRow("play", "D", "direction", _on("d", "direction")),
-    KeyRow("play", "R", "back to the start", _on("r", "start")),
+    KeyRow("play", "R (twice: reset)", "back to the start", _on("r", "start")),
     KeyRow(
         "play",
         "Tab, Shift+Tab, 1–9",
-        "mechanism, of its chapter",
+        "next mechanism; 1–9 within the chapter",
         _on("tab", "mechanism", 1) + _on("shift+tab", "mechanism", -1) + _DIGITS,
     ),
     KeyRow("play", "O", "the shelf: all mechanisms", _on("o", "shelf")),
-    KeyRow("play", "drag pin, drag cursor", "move the crank; the chart's cursor, too"),
+    KeyRow("play", "drag the crank pin", "move the crank; so does the chart's cursor"),
     *_looks("look"),
     KeyRow(
         "look",
@@ -88,7 +88,12 @@ KEYS: tuple[KeyRow, ...] = (
     KeyRow("look", "L", "light / dark", _of_look("theme")),
     KeyRow("look", "F11", "full screen", _on("f11", "fullscreen")),
     KeyRow("look", "H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
-    KeyRow("look", "Esc, Q", "close an open overlay (Esc); quit", _on("escape", "back") + _on("q", "quit")),
+    KeyRow(
+        "look",
+        "Esc, Q",
+        "close, leave full screen, stop recording (Esc); quit",
+        _on("escape", "back") + _on("q", "quit"),
+    ),
     *_looks("measure"),
     KeyRow(
         "measure",
@@ -111,7 +116,7 @@ KEYS: tuple[KeyRow, ...] = (
     KeyRow("keep", "G", "record GIF: start, stop", _on("g", "record", "gif")),
     KeyRow("keep", "M", "record MP4: start, stop", _on("m", "record", "mp4")),
     KeyRow("keep", "Ctrl+S", "write the scene as a new file", _on("ctrl+s", "save")),
-    KeyRow("keep", "F5", "load the scene file again", _on("f5", "reload")),
+    KeyRow("keep", "F5", "reloads a scene opened from a file", _on("f5", "reload")),
 )
 """Every key of the window, by subject, in the order in which the help shows them."""
 
@@ -130,6 +135,7 @@ EDIT_KEYS: tuple[KeyRow, ...] = (
         "type a value, with or without a unit; take all that is typed",
         _on("return kp_enter", "take") + _on("backspace", "erase", held=True),
     ),
+    KeyRow("in E", "Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
     KeyRow("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
 )
 """What the keys do while the dimensions are being edited."""
@@ -141,7 +147,7 @@ LIST_KEYS: tuple[KeyRow, ...] = (
         "choose a quantity",
         _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
     ),
-    KeyRow("in K", "letters", "show what has them in its name", _on("backspace", "unsift", held=True)),
+    KeyRow("in K", "type", "filter by what is in the name", _on("backspace", "unsift", held=True)),
     KeyRow("in K", "Enter", "chart it", _on("return kp_enter", "pick")),
 )
 """What the keys do while the list of quantities is open."""

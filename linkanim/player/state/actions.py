@@ -115,7 +115,7 @@ ACTIONS: Mapping[str, Rule] = {
     "step": Rule(_whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
     "speed": Rule(_whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
     "direction": Rule(_nothing, _running(lambda clock, frame, _: clock.turn(frame)), answer=_direction),
-    "start": Rule(_nothing, _running(lambda clock, frame, _: clock.go(frame, 0.0))),
+    "start": Rule(_nothing, edits.start, answer=edits.answered),
     # the phase to go to, rad
     "scrub": Rule(_number, _running(lambda clock, frame, phase: clock.go(frame, phase, paused=True))),
     "mechanism": Rule(_whole, shelf.mechanism, answer=_place),  # places further on the shelf
@@ -141,6 +141,7 @@ ACTIONS: Mapping[str, Rule] = {
     "carry": Rule(_numbers(3), edits.carry),  # to (x, y) in the scene's unit, in such parts of a nudge's step
     "drop": Rule(_nothing, edits.drop),
     "undo": Rule(_nothing, edits.undo, answer=_undo),
+    "reset": Rule(_nothing, edits.reset),
     "redo": Rule(_nothing, edits.redo, answer=_undo),
     "back": Rule(_nothing, outside.back),
     "list": Rule(_nothing, shelf.list_, taped=False),
@@ -155,7 +156,8 @@ ACTIONS: Mapping[str, Rule] = {
     "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),
     "save": Rule(_nothing, outside.effect("save"), taped=False),
     "reload": Rule(_nothing, outside.effect("reload"), taped=False),
-    "quit": Rule(_nothing, outside.effect("quit"), taped=False),
+    "quit": Rule(_nothing, outside.quit_, taped=False),
+    "close": Rule(_nothing, outside.effect("quit"), taped=False),  # the window's own button
     "note": Rule(_text, outside.note, taped=False),  # something the window has to say, as a toast
 }
 

@@ -35,7 +35,7 @@ class Editing:
 
     `typed` is a value begun in the chosen row and not taken, `drafts` those begun in rows that were passed
     on from, `refusal` the reason why they were not taken. With `warned` they can be taken all the same, by
-    asking once more.
+    asking once more. `original` is the scene as its file has it, once that was left.
     """
 
     open: bool = False
@@ -46,11 +46,12 @@ class Editing:
     warned: bool = False
     past: tuple[Scene, ...] = ()
     future: tuple[Scene, ...] = ()
+    original: Scene | None = None
 
     @property
     def changed(self) -> bool:
-        """Whether the scene is no longer as it was loaded."""
-        return bool(self.past)
+        """Whether there is something to go back to or on to."""
+        return bool(self.past or self.future)
 
     @property
     def begun(self) -> bool:
@@ -137,7 +138,15 @@ def redo(editing: Editing, scene: Scene) -> tuple[Editing, Scene]:
 
 def changed(editing: Editing, scene: Scene) -> Editing:
     """Return the editing after `scene` was exchanged for another; undo goes back to it."""
-    return _clear(editing, past=(*editing.past, scene)[-_KEPT:], future=())
+    original = editing.original or scene
+    return _clear(editing, past=(*editing.past, scene)[-_KEPT:], future=(), original=original)
+
+
+def reset(editing: Editing, scene: Scene) -> tuple[Editing, Scene]:
+    """Return the scene as its file has it; undo goes back."""
+    if editing.original is None or editing.original == scene:
+        return _clear(editing, drafts=()), scene
+    return changed(replace(editing, drafts=()), scene), editing.original
 
 
 def _drafts(editing: Editing, scene: Scene) -> tuple[tuple[Key, str], ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from linkanim.picture.look import Look
 from linkanim.player.state.action import Action, Mode
@@ -42,13 +42,22 @@ class Take:
     since: int
 
 
+class Kept(NamedTuple):
+    """The scene of a place of the shelf as it was edited, and where its editing stood."""
+
+    place: int
+    scene: Scene
+    editing: Editing
+
+
 @dataclass(frozen=True)
 class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
     `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf.
-    `chip` is the answer to the last key; `faded` is the frame
+    `kept` are the other places whose scenes were edited. `chip` is the
+    answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
     `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
     which an edit made another class of the linkage, while the list shows it. `effects` is what the last
@@ -65,6 +74,7 @@ class State:
     help: bool = False
     editing: Editing = field(default_factory=Editing)
     held: Held | None = None
+    kept: tuple[Kept, ...] = ()
     listing: Listing | None = None
     browsing: Browsing | None = None
     glide: Glide | None = None
@@ -89,6 +99,17 @@ class State:
         if self.editing.open:
             return "edit"
         return "list" if self.listing else "shelf" if self.browsing else "play"
+
+    @property
+    def edited(self) -> frozenset[int]:
+        """The places of the shelf whose scenes are not as their files have them."""
+        found = (*self.kept, Kept(self.place, self.scene, self.editing))
+        return frozenset(one.place for one in found if one.editing.original not in (None, one.scene))
+
+    @property
+    def is_covered(self) -> bool:
+        """Whether something is open that Esc closes."""
+        return self.help or self.mode != "play"
 
     @property
     def listed(self) -> bool:

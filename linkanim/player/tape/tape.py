@@ -78,6 +78,7 @@ def starting(state: State) -> State:
         look=state.look,
         help=state.help,
         editing=state.editing,
+        kept=state.kept,
     )
 
 

@@ -20,7 +20,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.state.editing import Editing
-from linkanim.player.state.state import State
+from linkanim.player.state.state import Kept, State
 from linkanim.player.tape.tape import Tape
 from linkanim.scenes import names
 from linkanim.scenes.fields.form import Key
@@ -82,7 +82,7 @@ def _scene_document(scene: Scene) -> dict[str, Any]:
 
 
 def _start_document(state: State) -> dict[str, Any]:
-    look, editing = state.look, state.editing
+    look = state.look
     return {
         "phase": state.phase,
         "level": state.clock.level,
@@ -91,14 +91,27 @@ def _start_document(state: State) -> dict[str, Any]:
         "place": state.place,
         "help": state.help,
         "look": {**vars(look), "vectors": sorted(look.vectors)},
-        "editing": {
-            "open": editing.open,
-            "chosen": editing.chosen,
-            "typed": editing.typed,
-            "drafts": [[text, *key] for key, text in editing.drafts],
-            "past": [_scene_document(scene) for scene in editing.past],
-            "future": [_scene_document(scene) for scene in editing.future],
-        },
+        "editing": _editing_document(state.editing),
+        "kept": [
+            {
+                "place": one.place,
+                "scene": _scene_document(one.scene),
+                "editing": _editing_document(one.editing),
+            }
+            for one in state.kept
+        ],
+    }
+
+
+def _editing_document(editing: Editing) -> dict[str, Any]:
+    return {
+        "open": editing.open,
+        "chosen": editing.chosen,
+        "typed": editing.typed,
+        "drafts": [[text, *key] for key, text in editing.drafts],
+        "past": [_scene_document(scene) for scene in editing.past],
+        "future": [_scene_document(scene) for scene in editing.future],
+        "original": editing.original and _scene_document(editing.original),
     }
 
 
@@ -140,6 +153,15 @@ def _start(top: Section) -> State:
         look=_look(start.table("look")),
         help=start.flag("help"),
         editing=_editing(start.table("editing")),
+        kept=_kept(start.listed("kept"), len(shelf)) if "kept" in start else (),
+    )
+
+
+def _kept(entries: Section, places: int) -> tuple[Kept, ...]:
+    parts = (entries.table(key) for key in entries.values)
+    return tuple(
+        Kept(part.whole("place", 0, places - 1), _scene(part.table("scene")), _editing(part.table("editing")))
+        for part in parts
     )
 
 
@@ -204,6 +226,7 @@ def _editing(part: Section) -> Editing:
         drafts=_drafts(part),
         past=past,
         future=future,
+        original=_scene(part.table("original")) if part.values.get("original") else None,
     )
 
 

@@ -48,7 +48,7 @@ class Rendering:
             share = f"{100 * int(counts[-1][0]) // max(int(counts[-1][1]), 1)} %" if counts else "…"
             return f"{self.target}: {share}"
         if code == 0:
-            return f"{self.target} is written"
+            return f"{self.target} saved"
         reason = tail.strip().splitlines()[-1] if tail.strip() else f"the process ended with code {code}"
         return f"{self.target}: {reason.removeprefix('linkanim: ')}"
 

@@ -36,7 +36,7 @@ class Screen:
         """Paint the state into the window and flip, where it differs from what is there."""
         surface = display.surface()
         self._state = state
-        self._name(state.scene.title)
+        self._name(f"{state.scene.title}{' • edited' * (state.place in state.edited)}")
         picture, veiled = self._framing.at(state, surface.get_size()), self._fade.strength(state, surface)
         shown = (picture, state.phase, state.clock.speed, over, veiled)
         if shown != self._shown:

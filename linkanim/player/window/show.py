@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 
 from linkanim.digits import significant, typeset
+from linkanim.mechanics.facts.register import Quantity
 from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel, Quantities, Shelf
 from linkanim.picture.text.text import subscripted
@@ -16,9 +17,12 @@ from linkanim.player.state.state import FLASH_FRAMES, SHUTTER_FRAMES, State
 from linkanim.scenes.editing.edit import Dimension, dimensions
 from linkanim.scenes.editing.handles import span
 
-_HINT = "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"
-_LIST_HINT = "↑ ↓ choose   letters sift   Enter charts   Esc closes"
-_BAR = "Space pause · Tab next · drag the pin · H keys"
+_HINT = (
+    "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   Ctrl+S save   "
+    "Esc closes"
+)
+_LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
+_BAR = "Space pause · Tab next · drag the crank pin · H keys"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _IDLE = 45 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
@@ -66,13 +70,18 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
 def _quantities(state: State, listing: Listing) -> Quantities:
     scene = state.scene
     found = [quantity(scene, token) for token in listed(scene, listing.sieve)]
-    rows = tuple((one.words, f"{one.symbol} ({one.shown_unit(scene.length_unit)})") for one in found)
+    rows = tuple((one.words, _with_unit(one, scene.length_unit)) for one in found)
     return Quantities(rows, listing.chosen, listing.sieve, _LIST_HINT)
+
+
+def _with_unit(one: Quantity, length_unit: str) -> str:
+    unit = one.shown_unit(length_unit)
+    return f"{one.symbol} ({unit})" if unit else one.symbol
 
 
 def _shelf(state: State, browsing: Browsing) -> Shelf:
     frame, still = state.frame - browsing.since, state.clock.paused
-    return Shelf(browsing.entries, browsing.chosen, frame, state.look.theme, still=still)
+    return Shelf(browsing.entries, browsing.chosen, frame, state.look.theme, still, state.edited)
 
 
 def _chip(state: State) -> Fading | None:

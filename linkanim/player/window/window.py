@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
-_BESIDE_A_TAPE = frozenset({"screenshot", "svg", "fullscreen", "quit", "back"})
+_BESIDE_A_TAPE = frozenset({"screenshot", "svg", "fullscreen", "quit", "close", "back"})
 
 
 class Window:
@@ -112,6 +112,10 @@ class Window:
         elif action.name == "pick" and listing:
             tokens = listed(self.state.scene, listing.sieve)
             yield from (Action("plot", token) for token in tokens[listing.chosen : listing.chosen + 1])
+        elif action.name == "back" and not self.state.is_covered and display.is_full():
+            yield Action("fullscreen")
+        elif action.name == "back" and not self.state.is_covered and self.state.recording:
+            yield Action("record", self.state.recording.format)
         elif action.name not in RESOLVED:
             yield action
 
@@ -171,13 +175,13 @@ class Window:
                 self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
                 picture = self.screen.picture(self.state, kept(self.state))
-                self._notes.append(str(files.screenshot(picture, self.state.scene.name)))
+                self._notes.append(f"{files.screenshot(picture, self.state.scene.name)} saved")
             case "svg":
-                self._notes.append(str(files.vector(self.state, pygame.display.get_window_size())))
+                self._notes.append(f"{files.vector(self.state, pygame.display.get_window_size())} saved")
             case "report":
                 self._report(str(effect.value))
             case "save":
-                self._notes.append(f"{save(self.state.scene, Path())} is written")
+                self._notes.append(f"{save(self.state.scene, Path())} saved")
             case "reload":
                 self._reload()
             case "fullscreen":
@@ -188,7 +192,7 @@ class Window:
     def _reload(self) -> None:
         """Put on what the scene file holds now; what is wrong with it is a note, and the linkage runs on."""
         if self._file is None:
-            raise BadInput("there is no scene file to load again; `linkanim FILE.toml` opens one")
+            raise BadInput("F5 reloads a scene opened from a file; `linkanim FILE.toml` opens one")
         if self.state.recording:
             raise BadInput("a recording keeps to the scenes it began with; stop it, then F5 loads the file")
         scene = self._file.load()
@@ -226,7 +230,7 @@ class Window:
     def _meant(self, event: Event) -> tuple[Action, ...]:
         """Return what an event asks for in the state as it is."""
         if event.type == pygame.QUIT:
-            return (Action("quit"),)
+            return (Action("close"),)
         if event.type in _UNCOVERED:
             self.screen.uncovered()
         if event.type in _MOUSE:

@@ -21,6 +21,8 @@ def beyond_title(title: str, class_name: str) -> str:
         return class_name
     begin, end = words[same.b].start(), words[same.b + same.size - 1].end()
     rest = f"{class_name[:begin].rstrip()} {class_name[end:].lstrip(' ,:')}".strip()
+    if rest.partition(" ")[0] in _BOUND:
+        return class_name
     return rest[1:-1] if rest.startswith("(") and rest.endswith(")") else rest
 
 

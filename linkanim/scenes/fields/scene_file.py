@@ -146,7 +146,7 @@ SCENE_FILE = form(
     Field("title", TEXT, "what it is called: the file's name", None),
     Field("source", TEXT, "where its dimensions come from", ""),
     Field("chapter", TEXT, "the part of a collection that it belongs to", ""),
-    Field("look_at", TEXT, "what to look at, in a sentence", ""),
+    Field("look_at", TEXT, "what to watch for, in a sentence", ""),
     Field("notes", TEXTS, "what a reader of its figures should know", []),
     Field("length_unit", choice(*units.LENGTH_UNITS), "the unit of bare lengths", units.LENGTH_UNITS[0]),
     *(Field(key, one, one.words, None) for key, one in SHORTHANDS.items()),

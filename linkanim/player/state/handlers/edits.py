@@ -15,6 +15,8 @@ from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.scene import Scene
 
+AGAIN = "R again: the file's dimensions"
+
 Handler = Callable[[State, Any], State]
 
 
@@ -86,3 +88,16 @@ nudge = _remade(edit_.nudge)
 take = _remade(lambda editing, scene, _: edit_.take(editing, scene))
 undo = _remade(lambda editing, scene, _: edit_.undo(editing, scene))
 redo = _remade(lambda editing, scene, _: edit_.redo(editing, scene))
+reset = _remade(lambda editing, scene, _: edit_.reset(editing, scene))
+
+
+def start(state: State, _: None) -> State:
+    """Go back to the start; once more, while the chip says so, to the file's dimensions as well."""
+    again = state.chip is not None and state.chip.text == AGAIN
+    state = replace(reset(state, None) if again else state, chip=None)
+    return replace(state, clock=state.clock.go(state.frame, 0.0))
+
+
+def answered(_: State, after: State) -> str | None:
+    """Say how the file's dimensions come back, where others are on."""
+    return AGAIN if after.place in after.edited else None

@@ -10,6 +10,8 @@ from linkanim.player.state import editing as edit_
 from linkanim.player.state.handlers.edits import edit
 from linkanim.player.state.state import State, Take, with_effect, with_toast
 
+_MEANT = "recording: Q again ends it, writes it and quits"
+
 
 def note(state: State, text: str) -> State:
     """Tell something in a toast."""
@@ -17,14 +19,21 @@ def note(state: State, text: str) -> State:
 
 
 def back(state: State, _: None) -> State:
-    """Let go of what lies on top: the help, a list, a value begun; then quit."""
+    """Let go of what lies on top: the help, a list, a value begun; never of the window."""
     if state.help:
         return replace(state, help=False)
     if state.listing or state.browsing:
         return replace(state, listing=None, browsing=None)
     if state.editing.open and state.editing.begun:
         return replace(state, editing=edit_.let_go(state.editing))
-    return edit(state, None) if state.editing.open else with_effect(state, "quit")
+    return edit(state, None) if state.editing.open else with_toast(state, "Q quits")
+
+
+def quit_(state: State, _: None) -> State:
+    """Ask for the window's end; while something is recorded, first whether that is meant."""
+    if state.recording and (state.toast is None or state.toast.text != _MEANT):
+        return with_toast(state, _MEANT)
+    return with_effect(state, "quit")
 
 
 def record(state: State, form: Literal["gif", "mp4"]) -> State:

@@ -11,7 +11,7 @@ from linkanim.player.state import editing as edit
 from linkanim.player.state.browsing import Browsing, Listing, listed
 from linkanim.player.state.editing import Editing
 from linkanim.player.state.fault import proved
-from linkanim.player.state.state import State, fresh, with_toast
+from linkanim.player.state.state import Kept, State, fresh, with_toast
 from linkanim.scenes import chapter_of, chapters, load
 from linkanim.scenes.editing.closures import other_closure
 from linkanim.scenes.scene import Scene
@@ -50,8 +50,8 @@ def renewed(state: State, scene: Scene) -> State:
     was_on = state.place < len(state.shelf) - len(catalogue)
     state = replace(state, shelf=(scene, *catalogue))
     if not was_on:
-        return put_on(state, 0)
-    editing = edit.changed(state.editing, state.scene)
+        return put_on(replace(state, kept=tuple(one for one in state.kept if one.place)), 0)
+    editing = replace(edit.changed(state.editing, state.scene), original=scene)
     return exchanged(replace(state, held=None, glide=None, editing=editing), scene)
 
 
@@ -71,14 +71,22 @@ def _verdict(info: Info) -> tuple[str, bool, bool]:
 
 
 def put_on(state: State, place: int) -> State:
-    """Start a mechanism of the shelf as its file says, paused where the last one was."""
-    entry = state.shelf[place]
-    scene = proved(load(entry) if isinstance(entry, str) else entry, 0.0)
+    """Start a mechanism of the shelf as it was left, else as its file says, paused where the last one was."""
+    entry, kept = state.shelf[place], _kept_edits(state)
+    was = next((one for one in kept if one.place == place), None)
+    scene = proved(was.scene if was else load(entry) if isinstance(entry, str) else entry, 0.0)
     clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
     bare = replace(state, listing=None, held=None, glide=None, turned=None, faded=state.frame)
-    editing = Editing(open=state.editing.open)
-    return replace(bare, editing=editing, scene=scene, place=place, clock=clock, look=look)
+    editing = replace(was.editing if was else Editing(), open=state.editing.open)
+    others = tuple(one for one in kept if one is not was)
+    return replace(bare, editing=editing, kept=others, scene=scene, place=place, clock=clock, look=look)
+
+
+def _kept_edits(state: State) -> tuple[Kept, ...]:
+    """Return what is kept of all places, that of the one that is on with its values begun let go."""
+    own = replace(state.editing, open=False, typed="", drafts=(), refusal=None, warned=False)
+    return (*state.kept, *([Kept(state.place, state.scene, own)] if own.changed else []))
 
 
 def _kept_chart(state: State, scene: Scene) -> str | None:
