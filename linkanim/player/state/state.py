@@ -42,7 +42,7 @@ class Take:
     since: int
 
 
-class Kept(NamedTuple):
+class Edited(NamedTuple):
     """The scene of a place of the shelf as it was edited, and where its editing stood."""
 
     place: int
@@ -74,7 +74,7 @@ class State:
     help: bool = False
     editing: Editing = field(default_factory=Editing)
     held: Held | None = None
-    kept: tuple[Kept, ...] = ()
+    kept: tuple[Edited, ...] = ()
     listing: Listing | None = None
     browsing: Browsing | None = None
     glide: Glide | None = None
@@ -103,7 +103,7 @@ class State:
     @property
     def edited(self) -> frozenset[int]:
         """The places of the shelf whose scenes are not as their files have them."""
-        found = (*self.kept, Kept(self.place, self.scene, self.editing))
+        found = (*self.kept, Edited(self.place, self.scene, self.editing))
         return frozenset(one.place for one in found if one.editing.original not in (None, one.scene))
 
     @property

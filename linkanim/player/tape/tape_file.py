@@ -20,7 +20,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.state.editing import Editing
-from linkanim.player.state.state import Kept, State
+from linkanim.player.state.state import Edited, State
 from linkanim.player.tape.tape import Tape
 from linkanim.scenes import names
 from linkanim.scenes.fields.form import Key
@@ -157,10 +157,10 @@ def _start(top: Section) -> State:
     )
 
 
-def _kept(entries: Section, places: int) -> tuple[Kept, ...]:
+def _kept(entries: Section, places: int) -> tuple[Edited, ...]:
     parts = (entries.table(key) for key in entries.values)
     return tuple(
-        Kept(part.whole("place", 0, places - 1), _scene(part.table("scene")), _editing(part.table("editing")))
+        Edited(part.whole("place", 0, places - 1), _scene(part.table("scene")), _editing(part.table("editing")))
         for part in parts
     )
 

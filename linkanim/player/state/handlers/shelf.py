@@ -11,7 +11,7 @@ from linkanim.player.state import editing as edit
 from linkanim.player.state.browsing import Browsing, Listing, listed
 from linkanim.player.state.editing import Editing
 from linkanim.player.state.fault import proved
-from linkanim.player.state.state import Kept, State, fresh, with_toast
+from linkanim.player.state.state import Edited, State, fresh, with_toast
 from linkanim.scenes import chapter_of, chapters, load
 from linkanim.scenes.editing.closures import other_closure
 from linkanim.scenes.scene import Scene
@@ -83,10 +83,10 @@ def put_on(state: State, place: int) -> State:
     return replace(bare, editing=editing, kept=others, scene=scene, place=place, clock=clock, look=look)
 
 
-def _kept_edits(state: State) -> tuple[Kept, ...]:
+def _kept_edits(state: State) -> tuple[Edited, ...]:
     """Return what is kept of all places, that of the one that is on with its values begun let go."""
     own = replace(state.editing, open=False, typed="", drafts=(), refusal=None, warned=False)
-    return (*state.kept, *([Kept(state.place, state.scene, own)] if own.changed else []))
+    return (*state.kept, *([Edited(state.place, state.scene, own)] if own.changed else []))
 
 
 def _kept_chart(state: State, scene: Scene) -> str | None:
