@@ -160,7 +160,9 @@ def _start(top: Section) -> State:
 def _kept(entries: Section, places: int) -> tuple[Edited, ...]:
     parts = (entries.table(key) for key in entries.values)
     return tuple(
-        Edited(part.whole("place", 0, places - 1), _scene(part.table("scene")), _editing(part.table("editing")))
+        Edited(
+            part.whole("place", 0, places - 1), _scene(part.table("scene")), _editing(part.table("editing"))
+        )
         for part in parts
     )
 
