@@ -281,6 +281,16 @@ def test_escape_closes_what_lies_on_top_first(crank: State) -> None:
     assert (state.editing.open, state.effects) == (False, ())
 
 
+def test_ctrl_b_in_the_list_lets_a_swing_come_back_on_the_same_closure() -> None:
+    state = after(begin(load("double-rocker")), "edit", "returns")
+    assert state.scene.linkage.drive.retraced
+    assert state.chip is not None
+    assert state.chip.text == "back on the same closure"
+    assert not after(state, "undo").scene.linkage.drive.retraced
+    turning = after(begin(load("crank-rocker")), "edit", "returns")
+    assert turning.toast is not None
+
+
 def test_reset_goes_back_to_the_file_and_is_undone(crank: State) -> None:
     changed = after(crank, Action("nudge", 1), Action("choose", 1), Action("nudge", 1))
     again = after(changed, "reset")

@@ -48,6 +48,8 @@ def as_object(scene: Scene) -> dict[str, object]:
     facts |= {name: getattr(info, _CALLED.get(name, name)) for name in _OF_ITS_MOTION}
     facts |= {"mobility": info.counts.mobility, "link_count": info.counts.links}
     facts["joint_count"] = info.counts.joints
+    if not info.full_turn:
+        facts["returns"] = "same" if info.mechanism.retraced else "other"
     if info.transmission:
         facts["worst_transmission"] = {"joint": info.transmission.dyad, "phase": info.transmission.phase}
     if any(body.slider for body in scene.linkage.bodies):

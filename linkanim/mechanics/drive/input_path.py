@@ -190,6 +190,17 @@ def nearer_way(forth: float, near: float) -> float:
     return min(ways, key=lambda phase: abs(phase - near))
 
 
+def retraced(phases: Any) -> tuple[Any, Any]:
+    """Return the phases on the way up where an input is that comes back by the way it came, and +1 or -1.
+
+    The sign is that of its rates: +1 on the way up and at both ends, where they change it, -1 on the way
+    back. A float of any multiple of π is an end, as exact as it is itself.
+    """
+    within = np.fmod(phases, 2 * math.pi)
+    within = np.where(np.abs(within) > math.pi, within - np.copysign(2 * math.pi, within), within)
+    return np.abs(within), np.where((within < 0) & (within > -math.pi), -1.0, 1.0)
+
+
 def half_squares(ends: tuple[Sum, Sum], reference: Sum, ratio: Fraction) -> tuple[float, float]:
     """Return the least and greatest sin²(ψ/2) between two angles θ, where ψ = ratio × θ - reference."""
     low, high = sorted(float(end * ratio - reference) for end in ends)

@@ -306,6 +306,8 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     moves = info.mechanism.linkage.drive.actuator.moves
     across = _places(info, info.input_range, "…")
     yield "input", "turns fully" if info.full_turn else f"{moves} {across}"
+    if info.mechanism.retraced:
+        yield "returns", "on the same closure; velocities change sign at the limits"
     if info.turning_links:
         yield "turns fully", ", ".join(info.link_names[name] for name in info.turning_links)
     if info.toggles:

@@ -147,7 +147,8 @@ class Drive:
     """What moves the linkage: the input's joint, its speed (rad/s, negative clockwise) and start (rad).
 
     Where a length runs there and back, `speed` is that of the phase, one there-and-back being 2π. `at_zero`
-    says that a start of 0 was stated, and is not the default.
+    says that a start of 0 was stated, and is not the default. With `retraced` an input that swings comes back
+    by the way it came, on the same closure; else it runs through its limit onto the other one.
     """
 
     joint: str
@@ -155,6 +156,7 @@ class Drive:
     start: float = 0.0
     actuator: Actuator = MOTOR
     at_zero: bool = False
+    retraced: bool = False
 
     @property
     def coordinate(self) -> Coordinate:

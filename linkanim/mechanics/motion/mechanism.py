@@ -14,6 +14,7 @@ from linkanim.mechanics.closing.assemble import assemble
 from linkanim.mechanics.closing.kinematics import Kinematics, walked
 from linkanim.mechanics.closing.limits import restricted
 from linkanim.mechanics.closing.walk import Assembly
+from linkanim.mechanics.drive.input_path import retraced
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope
 from linkanim.mechanics.formulas.program import Array, Batch, batch, scalar
@@ -60,7 +61,12 @@ class Mechanism:
     @property
     def periods(self) -> int:
         """The number of drive periods after which every joint is back."""
-        return self.assembly.path.periods
+        return 1 if self.retraced else self.assembly.path.periods
+
+    @property
+    def retraced(self) -> bool:
+        """Whether the input swings and comes back by the way it came: each pose is one of the way up."""
+        return self.linkage.drive.retraced and not self.assembly.path.full_turn
 
     @property
     def hindered(self) -> bool:
@@ -88,6 +94,17 @@ class Mechanism:
         self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
     ) -> Pose:
         """Return one instant, solved in plain floats; its rates by the input instead of time `per_input`."""
+        if self.retraced and not per_input:
+            way, sign = (float(part) for part in retraced(phase))
+            found = self._pose(way, sign * speed, sign * acceleration, derivatives)
+            vars(found).update(phase=phase, input_speed=speed, input_acceleration=acceleration)
+            return found
+        at = float(retraced(phase)[0]) if self.retraced else phase
+        return self._pose(at, speed, acceleration, derivatives, per_input)
+
+    def _pose(
+        self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
+    ) -> Pose:
         key = derivatives, acceleration != 0.0, per_input
         program = self._poses.get(key) or self._program_of_poses(key)
         try:
@@ -171,13 +188,18 @@ class Mechanism:
     ) -> Motion:
         """Return the motion at crank angles, or at phases; scalar or any shape."""
         given = np.asarray(angle if phase is None else phase, dtype=np.float64)
-        rates, shape = _rates(speed, acceleration, given.shape)
+        by_phase, sign = None, 1.0
+        if phase is not None and self.retraced:
+            by_phase, (given, sign) = given, retraced(given)
+        (w, a), shape = _rates(speed, acceleration, given.shape)
+        rates, _ = ((w, a), shape) if by_phase is None else _rates(sign * w, sign * a, given.shape)
         varying = isinstance(rates[0], np.ndarray)
         variant = Variant(phase is not None, varying or rates[1] != 0.0, varying)
         x = _kept(given, shape)
         distances = self.assembly.path.distances(x) if phase is None else None
-        request = Request(self.programs(variant), x, distances, rates, shape, derivatives)
-        return Motion(self.setting, shaped(rates[0], shape), shaped(rates[1], shape), request)
+        shown = None if by_phase is None else _kept(by_phase, shape)
+        request = Request(self.programs(variant), x, distances, rates, shape, derivatives, shown)
+        return Motion(self.setting, shaped(w, shape), shaped(a, shape), request)
 
     def programs(self, variant: Variant) -> Programs:
         """Return the programs over arrays for one way of asking."""

@@ -210,7 +210,8 @@ class Programs:
 class Request(NamedTuple):
     """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most.
 
-    `distances` are those of angles of an input that swings from its limits.
+    `distances` are those of angles of an input that swings from its limits; `phases` those of one that comes
+    back by the way it came, where x are the phases of its way up.
     """
 
     programs: Programs
@@ -219,6 +220,7 @@ class Request(NamedTuple):
     rates: tuple[Any, Any]
     shape: tuple[int, ...]
     derivatives: int
+    phases: Array | None = None
 
     def read(self, name: str, known: Collection[str]) -> dict[str, Any]:
         """Return a quantity with what comes out of the same pass, but for what is known."""
@@ -281,7 +283,8 @@ class Request(NamedTuple):
             return dict(zip(names, (x, read_only(path.coordinates(x)), *rates), strict=True))
         places, results = self._run(COORDINATE)
         results.setflags(write=False)
-        return {"phase": x} | {
+        shown = x if self.phases is None else self.phases.reshape(self.shape)
+        return {"phase": shown} | {
             kind: row.reshape(self.shape) for kind, row in zip(places.kinds, results, strict=True)
         }
 

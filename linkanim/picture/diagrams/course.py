@@ -90,7 +90,8 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
     if chosen == "time":
         pace = speed or scene.linkage.drive.speed
         limits = () if turns else tuple(_limits(scene, pace))
-        return Course("time (s)", "", period / abs(pace), period, 0.0, pace, limits)
+        title = "time (s), back on the same closure" if scene.mechanism.retraced else "time (s)"
+        return Course(title, "", period / abs(pace), period, 0.0, pace, limits)
     title, origin = input_title(scene), -scene.linkage.drive.start
     if chosen == "phase":
         title, origin = "phase φ (°)", 0.0

@@ -135,6 +135,7 @@ EDIT_KEYS: tuple[KeyRow, ...] = (
         "type a value, with or without a unit; take all that is typed",
         _on("return kp_enter", "take") + _on("backspace", "erase", held=True),
     ),
+    KeyRow("in E", "Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),
     KeyRow("in E", "Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
     KeyRow("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
 )

@@ -77,6 +77,11 @@ def _closure(before: State, after: State) -> str | None:
     return None if after.scene is before.scene else closure_name(after.scene)
 
 
+def _returns(_: State, after: State) -> str:
+    """Say on which closure the input comes back."""
+    return f"back on the {'same' if after.scene.linkage.drive.retraced else 'other'} closure"
+
+
 def _chart(before: State, after: State) -> str | None:
     """Say what is charted."""
     token = after.look.chart
@@ -142,6 +147,7 @@ ACTIONS: Mapping[str, Rule] = {
     "drop": Rule(_nothing, edits.drop),
     "undo": Rule(_nothing, edits.undo, answer=_undo),
     "reset": Rule(_nothing, edits.reset),
+    "returns": Rule(_nothing, edits.returns, answer=_returns),
     "redo": Rule(_nothing, edits.redo, answer=_undo),
     "back": Rule(_nothing, outside.back),
     "list": Rule(_nothing, shelf.list_, taped=False),

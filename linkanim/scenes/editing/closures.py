@@ -33,6 +33,18 @@ def other_closure(scene: Scene) -> Scene:
     return retitled(scene, scene_from(document, name=scene.name, where=scene.name))
 
 
+def other_return(scene: Scene) -> Scene:
+    """Return the scene whose input comes back from its limits on the other, or on the same, closure.
+
+    AssemblyError where the input turns fully.
+    """
+    if scene.info.full_turn:
+        raise AssemblyError(f"{scene.name}: its input turns fully, and never comes back")
+    way = "other" if scene.linkage.drive.retraced else "same"
+    document = replaced(scene.document, ("drive", "returns"), way)
+    return retitled(scene, scene_from(document, name=scene.name, where=scene.name))
+
+
 def closure_name(scene: Scene) -> str | None:
     """Return what the first loop's closure is called (open, crossed, ...); None where it has no other."""
     choice = _choice(scene)

@@ -137,6 +137,9 @@ DRIVE = form(
     Field("joint", NAME, "the crank that is driven: the first one without a gear", None),
     Field("speed", SPEED, "turns, or there and back; negative: clockwise", "20 rpm", label="Input speed"),
     Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
+    Field(
+        "returns", choice("other", "same"), "the closure on which an input that swings comes back", "other"
+    ),
 )
 TRACE = form("the curves", dict, Field("joints", MEMBERS, "the joints whose curves are drawn", None))
 

@@ -44,7 +44,8 @@ def read_drive(top: Table, usual: str | None) -> Drive | None:
         raise top.table("joints").wrong(f"{other} is a second input beside {name}; {way_out}")
     driven = _cylinder(table.table("cylinder"), cylinder, name) if cylinder else MOTOR
     at_zero = values["start"] == 0 and "start" in table
-    return Drive(name, values["speed"], values["start"], driven, at_zero=at_zero)
+    retraced = values["returns"] == "same"
+    return Drive(name, values["speed"], values["start"], driven, at_zero=at_zero, retraced=retraced)
 
 
 def _slider_drive(top: Table, values: Values) -> Drive:
@@ -70,7 +71,8 @@ def _slider_drive(top: Table, values: Values) -> Drive:
         )
     if travel["from"] == travel["to"]:
         raise slider.error("to", "is the same place as from, so nothing would move")
-    return Drive(name, values["speed"], actuator=Travel(travel["from"], travel["to"]))
+    actuator = Travel(travel["from"], travel["to"])
+    return Drive(name, values["speed"], actuator=actuator, retraced=values["returns"] == "same")
 
 
 def _cylinder(table: Table, values: Values, driven: str) -> Cylinder:

@@ -11,6 +11,7 @@ from linkanim.player.state.editing import Editing, Held, carried_to
 from linkanim.player.state.glide import glide
 from linkanim.player.state.handlers.shelf import exchanged
 from linkanim.player.state.state import State
+from linkanim.scenes.editing.closures import other_return
 from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.scene import Scene
@@ -89,6 +90,8 @@ take = _remade(lambda editing, scene, _: edit_.take(editing, scene))
 undo = _remade(lambda editing, scene, _: edit_.undo(editing, scene))
 redo = _remade(lambda editing, scene, _: edit_.redo(editing, scene))
 reset = _remade(lambda editing, scene, _: edit_.reset(editing, scene))
+
+returns = _remade(lambda editing, scene, _: (edit_.changed(editing, scene), other_return(scene)))
 
 
 def start(state: State, _: None) -> State:
