@@ -29,6 +29,7 @@ def printed_json(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[s
     return found
 
 
+@pytest.mark.slow
 def test_each_answer_is_a_scene_that_runs_along_the_curve(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -67,6 +68,7 @@ def test_what_an_older_run_wrote_is_replaced_and_nothing_else(
     assert (here / "oval.toml").read_text() == "mine"
 
 
+@pytest.mark.slow
 def test_what_rounding_costs_is_printed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["path", "oval.csv", "--round", "1 mm", "--count", "1", "--json"]) == 0
     printed = capsys.readouterr()

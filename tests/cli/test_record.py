@@ -86,6 +86,7 @@ def test_a_preset_stands_for_a_size_and_a_rate(
         assert (picture.size, getattr(picture, "n_frames", 1)) == (size, frames)
 
 
+@pytest.mark.slow
 def test_a_preset_gives_way_to_what_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["record", "crank-rocker", "--for", "web", "--seconds", "0.2"]) == 0
     with Image.open("crank-rocker.gif") as gif:
@@ -229,6 +230,7 @@ def test_a_gallery_is_a_gif_for_each_scene_and_a_sheet(
     assert files(tmp_path / "shown") == made
 
 
+@pytest.mark.slow
 def test_a_gallery_has_the_chart_of_speed_and_error_where_it_can_be_measured(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

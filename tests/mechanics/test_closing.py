@@ -78,6 +78,7 @@ def test_a_limit_has_its_digits_where_the_ends_nearly_meet() -> None:
     assert is_right(case, mechanism(case.linkage))
 
 
+@pytest.mark.slow
 def test_linkages_that_just_miss_closing_are_limited_and_those_that_just_close_turn() -> None:
     for number in range(12):
         close(number)

@@ -150,6 +150,7 @@ def test_a_stroke_that_cannot_be_is_refused_with_what_can(make: Any, words: str)
         mechanism(make())
 
 
+@pytest.mark.slow
 def test_random_booms_close_and_come_back() -> None:
     rng = random.Random(3)
     tried = 0

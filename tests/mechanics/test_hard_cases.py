@@ -44,6 +44,7 @@ def check_guided(make: Callable[[Random], Guided], count: int, seed: int) -> Non
 
 
 @pytest.mark.parametrize("make", GUIDED, ids=lambda make: make.__name__)
+@pytest.mark.slow
 def test_random_sliders_slots_and_chains_are_right_up_to_their_limits(
     make: Callable[[Random], Guided],
 ) -> None:

@@ -98,6 +98,7 @@ def test_what_is_half_seen_through_is_so_in_print() -> None:
     assert set(re.findall(rb"/ca (\S+)", opaque)) <= {b"1"}
 
 
+@pytest.mark.slow
 def test_the_same_figure_has_the_same_bytes() -> None:
     one, two = (Figured(load("press"), (640, 360), Look(hud=False, names=2)).printed() for _ in range(2))
     assert one == two

@@ -243,6 +243,7 @@ def test_an_angle_out_of_range_is_refused_with_the_range(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_report_takes_the_place_of_an_older_one_and_of_nothing_else(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

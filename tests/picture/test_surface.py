@@ -427,6 +427,7 @@ def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.parametrize("name", ["press", "epicyclic-hypocycloid", "six-bar"])
+@pytest.mark.slow
 def test_frames_in_any_order_are_those_that_a_fresh_printer_prints(name: str) -> None:
     """Nothing of a frame is left in what a printer keeps for the next."""
     scene = load(name)

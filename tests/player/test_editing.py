@@ -412,6 +412,7 @@ def test_a_way_past_lengths_that_do_not_close_leaves_them_out() -> None:
     assert not closes(passing(press, {("joints", "C", "length"): 5}))
 
 
+@pytest.mark.slow
 def test_undo_goes_back_a_hundred_changes(crank: State) -> None:
     state = crank
     for _ in range(52):

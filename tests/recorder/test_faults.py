@@ -216,6 +216,7 @@ def test_ctrl_c_leaves_nothing(child: subprocess.Popen[str], target: Path) -> No
 
 
 @needs_proc
+@pytest.mark.slow
 def test_a_killed_run_leaves_no_process_and_the_next_one_clears_up(
     child: subprocess.Popen[str], target: Path, form: Format
 ) -> None:
@@ -235,6 +236,7 @@ FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (MOST, MOST))
 
 
 @needs_proc
+@pytest.mark.slow
 def test_a_full_disk_is_one_line(target: Path, form: Format) -> None:
     limit = "300" if form == "png" else "5000"
     with start(target, form, FULL.replace("MOST", limit), periods=3) as process:

@@ -53,12 +53,14 @@ def test_a_scene_loops_over_its_true_period_without_a_seam(tmp_path: Path, name:
     assert 0 < seam <= 1.2 * max(steps)
 
 
+@pytest.mark.slow
 def test_a_scene_with_a_true_period_of_two_turns_is_recorded_for_two(tmp_path: Path) -> None:
     scene = load("kite")
     made = record(scene, tmp_path / "kite.gif", size=SIZE, fps=10)
     assert made.seconds == pytest.approx(2 * 2 * math.pi / abs(scene.linkage.drive.speed), abs=0.05)
 
 
+@pytest.mark.slow
 def test_reverse_shows_the_same_pictures_backwards(tmp_path: Path) -> None:
     for name, back in (("forth", False), ("back", True)):
         record(load("crank-rocker"), tmp_path / f"{name}.png", size=SIZE, fps=10, look=BARE, reverse=back)
@@ -90,6 +92,7 @@ def test_two_periods_show_one_twice(tmp_path: Path) -> None:
     assert len(set(frames[:half])) == half
 
 
+@pytest.mark.slow
 def test_the_speed_asked_for_is_recorded_and_said_where_it_is_not(tmp_path: Path) -> None:
     exact = record(load("press"), tmp_path / "a.gif", size=SIZE, fps=10, speed=math.tau / 2)
     assert exact.seconds == 2.0
@@ -161,6 +164,7 @@ def kept(tape: Tape, folder: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_tape_in_which_nothing_is_done_is_the_scenes_loop(tmp_path: Path) -> None:
     made = record_tape(kept(tape(frames=7), tmp_path), tmp_path / "tape.gif", size=SIZE, fps=10)
     record(load("crank-rocker"), tmp_path / "scene.gif", size=SIZE, fps=10)
@@ -168,6 +172,7 @@ def test_a_tape_in_which_nothing_is_done_is_the_scenes_loop(tmp_path: Path) -> N
     assert (tmp_path / "tape.gif").read_bytes() == (tmp_path / "scene.gif").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_loop_starts_where_its_tape_does(tmp_path: Path) -> None:
     still = tape()
     later = replace(still, start=replace(still.start, clock=still.start.clock.go(0, 1.5)))
@@ -293,6 +298,7 @@ def test_the_gallery_shows_no_wheel_turning_backwards() -> None:
     assert gallery.rates(load("kite")) == gallery.RATES
 
 
+@pytest.mark.slow
 def test_the_gallery_takes_a_tape_where_there_is_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(gallery, "SIZE", SIZE)
     tape_file.write(tape((3, Action("theme")), frames=30, name="press"), tmp_path / "press.tape.json")
@@ -311,6 +317,7 @@ def test_a_gallery_leaves_files_that_are_not_its_own_and_draws_nothing_then(
     assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [(name, b"mine")]
 
 
+@pytest.mark.slow
 def test_a_gallery_that_fails_on_the_way_keeps_what_it_finished_and_goes_on_the_next_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -95,6 +95,7 @@ def test_answers_differ_and_the_best_come_first() -> None:
         assert np.abs(one.row - other.row).max() > 1e-4 * one.task.curve.size
 
 
+@pytest.mark.slow
 def test_kunjurs_eighteen_points_are_passed_better_than_published() -> None:
     best = linkanim.path(KUNJUR, timing=math.radians(20))[0]
     assert squares(best) <= 9.03e-3
@@ -103,6 +104,7 @@ def test_kunjurs_eighteen_points_are_passed_better_than_published() -> None:
     assert best.rms == pytest.approx(math.sqrt(np.mean(off**2)))
 
 
+@pytest.mark.slow
 def test_six_points_of_a_line_are_passed_exactly() -> None:
     fits = linkanim.path(LINE)
     within = [fit for fit in fits if max(map(abs, fit.parameters.values())) <= 60]
@@ -110,6 +112,7 @@ def test_six_points_of_a_line_are_passed_exactly() -> None:
 
 
 @pytest.mark.parametrize("seed", range(2))
+@pytest.mark.slow
 def test_five_points_at_random_are_passed_exactly(seed: int) -> None:
     points = np.random.default_rng(seed).uniform(0, 50, (5, 2))
     best = linkanim.path(points, count=1)[0]
@@ -117,6 +120,7 @@ def test_five_points_at_random_are_passed_exactly(seed: int) -> None:
     verify(best, points @ np.array([1.0, 1j]))
 
 
+@pytest.mark.slow
 def test_a_point_has_the_crank_angle_that_it_is_given() -> None:
     points, angles = curves("four-bar", 1, seed=21, points=12)[0], np.linspace(0.4, 5.0, 12)
     best = linkanim.path(points, timing=angles, count=1)[0]
@@ -142,6 +146,7 @@ def test_cognates_trace_the_same_curve() -> None:
         assert np.abs(traced(other, phase=start) - way[::40]).max() <= 1e-13 * first.task.curve.size
 
 
+@pytest.mark.slow
 def test_round_lengths_are_round_and_the_cost_is_known() -> None:
     points = curves("four-bar", 1, seed=41)[0]
     points = points * (100 / np.ptp(points.real))
@@ -177,6 +182,7 @@ def test_a_point_may_be_passed_exactly() -> None:
     assert best.rms > 0.01
 
 
+@pytest.mark.slow
 def test_one_input_gives_one_answer() -> None:
     one, other = (linkanim.path(SQUARE, count=2) for _ in range(2))
     assert [fit.scene.document for fit in one] == [fit.scene.document for fit in other]
