@@ -24,6 +24,7 @@ from linkanim.errors import BadInput
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.mechanics.motion.mechanism import Mechanism
+from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes.reading.read import scene_from
 
 Random = random.Random
@@ -120,7 +121,7 @@ def slider_on_a_tilted_line(rng: Random) -> Guided:
         start, base = (mp.mpc(*map(mpf, at)) for at in pins)
 
     def place(angle: Any) -> Any:
-        return _on_line(start + mpf(r) * unit(angle), base, (b, offset, tilt))
+        return on_line(start + mpf(r) * unit(angle), base, (b, offset, tilt))
 
     return Guided(_document(rng, pins, r, joint), max(r, b), place)
 
@@ -134,7 +135,7 @@ def slot_beside_its_pivot(rng: Random) -> Guided:
         start, base = (mp.mpc(*map(mpf, at)) for at in pins)
 
     def place(angle: Any) -> Any:
-        return _in_slot(start + mpf(r) * unit(angle), base, b, offset)
+        return in_slot(start + mpf(r) * unit(angle), base, b, offset)
 
     return Guided(_document(rng, pins, r, joint), max(r, b), place)
 
@@ -145,28 +146,47 @@ def dyad_behind_a_loop(rng: Random) -> Guided:
     The four-bar's ground is a length at an angle of degrees, or two points. Left out are those near a change
     point, which are another kind.
     """
+    loop = point_of_a_loop(rng)
+    joint, longest, close = rng.choice((_bars_on, _slider_on, _slot_on))(rng, loop.tilt)
+    loop.document["joints"]["J"] = joint
+    pin = loop.pin(rng)
+    return Guided(loop.document, max(loop.longest, longest), lambda angle: close(loop.place(angle), pin))
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A four-bar with a point C of its coupler, or rocker, and an angle in degrees."""
+
+    document: dict[str, Any]
+    longest: float
+    place: Callable[[Any], Any]
+    tilt: str
+
+    def pin(self, rng: Random) -> Any:
+        """Add a pin S, and return where it lies."""
+        self.document["ground"]["S"] = [round(rng.uniform(-9, 9), 2) for _ in "xy"]
+        return mp.mpc(*map(mpf, self.document["ground"]["S"]))
+
+
+def point_of_a_loop(rng: Random) -> Loop:
     pins, ends, tilt = _tilted_ground(rng)
     r, a, b = (round(rng.uniform(2, 9), 3) for _ in range(3))
     g = float(abs(ends[1] - ends[0]))
     if min(abs(g - r - a + b), abs(g - r + a - b), abs(a + b - g - r)) < 0.01:
-        return dyad_behind_a_loop(rng)
+        return point_of_a_loop(rng)
     at = [round(rng.uniform(-6, 6), 2) for _ in "xy"]
-    on, second, turned = rng.choice(("AB", "BA", ("B", "O4"), ("O4", "B"))), rng.choice((1, -1)), tilt
+    on, second = rng.choice(("AB", "BA", ("B", "O4"), ("O4", "B"))), rng.choice((1, -1))
     document = _document(rng, pins, r, {"from": ["A", "O4"], "length": [a, b], "side": SIDES[second]})
-    joints = document["joints"]
-    joints["B"] = joints.pop("J")
-    joints["C"] = {"on": list(on), "at": at}
-    joints["J"], longest, close = rng.choice((_bars_on, _slider_on, _slot_on))(rng, turned)
-    document["ground"]["S"] = [round(rng.uniform(-9, 9), 2) for _ in "xy"]
-    pin = mp.mpc(*map(mpf, document["ground"]["S"]))
+    document["joints"]["B"] = document["joints"].pop("J")
+    document["joints"]["C"] = {"on": list(on), "at": at}
 
     def place(angle: Any) -> Any:
         start = ends[0] + mpf(r) * unit(angle)
-        found = {"A": start, "O4": ends[1], "B": _meet(start, ends[1], (a, b), second)}
+        found = {"A": start, "O4": ends[1], "B": meet(start, ends[1], (a, b), second)}
         along = found[on[1]] - found[on[0]]
-        return close(found[on[0]] + mp.mpc(*map(mpf, at)) * along / abs(along), pin)
+        return found[on[0]] + mp.mpc(*map(mpf, at)) * along / abs(along)
 
-    return Guided(document, max(r, a, b, longest), place)
+    return Loop(document, max(r, a, b), place, tilt)
 
 
 def _tilted_ground(rng: Random) -> tuple[list[Any], tuple[Any, Any], str]:
@@ -178,7 +198,7 @@ def _tilted_ground(rng: Random) -> tuple[list[Any], tuple[Any, Any], str]:
         return [first, second], ends, tilt
     ground = round(rng.uniform(2, 9), 3)
     polar = {"length": ground, "angle": f"{tilt} deg"}
-    return [[0, 0], polar], (mp.mpc(0), mpf(ground) * unit(_radians(tilt))), tilt
+    return [[0, 0], polar], (mp.mpc(0), mpf(ground) * unit(radians(tilt))), tilt
 
 
 Closing = tuple[dict[str, Any], float, Callable[[Any, Any], Any]]
@@ -193,7 +213,7 @@ def _bars_on(rng: Random, tilt: str) -> Closing:
     if abs(bars[0] - bars[1]) < 0.1 * max(bars):
         return _bars_on(rng, tilt)
     joint = {"from": ["C", "S"], "length": bars, "side": SIDES[side]}
-    return joint, max(bars), lambda point, pin: _meet(point, pin, (bars[0], bars[1]), side)
+    return joint, max(bars), lambda point, pin: meet(point, pin, (bars[0], bars[1]), side)
 
 
 def _slider_on(rng: Random, tilt: str) -> Closing:
@@ -201,39 +221,39 @@ def _slider_on(rng: Random, tilt: str) -> Closing:
     bar, offset = round(rng.uniform(2, 12), 3), round(rng.uniform(-4, 4), 2)
     line = {"through": "S", "angle": f"{tilt} deg", "offset": offset}
     joint = {"from": "C", "length": bar, "line": line, "side": "forward"}
-    return joint, bar, lambda point, pin: _on_line(point, pin, (bar, offset, tilt))
+    return joint, bar, lambda point, pin: on_line(point, pin, (bar, offset, tilt))
 
 
 def _slot_on(rng: Random, _: str) -> Closing:
     """Return the same of a bar about S whose slot runs over C."""
     bar, offset = round(rng.uniform(2, 9), 2), round(rng.uniform(2, 6), 2)
     joint = {"slot": {"pivot": "S", "through": "C", "offset": offset}, "length": bar}
-    return joint, bar, lambda point, pin: _in_slot(point, pin, bar, offset)
+    return joint, bar, lambda point, pin: in_slot(point, pin, bar, offset)
 
 
-def _meet(p: Any, q: Any, bars: tuple[float, float], side: int) -> Any:
+def meet(p: Any, q: Any, bars: tuple[float, float], side: int) -> Any:
     """Return where two bars meet, NaN where they do not."""
     way, (a, b) = abs(q - p), map(mpf, bars)
     return crossing(p, q, a, b, side) if abs(a - b) < way < a + b else mp.mpc(mp.nan)
 
 
-def _on_line(point: Any, base: Any, slider: tuple[float, float, str]) -> Any:
+def on_line(point: Any, base: Any, slider: tuple[float, float, str]) -> Any:
     """Return where a bar, its offset and its line's tilt put a slider, NaN where it does not reach."""
     bar, offset, tilt = slider
-    along = unit(_radians(tilt))
+    along = unit(radians(tilt))
     end = (point - base) / along
     square = mpf(bar) ** 2 - (end.imag - mpf(offset)) ** 2
     return base + along * mp.mpc(end.real + mp.sqrt(square), mpf(offset)) if square > 0 else mp.mpc(mp.nan)
 
 
-def _in_slot(point: Any, base: Any, bar: float, offset: float) -> Any:
+def in_slot(point: Any, base: Any, bar: float, offset: float) -> Any:
     """Return the end of a slotted bar, NaN where the slot does not reach."""
     way = point - base
     square = abs(way) ** 2 - mpf(offset) ** 2
     return base + mpf(bar) * way / mp.mpc(mp.sqrt(square), mpf(offset)) if square > 0 else mp.mpc(mp.nan)
 
 
-def _radians(degrees: str) -> Any:
+def radians(degrees: str) -> Any:
     return mpf(degrees) * mp.pi / 180
 
 
@@ -444,8 +464,12 @@ def guided_by_angle(guided: Guided, solved: Mechanism) -> Error:
     path = solved.assembly.path
     assert isinstance(path, Swing)
     angles = [angle for angle in _angles(path) if not mp.isnan(guided.place(mpf(angle)))]
-    motion = solved.solve(angle=np.array(angles), speed=1.0)
-    found = [derivatives(lambda angle: {"J": guided.place(angle)}, mpf(angle)) for angle in angles]
+    return off(guided, solved.solve(angle=np.array(angles), speed=1.0), angles)
+
+
+def off(guided: Guided, motion: Motion, places: list[float]) -> Error:
+    """Return how far a motion is off at places of the input."""
+    found = [derivatives(lambda place: {"J": guided.place(place)}, mpf(place)) for place in places]
     errors = []
     for order, kind in HIGHEST_FIRST:
         true = [one[order]["J"] for one in found]

@@ -9,13 +9,19 @@ next to the zero q = z·R, R being a polynomial fitted once in fifty digits (`fi
 
 need no digits of F or of its rates, and stay finite through limits and change points. Between the zeros
 F keeps its digits: there q = ±√F, and the signs of all the ways are its sign on the smooth path.
+
+Where F comes near zero and turns back, at an extreme of the separation, its least value F₀ is found in fifty
+digits, too, and R² is fitted: there q = ±√(F₀ + r²), r = z·R, z the sine of half the way from there, and
+
+    q' = r r'/q        q'' = (r r'' + r'² F₀/q²)/q
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from decimal import localcontext
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -23,8 +29,12 @@ from linkanim.mechanics.formulas.circular import sharp_half_angle
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Value, maximum, minimum, select, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec
+from linkanim.mechanics.formulas.precise import context, cosine, exactly, nearest_sum
 from linkanim.mechanics.loops.input_state import InputPlaces, InputState
 from linkanim.mechanics.loops.signed import SMALLEST, Reduced, SignedRoot, plain_root
+
+BESIDE_AN_END = 1e-3
+"""Sine of the phase below which half the way to an end of a swing has the digits of that to a place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,10 +73,23 @@ class Way(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Near:
-    """What is fitted next to a zero: R, and D over the argument where the ends of equal bars meet there."""
+    """What is fitted next to a zero: R, and D over the argument where the ends of equal bars meet there.
+
+    `least` is what the margin comes down to where that is not zero: then R² is fitted.
+    """
 
     root: PolynomialFit
     across: tuple[PolynomialFit, PolynomialFit] | None = None
+    least: float = 0.0
+
+    def root_at(self, z: Moving, fitted: Moving) -> Moving:
+        """Return √(least + z²R²)."""
+        if not self.least:
+            return z * fitted
+        part = z * _root(fitted)
+        root = sqrt(part.value * part.value + self.least)
+        share, rate = part.value / root, part.rate / root
+        return Moving(root, share * part.rate, share * part.second + rate * rate * (self.least / root))
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,8 +118,8 @@ class End:
 
 
 @dataclass(frozen=True, slots=True)
-class Touch:
-    """A change point: z is the sine of half the way from it, and the argument that of all the way.
+class Stationary:
+    """A change point, or a dip: z is the sine of half the way from it, and the argument that tangent.
 
     `place` is an angle of an input that turns; of one that swings it is a phase, since its two ways may
     run on different closures before this one, and `amplitude` is that of the swing. It repeats after
@@ -109,10 +132,10 @@ class Touch:
     near: Near | None = None
 
     def way(self, state: InputState) -> Way:
-        """Return the way from the change point."""
+        """Return the way from there."""
         turn = self._on_turn(state) if self.amplitude is None else self._on_swing(state, self.amplitude)
         sine, cosine = turn
-        return Way(sine, (sine * cosine).scaled(2.0), 0.5 / cosine.value)
+        return Way(sine, _quotient(sine, cosine), cosine.value)
 
     def _on_turn(self, state: InputState) -> SineAndCosine:
         share = Fraction(1, self.turns)
@@ -121,8 +144,9 @@ class Touch:
 
     def _on_swing(self, state: InputState, amplitude: float) -> SineAndCosine:
         assert state.ends is not None
-        if state.phase is not None and self.turns > 1:
-            half = sharp_half_angle((state.phase - self.place.high) * (1.0 / self.turns))
+        if state.phase is not None:
+            away = (state.phase - self.place.high) - self.place.low
+            half = sharp_half_angle(away * (1.0 / self.turns))
             return _turning(half.sine, half.cosine, state.phase_pace.scaled(0.5 / self.turns))
         scale = 1.0 / math.sqrt(amplitude)
         sine, cosine = state.ends.root_v.scaled(scale), state.ends.root_u.scaled(scale)
@@ -130,15 +154,25 @@ class Touch:
             sine, cosine = _halved(sine, cosine)
         half_way = float(self.place) / (2 * self.turns)
         along, aside = math.cos(half_way), math.sin(half_way)
-        return (
-            sine.scaled(along) + cosine.scaled(-aside),
-            cosine.scaled(along) + sine.scaled(aside),
-        )
+        apart = sine.scaled(along) + cosine.scaled(-aside)
+        if self.turns == 1 and math.sin(float(self.place)) > BESIDE_AN_END:
+            both = sine.value * along + cosine.value * aside
+            apart = replace(apart, value=self._way_left(state, amplitude) / (both * (2.0 * amplitude)))
+        return apart, cosine.scaled(along) + sine.scaled(aside)
+
+    def _way_left(self, state: InputState, amplitude: float) -> Value:
+        """Return how far the input's angle θ is from the place on its way up.
+
+        That is 2 amp sin((φ - φ₀)/2) sin((φ + φ₀)/2).
+        """
+        with localcontext(context()):
+            gone = nearest_sum(-exactly(amplitude) * cosine(exactly(self.place)))
+        return (state.angle - gone.high) + (state.rest - gone.low)
 
     def chosen(self, way: Way, width: float, close: Value, otherwise: Value) -> Value:
-        """Return `close` within the width, else the other: the argument is as small half a turn away."""
+        """Return `close` within the width, else the other."""
         z = way.z.value
-        return select(z * z, math.sin(math.asin(width) / 2) ** 2, close, otherwise)
+        return select(z * z, width * width / (1.0 + width * width), close, otherwise)
 
 
 SineAndCosine = tuple[Moving, Moving]
@@ -154,6 +188,13 @@ def _turning(sine: Value, cosine: Value, rate: Slope) -> SineAndCosine:
     )
 
 
+def _quotient(a: Moving, b: Moving) -> Moving:
+    """Return a quotient of what moves."""
+    value = a.value / b.value
+    rate = (a.rate - value * b.rate) / b.value
+    return Moving(value, rate, (a.second - value * b.second - rate * b.rate * 2.0) / b.value)
+
+
 def _halved(sine: Moving, cosine: Moving) -> SineAndCosine:
     """Return sine and cosine of half an angle between 0 and π."""
     half_cosine = sqrt((cosine.value + 1.0) * 0.5)
@@ -164,7 +205,16 @@ def _halved(sine: Moving, cosine: Moving) -> SineAndCosine:
     return _turning(sine.value * 0.5 / half_cosine, half_cosine, rate.scaled(0.5))
 
 
+class Touch(Stationary):
+    """A change point: the margin touches zero, and the root changes its sign."""
+
+
+class Dip(Stationary):
+    """A place where the margin comes near zero, and turns back."""
+
+
 Zero = End | Touch
+Fitted = Zero | Dip
 
 
 class Closing(NamedTuple):
@@ -234,6 +284,7 @@ class ChainRoot:
     zeros: tuple[Zero, ...]
     least: float
     sign: float = 1.0
+    dips: tuple[Dip, ...] = ()
 
     def change_points(self, path: InputPlaces) -> Iterator[float]:
         """Yield the input's places at which the root changes its sign and the input goes on."""
@@ -241,10 +292,7 @@ class ChainRoot:
 
     def side(self, state: InputState) -> Value:
         """Return the sign of the closure on the smooth path."""
-        side: Value = self.sign
-        for zero in self.zeros:
-            side = side * _sign(zero.way(state).z.value)
-        return side
+        return self._others(None, state)
 
     def root(self, closing: Closing, state: InputState) -> SignedRoot:
         """Return q and ρ, signed and finite through every zero."""
@@ -254,18 +302,18 @@ class ChainRoot:
         found = SignedRoot(plain.q * side, Slope(plain.ratio.value * side, plain.ratio.rate * side))
         if any(zero.near and zero.near.across for zero in self.zeros) and closing.across:
             found = found.with_lift(Reduced(closing.across, found.q))
-        for zero in self.zeros:
+        for zero in (*self.dips, *self.zeros):
             if zero.near is not None:
                 found = self._beside(zero, zero.near, closing, state, found)
         return found
 
     def _beside(
-        self, zero: Zero, near: Near, closing: Closing, state: InputState, far: SignedRoot
+        self, zero: Fitted, near: Near, closing: Closing, state: InputState, far: SignedRoot
     ) -> SignedRoot:
         """Return the root from its fit next to a zero, else the one from `far` of it."""
         way, others = zero.way(state), self._others(zero, state)
         fitted = near.root.at(way.argument)
-        q = way.z * fitted
+        q = near.root_at(way.z, fitted)
         rho = closing.rates(q)
 
         def chosen(close: Value, otherwise: Value) -> Value:
@@ -288,7 +336,7 @@ class ChainRoot:
             Reduced(MovingPoint(*points), chosen(fitted.value * way.share * others, far.lift.q))
         )
 
-    def _others(self, zero: Zero, state: InputState) -> Value:
+    def _others(self, zero: Fitted | None, state: InputState) -> Value:
         """Return the sign of the closure without that zero's."""
         others: Value = self.sign
         for other in self.zeros:
@@ -297,7 +345,7 @@ class ChainRoot:
         return others
 
 
-def _root(x: Moving, more: float) -> Moving:
+def _root(x: Moving, more: float = 0.0) -> Moving:
     """Return the root of what moves and some more, which is positive."""
     root = sqrt(x.value + more)
     rate = x.rate * 0.5 / root

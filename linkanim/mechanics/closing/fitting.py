@@ -14,14 +14,32 @@ from typing import NamedTuple
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assemble import precise
-from linkanim.mechanics.closing.chain import ChainRoot, Closing, End, Near, PolynomialFit, Zero
+from linkanim.mechanics.closing.chain import (
+    ChainRoot,
+    Closing,
+    Dip,
+    End,
+    Fitted,
+    Near,
+    PolynomialFit,
+    Stationary,
+    Zero,
+)
 from linkanim.mechanics.closing.kinematics import walk_at, walked
 from linkanim.mechanics.closing.walk import Assembly
+from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
-from linkanim.mechanics.formulas.precise import context, exactly, interpolated, nearest_sum, nodes, sine
+from linkanim.mechanics.formulas.precise import (
+    context,
+    exactly,
+    interpolated,
+    nearest_sum,
+    nodes,
+    sine_and_cosine,
+)
 from linkanim.mechanics.formulas.program import decimals
 from linkanim.mechanics.loops.input_state import swing_by_angle
 
@@ -43,6 +61,8 @@ CONVERGED = Decimal(10) ** -25
 NEARBY = 1e-6
 """How far a zero may lie from where floats have found it."""
 POINTS = 20
+POINTS_OF_A_DIP = 32
+"""Its fit is to hold as far as the margin lacks digits, which may be far."""
 WIDEST = 0.5
 NARROWEST = 1e-4
 """Beyond a narrower stretch than this the margin itself would have lost its digits."""
@@ -138,7 +158,19 @@ def fitted(assembly: Assembly) -> Assembly:
 def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
     with localcontext(context()):
         zeros = [_with_stretch(assembly, name, zero) for zero in root.zeros]
-        return replace(root, zeros=tuple(replace(zero, near=_near(assembly, name, zero)) for zero in zeros))
+        dips = [_settled(assembly, name, dip) for dip in root.dips]
+        return replace(
+            root,
+            zeros=tuple(replace(zero, near=_near(assembly, name, zero)) for zero in zeros),
+            dips=tuple(replace(dip, near=_near(assembly, name, dip)) for dip in dips),
+        )
+
+
+def _settled(assembly: Assembly, name: str, dip: Dip) -> Dip:
+    """Return a dip at the extreme itself, which floats have found to half their digits."""
+    start = _start(assembly.path, dip)
+    place = extreme(assembly, name, float(dip.place - start)).phase + start
+    return replace(dip, place=place)
 
 
 def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
@@ -163,7 +195,7 @@ def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
     return zero
 
 
-def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
+def _near(assembly: Assembly, name: str, zero: Fitted) -> Near | None:
     """Fit on the widest stretch where a polynomial holds to the last digit, or nearly; None where none does.
 
     AssemblyError where the dyad's ends meet without passing each other: D has no direction to go on in.
@@ -171,20 +203,23 @@ def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
     sampled, width = _sampler(assembly, name, zero)
     zeroth, best, least = sampled(Decimal(0)), None, TOLERABLE
     narrowest = NARROWEST_AT_A_LIMIT if isinstance(zero, End) else NARROWEST
+    points = POINTS_OF_A_DIP if isinstance(zero, Dip) else POINTS
     for _ in range(TRIES):
         half = width / 2 if isinstance(zero, End) else width
         stretch = _Stretch(width, half if isinstance(zero, End) else 0.0, half)
-        samples = [sampled(Decimal(stretch.centre) + Decimal(half) * node) for node in nodes(POINTS)]
-        root = stretch.fit(samples, _roots(samples, zeroth.margin))
-        meeting = _meet(zeroth.across, samples)
+        samples = [sampled(Decimal(stretch.centre) + Decimal(half) * node) for node in nodes(points)]
+        squares = _squares(samples, zeroth.margin)
+        root = stretch.fit(samples, squares if isinstance(zero, Dip) else [one.sqrt() for one in squares])
+        meeting = not isinstance(zero, Dip) and _meet(zeroth.across, samples)
         shares = [_shares(samples, zeroth, k) for k in (0, 1)] if meeting else []
         fits = [root, *(stretch.fit(samples, values) for values in shares)]
         last = max(_last(fits[:1]), _last(fits[1:]))
         if last <= least and width >= narrowest:
-            best, least = Near(root, (fits[1], fits[2]) if meeting else None), last
+            rest = float(zeroth.margin) if isinstance(zero, Dip) else 0.0
+            best, least = Near(root, (fits[1], fits[2]) if meeting else None, rest), last
         if last <= LAST or width < narrowest:
             break
-        width *= max(min(0.8 * (LAST / last) ** (1 / POINTS), 0.8), 0.1)
+        width *= max(min(0.8 * (LAST / last) ** (1 / points), 0.8), 0.1)
     if best is None and meeting:
         raise AssemblyError(
             f"joint {name}: the two ends of its equal bars meet and part the way they came, so that it could "
@@ -195,7 +230,7 @@ def _near(assembly: Assembly, name: str, zero: Zero) -> Near | None:
             f"joint {name}: its limit lies too near to another one to be told from it; "
             "make one length a little longer or shorter"
         )
-    if best is None:
+    if best is None and not isinstance(zero, Dip):
         raise AssemblyError(
             f"joint {name}: it falls into one line just where it turns back, so that it could go on either "
             "way; make one of its lengths a little longer or shorter"
@@ -217,10 +252,10 @@ class _Stretch:
         return PolynomialFit(self.width, self.centre, self.half, tuple(interpolated(places, values)))
 
 
-def _roots(samples: list[Sample], rest: Decimal) -> list[Decimal]:
-    """Return R, NaN beyond another zero; at the zero itself rounding has left a `rest` of the margin."""
+def _squares(samples: list[Sample], rest: Decimal) -> list[Decimal]:
+    """Return R², NaN beyond another zero; at the zero itself rounding has left a `rest` of the margin."""
     squares = [(sample.margin - rest) / sample.z**2 for sample in samples]
-    return [square.sqrt() if square > 0 else Decimal("NaN") for square in squares]
+    return [square if square > 0 else Decimal("NaN") for square in squares]
 
 
 def _shares(samples: list[Sample], zeroth: Sample, component: int) -> list[Decimal]:
@@ -238,24 +273,32 @@ def _meet(across: Decimals, samples: list[Sample]) -> bool:
 def _last(fits: list[PolynomialFit]) -> float:
     """Return the last coefficients beside the greatest first one, as they stand to Chebyshev polynomials."""
     size = max((abs(c) for fit in fits for c in fit.coefficients[:2]), default=1.0)
-    last = max((abs(c) for fit in fits for c in fit.coefficients[-2:]), default=0.0) / 2.0 ** (POINTS - 2)
+    last = max(
+        (abs(c) / 2.0 ** (len(fit.coefficients) - 2) for fit in fits for c in fit.coefficients[-2:]),
+        default=0.0,
+    )
     return last / size if last < math.inf else math.inf
 
 
-def _sampler(assembly: Assembly, name: str, zero: Zero) -> tuple[Callable[[Decimal], Sample], float]:
+def _start(path: InputPath, place: Stationary) -> Sum:
+    """Return what names a place at phase 0."""
+    return Sum(0.0) if place.amplitude else path.place(Sum(0.0))
+
+
+def _sampler(assembly: Assembly, name: str, zero: Fitted) -> tuple[Callable[[Decimal], Sample], float]:
     """Return the margin, and D, as a function of the way to a zero, and how far that way may go."""
     path = assembly.path
     if isinstance(zero, End):
         assert isinstance(path, Swing)
         return _by_way(assembly, path, name, zero), path.amplitude / 2
     run = decimals(("x",), _by_phase(assembly, name))
-    start = Decimal(0) if zero.amplitude else exactly(path.place(Sum(0.0)))
-    place, turns = exactly(zero.place) - start, zero.turns
+    place, turns = exactly(zero.place) - exactly(_start(path, zero)), zero.turns
 
     def sampled(argument: Decimal) -> Sample:
-        apart = Decimal(turns * math.asin(float(argument)))
-        margin, *across = run(place + apart)
-        return Sample(sine(apart / turns), sine(apart / (2 * turns)), margin, tuple(across))
+        half = Decimal(math.atan(float(argument)))
+        margin, *across = run(place + 2 * turns * half)
+        z, other = sine_and_cosine(half)
+        return Sample(z / other, z, margin, tuple(across))
 
     return sampled, WIDEST / turns
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assemble import JUST_AFTER, most_turns, resigned
-from linkanim.mechanics.closing.chain import ChainRoot, End, Touch
+from linkanim.mechanics.closing.chain import ChainRoot, Dip, End, Touch
 from linkanim.mechanics.closing.fitting import fitted, refined
 from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.search import ends_of
@@ -195,11 +195,12 @@ def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assem
 
 
 def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
-    """Return the assembly with one dyad's zeros: its limits, which are known, and its change points."""
+    """Return the assembly with one dyad's zeros: its limits, which are known, its change points and dips."""
     path, known = assembly.path, assembly.chain.get(name, ChainRoot((), 0.0))
     touches = tuple(Touch(path.place(phase), path.periods, path.amplitude) for phase in found.touches(name))
-    root = ChainRoot((*known.zeros, *touches), found.scale(name) * LEAST)
-    if not root.zeros:
+    dips = tuple(Dip(path.place(phase), path.periods, path.amplitude) for phase in found.dips(name))
+    root = ChainRoot((*known.zeros, *touches), found.scale(name) * LEAST, dips=dips)
+    if not (root.zeros or dips):
         return assembly
     side = root.side(path.state(JUST_AFTER, Slope(1.0)))
     assert isinstance(side, float)

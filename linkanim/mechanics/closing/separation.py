@@ -33,6 +33,8 @@ SAMPLES_A_GEARED_TURN = 96
 """Of the crank that turns most while the input turns once."""
 TOUCHING = 1e-12
 """Share of a margin's scale within which floats cannot tell its sign."""
+BARELY = 1 / 64
+"""Share of its scale below which a margin that turns back costs what is made of it its digits."""
 ROUNDING = 2.0**-48
 """Share of the longest bar that rounded lengths make: within it bars just fall into line."""
 UNEVEN = 0.1
@@ -94,6 +96,8 @@ class Separations:
     """Of every dyad at every phase, whether it does not close there (D, N)."""
     settled: tuple[tuple[Extreme, ...], ...]
     """Of every dyad, the extremes at which floats cannot tell its margin from nothing."""
+    barely: tuple[tuple[float, ...], ...]
+    """Of every dyad, the phases of others at which it barely closes."""
     margins: Callable[[Array], Array]
     """Returns the margins over their scale at phases (D, N)."""
 
@@ -118,6 +122,12 @@ class Separations:
         """Return the phases at which a dyad's bars just fall into line."""
         return tuple(found.place for found in self.settled[self.names.index(name)] if found.closes == 0)
 
+    def dips(self, name: str) -> tuple[Sum, ...]:
+        """Return the phases at which a dyad barely closes, its separation being extreme."""
+        row = self.names.index(name)
+        settled = (found.place for found in self.settled[row] if found.closes > 0)
+        return (*settled, *map(Sum, self.barely[row]))
+
 
 def separations(assembly: Assembly) -> Separations:
     """Return how the dyads that come near their limits fare along the path, over its true period.
@@ -129,7 +139,7 @@ def separations(assembly: Assembly) -> Separations:
     if not scales:
         nothing = np.zeros((0, len(phases)))
         return Separations(
-            (), nothing[:, 0], phases, nothing > 0, (), lambda places: nothing[:, : len(places)]
+            (), nothing[:, 0], phases, nothing > 0, (), (), lambda places: nothing[:, : len(places)]
         )
     scale = np.array([*scales.values()])
     found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
@@ -143,9 +153,13 @@ def separations(assembly: Assembly) -> Separations:
     extremes = _places(sampled, samples, _turning(samples), 0)
     peaks = _places(sampled, samples, _passing(samples), 3)
     samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
-    settled = tuple(
-        tuple(_settled(assembly, name, places, sampled(places).rows[2, row]))
+    low = [
+        _low(assembly, name, sampled(places), row)
         for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
+    ]
+    settled = tuple(
+        tuple(_settled(assembly, name, places[margins <= TOUCHING]))
+        for name, (places, margins) in zip(closings, low, strict=True)
     )
     return Separations(
         tuple(closings),
@@ -153,6 +167,7 @@ def separations(assembly: Assembly) -> Separations:
         samples.phases,
         _shut(samples, settled),
         settled,
+        tuple(tuple(places[margins > TOUCHING].tolist()) for places, margins in low),
         lambda phases: np.asarray(sampled(phases).rows[2]),
     )
 
@@ -208,8 +223,10 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, float]:
     nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * _longest(assembly)) ** 2)
     for name in (name for name, flat in zip(closings, nothing, strict=True) if flat):
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
-    near = np.fmin.reduce(margins, axis=1) <= 3 * np.fmax.reduce(np.abs(np.diff(margins, axis=1)), axis=1)
-    scales = np.minimum(most, size).tolist()
+    scale = np.minimum(most, size)
+    changes = np.fmax.reduce(np.abs(np.diff(margins, axis=1)), axis=1)
+    near = np.fmin.reduce(margins, axis=1) <= np.maximum(3 * changes, BARELY * scale)
+    scales = scale.tolist()
     return {name: scale for name, scale, comes in zip(closings, scales, near, strict=True) if comes}
 
 
@@ -279,8 +296,10 @@ def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
 
 def _turning(samples: Sampled) -> Bools:
     """Tell between which neighbours a separation near a limit has its extreme (D, N - 1)."""
-    positive = samples.rows[0] > 0
-    return np.asarray(_near(*_neighbours(samples)) & (positive[:, 1:] != positive[:, :-1]))
+    positive, margins = samples.rows[0] > 0, samples.rows[2]
+    low = (np.minimum(margins[:, 1:], margins[:, :-1]) > 0) & (margins[:, 1:] <= BARELY)
+    near = _near(*_neighbours(samples)) | low
+    return np.asarray(near & (positive[:, 1:] != positive[:, :-1]))
 
 
 def _passing(samples: Sampled) -> Bools:
@@ -308,14 +327,21 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
     return [found[dyads == dyad] for dyad in range(len(cells))]
 
 
-def _settled(assembly: Assembly, name: str, phases: Array, margins: Array) -> Iterator[Extreme]:
+def _low(assembly: Assembly, name: str, extremes: Sampled, row: int) -> tuple[Array, Array]:
+    """Return the phases of extremes at which a dyad barely closes, if it does, and the margins there."""
+    margins = extremes.rows[2, row]
+    inside = [not _at_own_end(assembly.path, name, phase) for phase in extremes.phases.tolist()]
+    low = (margins >= -TOUCHING) & (margins <= BARELY) & np.array(inside, bool)
+    return extremes.phases[low], margins[low]
+
+
+def _settled(assembly: Assembly, name: str, phases: Array) -> Iterator[Extreme]:
     """Yield the extremes at which floats cannot tell a dyad's margin from nothing."""
     longest = _longest(assembly)
-    for phase in phases[np.abs(margins) <= TOUCHING].tolist():
-        if not _at_own_end(assembly.path, name, phase):
-            place, gap, reach = extreme(assembly, name, phase)
-            closes = 0 if abs(gap) <= ROUNDING * longest else 1 if gap > 0 else -1
-            yield Extreme(phase, place, closes, reach)
+    for phase in phases.tolist():
+        place, gap, reach = extreme(assembly, name, phase)
+        closes = 0 if abs(gap) <= ROUNDING * longest else 1 if gap > 0 else -1
+        yield Extreme(phase, place, closes, reach)
 
 
 def _at_own_end(path: InputPath, name: str, phase: float) -> bool:

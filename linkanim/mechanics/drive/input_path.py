@@ -214,22 +214,23 @@ def half_squares(ends: tuple[Sum, Sum], reference: Sum, ratio: Fraction) -> tupl
 class LimitDistances:
     """How far angles are from the limits of a swing.
 
-    `angle` is that from its middle, `u` and `v` are half of what is left to its upper and its lower limit;
-    angles lie `outside`, or are a limit as well as a float can say it.
+    `angle` is that from its middle, and `rest` what the float lacks of it; `u` and `v` are half of what is
+    left to its upper and its lower limit; angles lie `outside`, or are a limit as well as a float can say it.
     """
 
     angle: Array
+    rest: Array
     u: Array
     v: Array
     outside: NDArray[np.bool_]
     at_limit: NDArray[np.bool_]
 
     @property
-    def snapped(self) -> tuple[Array, Array]:
-        """u and v, the smaller one zero for angles that are a limit."""
+    def snapped(self) -> LimitDistances:
+        """The same, the smaller one of u and v zero for angles that are a limit."""
         pairs = (self.u, self.v), (self.v, self.u)
         u, v = (np.where(self.at_limit & (way <= other), 0.0, way) for way, other in pairs)
-        return u, v
+        return replace(self, u=u, v=v)
 
 
 @np.errstate(all="ignore")
@@ -245,20 +246,20 @@ def limit_distances(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> 
     whole, lost = two_product(-turns, FULL_TURN.high)
     high, error = two_sum(angle, whole)
     low = error + lost - turns * FULL_TURN.low
-    v, u = _way(high, low, low_end, 1.0), _way(high, low, high_end, -1.0)
+    v, u = np.add(*_way(high, low, low_end)), -np.add(*_way(high, low, high_end))
     nearest = np.spacing(np.maximum(np.abs(angle), NEARLY_ZERO)) / 2
     at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
     outside = ~((np.minimum(u, v) >= 0) | at_limit)
-    return LimitDistances(
-        _way(high, low, middle, 1.0), np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2, outside, at_limit
-    )
+    near, rest = _way(high, low, middle)
+    way = near + rest
+    u, v = np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2
+    return LimitDistances(way, rest - (way - near), u, v, outside, at_limit)
 
 
-def _way(high: Array, low: Array, limit: Sum, sign: float) -> Array:
-    """Return sign × (angle - limit), both sums of two floats."""
+def _way(high: Array, low: Array, limit: Sum) -> tuple[Array, Array]:
+    """Return angle - limit, sums of two floats both, in two parts that overlap."""
     total, error = two_sum(high, -limit.high)
-    way: Array = sign * (total + (error + (low - limit.low)))
-    return way
+    return total, error + (low - limit.low)
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,6 +26,8 @@ from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.loops.input_state import InputState, swing_by_angle, swing_by_phase, swing_per_input
 from linkanim.mechanics.loops.signed import Swinging
 
+SOLVED_FROM = ("x", "u", "v", "rest")
+
 
 @dataclass(frozen=True, slots=True)
 class Swing(ThereAndBack):
@@ -123,12 +125,12 @@ class Swing(ThereAndBack):
 
     def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state: its angle and half the ways left."""
-        x, u, v = (graph.input(name) for name in "xuv")
-        return ("x", "u", "v"), swing_by_angle((x, u, v), pace, self.middle, self.amplitude)
+        x, u, v, rest = (graph.input(name) for name in SOLVED_FROM)
+        return SOLVED_FROM, swing_by_angle((x, u, v), pace, self.middle, self.amplitude, rest)
 
     def solved_from(self, distances: LimitDistances) -> tuple[Array, ...]:
-        """Return what the program by angle takes: the angle from the middle, and half the ways left."""
-        return distances.angle, distances.u, distances.v
+        """Return what the program by angle takes: the angle from the middle, half the ways left, the rest."""
+        return distances.angle, distances.u, distances.v, distances.rest
 
     def swinging(self, state: InputState) -> Swinging | None:
         """Return the swing as the state has it; None for a state without ends."""

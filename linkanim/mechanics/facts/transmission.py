@@ -119,7 +119,8 @@ def _moving(program: Batch, places: Array) -> Array:
 
 def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:
     """Tell whether a dyad's bars fall into one line: at a limit of its own, or at a change point."""
-    return name in mechanism.assembly.chain or name in mechanism.assembly.path.ends
+    root = mechanism.assembly.chain.get(name)
+    return bool(root and root.zeros) or name in mechanism.assembly.path.ends
 
 
 def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:

@@ -62,7 +62,8 @@ class InputState:
 
     `angle` is θ without `origin`; `rate` and `second` are its derivatives in time; `pace` is the
     derivative of what drives it (φ' or θ') with its own derivative; `phase` is φ where a swing is
-    driven by it. `within` is how far from zero `angle` comes, where that is known.
+    driven by it. `within` is how far from zero `angle` comes, where that is known, and `rest` what the float
+    lacks of it.
     """
 
     angle: Value
@@ -73,6 +74,7 @@ class InputState:
     ends: Ends | None = None
     phase: Value | None = None
     within: float = math.inf
+    rest: Value = 0.0
 
     def coordinate(self, unscale: float) -> tuple[Value, Value, Value]:
         """Return the input's coordinate with its rates: its angle; of a slider its travel, `unscale`d."""
@@ -184,17 +186,18 @@ def swing_per_input(phase: Value, middle: Sum, amplitude: float) -> InputState:
 
 
 def swing_by_angle(
-    ways: tuple[Value, Value, Value], pace: Slope, middle: Sum, amplitude: float
+    ways: tuple[Value, Value, Value], pace: Slope, middle: Sum, amplitude: float, rest: Value = 0.0
 ) -> InputState:
     """Return the state of a swing driven by its angle.
 
-    `ways` are the angle from the middle, and half of what is left to the upper and the lower limit.
+    `ways` are the angle from the middle, of which a float lacks the `rest`, and half of what is left to the
+    upper and the lower limit.
     """
     angle, u, v = ways
     root_u, root_v = (_root_of_way(way, sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
     half_rate = pace.value * 0.5
     ends = Ends(Slope(u, -half_rate), Slope(v, half_rate), root_u, root_v, by_phase=False, signed=False)
-    return InputState(angle, middle, pace.value, pace.rate, pace, ends, within=amplitude)
+    return InputState(angle, middle, pace.value, pace.rate, pace, ends, within=amplitude, rest=rest)
 
 
 def _root_of_way(way: Value, sign: float, pace: Slope) -> Moving:

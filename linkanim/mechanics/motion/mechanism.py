@@ -71,7 +71,7 @@ class Mechanism:
     @property
     def hindered(self) -> bool:
         """Whether a dyad down the chain limits the input or touches a change point."""
-        return bool(self.assembly.chain)
+        return any(root.zeros for root in self.assembly.chain.values())
 
     @cached_property
     def setting(self) -> Setting:

@@ -268,7 +268,7 @@ class Request(NamedTuple):
             results = program(*self.programs.path.solved_from(ways), *rates)
             results[:, ways.outside] = np.nan
             if ways.at_limit.any() and any(map(DERIVATIVE_OF.__getitem__, kinds)):
-                snapped = program(ways.angle, *ways.snapped, *rates)
+                snapped = program(*self.programs.path.solved_from(ways.snapped), *rates)
                 _mark_limits(places, results, snapped, ways.at_limit)
         return places, results
 
