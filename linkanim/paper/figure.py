@@ -28,7 +28,8 @@ SUFFIXES = (".svg", ".png", ".pdf")
 class Figured:
     """What a figure shows of a scene: a phase, and over it `poses` faint ones spread over the period.
 
-    Its words are for `speed`, the scene's own where none is given.
+    Its words are for `speed`, the scene's own where none is given. Names stand as is best for its pose alone,
+    or `as_seen` in a window.
     """
 
     scene: Scene
@@ -37,11 +38,13 @@ class Figured:
     phase: float = 0.0
     poses: int = 0
     speed: float | None = None
+    as_seen: bool = False
 
     @cached_property
     def picture(self) -> Picture:
         """The picture that it is a pose of."""
-        return Picture(self.scene, self.size, self.look, apart=True)
+        moment = None if self.as_seen else self.phase
+        return Picture(self.scene, self.size, self.look, apart=True, moment=moment)
 
     @cached_property
     def _poses(self) -> tuple[Pose, tuple[Pose, ...]]:

@@ -99,7 +99,7 @@ class Drawing:
             return None
         from linkanim.picture.labels.dead_centres import DeadCentres
 
-        return DeadCentres(*self.setting.known, self.setting.layout, self.setting.type, look.names > 1)
+        return DeadCentres(*self.setting.known, self.setting.layout, look.names > 1)
 
     def places(self, pose: Pose) -> Places:
         """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside.
@@ -210,7 +210,7 @@ def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
         marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
         arrows=tuple(arrows_of(figure, kind, height, gauge, theme) for kind in kinds),
         turning=motion_of(*setting.known) if look.names else None,
-        legs=tuple(leg_part(legs, view, gauge, theme.dim) for legs in known.legs) if known else (),
+        legs=tuple(leg_part(point, view, gauge, theme.dim) for point in known.points) if known else (),
         centres=_centres(setting) if look.centres else None,
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import ceil
 
 from linkanim.picture.view import Rect
 
@@ -17,6 +18,11 @@ _SHARE_LISTED = 0.42
 """A list's share of the height at the foot."""
 _TALLEST = 0.42
 """The height of a chart beside the scene, in widths of the window."""
+_ROW = 1.3
+"""From row to row of a table, in heights of its text."""
+_SMALLEST_ROW = 8
+_SHARE_OF_TABLE = 0.27
+"""A table that would take more of the stage's width, or height, is set smaller, down to that size."""
 _SHARE_OF_POLYGONS = 0.36
 """The polygons' share of what is left beside a chart: of its width, or of its height if that is greater."""
 
@@ -40,6 +46,8 @@ class Layout:
     polygons: Rect | None = None
     hint: Rect | None = None
     """Where the words on what there is to press stand; without width where there is no room for them."""
+    table: Rect | None = None
+    """Where a table of dimensions stands, if it is given room."""
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
 
@@ -94,6 +102,23 @@ def layout(
     high = _SHARE_OF_POLYGONS * stage.height
     place = Rect(stage.x + edge, stage.bottom - high, stage.width - 2 * edge, high - edge)
     return replace(parts, polygons=place, stage=stage._replace(height=stage.height - high - 0.6 * edge))
+
+
+def with_table(parts: Layout, rows: int, wide: float) -> Layout:
+    """Return a layout with room for a table, beside the stage or below it, where it takes less."""
+    stage, edge = parts.stage, parts.margin
+    for size in range(parts.small_size, _SMALLEST_ROW - 1, -1):
+        step, broad_row = _ROW * size, wide * size / parts.small_size
+        columns = ceil(rows * step / max(stage.height - 2 * edge, 1))
+        across = max(int((stage.width - 2 * edge) / broad_row), 1)
+        broad, deep = columns * broad_row + edge, ceil(rows / across) * step + edge
+        if min(broad / stage.width, deep / stage.height) < _SHARE_OF_TABLE:
+            break
+    if broad / stage.width < deep / stage.height:
+        place = Rect(stage.right - broad, stage.y + edge, broad - edge, stage.height - 2 * edge)
+        return replace(parts, table=place, stage=stage._replace(width=stage.width - broad))
+    place = Rect(stage.x + edge, stage.bottom - deep, stage.width - 2 * edge, deep - edge)
+    return replace(parts, table=place, stage=stage._replace(height=stage.height - deep))
 
 
 def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool) -> Layout:

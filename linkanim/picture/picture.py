@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.arrangement.fit import SceneFit, fitted, request_of
+from linkanim.picture.arrangement.fit import FitRequest, SceneFit, fitted, request_of
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.drawing import Drawing, DrawSetting
@@ -20,7 +20,8 @@ from linkanim.picture.panels.hud import Hud
 from linkanim.picture.panels.legend import Legend, legend_for
 from linkanim.picture.panels.marks import glow, grip, measure
 from linkanim.picture.panels.overlay import DimensionLine, Overlay
-from linkanim.picture.parts.turning import turning_of
+from linkanim.picture.parts.turning import motion_of
+from linkanim.picture.raster.parts import Part
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.view import Rect, View, moved
@@ -29,7 +30,7 @@ from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from linkanim.picture.diagrams.polygons import Polygon
-    from linkanim.picture.labels.names import Names
+    from linkanim.picture.labels.names import LabelStyle, Names
 
 
 class Picture:
@@ -38,8 +39,8 @@ class Picture:
     The view fits what is shown: the scene, and its other closure where the look has it in view. `listed`
     leaves room for the edit list, instead of the HUD. With `apart` each joint has a group of its own. What
     `before` measured of the same scene is taken over; names keep their places on one that is zoomed, on its
-    way to another, or `held` by the hand. Raises BadInput where the look's chart is no quantity of the
-    scene.
+    way to another, or `held` by the hand. With a `moment` names stand as is best at that phase alone. Raises
+    BadInput where the look's chart is no quantity of the scene.
     """
 
     def __init__(
@@ -52,6 +53,7 @@ class Picture:
         listed: bool = False,
         held: bool = False,
         apart: bool = False,
+        moment: float | None = None,
     ) -> None:
         self.scene, self.size, self.look = scene, size, look
         self._made_for = (size, look, listed, held)
@@ -59,22 +61,34 @@ class Picture:
         self.type: Type = before.type if before else Type()
         self.theme: Theme = theme_of(look.theme)
         self._beside = self._other_closure(before) if look.ghost else None
-        request, last = request_of(size, look, listed=listed), before.fit if before else None
+        self._apart, self._moment = apart, moment
+        follows = held or scene.towards is not None
+        request = request_of(size, look, listed=listed)
+        if before and moment is None and (size, look.names) == (before.size, before.look.names):
+            kept = follows or before._goal is self._goal
+            request = request._replace(table=before.fit.request.table) if kept else request
+        self._arrange(request, before)
+        self.names: Names | None = self._named(before, held=held) if look.names else None
+        if self.names and self.names.unlisted:
+            self._arrange(self.fit.request._replace(table=self._table_size()), before)
+            self.names = self._named(None, held=False)
+        self._behind: tuple[float, tuple[Group, ...]] | None = None
+
+    def _arrange(self, request: FitRequest, before: Picture | None) -> None:
+        """Fit the scene into what is requested."""
+        scene, look, last = self.scene, self.look, before.fit if before else None
         self.fit: SceneFit = fitted(self._goal, self._beside, request, self.type, before=last)
         self.figure: Figure = figure(scene) if scene.towards else self.fit.subject.figure
         self.layout: Layout = self.fit.arrangement.layout
         self.fitted: View = self.fit.view_of(self.figure)
         """The view before it is zoomed and panned."""
-        (width, height), (right, down) = size, look.pan
+        (width, height), (right, down) = self.size, look.pan
         about, shift = (width / 2, height / 2), (right * height, down * height)
         self.view: View = moved(self.fitted, about, zoom=look.zoom, pan=shift)
         gauge = self.fit.arrangement.gauge
         setting = DrawSetting(self.figure, self.view, gauge, self.theme, self.layout, look, self.type)
-        self.drawing = Drawing(setting, apart=apart)
+        self.drawing = Drawing(setting, apart=self._apart)
         self._chart = self._chart_panel()
-        self.names: Names | None = self._named(before, held=held) if look.names else None
-        self._behind: tuple[float, tuple[Group, ...]] | None = None
-        self._apart = apart
 
     def fits(
         self, scene: Scene, size: tuple[int, int], look: Look, *, listed: bool = False, held: bool = False
@@ -162,11 +176,16 @@ class Picture:
 
     def _named_groups(self, pose: Pose) -> Iterator[Group]:
         """Yield the words on the scene."""
-        words = [*self.drawing.dead_centres.captions] if self.drawing.dead_centres else []
         if self.names:
-            words += self.names.captions(pose, self.drawing.places(pose))
-        if words:
-            yield Group("names", (), words)
+            places = self.drawing.places(pose)
+            lines = [*self.names.lines(pose, places, self._dimension_lines)]
+            yield Group("dimension-lines", lines)
+            yield Group("names", (), self.names.captions(pose, places))
+
+    @cached_property
+    def _dimension_lines(self) -> dict[str, Part]:
+        assert self.names
+        return self.names.parts(self.figure, self.view, self.fit.arrangement.gauge, self.theme.dim)
 
     def _clear(self, line: Caption) -> bool:
         """Return whether a line of text ends before what stands beside the scene."""
@@ -256,17 +275,42 @@ class Picture:
         Those of a picture `before` keep their places where it differs by its zoom and pan alone, or while
         the scene is on its way to another.
         """
-        kept = before.names if before and self._named_as(before, held=held) else None
+        kept = before.names if before and self._moment is None and self._named_as(before, held=held) else None
         if kept:
-            return kept.measuring(self.drawing.symbols, self.scene.length_unit)
-        from linkanim.picture.labels.names import LabelStyle, names_of
+            return kept.measuring(self.drawing.symbols, self.scene.length_unit, self.view.scale)
+        from linkanim.picture.labels.candidates import Surroundings
+        from linkanim.picture.labels.names import names_of
 
-        centres = self.drawing.dead_centres
-        words = (*self.layout.words, *(centres.rects() if centres else ()))
-        gauge = self.fit.arrangement.gauge
-        style = LabelStyle(self.type, replace(self.layout, words=words), self.theme, gauge)
-        turning = turning_of(self.figure, self.fitted, gauge, self.theme)
-        return names_of(self.figure, self.fitted, style, turning, self.drawing.symbols)
+        known, (figure_, _, gauge, theme) = self.drawing.symbols, self.drawing.setting.known
+        # placed in the view as it fits; a zoom only carries them along
+        centres = replace(self.drawing.dead_centres, view=self.fitted) if self.drawing.dead_centres else None
+        around = Surroundings(
+            figure_,
+            self.fitted,
+            gauge,
+            self.layout,
+            theme,
+            motion_of(figure_, self.fitted, gauge, theme),
+            self._moment,
+            centres.ticks if centres else (),
+            known is not None,
+        )
+        return replace(names_of(around, self._label_style, known, centres), scale=self.view.scale)
+
+    @property
+    def _label_style(self) -> LabelStyle:
+        from linkanim.picture.labels.names import LabelStyle
+
+        return LabelStyle(self.type, self.layout, self.theme, self.fit.arrangement.gauge)
+
+    def _table_size(self) -> tuple[int, float]:
+        """Return how many rows a table of all dimensions has, and how wide they are."""
+        from linkanim.picture.labels.names import table_width
+
+        assert self.drawing.symbols
+        unit = self.scene.length_unit
+        rows = [f"{one.written(unit)}, {one.about}" for one in self.drawing.symbols.dimensions]
+        return len(rows), table_width(rows, self._label_style)
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
         """Return whether the names on another picture are this one's."""

@@ -1,9 +1,9 @@
 """One place for each label: near what it names, off all else for as much of a cycle as there is.
 
 Every label has a few places to choose from, each of which goes along with what it names. The one is taken
-that costs least over the cycle: for being far, for lying over bars, and most of all for lying where a label
-must not. At the moments at which it would all the same, it is gone. What is placed is in the way of the
-labels after it. On a picture of one moment, such as a chart, a label stands there or not at all.
+that costs least over the cycle: for being far, and most of all for touching what it must not. At the moments
+at which it would all the same, it is gone. What is placed is in the way of the labels after it. On a picture
+of one moment, such as a chart or a figure, a label stands there or not at all.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from linkanim.picture.raster.raster import Loop
 from linkanim.picture.view import Rect
@@ -27,85 +27,84 @@ MOMENTS = 144
 _STEP = 4
 """At every fourth of them a place is chosen."""
 _FORBIDDEN = 20.0
-"""What a place costs that is forbidden for the whole cycle, where one on a bar costs 1."""
-_CLOSE = 0.2
-"""How near to a bar, in its own heights, a label's middle seems to lie on it."""
-_GONE = 7
+"""What a place costs that is forbidden for the whole cycle, where one on what it belongs to costs 1."""
+_BESIDE = 2.0
+"""What it costs to lie on a solid that a label belongs to."""
+_CROSSING = 0.4
+"""What it costs a line to cross a solid."""
+_ALONG = np.linspace(0.05, 0.95, 7)
+"""Where along a line is looked whether it does."""
+_THICK = 1.0
+"""Half as thick as lines that go with labels are taken to be, in pixels."""
+_NONE = np.zeros((1, 0), np.complex128)
+_GONE = 3
 """How many moments before it would lie on something a label is gone."""
 _SOFT = 3
 """In so many moments either way it comes and goes."""
 
 
-class Obstacles(NamedTuple):
-    """Lines (n moments, m) that labels had better not lie on, each so thick and so much in the way."""
-
-    begin: Loop
-    end: Loop
-    half: _Floats
-    weight: _Floats
-
-
-_NONE = np.zeros((1, 0), np.complex128)
-NO_BARS = Obstacles(_NONE, _NONE, np.zeros(0), np.zeros(0))
-
-
 class Solid(NamedTuple):
-    """What a link covers: all within its corners (n moments, c), in their order, and `half` round it."""
+    """What a thing covers: all within its corners (n moments, c), convex and in order, and `half` round it.
+
+    One corner is a disc, two are a bar. Labels keep off one that matters `little` where that costs nothing.
+    """
 
     corners: Loop
     half: float
+    little: bool = False
+
+    def at(self, moments: slice) -> Solid:
+        """Return it at some of the moments."""
+        return self._replace(corners=self.corners[moments])
 
 
 @dataclass(frozen=True)
 class Clutter:
-    """What labels must stay off: all that is not `inside`, rectangles, discs (n moments, m); and bars.
-
-    Off the solids only those stay that shun them.
-    """
+    """What labels must stay off: all that is not `inside`, rectangles, and solids."""
 
     inside: Rect
     rects: tuple[Rect, ...] = ()
-    discs: Loop = field(default_factory=lambda: _NONE)
-    radii: _Floats = field(default_factory=lambda: np.zeros(0))
-    bars: Obstacles = NO_BARS
     solids: tuple[Solid, ...] = ()
 
     @cached_property
-    def boxes(self) -> tuple[Loop, Loop, _Floats]:
-        """Two corners of a box round each solid (n moments, m), and how much more it covers."""
-        parts = [(solid.corners.real, solid.corners.imag) for solid in self.solids]
-        low, high = (
-            np.stack([end(x, axis=1) + 1j * end(y, axis=1) for x, y in parts], axis=1)
-            for end in (np.min, np.max)
+    def boxes(self) -> tuple[_Floats, ...]:
+        """Left, right, top and bottom (n moments, m) of what each solid covers."""
+        half = np.array([solid.half for solid in self.solids])
+        ends = (
+            np.stack(np.broadcast_arrays(*(end(of(s.corners), axis=1) for s in self.solids)), axis=1)
+            + sign * half
+            for of in (np.real, np.imag)
+            for end, sign in ((np.min, -1), (np.max, 1))
         )
-        return low, high, np.array([solid.half for solid in self.solids])
+        return tuple(ends)
 
+    @cached_property
     def some(self) -> Clutter:
-        """Return it at the moments at which places are chosen."""
-        bars = self.bars._replace(begin=self.bars.begin[::_STEP], end=self.bars.end[::_STEP])
-        solids = tuple(solid._replace(corners=solid.corners[::_STEP]) for solid in self.solids)
-        return replace(self, discs=self.discs[::_STEP], bars=bars, solids=solids)
+        """The same at the moments at which places are chosen."""
+        return replace(self, solids=tuple(solid.at(slice(None, None, _STEP)) for solid in self.solids))
 
 
 class LabelPlaces(NamedTuple):
     """A label: how large, and where its middle may stand at each of n moments (n, k), at which price.
 
-    `own` are the numbers of the bars that it may lie on; `shunned` (k, m) says of each place which solids
-    its middle must not lie on, since the label would seem to be theirs.
+    It may lie on the solids of the numbers `own`, and had better not on those `beside` it. With a place go
+    some `lines` (n moments, lines, begin and end): those whose number `drawn` has for it, -1 for none.
     """
 
     size: tuple[float, float]
     places: Loop
     price: _Floats
-    own: tuple[int, ...] = ()
-    shunned: _Bools | None = None
+    own: frozenset[int] = frozenset()
+    beside: frozenset[int] = frozenset()
+    lines: tuple[Loop, ...] = ()
+    drawn: NDArray[np.int64] | None = None
 
-    def at(self, which: int) -> LabelPlaces:
-        """Return it with this place alone."""
-        shunned = None if self.shunned is None else self.shunned[which : which + 1]
-        return self._replace(
-            places=self.places[:, which : which + 1], price=self.price[which : which + 1], shunned=shunned
-        )
+    def at(self, moments: slice, which: slice = slice(None)) -> LabelPlaces:
+        """Return it with some of the moments, and of the places."""
+        lines = tuple(line[moments] for line in self.lines)
+        drawn = None if self.drawn is None else self.drawn[which]
+        places, price = self.places[moments, which], self.price[which]
+        return self._replace(places=places, price=price, lines=lines, drawn=drawn)
 
 
 class Placed(NamedTuple):
@@ -115,125 +114,183 @@ class Placed(NamedTuple):
     shown: _Floats
 
 
-class _Taken(NamedTuple):
-    """Where the labels placed so far stand at each moment (n, m), and their sizes (m, 2)."""
+@dataclass
+class Placer:
+    """Places one label after the other in a clutter, each off those before it."""
 
-    tracks: Loop
-    sizes: _Floats
+    clutter: Clutter
+    _taken: Loop = field(default_factory=lambda: _NONE)
+    _sizes: _Floats = field(default_factory=lambda: np.zeros((2, 0)))
+    _lines: Loop = field(default_factory=lambda: np.zeros((1, 0, 2), np.complex128))
+
+    def first(
+        self,
+        labels: Sequence[LabelPlaces],
+        enough: float = 1.0,
+        *,
+        least: float = 0.0,
+        but: _Bools | None = None,
+    ) -> tuple[int, Placed]:
+        """Place the first of several forms of a label that shows enough of the cycle, else the best.
+
+        One that shows for less of it than the `least` shows nowhere. None shows at the moments `but` for.
+        """
+        found = []
+        for label in labels:
+            found.append(self._found(label, but))
+            if found[-1].shown.mean() >= enough:
+                break
+        best = max(range(len(found)), key=lambda n: float(found[n].shown.mean()))
+        if found[best].shown.mean() < least:
+            return best, found[best]._replace(shown=np.zeros_like(found[best].shown))
+        self._take(labels[best], found[best])
+        return best, found[best]
+
+    def _found(self, label: LabelPlaces, but: _Bools | None) -> Placed:
+        every = slice(None, None, _STEP)
+        cost = self._cost(label.at(every), every, self.clutter.some)
+        if but is not None:
+            cost[but[every]] = 0.0
+        which = int((label.price + cost.mean(axis=0)).argmin())
+        cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
+        shown = _eased(cost[:, 0] >= _FORBIDDEN)
+        return Placed(which, shown if but is None else shown * _eased(but, 0))
+
+    def _take(self, label: LabelPlaces, placed: Placed) -> None:
+        if placed.shown.any():
+            self._taken = _joined(self._taken, label.places[:, placed.which : placed.which + 1])
+            self._sizes = np.column_stack((self._sizes, label.size))
+            number = -1 if label.drawn is None else int(label.drawn[placed.which])
+            self._lines = _joined(self._lines, label.lines[number]) if number >= 0 else self._lines
+
+    def _cost(self, label: LabelPlaces, moments: slice, clutter: Clutter) -> _Floats:
+        """Return what each place costs at each moment: `_FORBIDDEN` for touching what it must not."""
+        places, size = label.places, label.size
+        forbidden: _Bools = np.logical_not(_within(places, size, clutter.inside))
+        cost = np.zeros(places.shape)
+        for rect in clutter.rects:
+            forbidden |= _over(places - rect.middle, size, (rect.width, rect.height))
+        taken, placed_lines = (
+            all_[moments] if len(all_) > 1 else all_ for all_ in (self._taken, self._lines)
+        )
+        forbidden |= _over(places[:, :, None] - taken[:, None], size, self._sizes).any(axis=2)
+        forbidden |= _cut(places, size, placed_lines, _THICK)
+        for n in _near(places, size, clutter):
+            solid = clutter.solids[n]
+            if n in label.own:
+                continue
+            touched = touching(places, size, solid)
+            if n in label.beside or solid.little:
+                cost += _BESIDE * touched
+            else:
+                forbidden |= touched
+        for number, lines in enumerate(label.lines):
+            mine = np.isin(np.asarray(label.drawn), number)
+            if mine.any():
+                crossed: _Bools = ~_within(lines, (2.0, 2.0), clutter.inside)
+                crossed = np.asarray(crossed.any(axis=2))
+                crossed |= _cut(taken, self._sizes, lines, _THICK).any(axis=1, keepdims=True)
+                for rect in clutter.rects:
+                    crossed |= _cut(rect.middle, (rect.width, rect.height), lines, _THICK)
+                forbidden[:, mine] |= crossed.any(axis=1, keepdims=True)
+                cost[:, mine] += _CROSSING * _crossings(lines[:, 0], clutter)[:, None]
+        return cost + _FORBIDDEN * forbidden
 
 
 def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
     """Return a place for each label; the first have the first choice. One without room shows nowhere."""
-    count = max((len(label.places) for label in labels), default=1)
-    taken, found = _Taken(np.zeros((count, 0), np.complex128), np.zeros((0, 2))), list[Placed]()
-    some = clutter.some()
-    for label in labels:
-        which = _cheapest(label._replace(places=label.places[::_STEP]), some, taken)
-        chosen = label.at(which)
-        shown = _eased(_forbidden(chosen, clutter, taken)[:, 0])
-        if shown.any():
-            track = np.broadcast_to(chosen.places, (count, 1))
-            taken = _Taken(np.hstack((taken.tracks, track)), np.vstack((taken.sizes, label.size)))
-        found.append(Placed(which, shown))
+    placer = Placer(clutter)
+    return [placer.first([label])[1] for label in labels]
+
+
+def touching(places: Loop, size: tuple[float, float], solid: Solid) -> _Bools:
+    """Return whether boxes of a size about places (n, k) touch a solid (n or 1 moments).
+
+    Two convex shapes are apart where one of their edges parts them; a bar's ends count as square.
+    """
+    (wide, high), corners, half = size, solid.corners, solid.half
+    if corners.shape[1] == 1:
+        away = places - corners
+        aside = np.maximum(np.abs(away.real) - wide / 2, 0) + 1j * np.maximum(np.abs(away.imag) - high / 2, 0)
+        return np.asarray(np.abs(aside) < half)
+    if corners.shape[1] == 2:
+        return _cut(places, size, corners[:, None], half)
+    hit = _straddles(corners.real, places.real, wide / 2 + half)
+    hit &= _straddles(corners.imag, places.imag, high / 2 + half)
+    for n in range(corners.shape[1]):
+        along = corners[:, n] - corners[:, n - 1]
+        length = np.abs(along)
+        normal = (1j * along / np.where(length > 0, length, 1))[:, None]
+        reach = np.abs(normal.real) * wide / 2 + np.abs(normal.imag) * high / 2 + half
+        across = corners.real * normal.real + corners.imag * normal.imag
+        hit &= _straddles(across, places.real * normal.real + places.imag * normal.imag, reach)
+    return hit
+
+
+def _cut(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float) -> _Bools:
+    """Return whether boxes of sizes about places (n, k) touch lines (n, m, 2) that are `half` thick."""
+    wide, high = (np.atleast_1d(side)[:, None] / 2 for side in size)
+    middle, reach = lines.mean(axis=2)[:, None], (lines[..., 1] - lines[..., 0])[:, None] / 2
+    away = np.atleast_2d(places)[:, :, None] - middle
+    long, deep = np.abs(reach.real), np.abs(reach.imag)
+    hit = (np.abs(away.real) < wide + half + long) & (np.abs(away.imag) < high + half + deep)
+    across = np.abs(away.real * reach.imag - away.imag * reach.real)
+    hit &= across < long * high + deep * wide + half * np.hypot(long, deep)
+    return np.asarray(hit.any(axis=2))
+
+
+def _joined(one: Loop, other: Loop) -> Loop:
+    """Return arrays (n or 1, m, ...) side by side."""
+    count = max(len(one), len(other))
+    wide = (np.broadcast_to(part, (count, *part.shape[1:])) for part in (one, other))
+    return np.concatenate([*wide], axis=1)
+
+
+def _crossings(line: Loop, clutter: Clutter) -> _Floats:
+    """Return how many solids a line (n, 2) crosses at each moment."""
+    points = line[:, :1] + _ALONG * (line[:, 1:] - line[:, :1])
+    found = np.zeros(len(points))
+    for n in _near(points, (0.0, 0.0), clutter):
+        found += touching(points, (0.0, 0.0), clutter.solids[n]).any(axis=1)
     return found
 
 
-def _cheapest(label: LabelPlaces, clutter: Clutter, taken: _Taken) -> int:
-    some = taken._replace(tracks=taken.tracks[::_STEP])
-    cost = _lying(label, clutter.bars) + _FORBIDDEN * _forbidden(label, clutter, some)
-    return int((label.price + cost.mean(axis=0)).argmin())
+def _straddles(corners: _Floats, middle: _Floats, reach: _Floats | float) -> _Bools:
+    """Return whether what lies between corners (n, c) comes so near to middles (n, k) in one direction."""
+    low, high = corners.min(axis=1, keepdims=True), corners.max(axis=1, keepdims=True)
+    return np.asarray((low - middle < reach) & (middle - high < reach))
 
 
-def _forbidden(label: LabelPlaces, clutter: Clutter, taken: _Taken) -> _Bools:
-    """Return whether it would lie on a disc, a rectangle or another label, reach outside, or mislead."""
-    (wide, high), places, room = label.size, label.places, clutter.inside
-    x, y = places.real, places.imag
-    forbidden: _Bools = (x - wide / 2 < room.x) | (x + wide / 2 > room.right)
-    forbidden |= (y - high / 2 < room.y) | (y + high / 2 > room.bottom)
-    for rect in clutter.rects:
-        middle = complex(rect.x + rect.width / 2, rect.y + rect.height / 2)
-        forbidden |= _over(places - middle, wide + rect.width, high + rect.height)
-    if len(taken.sizes):
-        sides = taken.sizes + np.array((wide + 2, high))
-        forbidden |= _over(places[:, :, None] - taken.tracks[:, None], *sides.T).any(axis=2)
-    if clutter.radii.size:
-        near = _near(places, clutter.discs, clutter.discs, wide / 2 + clutter.radii, high / 2 + clutter.radii)
-        away = places[:, :, None] - clutter.discs[:, None, near]
-        aside = np.maximum(np.abs(away.real) - wide / 2, 0) + 1j * np.maximum(np.abs(away.imag) - high / 2, 0)
-        forbidden |= (np.abs(aside) < clutter.radii[near]).any(axis=2)
-    return forbidden if label.shunned is None else forbidden | _misleading(label, clutter)
-
-
-def _misleading(label: LabelPlaces, clutter: Clutter) -> _Bools:
-    """Return whether the label's middle would lie on a solid that it shuns there."""
-    assert label.shunned is not None
-    misleading, close = np.zeros(label.places.shape, np.bool_), _CLOSE * label.size[1]
+def _near(places: Loop, size: tuple[float, float], clutter: Clutter) -> list[int]:
+    """Return which solids come near to boxes of a size about one of the places at some moment."""
     if not clutter.solids:
-        return misleading
-    low, high, half = clutter.boxes
-    for n in _near(label.places, low, high, half + close, half + close):
-        which, solid = np.flatnonzero(label.shunned[:, n]), clutter.solids[n]
-        if which.size:
-            off = _off(label.places[:, which], solid.corners)
-            misleading[:, which] |= off < solid.half + close
-    return misleading
-
-
-def _lying(label: LabelPlaces, bars: Obstacles) -> _Floats:
-    """Return how much each place lies over bars: 0 for none, 1 for right on one, more for more."""
-    if not bars.weight.size:
-        return np.zeros(label.places.shape)
-    (wide, high), weight = label.size, bars.weight.copy()
-    weight[list(label.own)] = 0.0
-    reach = max(wide - high, 0.0) / 2
-    around = bars.half + high / 2
-    near = _near(label.places, bars.begin, bars.end, around + reach, around)
-    points = label.places[:, :, None, None] + np.array([-reach, 0.0, reach])[:, None]
-    away = _distance(points, *(ends[:, None, None, near] for ends in bars[:2]))
-    over = np.clip((around[near] - away) / high, 0, 1).max(axis=2)
-    lying: _Floats = (over * weight[near] * np.minimum(2 * bars.half[near] / high, 1)).sum(axis=2)
-    return lying
-
-
-def _near(places: Loop, begin: Loop, end: Loop, across: _Floats, down: _Floats) -> NDArray[np.intp]:
-    """Return which lines (n, m) come so near to one of the places (n, k) at some moment, in their order."""
-    apart = np.zeros(begin.shape, np.bool_)
-    for some, first, last, by in (
-        (places.real, begin.real, end.real, across),
-        (places.imag, begin.imag, end.imag, down),
+        return []
+    near, boxes = np.ones((1, 1), np.bool_), clutter.boxes
+    for part, side, ends in (
+        (places.real, size[0], boxes[:2]),
+        (places.imag, size[1], boxes[2:]),
     ):
-        apart |= np.minimum(first, last) > some.max(axis=1, keepdims=True) + by
-        apart |= np.maximum(first, last) < some.min(axis=1, keepdims=True) - by
-    return np.flatnonzero(~apart.all(axis=0))
+        low, high = (end(part, axis=1, keepdims=True) for end in (np.min, np.max))
+        near = near & (ends[0] < high + side / 2) & (ends[1] > low - side / 2)
+    return list(np.flatnonzero(near.any(axis=0)).tolist())
 
 
-def _off(points: Loop, corners: Loop) -> _Floats:
-    """Return how far points (n, k) are from what corners (n, c) enclose, 0 inside."""
-    begin, end = corners[:, None], np.roll(corners, -1, axis=1)[:, None]
-    away = _distance(points[:, :, None], begin, end).min(axis=2)
-    left = ((points[:, :, None] - begin) * np.conj(end - begin)).imag
-    # of one corner, or two, all points are "inside" that lie in line with them
-    return np.where((left > 0).all(axis=2) | (left < 0).all(axis=2), 0.0, away)
+def _within(places: Loop, size: tuple[float, float], room: Rect) -> _Bools:
+    (wide, high), x, y = size, places.real, places.imag
+    inside = (x - wide / 2 >= room.x) & (x + wide / 2 <= room.right)
+    return np.asarray(inside & (y - high / 2 >= room.y) & (y + high / 2 <= room.bottom))
 
 
-def _distance(points: Loop, begin: Loop, end: Loop) -> _Floats:
-    """Return how far points are from lines."""
-    along = end - begin
-    squared = np.maximum(along.real**2 + along.imag**2, 1e-9)
-    share = np.clip(((points - begin) * np.conj(along)).real / squared, 0, 1)
-    away: _Floats = np.abs(points - begin - share * along)
-    return away
+def _over(away: Loop, size: tuple[float, float], other: tuple[float, float] | _Floats) -> _Bools:
+    wide, high = size[0] + other[0], size[1] + other[1]
+    return np.asarray((2 * np.abs(away.real) < wide) & (2 * np.abs(away.imag) < high))
 
 
-def _over(away: Loop, width: _Floats | float, height: _Floats | float) -> _Bools:
-    return np.asarray((2 * np.abs(away.real) < width) & (2 * np.abs(away.imag) < height))
-
-
-def _eased(forbidden: _Bools) -> _Floats:
-    """Return how far a label shows that must not at some moments; it is gone in time for each."""
+def _eased(forbidden: _Bools, gone: int = _GONE) -> _Floats:
+    """Return how far a label shows that must not at some moments; it is `gone` in time for each."""
     if len(forbidden) == 1 or not forbidden.any():
         return np.where(forbidden, 0.0, 1.0)
-    shifts = range(-_GONE - _SOFT, _GONE + _SOFT + 1)
+    shifts = range(-gone - _SOFT, gone + _SOFT + 1)
     hidden = np.any([np.roll(forbidden, shift) for shift in shifts], axis=0)
     around = [np.roll(~hidden, shift) for shift in range(-_SOFT, _SOFT + 1)]
     return np.asarray(np.mean(around, axis=0), np.float64)

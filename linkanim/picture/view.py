@@ -24,6 +24,11 @@ class Rect(NamedTuple):
         """Its bottom edge."""
         return self.y + self.height
 
+    @property
+    def middle(self) -> complex:
+        """Its middle, as x + yi."""
+        return complex(self.x + self.width / 2, self.y + self.height / 2)
+
     def inset(self, by: float) -> Rect:
         """Return it without a border of that width; never smaller than one pixel."""
         return Rect(self.x + by, self.y + by, max(self.width - 2 * by, 1), max(self.height - 2 * by, 1))

@@ -49,13 +49,11 @@ def test_svg_as_another_program_renders_it_is_the_png(name: str, theme: str) -> 
 
 @pytest.mark.parametrize("name", ["press", "kite"])
 def test_the_png_is_what_the_window_draws(name: str) -> None:
-    """Names that fade in the window, being about to lie on something, are whole on a figure; so is what
-    stands at the edge of the stage.
-    """
+    """But for names, which a figure places for its pose, and for what stands at the edge of the stage."""
     scene, surface = load(name), offscreen(SIZE)
     bare, beside = replace(FULL, names=0), replace(FULL, names=0, polygons=True, centres=2)
     for look, share in ((bare, 0.0), (beside, 1e-4), (FULL, 0.01)):
-        SurfacePrinter().paint(surface, Picture(scene, SIZE, look), scene.pose(1.0))
+        SurfacePrinter().paint(surface, Picture(scene, SIZE, look, moment=1.0), scene.pose(1.0))
         apart = np.abs(_levels(Figured(scene, SIZE, look, phase=1.0).surface()) - _levels(surface))
         assert (apart.max(axis=-1) > 2).mean() <= share
 

@@ -7,12 +7,13 @@ from math import radians
 
 import numpy as np
 import pytest
+from pictures import labelled
 
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.labels.dead_centres import DeadCentres
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.scenes import load, names
+from linkanim.scenes import load
 
 SIZE = (960, 540)
 
@@ -30,7 +31,7 @@ def ticks(name: str) -> DeadCentres:
 
 def words(name: str, named: int = 2) -> list[str]:
     found = drawing(name, named).dead_centres
-    return [caption.text for caption in found.captions] if found else []
+    return [text for text, _ in found.words()] if found else []
 
 
 # by the triangle that crank and rod make in one line: (scene, angles of the crank in degrees)
@@ -83,23 +84,21 @@ def test_else_there_are_none(name: str, named: int) -> None:
     assert words(name, named) == []
 
 
-@pytest.mark.parametrize("size", [SIZE, (480, 270), (540, 960)])
-@pytest.mark.parametrize("name", [name for name in names() if load(name).info.dead_centres])
-@pytest.mark.sampled
-def test_the_words_stand_on_the_stage(name: str, size: tuple[int, int]) -> None:
-    found = drawing(name, size=size).dead_centres
-    assert found is not None
-    for rect in found.rects():
-        assert rect.x >= 0
-        assert rect.right <= size[0]
-
-
 @pytest.mark.parametrize("name", ["press", "slider-crank", "knuckle-press"])
-def test_no_words_stand_on_those_about_the_scene(name: str) -> None:
-    """Where the stroke's words would, they are left out; there is little room beside a chart."""
-    size, look = (640, 360), Look(names=2, chart="A.velocity", vectors=frozenset("va"))
-    drawn = Picture(load(name), size, look).drawing
-    assert drawn.dead_centres
-    rects = list(drawn.dead_centres.rects())
-    assert len(rects) >= 2
-    assert not any(rect.meets(word) for rect in rects for word in drawn.setting.layout.words)
+def test_the_words_stand_off_their_guide_and_go_along_with_a_zoom(name: str) -> None:
+    found = []
+    for zoom in (1.5, 3.0):
+        picture = Picture(load(name), SIZE, Look(names=2, zoom=zoom))
+        pose = picture.scene.pose(0.4)
+        labels = labelled(picture).standing(pose, picture.drawing.places(pose))
+        ticks = picture.drawing.dead_centres
+        assert ticks
+        words = [text for text, _ in ticks.words()]
+        found.append(
+            {one.text: picture.view.to_world(at.real, at.imag) for one, at, _ in labels if one.text in words}
+        )
+    near, far = found
+    assert near
+    assert near.keys() == far.keys()
+    for text, place in near.items():
+        assert place == pytest.approx(far[text])

@@ -10,15 +10,14 @@ from pictures import standing
 
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.labels.candidates import Surroundings
+from linkanim.picture.labels.dimensions import symbols
 from linkanim.picture.look import Look
 from linkanim.picture.parts.turning import Turning
 from linkanim.picture.picture import Picture
-from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placed, Solid, place
+from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placed, Solid, place, touching
 from linkanim.picture.raster.shapes import hull
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
-
-NONE = np.zeros((MOMENTS, 0), np.complex128)
 
 
 def _off(point: complex, corners: list[complex]) -> float:
@@ -88,7 +87,8 @@ def test_a_slider_s_name_stands_by_its_block_and_on_no_link(name: str) -> None:
 
 def _surroundings(name: str) -> Surroundings:
     picture = Picture(load(name), (640, 360), Look(names=1))
-    return Surroundings(picture.figure, picture.fitted, picture.drawing.setting.gauge, picture.layout)
+    gauge = picture.drawing.setting.gauge
+    return Surroundings(picture.figure, picture.fitted, gauge, picture.layout, picture.theme)
 
 
 def _path(ground: Surroundings, joint: str) -> np.ndarray:
@@ -119,12 +119,23 @@ def test_round_a_joint_a_name_stands_off_it_up_and_right_first(name: str, joint:
 def test_what_is_measured_has_its_length_clear_of_it_on_either_side() -> None:
     ground = _surroundings("crank-rocker")
     begin, end = (_path(ground, joint) for joint in ("O2", "A"))
-    found = ground.beside("O2", "A", (60.0, 12.0)).candidates
+    (crank,) = (one for one in symbols(ground.figure).dimensions if one.about == "O₂–A")
+    bare, lined = (spots.candidates for spots in ground.dimension(crank, (20.0, 12.0)))
     along = (end - begin) / np.abs(end - begin)
-    off = ((found.places - begin[:, None]) * along.conj()[:, None]).imag
-    wide = np.abs(along.imag) * 30 + np.abs(along.real) * 6 + 1.3 * ground.gauge.bar
+    wide = np.abs(along.imag) * 10 + np.abs(along.real) * 6 + 1.3 * ground.gauge.bar
+    off = ((bare.places - begin[:, None]) * along.conj()[:, None]).imag
     assert np.abs(off) == pytest.approx(np.broadcast_to(wide[:, None], off.shape))
-    assert (np.sign(off) > 0).sum(axis=1).tolist() == [7] * MOMENTS
+    assert (np.sign(off) > 0).sum(axis=1).tolist() == [3] * MOMENTS
+    assert bare.drawn is None
+    # by a dimension line it stands beyond that, seen from the bar
+    assert lined.drawn is not None
+    for number, lines in enumerate(lined.lines):
+        far = ((lined.places[:, lined.drawn == number] - begin[:, None]) * along.conj()[:, None]).imag
+        level = ((lines[:, 0] - begin[:, None]) * along.conj()[:, None]).imag
+        assert (np.abs(far) > np.abs(level[:, :1]) + 6).all()
+        assert (np.sign(far) == np.sign(level[:, :1])).all()
+    (too_wide,) = ground.dimension(crank, (200.0, 12.0))
+    assert too_wide.candidates.drawn is not None
 
 
 def test_a_link_s_name_stands_on_its_bar_or_within_its_plate() -> None:
@@ -151,30 +162,18 @@ def test_the_angle_s_symbol_stands_outside_its_arc(name: str) -> None:
     assert away.min() > turning.arc + 6.0
 
 
-def test_labels_keep_off_pins_and_blocks_and_three_joints_in_line_are_a_bar() -> None:
+def test_three_joints_in_line_are_a_bar() -> None:
     ground = _surroundings("elliptic-trammel")
-    gauge, radii = ground.gauge, ground.clutter().radii
-    travels = [ground.figure.linkage.joint(name).travels for name in ground.figure.shown]
-    wanted = [0.85 * 2.7 * gauge.bar if moves else gauge.pin + gauge.outline for moves in travels]
-    assert radii == pytest.approx(wanted)
     rod = next(body for body in ground.figure.bodies if body.name == "rod")
     assert len(rod.joints) > 2
     assert len(ground.on(rod, (30.0, 12.0)).candidates.price) == 5 * 7
 
 
-def test_names_stay_off_all_sides_of_plates_and_more_so_of_bars() -> None:
-    ground = _surroundings("press")
-    sides = [len(body.joints) for body in ground.figure.bodies]
-    assert set(sides) == {2, 3}
-    weights = [weight for count in sides for weight in ([1.0] if count == 2 else [0.4] * count)]
-    assert ground.clutter().bars.weight[: len(weights)].tolist() == weights
-
-
 ROOM = Rect(0, 0, 400, 400)
 
 
-def _clutter(solids: tuple[Solid, ...] = (), discs: np.ndarray = NONE) -> Clutter:
-    return Clutter(ROOM, discs=discs, radii=np.full(discs.shape[1], 5.0), solids=solids)
+def _clutter(*solids: Solid) -> Clutter:
+    return Clutter(ROOM, solids=solids)
 
 
 def _label(places: list[complex], price: list[float], moments: int = MOMENTS) -> LabelPlaces:
@@ -210,24 +209,46 @@ def test_a_label_stands_at_an_edge_but_not_over_it(edge: complex, out: complex, 
     ],
 )
 def test_a_label_keeps_off_the_solids_that_it_shuns(corners: tuple[complex, ...], which: int) -> None:
-    clutter = _clutter((Solid(np.tile(np.array(corners), (MOMENTS, 1)), 8.0),))
-    careless = _label([100 + 100j, 100 + 300j], [0.0, 0.5])
-    heedful = careless._replace(shunned=np.ones((2, 1), np.bool_))
+    clutter = _clutter(Solid(np.tile(np.array(corners), (MOMENTS, 1)), 8.0))
+    heedful = _label([100 + 100j, 100 + 300j], [0.0, 0.5])
+    careless = heedful._replace(own=frozenset([0]))
     found = _one(heedful, clutter)
     assert (found.which, found.shown.min()) == (which, 1.0)
     assert _one(careless, clutter).which == 0
+    # beside what it belongs to rather than on it
+    assert _one(heedful._replace(beside=frozenset([0])), clutter).which == which
+
+
+@pytest.mark.parametrize("turn", [1, 1j, np.exp(0.5j), np.exp(2.2j)])
+@pytest.mark.parametrize("corners", [1, 2, 3, 5])
+def test_boxes_touch_what_reaches_into_them(corners: int, turn: complex) -> None:
+    """As points all over each tell; a bar's ends count as square, so that no touch is missed."""
+    shape = 30 * turn * np.exp(2j * np.pi * np.arange(corners) / corners)
+    solid = Solid(shape[None], 4.0)
+    boxes = np.add.outer(np.linspace(-60, 60, 25), 1j * np.linspace(-60, 60, 25)).ravel()[None]
+    found = touching(boxes, (20.0, 10.0), solid)[0]
+    inner = np.add.outer(np.linspace(-10, 10, 21), 1j * np.linspace(-5, 5, 11)).ravel()
+    for box, touched in zip(boxes[0], found, strict=True):
+        near = (
+            min(_off(complex(point), list(map(complex, shape))) for point in box + inner[::3])
+            if corners > 1
+            else np.abs(box + inner - shape[0]).min()
+        )
+        assert touched or near > 3.0
+        assert not touched or near < 4.0 * np.sqrt(2) + 3.0
 
 
 def test_a_label_takes_the_place_where_nothing_comes_and_is_gone_where_it_must_be() -> None:
     """A disc sweeps over the only place of one label, and past one of two places of another."""
-    disc = np.full((MOMENTS, 1), 500 + 500j)
-    disc[60:66] = 100 + 100j
+    way = np.full((MOMENTS, 1), 500 + 500j)
+    way[60:66] = 100 + 100j
+    disc = Solid(way, 5.0)
     only, free = _label([100 + 100j], [0.0]), _label([100 + 100j, 100 + 120j], [0.0, 0.1])
-    stuck = _one(only, _clutter(discs=disc))
+    stuck = _one(only, _clutter(disc))
     assert stuck.shown[60:66].tolist() == [0.0] * 6
     assert stuck.shown[110] == 1.0
     assert np.abs(np.diff(stuck.shown)).max() < 0.2
-    assert _one(free, _clutter(discs=disc))._replace(shown=np.ones(0)).which == 1
+    assert _one(free, _clutter(disc))._replace(shown=np.ones(0)).which == 1
     first, second, other = place([only, only, free], _clutter())
     assert first.shown.all()
     assert not second.shown.any()

@@ -10,7 +10,7 @@ from linkanim.picture.arrangement.arrange import Arrangement, arranged
 from linkanim.picture.arrangement.sweep import Sweep, sweep_of
 from linkanim.picture.arrangement.words import WidestRow, blocks, widest_rows
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.layout import layout
+from linkanim.picture.layout import layout, with_table
 from linkanim.picture.look import Look
 from linkanim.picture.text.text import Type
 from linkanim.picture.view import View
@@ -32,6 +32,8 @@ class FitRequest(NamedTuple):
     listed: bool
     """Whether it leaves room for the edit list."""
     polygons: bool = False
+    table: tuple[int, float] = (0, 0.0)
+    """How many rows a table beside the figure has, and how wide they are."""
 
 
 def request_of(size: tuple[int, int], look: Look, *, listed: bool) -> FitRequest:
@@ -123,6 +125,7 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
     parts = layout(
         request.size, chart=request.chart, beside=beside, listed=request.listed, polygons=request.polygons
     )
+    parts = with_table(parts, *request.table) if request.table[0] else parts
     worded = request.hud and not request.listed
     words = blocks(subject.scenes, subject.rows, parts, request.arrows, type_) if worded else ()
     return arranged(parts, subject.sweep, subject.figure.shortest, words)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, product
 from math import pi
 from typing import Any, NamedTuple
 
@@ -13,20 +13,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.mechanics.linkage.linkage import Body
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.picture.figure import SAMPLES, Figure
+from linkanim.picture.labels.dimensions import Measurement
 from linkanim.picture.layout import Gauge, Layout
-from linkanim.picture.parts.ground import away
-from linkanim.picture.parts.turning import Turning
-from linkanim.picture.placing import MOMENTS, NO_BARS, Clutter, LabelPlaces, Obstacles, Solid
-from linkanim.picture.raster.directions import lengths
+from linkanim.picture.parts.dimension_lines import AngleArc, MeasureLine
+from linkanim.picture.parts.fittings import Bench, fittings, rails_of
+from linkanim.picture.parts.ground import pedestal_corners
+from linkanim.picture.parts.turning import Sliding, Turning
+from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Solid
+from linkanim.picture.raster.directions import directions, lengths
 from linkanim.picture.raster.raster import Loop
-from linkanim.picture.raster.shapes import hull
+from linkanim.picture.raster.shapes import framed, hull
+from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
 Size = tuple[float, float]
 """How wide and high a label is, in pixels."""
-Flags = NDArray[np.bool_]
 
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
 """Where along a bar its name may stand."""
@@ -44,13 +46,20 @@ _CLEAR = 1.3
 """How far off a bar's middle a label beside it begins, in half widths of a bar."""
 _BLOCK = 2.7
 """How far a slider's block reaches, in half widths of a bar."""
+_MIDDLE = (0.5, 0.42, 0.58)
+"""Where along its own bar a length may stand."""
+_LEVELS = 3
+"""So many dimension lines may lie beside each other."""
+_ROOMY = (1.0, 1.7, 2.6)
+"""The radii of an angle's arc, in those of the smallest."""
 
 
 class Spots(NamedTuple):
     """Places (k,) in the frame of the joint `at`, whose direction and unit is the way to `head`.
 
     A place lies so far along the line from `begin` to `end` in that frame, `aside` of it (+1 or -1: off the
-    line and `further` pixels more; 0: on it), and then `off` in pixels.
+    line and `further` pixels more; 0: on it), and then `off` in pixels. In a frame of one joint twice the
+    unit is the scene's, to the right.
     """
 
     at: str
@@ -66,10 +75,9 @@ class Spots(NamedTuple):
         """Return one of them."""
         return Spots(self.at, self.head, *(part[which] for part in self[2:]))
 
-    def middles(self, at: ArrayLike, head: ArrayLike, sides: ArrayLike, bar: float) -> Loop:
-        """Return the middles in pixels where the joints are, of labels with these sides (w + hi)."""
-        at, sides = np.asarray(at, np.complex128), np.asarray(sides, np.complex128)
-        span = np.asarray(head, np.complex128) - at
+    def middles(self, at: ArrayLike, span: ArrayLike, sides: ArrayLike, bar: float) -> Loop:
+        """Return the middles in pixels, for frames at `at` and labels with these sides (w + hi)."""
+        at, span, sides = (np.asarray(one, np.complex128) for one in (at, span, sides))
         along = (self.end - self.begin) * span
         normal = 1j * _units(along)
         clear = 0.5 * (np.abs(normal.real) * sides.real + np.abs(normal.imag) * sides.imag) + _CLEAR * bar
@@ -90,121 +98,190 @@ def stacked(spots: Sequence[Spots]) -> Spots:
 
 @dataclass(frozen=True)
 class LabelSpots:
-    """Where a label may stand, and what is to be placed of it."""
+    """Where a label may stand, what is to be placed of it, and the lines that may go with it."""
 
     spots: Spots
     candidates: LabelPlaces
+    lines: tuple[MeasureLine | AngleArc, ...] = ()
+
+
+class Thing(NamedTuple):
+    """What labels keep off, and the joints that are its own."""
+
+    joints: frozenset[str]
+    solid: Solid
+    linked: bool = False
+    """Whether it is a body, a spring or a damper."""
 
 
 @dataclass(frozen=True)
 class Surroundings:
-    """Where all is that labels stand by or keep off, at each of the moments for which they are placed."""
+    """Where all is that labels stand by or keep off, at the moments for which they are placed.
+
+    These are all of a cycle, or one `phase`.
+    """
 
     figure: Figure
     view: View
     gauge: Gauge
     layout: Layout
+    theme: Theme
+    turning: Turning | Sliding | None = None
+    phase: float | None = None
+    marks: tuple[tuple[complex, complex], ...] = ()
+    """Lines on the picture that stand still, from end to end."""
+    angled: bool = False
+    """Whether the input's angle is drawn."""
 
     @cached_property
     def _paths(self) -> dict[str, Loop]:
-        step = SAMPLES // MOMENTS
-        return {
-            name: np.nan_to_num(self.figure.path(name, self.view)[::step], nan=-1e6)
-            for name in self.figure.shown
-        }
+        figure, step = self.figure, SAMPLES // MOMENTS
+        if self.phase is not None:
+            pose = figure.scene.pose(self.phase, 0)
+            found = {name: np.array([self.view.place(point)]) for name, point in pose.position.items()}
+        else:
+            found = {
+                joint.name: figure.path(joint.name, self.view)[::step] for joint in figure.linkage.joints
+            }
+        return {name: np.nan_to_num(path, nan=-1e6) for name, path in found.items()}
+
+    @cached_property
+    def _rates(self) -> NDArray[np.float64]:
+        """The rate of the input at each moment."""
+        if self.phase is not None:
+            return np.array([self.figure.scene.pose(self.phase).coordinate_rate])
+        cycle = self.figure.cycle
+        return np.broadcast_to(cycle.coordinate_rate, cycle.phase.shape)[:: SAMPLES // MOMENTS]
+
+    def _frame(self, frame: tuple[str, str]) -> tuple[Loop, Loop]:
+        """Return where a frame lies and what 1 is in it, in pixels."""
+        at, head = (self._paths[name] for name in frame)
+        return at, head - at if frame[0] != frame[1] else np.full_like(at, self.view.scale)
 
     def around(self, name: str, size: Size, rings: int = 3) -> LabelSpots:
-        """Return places all round a joint, in rings ever farther; up and to the right is best."""
+        """Return places all round a joint, in rings ever farther; up and to the right is best.
+
+        They had better not lie on the bars that meet there.
+        """
         turns = np.exp(-2j * pi * np.arange(_ROUND) / _ROUND)
         turned = 0.04 * np.abs(np.angle(turns / np.exp(-0.25j * pi)))
         rounds = [_off(turns, size, self._radius(name) + 0.7 * n * size[1]) for n in range(rings)]
         price = np.concatenate([_FARTHER * n + turned for n in range(rings)])
-        return self._candidates((name, name), size, price, off=np.concatenate(rounds))
+        beside = self._numbers({name})
+        return self._candidates((name, name), size, price, {"beside": beside}, off=np.concatenate(rounds))
 
     def by_slider(self, name: str, size: Size) -> LabelSpots:
         """Return places round a slider's block, off every link: also off the bar that leads to it."""
-        return _shunning(self.around(name, size, 6), self._others(()))
+        found = self.around(name, size, 6)
+        return LabelSpots(found.spots, found.candidates._replace(beside=frozenset()))
 
     def on(self, body: Body, size: Size) -> LabelSpots:
         """Return places on a link: along a bar and beside it, or inside a plate."""
-        return self._inside(body, size) if self._is_plate(body) else self._along(body, size)
+        own = {"own": self._numbers(set(body.joints))}
+        if len(self._corners(body)) > 2:
+            inside, price = self._inside(body)
+            return self._candidates(body.joints[:2], size, price, own, begin=inside, end=inside)
+        return self._line(body.joints[:2], (0, 1), size, _SIDES, _ALONG, own)
 
-    def _along(self, body: Body, size: Size) -> LabelSpots:
-        first, second, *_ = body.joints
-        found = self._line((first, second), (0, 1), size, _SIDES)
-        beside = np.arange(len(found.candidates.price)) >= len(_ALONG)
-        shunned = np.where(beside[:, None], self._others(body.joints), self._in_front(body))
-        mine = found.candidates._replace(own=self._numbers.get(body.joints, ()), shunned=shunned)
-        return LabelSpots(found.spots, mine)
-
-    def _inside(self, body: Body, size: Size) -> LabelSpots:
-        first, second, *_ = body.joints
+    def _inside(self, body: Body) -> tuple[Loop, NDArray[np.float64]]:
+        """Return places inside a plate in its frame, and their prices."""
         places = [complex(self._paths[name][0]) for name in body.joints]
         corners = [(place - places[0]) / (places[1] - places[0]) for place in places]
         middle = sum(corners) / len(corners)
         sides = [(one + other) / 2 for one, other in pairwise((*corners, corners[0]))]
         towards = [(share, end) for share in _INSIDE for end in (*corners, *sides)]
         inside = np.array([middle, *((1 - share) * middle + share * end for share, end in towards)])
-        price = np.array([0.0, *(share for share, _ in towards)])
-        found = self._candidates((first, second), size, price, begin=inside, end=inside)
-        mine = found.candidates._replace(own=self._numbers.get(body.joints, ()))
-        return _shunning(LabelSpots(found.spots, mine), self._in_front(body))
+        return inside, np.array([0.0, *(share for share, _ in towards)])
 
-    def beside(self, begin: str, end: str, size: Size) -> LabelSpots:
-        """Return places beside the line from joint to joint."""
-        return self._beside((begin, end), (0, 1), size, {begin, end})
+    def dimension(self, about: Measurement, size: Size) -> Iterator[LabelSpots]:
+        """Yield places for a length by its own bar if that has room, and by dimension lines beside it."""
+        if about.angle:
+            yield self._by_angle(about, size)
+            return
+        ends, (_, way), mine = (about.begin, about.end), self._frame(about.frame), self._numbers(about.own)
+        if about.bare and size[0] < abs(way[0] * (ends[1] - ends[0])):
+            yield self._line(about.frame, ends, size, (1, -1), _MIDDLE, {"own": mine})
+        low, step = 2.0 * self.gauge.bar + 9 * self.layout.unit, 1.4 * size[1]
+        levels = [(side, low + n * step) for n in range(_LEVELS) for side in (1.0, -1.0)]
+        lines = [MeasureLine(about.frame, *ends, side * level) for side, level in levels]
+        drawn, share = np.array([*product(range(len(lines)), (0.5, 0.3, 0.7))]).T
+        aside, level = np.array(levels)[drawn.astype(int)].T
+        price = 0.3 * (drawn // 2) + 0.6 * abs(share - 0.5)
+        begin, end = (np.full(len(drawn), place, np.complex128) for place in ends)
+        where = {"begin": begin, "end": end, "share": share, "aside": aside}
+        where["further"] = level + 0.2 * size[1] - _CLEAR * self.gauge.bar
+        yield self._lined(self._candidates(about.frame, size, price, {"beside": mine}, **where), lines, drawn)
 
-    def leg(self, point: Rigid, which: int, size: Size) -> LabelSpots:
-        """Return places beside the first or the second leg of a point: along its body, or to its left."""
-        first, second = point.on
-        span = abs(self._paths[second][0] - self._paths[first][0]) / self.view.scale
-        along, left = point.at
-        corner, there = complex(along / span), complex(along, -left) / span
-        return self._beside((first, second), (corner, there) if which else (0, corner), size, set(point.on))
+    def _by_angle(self, about: Measurement, size: Size) -> LabelSpots:
+        """Return places outside arcs about where two lines of a body meet."""
+        own = {"own": self._numbers(about.own)}
+        middle = directions(np.angle(about.begin) + np.angle(about.end / about.begin) / 2)
+        radii = [share * (2.4 * self.gauge.bar + 0.6 * size[1]) for share in _ROOMY]
+        arcs = tuple(AngleArc(about.frame, about.begin, about.end, radius) for radius in radii)
+        further = np.array(radii) + 0.2 * size[1] - _CLEAR * self.gauge.bar
+        # a line across the middle way, whose side that is
+        end = np.full(len(radii), -1j * middle)
+        where = {"end": end, "share": np.zeros(len(radii)), "aside": np.ones(len(radii)), "further": further}
+        found = self._candidates(about.frame, size, 0.3 * np.arange(len(radii)), own, **where)
+        return self._lined(found, arcs, np.arange(len(radii)))
+
+    def _lined(
+        self, found: LabelSpots, lines: Sequence[MeasureLine | AngleArc], drawn: NDArray[Any]
+    ) -> LabelSpots:
+        """Return them with the lines that go with them."""
+        tracks = (line.tracks(*self._frame(line.frame), self.gauge) for line in lines)
+        mine = found.candidates._replace(lines=tuple(tracks), drawn=drawn.astype(np.int64))
+        return LabelSpots(found.spots, mine, tuple(lines))
 
     def by_arc(self, turning: Turning, size: Size) -> LabelSpots:
         """Return places outside the arc of the input's angle, best at its middle."""
         bars = np.angle(np.conj(self._paths[turning.pin] - self._paths[turning.pivot]))
-        angles = np.array([turning.turned(float(angle)) for angle in bars])
-        middle = pi / 6 if self.figure.scene.info.full_turn else angles.mean() / 2
+        angles = turning.turned(bars)
+        middle = pi / 6 if self.figure.scene.info.full_turn and self.phase is None else angles.mean() / 2
         ways = np.linspace(-1, 1, 9)
         off = _off(np.exp(-1j * (middle + 0.8 * ways)), size, turning.arc + 0.1 * size[1])
-        return self._candidates((turning.pivot, turning.pivot), size, 0.3 * np.abs(ways), off=off)
+        return self._candidates((turning.pivot, turning.pivot), size, 0.3 * np.abs(ways), {}, off=off)
 
-    def _beside(
-        self, frame: tuple[str, str], line: tuple[complex, complex], size: Size, own: Iterable[str]
-    ) -> LabelSpots:
-        """Return places beside a line in the frame of two joints, off the bars of other joints than its own.
-
-        What is measured may lie on a plate, whose number is not mistaken for a length.
-        """
-        return _shunning(self._line(frame, line, size, (1, -1)), self._others(own) & self._bars)
+    def still(self, places: Loop, size: Size) -> LabelSpots:
+        """Return places in pixels that stand still on the ground, the best first."""
+        name = next(iter(self.figure.linkage.pins)).name
+        begin = (places - self._paths[name][0]) / self.view.scale
+        price = 0.5 * np.arange(len(places))
+        return self._candidates((name, name), size, price, {}, begin=begin, end=begin)
 
     def _line(
-        self, frame: tuple[str, str], line: tuple[complex, complex], size: Size, sides: Sequence[float]
+        self,
+        frame: Sequence[str],
+        line: tuple[complex, complex],
+        size: Size,
+        sides: Sequence[float],
+        along: Sequence[float],
+        known: dict[str, Any],
     ) -> LabelSpots:
-        aside, share = np.array([(side, share) for side in sides for share in _ALONG]).T
+        aside, share = np.array([(side, share) for side in sides for share in along]).T
         price = _BESIDE * np.abs(aside) + np.abs(share - 0.5)
         further = (np.maximum(np.abs(aside), 1) - 1) * size[1]
         begin, end = (np.full(len(share), place, np.complex128) for place in line)
         where = {"begin": begin, "end": end, "share": share, "aside": np.sign(aside), "further": further}
-        return self._candidates(frame, size, price, **where)
+        return self._candidates(frame, size, price, known, **where)
 
     def _candidates(
         self,
-        frame: tuple[str, str],
+        frame: Sequence[str],
         size: Size,
-        price: NDArray[np.float64],
+        price: NDArray[Any],
+        known: dict[str, Any],
         **parts: NDArray[Any],
     ) -> LabelSpots:
         """Return places with their prices, at each moment; of the parts of spots what is left out is 0."""
         none, nowhere = np.zeros(len(price)), np.zeros(len(price), np.complex128)
         lacking = {"begin": nowhere, "end": nowhere, "share": none, "aside": none, "further": none}
-        known = {"off": nowhere, **lacking, **parts}
-        spots = Spots(*frame, *(known[part] for part in Spots._fields[2:]))
-        at, head = (self._paths[name][:, None] for name in frame)
-        middles = spots.middles(at, head, complex(*size), self.gauge.bar)
-        return LabelSpots(spots, LabelPlaces(size, middles, price))
+        whole = {"off": nowhere, **lacking, **parts}
+        first, second = frame
+        spots = Spots(first, second, *(whole[part] for part in Spots._fields[2:]))
+        at, way = (place[:, None] for place in self._frame((first, second)))
+        middles = spots.middles(at, way, complex(*size), self.gauge.bar)
+        return LabelSpots(spots, LabelPlaces(size, middles, price, **known))
 
     def _radius(self, name: str) -> float:
         """Return how far what is drawn at a joint reaches."""
@@ -213,98 +290,68 @@ class Surroundings:
 
     def clutter(self) -> Clutter:
         """Return what is in the labels' way."""
-        gauge, layout, radii = self.gauge, self.layout, [self._radius(name) for name in self._paths]
-        pins = [0.85 * radius if radius > gauge.bar else gauge.pin + gauge.outline for radius in radii]
-        discs = np.stack(list(self._paths.values()), axis=1)
-        room = layout.stage.inset(2)
-        return Clutter(room, layout.words, discs, np.array(pins), self._obstacles(), self._solids)
+        solids = tuple(thing.solid for thing in self.things)
+        return Clutter(self.layout.stage.inset(2), self.layout.words, solids)
 
     @cached_property
-    def _solids(self) -> tuple[Solid, ...]:
-        """What each of the bodies covers, and each spring and damper."""
+    def things(self) -> tuple[Thing, ...]:
+        """All that labels keep off, at each of the moments."""
+        found = [*self._links(), *self._pins(), *self._fittings(), *self._standing(), *self._arrow()]
+        return tuple(found)
+
+    def _links(self) -> Iterator[Thing]:
+        """Yield what each of the bodies covers, and each spring and damper."""
         figure, bar = self.figure, self.gauge.bar
-        links = [(self._corners(body), bar) for body in figure.bodies]
-        struts = [(strut.between, 1.1 * bar) for strut in figure.struts]
-        return tuple(
-            Solid(np.stack([self._paths[name] for name in names], axis=1), half)
-            for names, half in (*links, *struts)
-        )
+        links = [(body.joints, self._corners(body), bar + 0.5) for body in figure.bodies]
+        struts = [(strut.between, strut.between, 1.1 * bar) for strut in figure.struts]
+        for joints, corners, half in (*links, *struts):
+            solid = Solid(np.stack([self._paths[name] for name in corners], axis=1), half)
+            yield Thing(frozenset(joints), solid, True)
+
+    def _pins(self) -> Iterator[Thing]:
+        for name in self.figure.pins:
+            yield Thing(
+                frozenset([name]), Solid(self._paths[name][:, None], self.gauge.pin + self.gauge.outline)
+            )
+
+    def _fittings(self) -> Iterator[Thing]:
+        """Yield blocks, slotted bars, cylinders, and the guides on the ground."""
+        bench = Bench(self.figure, self.view, self.gauge, self.theme)
+        for fitting in fittings(bench):
+            for part in (*fitting.behind, *fitting.before):
+                corners = framed(np.concatenate(part.layers[0].loops))
+                way = self._paths[part.head] - self._paths[part.tail]
+                turn = way / np.where(way == 0, 1, np.abs(way)) + (way == 0)
+                solid = Solid(self._paths[part.at][:, None] + turn[:, None] * corners, 0.0)
+                yield Thing(frozenset((part.at, part.tail, part.head)), solid, part.tail != part.head)
+        for loops in rails_of(bench):
+            yield Thing(frozenset(), Solid(framed(np.concatenate(loops))[None], 0.0))
+
+    def _standing(self) -> Iterator[Thing]:
+        """Yield the supports, and the lines that stand still."""
+        for name in self.figure.fixed:
+            corners = pedestal_corners(self.figure, self.view, self.gauge, name)
+            yield Thing(frozenset(), Solid(np.array([corners]), self.gauge.outline))
+        for ends in self.marks:
+            yield Thing(frozenset(), Solid(np.array([ends]), self.gauge.line))
+
+    def _arrow(self) -> Iterator[Thing]:
+        """Yield what shows how the input moves."""
+        if self.turning:
+            ends = tuple(self._paths[name] for name in self.turning.joints)
+            for points, half in self.turning.tracks(ends, self._rates, angled=self.angled):
+                for n in range(points.shape[1] - 1):
+                    yield Thing(frozenset(), Solid(points[:, n : n + 2], half))
+
+    def _numbers(self, joints: Set[str]) -> frozenset[int]:
+        """Return the numbers of the links that have all these joints; of none where there are none."""
+        things = enumerate(self.things)
+        return frozenset(n for n, thing in things if joints and thing.linked and joints <= thing.joints)
 
     def _corners(self, body: Body) -> list[str]:
         """Return the joints at the corners of a body's outline, in their order round it."""
         starts = {complex(self._paths[name][0]): name for name in reversed(body.joints)}
         return [starts[corner] for corner in hull(list(starts))]
-
-    def _is_plate(self, body: Body) -> bool:
-        return len(self._corners(body)) > 2
-
-    @cached_property
-    def _bars(self) -> Flags:
-        """Which of the solids are bars."""
-        struts = [False] * len(self.figure.struts)
-        return np.array([*(not self._is_plate(body) for body in self.figure.bodies), *struts])
-
-    @cached_property
-    def _owned(self) -> dict[str, set[int]]:
-        """The numbers of the solids that have each joint."""
-        found: dict[str, set[int]] = {}
-        owners = (*(body.joints for body in self.figure.bodies), *(s.between for s in self.figure.struts))
-        for n, joints in enumerate(owners):
-            for joint in joints:
-                found.setdefault(joint, set()).add(n)
-        return found
-
-    def _others(self, own: Iterable[str]) -> Flags:
-        """Return which of the solids do not have all these joints; without joints every one."""
-        owners = [self._owned.get(joint, set[int]()) for joint in own]
-        others = np.ones(len(self.figure.bodies) + len(self.figure.struts), np.bool_)
-        others[list(set.intersection(*owners) if owners else ())] = False
-        return others
-
-    def _in_front(self, body: Body) -> Flags:
-        """Return which of them are bars drawn over a body: plates lie behind all bars."""
-        found = self._others(body.joints) & self._bars
-        if not self._is_plate(body):
-            found[: self.figure.bodies.index(body) + 1] = False
-        return found
-
-    @cached_property
-    def _numbers(self) -> dict[tuple[str, ...], tuple[int, ...]]:
-        """The numbers of the obstacles that are the sides of each body."""
-        found: dict[tuple[str, ...], tuple[int, ...]] = {}
-        for n, (body, _) in enumerate(self._sides()):
-            found[body.joints] = (*found.get(body.joints, ()), n)
-        return found
-
-    def _sides(self) -> Iterator[tuple[Body, tuple[str, str]]]:
-        """Yield the sides of bodies, from joint to joint."""
-        for body in self.figure.bodies:
-            joints = body.joints
-            ends = zip(joints, (*joints[1:], joints[0]), strict=True)
-            yield from ((body, pair) for pair in (ends if len(joints) > 2 else [(joints[0], joints[1])]))
-
-    def _obstacles(self) -> Obstacles:
-        """Return the sides of bodies, springs and dampers, pedestals."""
-        bar, figure, rows = self.gauge.bar, self.figure, []
-        for body, (begin, end) in self._sides():
-            weight = 1.0 if len(body.joints) == 2 else 0.4
-            rows.append((self._paths[begin], self._paths[end], bar, weight))
-        for strut in figure.struts:
-            begin, end = strut.between
-            rows.append((self._paths[begin], self._paths[end], 1.1 * bar, 0.8))
-        for name in figure.fixed:
-            foot = self._paths[name] + away(figure, name) * 2 * bar
-            rows.append((self._paths[name], foot, 1.6 * bar, 1.0))
-        if not rows:
-            return NO_BARS
-        begins, ends, half, weights = zip(*rows, strict=True)
-        return Obstacles(np.stack(begins, axis=1), np.stack(ends, axis=1), np.array(half), np.array(weights))
-
-
-def _shunning(found: LabelSpots, which: Flags) -> LabelSpots:
-    """Return a label that shuns the same solids at each of its places."""
-    shunned = np.tile(which, (len(found.candidates.price), 1))
-    return LabelSpots(found.spots, found.candidates._replace(shunned=shunned))
 
 
 def _off(turns: Loop, size: tuple[float, float], radius: float) -> Loop:
@@ -316,5 +363,5 @@ def _off(turns: Loop, size: tuple[float, float], radius: float) -> Loop:
 def _units(vectors: Loop) -> Loop:
     """Return the directions; to the right where there is none."""
     length = lengths(vectors)
-    directions: Loop = np.where(length > 0, vectors / np.where(length > 0, length, 1), 1)
-    return directions
+    directions_: Loop = np.where(length > 0, vectors / np.where(length > 0, length, 1), 1)
+    return directions_

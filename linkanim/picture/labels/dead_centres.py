@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from math import degrees
 
@@ -14,16 +14,13 @@ from linkanim.digits import short, stepped, typeset
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.measures import output_slider
 from linkanim.picture.figure import Figure
-from linkanim.picture.items import Caption, Halo
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.parts.driven import driven_words
 from linkanim.picture.parts.fittings import rail_reach
-from linkanim.picture.placing import Clutter, LabelPlaces, place
 from linkanim.picture.raster.raster import Layer, Loop
 from linkanim.picture.raster.shapes import arrows, segments
-from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme
-from linkanim.picture.view import Rect, View
+from linkanim.picture.view import View
 
 _TICK = 1.6
 """How far a tick reaches beyond the rail, in half widths of a bar."""
@@ -43,63 +40,38 @@ class DeadCentres:
     gauge: Gauge
     theme: Theme
     layout: Layout
-    type: Type
     sized: bool
 
-    @cached_property
-    def captions(self) -> tuple[Caption, ...]:
-        """The input's angle at each dead centre, and between them the stroke and the time ratio.
+    def words(self) -> Iterator[tuple[str, Callable[[tuple[float, float]], Loop]]]:
+        """Yield the input's angle at each dead centre, and between them the stroke and the time ratio.
 
-        What finds no room is left out.
+        With each comes where the middle of a line of text of a size may stand.
         """
         if self._ends is None:
-            return ()
-        info, size, halo = self.figure.scene.info, self.layout.small_size, max(1.4 * self.gauge.line, 1.5)
+            return
+        info = self.figure.scene.info
         lines = [*map(self._angle, info.dead_centres or ())]
         if self.sized and info.stroke and info.time_ratio:
             stroke = f"stroke {short(info.stroke)} {self.figure.scene.length_unit}"
             lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
         feet = (*zip(self._ends, (-1, 1), strict=True), (sum(self._ends) / 2, 0))
-        wide = [self.type.width(text, size, strong=True) for text in lines]
-        to_place = [self._candidates(*foot, complex(w, size)) for foot, w in zip(feet, wide, strict=False)]
-        found = place(to_place, Clutter(self.layout.stage, self.layout.words))
-        return tuple(
-            Caption(
-                text,
-                (at.real, at.imag - size / 2),
-                size,
-                self.theme.dim,
-                "centre",
-                True,
-                Halo(self.theme.background, halo),
-            )
-            for text, label, placed in zip(lines, to_place, found, strict=True)
-            if placed.shown[0]
-            for at in [complex(label.places[0, placed.which])]
-        )
+        for text, foot in zip(lines, feet, strict=False):
+            yield text, partial(self._places, *foot)
 
-    def _candidates(self, foot: complex, way: int, size: complex) -> LabelPlaces:
+    def _places(self, foot: complex, way: int, size: tuple[float, float]) -> Loop:
         """Return places for the middle of a line of text off the guide, the one to the way `out` first."""
-        along, out = self._frame
-        aside, beyond = (
-            0.5 * (abs(side.real) * size.real + abs(side.imag) * size.imag) for side in (out, along)
-        )
-        level = self._reach + aside + 0.2 * size.imag + (0 if way else 1.3 * size.imag * abs(out.imag))
+        (along, out), (wide, high) = self._frame, size
+        aside, beyond = (0.5 * (abs(side.real) * wide + abs(side.imag) * high) for side in (out, along))
+        level = self._reach + aside + 0.2 * high + (0 if way else 1.3 * high * abs(out.imag))
         steps = [0, way * beyond, 2 * way * beyond, -way * beyond, -2 * way * beyond] if way else [0]
-        places = [
-            foot + side * out * (level + further * size.imag) + step * along
-            for side in (1, -1)
-            for further in (0, 1.2)
-            for step in steps
-        ]
-        price = np.arange(len(places), dtype=np.float64)
-        return LabelPlaces((size.real, size.imag), np.array([places], np.complex128), price)
-
-    def rects(self) -> Iterator[Rect]:
-        """Yield where the words stand."""
-        for line in self.captions:
-            wide = self.type.width(line.text, line.size, strong=True)
-            yield Rect(line.at[0] - wide / 2, line.at[1], wide, line.size)
+        return np.array(
+            [
+                foot + side * out * (level + further * high) + step * along
+                for side in (1, -1)
+                for further in (0, 1.2)
+                for step in steps
+            ]
+        )
 
     @cached_property
     def _ends(self) -> tuple[complex, complex] | None:
@@ -148,19 +120,25 @@ class DeadCentres:
             return f"{input_symbol(scene.linkage)} = {driven_words(scene, angle)}"
         return f"{input_symbol(scene.linkage)} = {stepped(round(degrees(angle), 1) % 360, 0.1)}°"
 
+    @cached_property
+    def ticks(self) -> tuple[tuple[complex, complex], ...]:
+        """The lines across the guide, and with the stroke the one between them."""
+        if self._ends is None:
+            return ()
+        _, out = self._frame
+        level = out * (self._reach - 0.4 * self.gauge.bar)
+        across = tuple((foot - out * self._reach, foot + out * self._reach) for foot in self._ends)
+        return (*across, (self._ends[0] + level, self._ends[1] + level)) if self.sized else across
+
     @property
     def layers(self) -> list[Layer]:
         """The ticks, and the stroke's arrows between them."""
-        return list(self._layers())
-
-    def _layers(self) -> Iterator[Layer]:
-        if self._ends is None:
-            return
-        _, out = self._frame
-        feet, width = np.array(self._ends), 0.9 * self.gauge.line
-        lines = segments(feet - out * self._reach, feet + out * self._reach, width)
-        if self.sized:
-            level = out * (self._reach - 0.4 * self.gauge.bar)
-            middle = feet.mean() + level
-            lines += arrows([middle, middle], feet + level - middle, 1.6 * width)
-        yield Layer(self.theme.dim, lines)
+        if not self.ticks:
+            return []
+        width, (first, second, *level) = 0.9 * self.gauge.line, self.ticks
+        begins, ends = zip(first, second, strict=True)
+        lines = segments(begins, ends, width)
+        for begin, end in level:
+            middle = (begin + end) / 2
+            lines += arrows([middle, middle], [begin - middle, end - middle], 1.6 * width)
+        return [Layer(self.theme.dim, lines)]

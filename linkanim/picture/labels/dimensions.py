@@ -1,9 +1,10 @@
-"""The textbook's symbols: r₁ for the ground, r₂ for the crank, and so on; which length each one is."""
+"""The textbook's symbols: r₁ for the ground, r₂ for the crank, and so on; what each one measures."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import count
+from math import degrees
 from typing import NamedTuple
 
 import numpy as np
@@ -14,35 +15,46 @@ from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.linkage.rigid_bodies import Brace, Rigid
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
+from linkanim.picture.raster.directions import directions
 from linkanim.picture.raster.parts import Part
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import segments, unit
+from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import View
 
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_NONE = 1e-9
+"""Of a figure's extent, and in radians: what is less is not stated."""
 
 
-class Distance(NamedTuple):
-    """The distance between two joints of one body, or of the ground, in the scene's unit."""
+class Measurement(NamedTuple):
+    """A length between two places of a body or of the ground, or with an `angle` that between two ways.
+
+    `begin` and `end` are in the frame of two joints whose way is 1, y down; of one joint twice, 1 is the
+    scene's unit to the right. A length is in that unit, an angle in degrees. `own` are the joints whose
+    bodies it lies on; of a `bare` one nothing but its own bar runs from end to end.
+    """
 
     symbol: str
-    begin: str
-    end: str
     value: float
+    about: str
+    frame: tuple[str, str]
+    begin: complex
+    end: complex
+    own: frozenset[str]
+    bare: bool = False
+    angle: bool = False
 
-
-class Legs(NamedTuple):
-    """How a point lies on its body: along from its first joint, then to the left; a symbol for each."""
-
-    symbols: tuple[str, str]
-    point: Rigid
+    def written(self, unit: str) -> str:
+        """Return it as it is set: r₂ = 40 mm."""
+        return typeset(f"{self.symbol} = {short(self.value)}{'°' if self.angle else ' ' + unit}")
 
 
 class Symbols(NamedTuple):
-    """A figure's dimensions and the angle of its input."""
+    """A figure's dimensions, the points that are stated along a body and to its side, its input's angle."""
 
-    dimensions: tuple[Distance, ...]
-    legs: tuple[Legs, ...]
+    dimensions: tuple[Measurement, ...]
+    points: tuple[Rigid, ...]
     input: str
 
 
@@ -50,66 +62,105 @@ def symbols(figure: Figure) -> Symbols:
     """Number a figure's lengths: links that the scene calls by numbers keep them; else in their order.
 
     r₁ is the ground from the driven pivot to the next, r₂ the first body's bar; a further ground length
-    comes after the body on whose pivot it begins, a body's second length after that. The numbers that
-    are left go to the points of bodies, two for each.
+    comes after the body on whose pivot it begins, a body's second length after that, β with its number the
+    angle between the two. Then come points of bodies: one length in line with the body, else along it and to
+    its side; e is how far a guide is from the first pivot.
     """
     bodies = [body for body in figure.bodies if body.name or not figure.linkage.bodies]
+    ground = (*_ground(figure), *_tilt(figure), *_offsets(figure))
     if bodies and all(body.name.isdecimal() for body in bodies):
-        named = [_bar(figure, body.name, *body.joints[:2]) for body in bodies]
-        return Symbols((*_ground(figure), *named), (), _angle(figure))
+        named = [_bar(figure, body.name, *body.joints[:2], bare=len(body.joints) == 2) for body in bodies]
+        return Symbols((*ground, *named), (), _angle(figure))
     numbers = (str(n) for n in count(2))
     found = list(_numbered(figure, bodies, numbers))
-    legs = tuple(Legs((_symbol(next(numbers)), _symbol(next(numbers))), point) for point in _points(figure))
-    return Symbols((*_ground(figure), *found), legs, _angle(figure))
+    points = _points(figure)
+    legs = [leg for point in points for leg in _legs(figure, point, numbers)]
+    return Symbols((*ground, *found, *legs), tuple(points), _angle(figure))
 
 
-def leg_part(legs: Legs, view: View, gauge: Gauge, colour: Colour) -> Part:
+def leg_part(point: Rigid, view: View, gauge: Gauge, colour: Colour) -> Part:
     """Return the two lines, dashed, that lead from a body's first joint to a point of it."""
-    along, left = legs.point.at
+    along, left = point.at
     corner = complex(view.scale * along)
-    point = complex(view.scale * along, -view.scale * left)
+    there = complex(view.scale * along, -view.scale * left)
     loops = []
-    for begin, end in ((0j, corner), (corner, point)):
-        if begin == end:
+    for begin, end in ((0j, corner), (corner, there)):
+        if not left or begin == end:
             continue
         step = 4 * gauge.line * unit(end - begin)
         feet = begin + step * np.arange(int(abs(end - begin) / (4 * gauge.line)) + 1)
         loops += segments(feet, feet + 0.6 * step, 0.9 * gauge.line)
-    first, second = legs.point.on
+    first, second = point.on
     return Part(first, first, second, (Layer(colour, loops),))
 
 
-def written(symbol: str, value: float, unit: str) -> str:
-    """Return a dimension as it is set: r₂ = 40 mm."""
-    return f"{symbol} = {typeset(short(value))} {unit}"
-
-
 def pivots(figure: Figure) -> list[str]:
-    """Return the fixed pins on which bars turn, the driven one first."""
+    """Return the fixed pins on which bars turn: the driven one, then as joints need them."""
     ends = {name for body in figure.bodies for name in body.joints}
     first = getattr(figure.linkage.joint(figure.linkage.drive.joint), "pivot", None)
-    return sorted((name for name in figure.fixed if name in ends), key=lambda name: name != first)
+    needed = [name for joint in figure.linkage.joints for name in joint.needs]
+    order = [first, *needed, *figure.fixed]
+    return sorted((name for name in figure.fixed if name in ends), key=order.index)
 
 
-def _ground(figure: Figure) -> Iterator[Distance]:
+def _ground(figure: Figure) -> Iterator[Measurement]:
     for first, second in zip(pivots(figure)[:1], pivots(figure)[1:2], strict=False):
-        yield _bar(figure, "1", first, second)
+        yield _bar(figure, "1", first, second, bare=True)
 
 
-def _numbered(figure: Figure, bodies: list[Body], numbers: Iterator[str]) -> Iterator[Distance]:
-    others = pivots(figure)[1:]
+def _tilt(figure: Figure) -> Iterator[Measurement]:
+    """Yield the angle of the ground, where it does not lie level."""
+    for first, second in zip(pivots(figure)[:1], pivots(figure)[1:2], strict=False):
+        way = figure.start(second) - figure.start(first)
+        if abs(way.imag) > _NONE * figure.extent:
+            value, about = degrees(float(np.angle(way))), f"{_named(first, second)} to the level"
+            yield Measurement("θ₁", value, about, (first, first), 1, way.conjugate(), frozenset(), angle=True)
+
+
+def _offsets(figure: Figure) -> Iterator[Measurement]:
+    """Yield how far the guides on the ground are from the first pivot, where they run through none."""
+    found, names = [], pivots(figure)
+    lines = [(joint, line) for joint in figure.linkage.joints if (line := getattr(joint, "line", None))]
+    for joint, line in lines if names else ():
+        across = -1j * complex(directions(line.angle))
+        place = figure.start(joint.name)
+        off = [((place - figure.start(name)) * across.conjugate()).real for name in names]
+        if line.on is None and min(map(abs, off)) > _NONE * figure.extent:
+            found.append((joint.name, off[0] * across))
+    for n, (name, foot) in enumerate(found, start=1):
+        symbol = f"e{_lowered(str(n))}" if len(found) > 1 else "e"
+        about = f"{_named(names[0])} to the guide of {_named(name)}"
+        yield Measurement(symbol, abs(foot), about, (names[0], names[0]), 0, foot.conjugate(), frozenset())
+
+
+def _numbered(figure: Figure, bodies: list[Body], numbers: Iterator[str]) -> Iterator[Measurement]:
+    others = pivots(figure)
     for body in bodies:
         first, *rest = [name for n, name in enumerate(body.joints) if n < 2 or name in figure.pins]
-        yield _bar(figure, next(numbers), first, rest[0])
-        if others and others[0] in body.joints and len(others) > 1:
-            yield _bar(figure, next(numbers), *others[:2])
+        yield _bar(figure, next(numbers), first, rest[0], bare=len(body.joints) == 2)
+        if len(others) > 2 and others[1] in body.joints:
+            yield from _with_angle(figure, next(numbers), others[1], others[0], others[2], bare=True)
             others = others[1:]
         for name in rest[1:]:
-            yield _bar(figure, next(numbers), first, name)
+            yield from _with_angle(figure, next(numbers), first, rest[0], name)
         for joint in (joint for joint in figure.linkage.joints if isinstance(joint, Brace)):
             for start, _ in joint.bars if {*joint.on, joint.name} <= set(body.joints) else ():
                 if first not in (start, joint.name):
                     yield _bar(figure, next(numbers), start, joint.name)
+
+
+def _with_angle(
+    figure: Figure, number: str, at: str, side: str, name: str, *, bare: bool = False
+) -> Iterator[Measurement]:
+    """Yield the length from joint to joint, and the angle there from another of its body, if it has one."""
+    yield _bar(figure, number, at, name, bare=bare)
+    turn = (figure.start(name) - figure.start(at)) / (figure.start(side) - figure.start(at))
+    if abs(turn.imag) > _NONE * abs(turn) and not isinstance(figure.linkage.joint(name), Brace):
+        value, own = abs(degrees(float(np.angle(turn)))), frozenset() if bare else frozenset((at, side, name))
+        about = f"{_named(side, at, name)}"
+        yield Measurement(
+            f"β{_lowered(number)}", value, about, (at, side), 1, turn.conjugate(), own, angle=True
+        )
 
 
 def _points(figure: Figure) -> list[Rigid]:
@@ -117,14 +168,39 @@ def _points(figure: Figure) -> list[Rigid]:
     return [joint for joint in joints if isinstance(joint, Rigid) and joint.name not in figure.pins]
 
 
-def _bar(figure: Figure, number: str, begin: str, end: str) -> Distance:
+def _legs(figure: Figure, point: Rigid, numbers: Iterator[str]) -> Iterator[Measurement]:
+    """Yield a point's distance from its body's first joint; off the body's line, along it and aside."""
+    (first, second), (along, left), name = point.on, point.at, point.name
+    span, own = abs(figure.start(second) - figure.start(first)), frozenset((first, second, name))
+    corner, there = complex(along) / span, complex(along, -left) / span
+    wanted = [
+        (
+            along,
+            0j,
+            corner,
+            _named(first, name) if not left else f"{_named(first)} along {_named(first, second)}",
+        )
+    ]
+    wanted += [(left, corner, there, f"{_named(name)} off {_named(first, second)}")]
+    for value, begin, end, about in wanted:
+        if value:
+            yield Measurement(_symbol(next(numbers)), abs(value), about, point.on, begin, end, own)
+
+
+def _bar(figure: Figure, number: str, begin: str, end: str, *, bare: bool = False) -> Measurement:
     stated = {
         frozenset((joint.name, start)): length
         for joint in figure.linkage.joints
         for start, length in joint.bars
     }
     apart = abs(figure.start(end) - figure.start(begin))
-    return Distance(_symbol(number), begin, end, stated.get(frozenset((begin, end)), apart))
+    value, ends = stated.get(frozenset((begin, end)), apart), (begin, end)
+    own = frozenset(() if begin in figure.fixed and end in figure.fixed else ends)
+    return Measurement(_symbol(number), value, _named(*ends), ends, 0, 1, own, bare)
+
+
+def _named(*joints: str) -> str:
+    return "–".join(map(subscripted, joints))
 
 
 def _angle(figure: Figure) -> str:

@@ -2,39 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Halo
 from linkanim.picture.labels.candidates import LabelSpots, Spots, Surroundings, stacked
-from linkanim.picture.labels.dimensions import Symbols, written
+from linkanim.picture.labels.dead_centres import DeadCentres
+from linkanim.picture.labels.dimensions import Symbols
 from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.parts.dimension_lines import AngleArc, MeasureLine
 from linkanim.picture.parts.turning import Turning
-from linkanim.picture.placing import place
-from linkanim.picture.raster.parts import Places
-from linkanim.picture.raster.raster import Colour
+from linkanim.picture.placing import Placer
+from linkanim.picture.raster.parts import Part, Places
+from linkanim.picture.raster.raster import Colour, Layer, Loop
 from linkanim.picture.text.text import Type, subscripted
 from linkanim.picture.theme import Theme
-from linkanim.picture.view import View
+from linkanim.picture.view import Rect, View
 
 _ROOM = 0.6
 """The part of a bar that its link's name may take."""
 _HIGH = 0.94
 """The height of letters that are placed, in heights of their line."""
 _UNSEEN = 0.05
+_ENOUGH = 0.5
+"""A name that shows for so much of it is preferred to a number."""
 _LEAST_SHOWN = 0.2
-"""A label that would show for less of the cycle is left out."""
+"""A name that would show for less of the cycle is left out."""
+_LEAST_AGAIN = 0.08
+"""Likewise a name in one more place."""
+_LEAST_MEASURED = 0.4
+"""A dimension likewise: it then stands in the table."""
+_ROW = 1.3
+"""From row to row of the table, in heights of its text."""
+_GRID = (9, 9)
+"""So many places are tried for the table, across and down."""
 
 
 @dataclass(frozen=True)
 class Label:
-    """A line of text with its place; what measures a length has its `symbol`."""
+    """A line of text with its place; what measures has its `symbol`, and maybe a line drawn with it.
+
+    In the table it stands with what it is `about`.
+    """
 
     text: str
     line: int
@@ -43,23 +60,48 @@ class Label:
     size: tuple[float, float]
     """Of its letters in their halo."""
     symbol: str = ""
+    about: str = ""
     spot: Spots | None = None
     shown: NDArray[np.float64] | None = None
     """How far it shows over the cycle, at equal steps of phase."""
+    drawn: MeasureLine | AngleArc | None = None
+
+
+@dataclass(frozen=True)
+class DimensionTable:
+    """Rows of words beside the figure, in columns."""
+
+    rows: tuple[str, ...]
+    columns: int
+    rect: Rect
+    size: int
+    colour: Colour
+    halo: Halo
+
+    def captions(self) -> Iterator[Caption]:
+        """Yield the rows, column by column."""
+        deep, wide = ceil(len(self.rows) / self.columns), self.rect.width / self.columns
+        for n, text in enumerate(self.rows):
+            at = self.rect.x + n // deep * wide, self.rect.y + n % deep * _ROW * self.size
+            yield Caption(text, at, self.size, self.colour, strong=True, halo=self.halo)
 
 
 @dataclass(frozen=True)
 class Names:
-    """All labels of a picture, in their halo."""
+    """All labels of a picture, in their halo, and a table of what is not on the picture all the time."""
 
     labels: tuple[Label, ...]
     period: float
     bar: float
     halo: Halo
+    table: DimensionTable | None = None
+    unlisted: tuple[str, ...] = ()
+    """Rows for which there is no room."""
+    scale: float = 1.0
 
     def captions(self, pose: Pose, places: Places) -> list[Caption]:
-        """Return every label that shows, as a line of text."""
-        found = []
+        """Return every label that shows, as a line of text, and the table."""
+        found = [*self.table.captions()] if self.table else []
         for label, middle, shown in self.standing(pose, places):
             if shown > _UNSEEN:
                 at = (middle.real, middle.imag - 0.5 * label.line)
@@ -72,47 +114,60 @@ class Names:
         """Yield every label with its middle in pixels, and how far it shows (0 to 1)."""
         if not self.labels:
             return
-        spots, sides, shown = self._stacked
-        at, head = (
-            np.array([places[joint] for joint in joints])
-            for joints in zip(
-                *((label.spot.at, label.spot.head) for label in self.labels if label.spot), strict=True
-            )
-        )
-        middles = spots.middles(at, head, sides, self.bar)
-        share = pose.phase / self.period % 1.0 * len(shown)
-        first = int(share) % len(shown)
-        now = shown[first] + (share % 1.0) * (shown[(first + 1) % len(shown)] - shown[first])
-        yield from zip(self.labels, middles.tolist(), now.tolist(), strict=True)
+        spots, sides = self._stacked
+        frames = [(label.spot.at, label.spot.head) for label in self.labels if label.spot]
+        at = np.array([places[name] for name, _ in frames])
+        span = [places[head] - places[name] if head != name else self.scale for name, head in frames]
+        middles: Loop = spots.middles(at, span, sides, self.bar)
+        yield from zip(self.labels, middles.tolist(), self._shown(pose.phase), strict=True)
 
-    def measuring(self, known: Symbols | None, unit: str) -> Names:
-        """Return the labels in their places, with the lengths as they are now."""
-        values = dict(_lengths(known)) if known else {}
-        labels = (
-            replace(label, text=written(label.symbol, values[label.symbol], unit))
-            if label.symbol in values
-            else label
-            for label in self.labels
-        )
-        return replace(self, labels=tuple(labels))
+    def lines(self, pose: Pose, places: Places, parts: Mapping[str, Part]) -> Iterator[Layer]:
+        """Yield the dimension lines that show, of `parts` by their symbols."""
+        for label, shown in zip(self.labels, self._shown(pose.phase), strict=True) if parts else ():
+            if label.drawn and shown > _UNSEEN:
+                for layer in parts[label.symbol].placed(places):
+                    yield layer._replace(alpha=shown * layer.alpha)
+
+    def parts(self, figure: Figure, view: View, gauge: Gauge, colour: Colour) -> dict[str, Part]:
+        """Return the dimension lines in a view, by their symbols."""
+        found = {}
+        for label in self.labels:
+            if label.drawn:
+                at, head = map(figure.start, label.drawn.frame)
+                span = view.scale * (abs(head - at) if label.drawn.frame[0] != label.drawn.frame[1] else 1.0)
+                found[label.symbol] = label.drawn.part(span, gauge, colour)
+        return found
+
+    def measuring(self, known: Symbols | None, unit: str, scale: float) -> Names:
+        """Return the labels in their places in a view of this scale, with the lengths as they are now."""
+        values = {one.symbol: one.written(unit) for one in known.dimensions} if known else {}
+        labels = (replace(label, text=values.get(label.symbol, label.text)) for label in self.labels)
+        rows = {f"{symbol} =": text for symbol, text in values.items()}
+        table = self.table and replace(self.table, rows=tuple(_reread(row, rows) for row in self.table.rows))
+        return replace(self, labels=tuple(labels), table=table, scale=scale)
+
+    def _shown(self, phase: float) -> list[float]:
+        """Return how far each label shows at a phase."""
+        steps = [label.shown for label in self.labels if label.shown is not None]
+        count = max(map(len, steps), default=1)
+        share = phase / self.period % 1.0 * count
+        first, part = int(share), share % 1.0
+        return [
+            float(shown[first % len(shown)] * (1 - part) + shown[(first + 1) % len(shown)] * part)
+            for shown in steps
+        ]
 
     @cached_property
-    def _stacked(self) -> tuple[Spots, NDArray[np.complex128], NDArray[np.float64]]:
-        """The labels' spots, their sides (w + hi), and how far they show (moments, labels)."""
+    def _stacked(self) -> tuple[Spots, NDArray[np.complex128]]:
+        """The labels' spots, and their sides (w + hi)."""
         spots = stacked([label.spot for label in self.labels if label.spot])
-        sides = np.array([complex(*label.size) for label in self.labels])
-        return (
-            spots,
-            sides,
-            np.stack([label.shown for label in self.labels if label.shown is not None], axis=1),
-        )
+        return spots, np.array([complex(*label.size) for label in self.labels])
 
 
-def _lengths(known: Symbols) -> Iterator[tuple[str, float]]:
-    """Yield the lengths of bodies and of points on them, by their symbols."""
-    yield from ((length.symbol, length.value) for length in known.dimensions)
-    for legs in known.legs:
-        yield from zip(legs.symbols, legs.point.at, strict=True)
+def _reread(row: str, values: Mapping[str, str]) -> str:
+    """Return a row of the table with its length as it is now."""
+    symbol, about = row.split(" =")[0] + " =", row.rpartition(", ")[2]
+    return f"{values[symbol]}, {about}" if symbol in values else row
 
 
 @dataclass(frozen=True)
@@ -134,83 +189,151 @@ class LabelStyle:
         """What parts letters from what is below."""
         return Halo(self.theme.background, max(1.4 * self.gauge.line, 1.5))
 
-    def label(self, text: str, line: int, colour: Colour, symbol: str = "") -> Label:
+    def label(self, text: str, line: int, colour: Colour, symbol: str = "", about: str = "") -> Label:
         """Return a line of text that has no place yet."""
         around = 2 * self.halo.width
         wide = self.type.width(text, line, strong=True)
-        return Label(text, line, colour, (wide + around, _HIGH * line + around), symbol)
-
-    def length(self, symbol: str, value: float, unit: str) -> Label:
-        """Return a length with its symbol."""
-        return self.label(written(symbol, value, unit), self.layout.small_size, self.theme.dim, symbol)
+        return Label(text, line, colour, (wide + around, _HIGH * line + around), symbol, about)
 
 
-Unplaced = Iterator[tuple[Label, LabelSpots]]
+Form = tuple[Label, LabelSpots]
+Forms = Iterator[tuple[Form, ...]]
+"""Labels, each in the forms that it may have, the best first."""
 
 
 def names_of(
-    figure: Figure, view: View, style: LabelStyle, turning: Turning | None, known: Symbols | None
+    ground: Surroundings, style: LabelStyle, known: Symbols | None, dead_centres: DeadCentres | None
 ) -> Names:
-    """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too."""
-    ground = Surroundings(figure, view, style.gauge, style.layout)
-    still = figure.fixed
-    moving = [name for name in figure.shown if name not in still]
-    labels = [*_joints(ground, style, still), *_links(ground, style), *_joints(ground, style, moving)]
+    """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too.
+
+    Lengths that do not stand on the picture at all times go into a table.
+    """
+    fixed, shown = ground.figure.fixed, ground.figure.shown
+    wanted = [*_joints(ground, style, fixed), *_links(ground, style)]
     if known:
-        labels += [*_angle(ground, style, turning, known), *_dimensions(ground, style, known)]
-    found = place([spots.candidates for _, spots in labels], ground.clutter())
-    kept = tuple(
-        replace(label, spot=spots.spots.picked(placed.which), shown=placed.shown)
-        for (label, spots), placed in zip(labels, found, strict=True)
-        if placed.shown.mean() >= _LEAST_SHOWN
-    )
-    return Names(kept, figure.scene.period, style.gauge.bar, style.halo)
+        wanted += [*_dimensions(ground, style, known), *_angle(ground, style, known)]
+    wanted += [*_dead_centres(ground, style, dead_centres)] if dead_centres else []
+    wanted += _joints(ground, style, [name for name in shown if name not in fixed])
+    placer, kept, rows = Placer(ground.clutter()), [], []
+    for forms in wanted:
+        placed = list(_placed(placer, forms))
+        label, lasting = forms[0][0], any(one.shown is not None and one.shown.all() for one in placed)
+        kept += placed
+        if label.about and not lasting:
+            rows.append(f"{label.text}, {label.about}")
+    table = _tabled(ground, style, placer, tuple(rows)) if rows else None
+    unlisted = () if table else tuple(rows)
+    scale = ground.view.scale
+    found = ground.figure.scene.period, style.gauge.bar, style.halo
+    return Names(tuple(kept), *found, table, unlisted, scale)
 
 
-def _joints(ground: Surroundings, style: LabelStyle, names: Iterable[str]) -> Unplaced:
+def _placed(placer: Placer, forms: tuple[Form, ...]) -> Iterator[Label]:
+    """Yield a label in its place; a name again in another for the time at which it cannot be there."""
+    but = None
+    measures = bool(forms[0][0].about)
+    for least in (_LEAST_MEASURED,) if measures else (_LEAST_SHOWN, _LEAST_AGAIN, _LEAST_AGAIN):
+        enough = 1.0 if measures else _ENOUGH
+        which, placed = placer.first([spots.candidates for _, spots in forms], enough, least=least, but=but)
+        label, spots = forms[which]
+        forms = forms[which : which + 1] if placed.shown.any() else forms
+        if placed.shown.any():
+            number = -1 if spots.candidates.drawn is None else int(spots.candidates.drawn[placed.which])
+            drawn = spots.lines[number] if number >= 0 else None
+            yield replace(label, spot=spots.spots.picked(placed.which), shown=placed.shown, drawn=drawn)
+        but = placed.shown > 0 if but is None else but | (placed.shown > 0)
+        if but.all():
+            return
+
+
+def table_width(rows: Iterable[str], style: LabelStyle) -> float:
+    """Return how wide a column of the table is."""
+    size = style.layout.small_size
+    return max(style.type.width(row, size, strong=True) for row in rows) + 1.2 * size
+
+
+def _tabled(
+    ground: Surroundings, style: LabelStyle, placer: Placer, rows: tuple[str, ...]
+) -> DimensionTable | None:
+    """Return the table where it has been given room, or where there is some; None where there is none."""
+    size, wide, strip = style.layout.small_size, table_width(rows, style), style.layout.table
+    if strip:
+        fits = (
+            (columns, small)
+            for small in range(size, 0, -1)
+            for columns in [max(int(strip.width / (wide * small / size)), 1)]
+            if ceil(len(rows) / columns) * _ROW * small <= strip.height or small == 1
+        )
+        columns, small = next(fits)
+        rect = strip._replace(width=columns * wide * small / size)
+        return DimensionTable(rows, columns, rect, small, style.theme.dim, style.halo)
+    stage, shapes = style.layout.stage.inset(style.layout.margin), []
+    for columns in range(1, len(rows) + 1):
+        around = complex(columns * wide, ceil(len(rows) / columns) * _ROW * size)
+        first, room = complex(stage.x, stage.y) + around / 2, complex(stage.width, stage.height) - around
+        if room.real > 0 and room.imag > 0:
+            across, down = (np.linspace(0, 1, count) for count in _GRID)
+            grid = first + np.add.outer(across * room.real, 1j * down * room.imag)
+            outer = np.add.outer(np.minimum(across, 1 - across), np.minimum(down, 1 - down)).ravel()
+            order = outer.argsort(kind="stable")
+            shapes.append((columns, ground.still(grid.ravel()[order], (around.real, around.imag))))
+    if not shapes:
+        return None
+    which, placed = placer.first([spots.candidates for _, spots in shapes], 1.0, least=1.0)
+    if not placed.shown.all():
+        return None
+    columns, spots = shapes[which]
+    (wide, high), middle = spots.candidates.size, complex(spots.candidates.places[0, placed.which])
+    rect = Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)
+    return DimensionTable(rows, columns, rect, size, style.theme.dim, style.halo)
+
+
+def _joints(ground: Surroundings, style: LabelStyle, names: Iterable[str]) -> Forms:
     """Yield joints' names."""
     for name in names:
         label = style.label(subscripted(name), style.joint_size, style.theme.ink)
-        yield label, ground.around(name, label.size)
+        yield ((label, ground.around(name, label.size)),)
 
 
-def _links(ground: Surroundings, style: LabelStyle) -> Unplaced:
-    """Yield the links' names, on their bars where there is room."""
-    named, links = _long_enough(ground, style), ground.figure.links
+def _links(ground: Surroundings, style: LabelStyle) -> Forms:
+    """Yield the links' names, their numbers where there is no room for those."""
+    links, size = ground.figure.links, style.layout.small_size
     for body, number in ground.figure.numbers.items():
-        label = style.label(links[body] if named else number, style.layout.small_size, style.theme.ink)
+        words = (links[body], number) if _long_enough(ground, style, body) else (number,)
+        labels = [style.label(text, size, style.theme.ink) for text in dict.fromkeys(words)]
         if body.slider:
-            yield label, ground.by_slider(body.slider, label.size)
+            yield tuple((label, ground.by_slider(body.slider, label.size)) for label in labels)
         elif len(body.joints) > 1:
-            yield label, ground.on(body, label.size)
+            yield tuple((label, ground.on(body, label.size)) for label in labels)
 
 
-def _long_enough(ground: Surroundings, style: LabelStyle) -> bool:
-    """Return whether every bar has room for its link's name; else all are called by their numbers."""
-    start, size = ground.figure.start, style.layout.small_size
-    return all(
-        style.type.width(name, size, strong=True)
-        < _ROOM * ground.view.scale * abs(start(body.joints[1]) - start(body.joints[0]))
-        for body, name in ground.figure.links.items()
-        if len(body.joints) > 1
-    )
+def _long_enough(ground: Surroundings, style: LabelStyle, body: Body) -> bool:
+    """Return whether a link has room for its name."""
+    if len(body.joints) < 2:
+        return True
+    one, other = map(ground.figure.start, body.joints[:2])
+    name = ground.figure.links[body]
+    wide = style.type.width(name, style.layout.small_size, strong=True)
+    return wide < _ROOM * ground.view.scale * abs(other - one)
 
 
-def _angle(ground: Surroundings, style: LabelStyle, turning: Turning | None, known: Symbols) -> Unplaced:
+def _angle(ground: Surroundings, style: LabelStyle, known: Symbols) -> Forms:
     """Yield the input's angle at its pivot."""
-    if turning:
+    if isinstance(ground.turning, Turning):
         label = style.label(known.input, style.joint_size, style.theme.dim)
-        yield label, ground.by_arc(turning, label.size)
+        yield ((label, ground.by_arc(ground.turning, label.size)),)
 
 
-def _dimensions(ground: Surroundings, style: LabelStyle, known: Symbols) -> Unplaced:
-    """Yield the lengths beside what they measure."""
-    unit = ground.figure.scene.length_unit
-    for symbol, begin, end, value in known.dimensions:
-        label = style.length(symbol, value, unit)
-        yield label, ground.beside(begin, end, label.size)
-    for symbols, point in known.legs:
-        for which, (symbol, value) in enumerate(zip(symbols, point.at, strict=True)):
-            if value:
-                label = style.length(symbol, value, unit)
-                yield label, ground.leg(point, which, label.size)
+def _dead_centres(ground: Surroundings, style: LabelStyle, found: DeadCentres) -> Forms:
+    """Yield the words at a slider's dead centres."""
+    for text, places in found.words():
+        label = style.label(text, style.layout.small_size, style.theme.dim)
+        yield ((label, ground.still(places(label.size), label.size)),)
+
+
+def _dimensions(ground: Surroundings, style: LabelStyle, known: Symbols) -> Forms:
+    """Yield the lengths and angles beside what they measure, those of the ground first."""
+    unit, size = ground.figure.scene.length_unit, style.layout.small_size
+    for one in known.dimensions:
+        label = style.label(one.written(unit), size, style.theme.dim, one.symbol, one.about)
+        yield tuple((label, spots) for spots in ground.dimension(one, label.size))

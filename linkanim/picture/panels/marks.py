@@ -9,9 +9,10 @@ from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.items import Caption, Group
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.panels.overlay import DimensionLine
+from linkanim.picture.parts.dimension_lines import dimension_line
 from linkanim.picture.raster.parts import Stamp
 from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.raster.shapes import arrows, box, disc, segments, unit
+from linkanim.picture.raster.shapes import box, disc, segments, unit
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import ORANGE, Theme
 from linkanim.picture.view import Rect, View
@@ -35,7 +36,8 @@ def measure(
     back = Layer(theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
     at = (middle.real, middle.imag - 0.52 * size)
     words = Caption(shown.words, at, size, theme.ink, "centre", strong=True)
-    lines = [*_lit(begin, end, gauge), *_line(begin, end, away, theme, gauge), back]
+    line = Layer(theme.ink, dimension_line(begin, end, away, gauge))
+    lines = [*_lit(begin, end, gauge), line, back]
     yield Group("measure", lines, [words], over=True)
 
 
@@ -56,14 +58,6 @@ def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:
     reach = 1.5 * gauge.bar
     loops = [*segments(begin, end, 2 * reach), begin + disc(reach), end + disc(reach)]
     yield Layer(ORANGE, loops, _LIT)
-
-
-def _line(begin: complex, end: complex, away: complex, theme: Theme, gauge: Gauge) -> Iterator[Layer]:
-    """Yield the line with an arrow at both ends, and those that lead to it from the joints."""
-    middle, width = (begin + end) / 2 + away, 0.9 * gauge.line
-    leads = [one for foot in (begin, end) for one in segments(foot + 0.35 * away, foot + 1.15 * away, width)]
-    ways = arrows([middle, middle], [begin + away - middle, end + away - middle], 1.6 * width)
-    yield Layer(theme.ink, [*leads, *ways])
 
 
 def glow(view: View, pose: Pose, joint: str, gauge: Gauge) -> Iterator[Layer]:

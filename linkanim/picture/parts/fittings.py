@@ -158,11 +158,11 @@ def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[La
     return Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner])
 
 
-def rails(bench: Bench) -> Iterator[Loop]:
-    """Yield the lines of all rails on the ground."""
+def rails_of(bench: Bench) -> Iterator[list[Loop]]:
+    """Yield the lines of each guide on the ground."""
     for fitting in fittings(bench):
         if fitting.rails is not None:
-            yield from _rails(*fitting.rails, bench)
+            yield list(_rails(*fitting.rails, bench))
 
 
 def rail_reach(gauge: Gauge) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts.fittings import Bench, hatched, rails
+from linkanim.picture.parts.fittings import Bench, hatched, rails_of
 from linkanim.picture.raster.raster import Layer
 from linkanim.picture.raster.shapes import rounded, segments, unit
 from linkanim.picture.theme import Theme
@@ -18,7 +18,7 @@ from linkanim.picture.view import View
 
 def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
     """Return pedestals and guides."""
-    lines = list(rails(Bench(figure, view, gauge, theme)))
+    lines = [loop for loops in rails_of(Bench(figure, view, gauge, theme)) for loop in loops]
     layers = [Layer(theme.ground, lines)]
     for name in figure.fixed:
         layers += _pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)
@@ -53,6 +53,13 @@ def ground_line(names: Sequence[str], figure: Figure, view: View, gauge: Gauge, 
         loops += segments(dashes, dashes + 5 * along * gauge.line, 0.8 * gauge.line)
         loops += segments(dots, dots + 0.9 * along * gauge.line, 0.8 * gauge.line)
     return [Layer(theme.ground, loops)]
+
+
+def pedestal_corners(figure: Figure, view: View, gauge: Gauge, name: str) -> list[complex]:
+    """Return the corners of a triangle that holds a pedestal: its pin, and the ends of its hatching."""
+    pin, turn = _pixel(figure, view, name), away(figure, name) / 1j
+    wide, deep = 1.35 * 1.75 * gauge.bar + 0.5 * gauge.bar, 3.1 * gauge.bar
+    return [pin, pin + turn * complex(-wide, deep), pin + turn * complex(wide, deep)]
 
 
 def _pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> list[Layer]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from math import pi, remainder, tau
+from math import pi, tau
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.mechanics.motion.motion import Pose
@@ -18,6 +21,8 @@ from linkanim.picture.raster.raster import Colour, Layer, Loop, Outlines, outlin
 from linkanim.picture.raster.shapes import arrows, segments, strokes, unit
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
+
+Angles = TypeVar("Angles", float, NDArray[np.float64])
 
 _SWEEP = 1.25
 """How much of a turn the arrow covers where the input is fastest, in radians."""
@@ -43,9 +48,30 @@ class Turning:
     gauge: Gauge
     middle: float = pi
 
-    def turned(self, angle: float) -> float:
+    def turned(self, angle: Angles) -> Angles:
         """Return the bar's angle (rad) as it is told."""
-        return self.middle + remainder(angle - self.middle, tau)
+        return self.middle + (angle - self.middle + pi) % tau - pi
+
+    @property
+    def joints(self) -> tuple[str, str]:
+        """The two joints that show it."""
+        return self.pivot, self.pin
+
+    def tracks(
+        self, ends: tuple[Loop, ...], rates: NDArray[np.float64], *, angled: bool
+    ) -> Iterator[tuple[Loop, float]]:
+        """Yield points (n, k) along the arrow and the angle, for joints at `ends` (n); half their widths."""
+        centre, pin = ends
+        way, share = (pin - centre) / np.abs(pin - centre), np.linspace(0, 1, 16)
+        sweep = _SWEEP * np.clip(-rates / (self.fastest or 1.0), -1, 1)[:, None]
+        shaft = np.sign(sweep) * _AHEAD + sweep * np.linspace(0, 1, 6)
+        head = shaft[:, -1:] + np.sign(sweep) * 6.0 * self.gauge.line / self.arrow * np.array([-0.5, 1])
+        for bend, half in ((shaft, 1.8), (head, 4.2)):
+            yield centre[:, None] + self.arrow * way[:, None] * directions(bend), half * self.gauge.line
+        if angled:
+            turned = self.turned(np.angle(np.conj(way)))[:, None]
+            yield centre[:, None] + self.arc * directions(-turned * share), 1.5 * self.gauge.line
+            yield centre[:, None] + np.array([0, 1.5 * self.arc]), self.gauge.line
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
         """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
@@ -118,6 +144,19 @@ class Sliding:
         ink, back = self.colours
         rims = ((back, 0.9 * self.gauge.line), (ink, 0.0))
         return [Layer(colour, arrows([foot], [reach], width, rim)) for colour, rim in rims]
+
+    @property
+    def joints(self) -> tuple[str]:
+        """The joint that shows it."""
+        return (self.joint,)
+
+    def tracks(
+        self, ends: tuple[Loop, ...], rates: NDArray[np.float64], *, angled: bool
+    ) -> Iterator[tuple[Loop, float]]:
+        """Yield the ends (n, 2) of the arrow of a joint at `ends`, and half its width; it has no angle."""
+        reach = self.along * self.longest * np.clip(rates / (self.fastest or 1.0), -1, 1)
+        foot = ends[0] + self.room * self.along * np.sign(rates)
+        yield np.stack((foot, foot + reach), axis=1), 4.2 * self.gauge.line
 
     def angle(self, places: Places) -> list[Layer]:
         """Return nothing: a slider has no angle."""

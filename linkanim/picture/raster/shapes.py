@@ -172,6 +172,19 @@ def hull(points: Sequence[complex]) -> list[complex]:
     return lower[:-1] + upper[:-1]
 
 
+def framed(points: Loop) -> Loop:
+    """Return the corners of a rectangle that holds all points, along the longest side of their hull."""
+    corners = np.array(hull(points.tolist()))
+    sides = np.roll(corners, -1) - corners
+    along = unit(complex(sides[np.abs(sides).argmax()]))
+    level = points * along.conjugate()
+    (left, right), (top, bottom) = ((part.min(), part.max()) for part in (level.real, level.imag))
+    rectangle: Loop = along * np.array(
+        [complex(left, top), complex(right, top), complex(right, bottom), complex(left, bottom)]
+    )
+    return rectangle
+
+
 def _chain(points: Sequence[complex]) -> list[complex]:
     chain: list[complex] = []
     for point in points:

@@ -33,7 +33,7 @@ def vector(state: State, size: tuple[int, int]) -> Path:
     from linkanim.paper.figure import Figured
 
     scene = state.scene
-    shown = Figured(scene, size, state.look, state.phase, speed=state.clock.speed)
+    shown = Figured(scene, size, state.look, state.phase, speed=state.clock.speed, as_seen=True)
     return _added(shown.document().encode(), scene.name, ".svg")
 
 
