@@ -165,7 +165,7 @@ def test_dimensions_and_the_angle_come_with_the_second_level() -> None:
 def test_a_link_whose_bar_is_short_is_called_by_its_number_and_no_other() -> None:
     scene = load("crank-rocker")
     texts = {label.text for label in labelled(Picture(scene, (320, 180), Look(names=1))).labels}
-    assert {"2", "rocker"} <= texts
+    assert {"3", "rocker"} <= texts
     assert list(figure(load("press")).numbers.values()) == ["2", "3", "4", "5", "6", "7"]
 
 
