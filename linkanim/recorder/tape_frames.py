@@ -11,11 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.player.tape import tape_file
-from linkanim.recorder.plan import Clip, make_plan, refuse_size
+from linkanim.player.window.approach import Framing
+from linkanim.player.window.show import overlay
+from linkanim.recorder.plan import SIDES, Clip, make_plan, refuse_size
 from linkanim.recorder.recording import Progress, Recording, checked_path, write
 from linkanim.recorder.scene_frames import record, theme_colours
 
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
     from linkanim.player.state.state import State
     from linkanim.player.tape.tape import Tape
     from linkanim.recorder.process import Frame
+
+
+_LONGER = 1280
 
 
 class TapeFrames:
@@ -35,7 +39,7 @@ class TapeFrames:
         self._tape = tape
         self._fps = fps
         self._surface = offscreen(size, alpha=self.alpha)
-        self._picture: Picture | None = None
+        self._framing = Framing()
         self._printer = SurfacePrinter()
         self._ahead: Iterator[tuple[State, float]] = iter(())
         self._next = 0
@@ -43,20 +47,28 @@ class TapeFrames:
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, to be let go before the next is drawn in their place."""
         state, phase = self._at(frame)
-        picture, speed = self._picture_of(state), state.clock.speed
-        self._printer.print(self._surface, picture, phase, speed, Overlay())
+        picture, speed = self._framing.at(state, self.size), state.clock.speed
+        self._printer.print(self._surface, picture, phase, speed, _lasting(overlay(state)))
         return pixel_view(self._surface)
 
     def _at(self, frame: int) -> tuple[State, float]:
         if frame < self._next or not self._next:
-            self._ahead, self._next = self._tape.pictures(self._fps), 0
+            self._ahead, self._next, self._framing = self._tape.pictures(self._fps), 0, Framing()
         skipped, self._next = frame - self._next, frame + 1
-        return next(islice(self._ahead, skipped, None))
+        for state, _ in islice(self._ahead, skipped):
+            self._framing.at(state, self.size)  # what the view has been through is seen in it
+        return next(self._ahead)
 
-    def _picture_of(self, state: State) -> Picture:
-        if self._picture is None or not self._picture.fits(state.shown, self.size, state.look):
-            self._picture = Picture(state.shown, self.size, state.look, self._picture)
-        return self._picture
+
+def _lasting(over: Overlay) -> Overlay:
+    """Return what of an overlay is about the linkage: lists, help, notes; no marks and no short words."""
+    return replace(over, toast=None, chip=None, hint=None, paused=False, grip=False, shutter=0)
+
+
+def _shape(window: tuple[int, int]) -> tuple[int, int]:
+    """Return an even size in the shape of a window, 1280 pixels along its longer side."""
+    width, height = (max(2 * round(_LONGER / 2 * side / max(window)), SIDES[0]) for side in window)
+    return width, height
 
 
 def _themes(tape: Tape) -> tuple[str, ...]:
@@ -69,21 +81,25 @@ def record_tape(
     tape: str | os.PathLike[str],
     path: str | os.PathLike[str],
     *,
-    size: tuple[int, int] = (1280, 720),
+    size: tuple[int, int] | None = None,
     fps: float = 25.0,
     progress: Progress | None = None,
 ) -> Recording:
     """Record what a tape does, at any size; a tape in which nothing is done, as the scene's loop.
 
+    Without a size it is of the window's shape, so that all stands where it was seen.
+
     The loop starts at the phase at which the tape does. Errors as `record`, and `BadInput` for a
     file that is not a tape of this version.
     """
     _, form = checked_path(path)
-    refuse_size(size)
+    if size:
+        refuse_size(size)
     played = tape_file.read(Path(tape))
+    size = size or _shape(played.size)
     state = played.start
-    if played.is_loop:
-        loop = partial(record, speed=state.clock.speed, start=state.phase, look=state.look)
+    if played.is_loop and not state.listed:
+        loop = partial(record, speed=state.clock.speed, start=state.phase, look=state.look, noted=True)
         return loop(state.scene, path, size=size, fps=fps, progress=progress)
     clip = Clip(state.clock.speed, state.scene.period, fps, seconds=max(played.seconds, 1.0 / fps))
     plan = make_plan(clip, form)

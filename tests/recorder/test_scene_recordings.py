@@ -28,7 +28,8 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.state import begin
 from linkanim.player.tape import tape_file
 from linkanim.player.tape.tape import Tape
-from linkanim.recorder import gallery, scene_frames
+from linkanim.player.window.show import overlay
+from linkanim.recorder import gallery, scene_frames, tape_frames
 from linkanim.recorder.gallery import make_gallery, reduced
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.scene_frames import SceneFrames, record
@@ -220,8 +221,27 @@ def test_a_recording_is_told_at_its_tapes_speed(done: tuple[tuple[int, Action], 
     assert abs(made.speed) > 1.2 * abs(still.start.clock.speed)
 
 
+def test_a_recording_shows_the_open_list_and_the_scene_beside_it() -> None:
+    done, size = tape((2, Action("chart", 1)), (4, Action("edit")), frames=60), (480, 270)
+    state, phase = list(done.pictures(10))[9]
+    wanted = offscreen(size)
+    picture = Picture(state.scene, size, state.look, listed=True)
+    over = replace(overlay(state), hint=None, chip=None, grip=False)
+    assert over.panel is not None
+    SurfacePrinter().print(wanted, picture, phase, state.clock.speed, over)
+    assert bytes(TapeFrames(done, 10, size).draw(9)) == bytes(pixel_view(wanted))
+
+
+# The window's shape, 1280 along the longer side, even for the encoder.
+@pytest.mark.parametrize(
+    ("window", "size"), [((1280, 720), (1280, 720)), ((640, 480), (1280, 960)), ((599, 900), (852, 1280))]
+)
+def test_a_recording_has_its_windows_shape(window: tuple[int, int], size: tuple[int, int]) -> None:
+    assert tape_frames._shape(window) == size
+
+
 def test_a_tapes_pictures_do_not_depend_on_the_order_in_which_they_are_drawn() -> None:
-    done = tape((20, Action("direction")), (30, Action("speed", 3)))
+    done = tape((20, Action("direction")), (30, Action("speed", 3)), (38, Action("closure")))
     anew = [bytes(TapeFrames(done, 10, SIZE).draw(k)) for k in range(10)]
     one = TapeFrames(done, 10, SIZE)
     assert [bytes(one.draw(k)) for k in (0, 3, 7, 7, 2, 9)] == [anew[k] for k in (0, 3, 7, 7, 2, 9)]

@@ -33,7 +33,8 @@ def run(options: Namespace) -> None:
     preset = PRESETS.get(options.preset, DEFAULT)
     is_tape = options.scene.lower().endswith(".json")
     target = options.output or Path(f"{_stem(options.scene)}{preset.suffix}")
-    frame = {"size": options.size or preset.size, "fps": options.fps or preset.fps}
+    usual = None if is_tape and not options.preset else preset.size
+    frame = {"size": options.size or usual, "fps": options.fps or preset.fps}
     with bar(shown=options.progress) as progress:
         work = _of_tape(options) if is_tape else _of_scene(options)
         recording = work(target, **frame, progress=progress)
