@@ -295,9 +295,15 @@ HEAVY = {
     ),
 }
 
+MUCH_ALIKE = {"comments", "lines of one text", "a number a line", "unknown tables"}
+"""Those that another is much like."""
+
 
 @pytest.mark.withstands("bad inputs tried")
-@pytest.mark.parametrize("text", HEAVY.values(), ids=HEAVY)
+@pytest.mark.parametrize(
+    "text",
+    [pytest.param(HEAVY[name], id=name, marks=[pytest.mark.long] * (name in MUCH_ALIKE)) for name in HEAVY],
+)
 def test_a_file_as_heavy_as_can_be(
     tmp_path: Path, text: str, record_property: Record, capsys: pytest.CaptureFixture[str]
 ) -> None:

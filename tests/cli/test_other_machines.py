@@ -45,7 +45,13 @@ MACHINES: dict[str, dict[str, str | None]] = {
 }
 
 
-@pytest.mark.parametrize("machine", MACHINES.values(), ids=MACHINES)
+@pytest.mark.parametrize(
+    "machine",
+    [
+        pytest.param(machine, id=name, marks=[pytest.mark.long] * ("not there" in name))
+        for name, machine in MACHINES.items()
+    ],
+)
 @pytest.mark.slow
 def test_it_tells_and_records(tmp_path: Path, machine: dict[str, str | None]) -> None:
     done = linkanim(*RECORD, folder=tmp_path, **machine)

@@ -168,7 +168,7 @@ def test_a_path_is_only_a_path(tmp_path: Path, form: Format) -> None:
 @pytest.mark.slow
 def test_memory_does_not_grow_with_the_number_of_frames(tmp_path: Path) -> None:
     def peak(periods: int) -> int:
-        frames = disc("gif", TWO_SECONDS._replace(periods=periods))
+        frames = disc("gif", TWO_SECONDS._replace(periods=periods, fps=10))
         tracemalloc.start()
         write(frames, frames.plan, tmp_path / "disc.gif")
         _, most = tracemalloc.get_traced_memory()

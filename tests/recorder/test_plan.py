@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from itertools import pairwise
 
+import numpy as np
 import pytest
 
 from linkanim.bounds import LARGEST_SIDE, MOST_FRAMES
@@ -57,9 +57,9 @@ def test_frames_and_rate_are_chosen_together(
 
 
 @pytest.mark.parametrize("form", ["gif", "mp4", "png"])
-@pytest.mark.parametrize("rpm", [7.3, -13.37, 20, 33.3, 59.9, -240])
-@pytest.mark.parametrize("fps", [10, 23.976, 25, 30, 50])
-@pytest.mark.parametrize("period", [TURN, 2 * TURN, 7 * TURN])
+@pytest.mark.parametrize("rpm", [7.3, -13.37, 20, -240])
+@pytest.mark.parametrize("fps", [10, 23.976, 30])
+@pytest.mark.parametrize("period", [TURN, 7 * TURN])
 def test_a_clip_is_whole_periods_and_never_shows_one_phase_twice(
     form: Format, rpm: float, fps: float, period: float
 ) -> None:
@@ -68,7 +68,7 @@ def test_a_clip_is_whole_periods_and_never_shows_one_phase_twice(
     step = phases[1]
     assert phases[0] == 0.0
     assert phases[-1] == math.copysign(2 * period, rpm)
-    assert all(b - a == pytest.approx(step, rel=1e-9) for a, b in pairwise(phases))
+    assert np.allclose(np.diff(phases), step, rtol=1e-9, atol=0.0)
     assert plan.speed * plan.seconds == pytest.approx(phases[-1], rel=1e-15)
 
 

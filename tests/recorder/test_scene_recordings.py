@@ -252,13 +252,13 @@ def test_the_gallery_is_small_whole_and_the_same_every_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gallery, "SIZE", (192, 108))
-    monkeypatch.setattr(gallery, "RATES", (12.5,))
-    chosen = ("kite", "press")
+    monkeypatch.setattr(gallery, "RATES", (5.0,))
+    chosen = ("crank-rocker", "slider-crank")
     one, two = (make_gallery(tmp_path / name, chosen) for name in ("one", "two"))
     files = {path.name: path.read_bytes() for path in (tmp_path / "one").iterdir()}
-    assert set(files) == {"kite.gif", "press.gif", gallery.SHEET, ".linkanim-gallery.json"}
+    assert set(files) == {"crank-rocker.gif", "slider-crank.gif", gallery.SHEET, ".linkanim-gallery.json"}
     assert files == {path.name: path.read_bytes() for path in (tmp_path / "two").iterdir()}
-    assert [made.path.name for made in one.recordings] == ["kite.gif", "press.gif"]
+    assert [made.path.name for made in one.recordings] == ["crank-rocker.gif", "slider-crank.gif"]
     assert {made.size for made in one.recordings} == {(192, 108)}
     assert two.sheet == tmp_path / "two" / gallery.SHEET
     with Image.open(one.sheet) as sheet:
@@ -342,18 +342,20 @@ def test_a_gallery_that_fails_on_the_way_keeps_what_it_finished_and_goes_on_the_
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gallery, "SIZE", SIZE)
-    monkeypatch.setattr(gallery, "RATES", (12.5,))
-    make_gallery(tmp_path, ["kite", "press"])
-    press = (tmp_path / "press.gif").read_bytes()
+    monkeypatch.setattr(gallery, "RATES", (5.0,))
+    make_gallery(tmp_path, ["crank-rocker", "slider-crank"])
+    slider = (tmp_path / "slider-crank.gif").read_bytes()
     monkeypatch.setattr(gallery, "SIZE", (80, 45))
     with monkeypatch.context() as meanwhile:
-        meanwhile.setattr(gallery, "rates", lambda scene: (10.0,) if scene.name == "kite" else (1e-9,))
+        meanwhile.setattr(
+            gallery, "rates", lambda scene: (10.0,) if scene.name != "slider-crank" else (1e-9,)
+        )
         with pytest.raises(BadInput):
-            make_gallery(tmp_path, ["kite", "press"])
-    with Image.open(tmp_path / "kite.gif") as image:
+            make_gallery(tmp_path, ["crank-rocker", "slider-crank"])
+    with Image.open(tmp_path / "crank-rocker.gif") as image:
         assert image.size == (80, 45)
-    assert (tmp_path / "press.gif").read_bytes() == press
-    assert make_gallery(tmp_path, ["kite", "press"]).recordings[1].size == (80, 45)
+    assert (tmp_path / "slider-crank.gif").read_bytes() == slider
+    assert make_gallery(tmp_path, ["crank-rocker", "slider-crank"]).recordings[1].size == (80, 45)
 
 
 def test_a_gallery_s_failure_is_named_by_the_file_that_was_to_be(
