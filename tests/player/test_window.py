@@ -160,12 +160,15 @@ def test_tab_and_numbers_walk_the_catalogue(player: Player) -> None:
     second = player.settle()
     player.press(pygame.K_TAB, SHIFT, "\t")
     assert (player.state.scene, player.settle()) == (load(names()[0]), first)
+    player.press(*SPACE)
     player.press(*plain("2"))
-    assert (player.state.scene, player.settle()) == (load(names()[1]), second)
+    assert player.state.scene == load(names()[1])
+    assert second != first
 
 
 @pytest.mark.parametrize("number", [1, 3, 9])
 def test_a_number_is_a_scene(player: Player, number: int) -> None:
+    player.press(*SPACE)
     player.press(*plain(str(number)))
     assert player.state.scene == load(names()[number - 1])
 
@@ -182,7 +185,38 @@ def test_every_scene_runs_in_the_window(player: Player) -> None:
     assert player.state.scene.name == names()[0]
 
 
+def test_digits_go_to_an_angle_while_paused_and_choose_a_mechanism_while_it_runs(player: Player) -> None:
+    player.type("123.5")
+    assert player.state.chip is not None
+    assert player.state.chip.text == "θ₂ = 123.5_"
+    player.press(*bare(pygame.K_BACKSPACE))
+    player.press(*bare(pygame.K_BACKSPACE))
+    player.press(*bare(pygame.K_RETURN))
+    angle = player.state.scene.pose(player.state.phase).coordinate
+    assert math.degrees(angle) % 360 == pytest.approx(123.0)
+    assert player.state.clock.paused
+    assert player.state.place_typed == ""
+    player.type("9")
+    player.press(*bare(pygame.K_ESCAPE))
+    assert (player.state.place_typed, player.state.scene.name) == ("", "crank-rocker")
+    player.press(*bare(pygame.K_RETURN))
+    assert player.state.scene.pose(player.state.phase).coordinate == angle
+    player.press(*SPACE)
+    player.press(*plain("2"))
+    assert player.state.scene.name == names()[1]
+
+
+def test_an_angle_out_of_reach_is_told_with_the_range(player: Player) -> None:
+    player.window.state = replace(begin(load("double-rocker")), frame=player.state.frame)
+    player.press(*SPACE)
+    player.type("200")
+    player.press(*bare(pygame.K_RETURN))
+    assert player.state.toast is not None
+    assert player.state.toast.text == "the input rocker does not come to 200; it goes 13.8°…108.4°"
+
+
 def test_the_windows_title_is_the_scenes(player: Player) -> None:
+    player.press(*SPACE)
     for key in (bare(pygame.K_TAB), plain("4"), bare(pygame.K_TAB, SHIFT), plain("b"), plain("9")):
         player.press(*key)
         mark = " • edited" if key == plain("b") else ""

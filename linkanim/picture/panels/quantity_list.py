@@ -49,7 +49,10 @@ def _row(board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size:
     if row == shown.chosen:
         board.bar(sheet, y, size, board.theme.chosen)
     (words, symbol), room = shown.rows[row], sheet.get_width() - 2.4 * size
-    if board.type.width(words, size) + board.type.width(symbol, size) + size <= room:
+    left = room - board.type.width(words, size) - size
+    ways = (symbol, symbol.rpartition(" = ")[2])
+    symbol = next((text for text in ways if board.type.width(text, size) <= left), "")
+    if symbol:
         at = (sheet.get_width() - 1.2 * size, y)
         board.write(sheet, symbol, at, size=size, colour=board.theme.dim, anchor="right")
     board.write(sheet, board.fitting((words,), size, room), (1.2 * size, y), size=size)

@@ -164,10 +164,26 @@ SHELF_KEYS: tuple[KeyRow, ...] = (
 )
 """What the keys do while the shelf is open."""
 
-_OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {"edit": EDIT_KEYS, "list": LIST_KEYS, "shelf": SHELF_KEYS}
+PAUSED_KEYS: tuple[KeyRow, ...] = (
+    KeyRow(
+        "paused",
+        "digits, Enter",
+        "go to that input angle",
+        _on("return kp_enter", "go") + _on("backspace", "erase_place", held=True),
+    ),
+)
+"""What the keys do beside all others while the picture stands still."""
+
+_OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {
+    "edit": EDIT_KEYS,
+    "list": LIST_KEYS,
+    "shelf": SHELF_KEYS,
+    "paused": PAUSED_KEYS,
+}
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),
     "list": ("sift", frozenset({"space", "h", "k"})),
+    "paused": ("type_place", frozenset()),
 }
 """Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
 
@@ -197,6 +213,8 @@ def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind 
 def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
     if mode not in _TYPED or press.ctrl or not press.text or not press.text.isprintable():
         return False
+    if mode == "paused":
+        return press.text in "123456789" or (typing and press.text in "0.")
     return typing or press.key not in _TYPED[mode][1]
 
 
@@ -220,7 +238,7 @@ def key_names() -> tuple[str, ...]:
 
 def help_groups(mode: Mode = "play") -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
     """Return (subject, its lines of keys and what they do) as the help overlay shows them."""
-    rows = _OPEN.get(mode, KEYS)
+    rows = KEYS if mode == "paused" else _OPEN.get(mode, KEYS)
     groups: dict[str, list[tuple[str, str]]] = {}
     for row in rows:
         groups.setdefault(row.subject, []).append((row.keys, row.words))

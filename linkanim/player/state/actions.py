@@ -11,7 +11,7 @@ from linkanim.picture.look import TOGGLES, answer
 from linkanim.picture.parts.driven import speed_words
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import Clock
-from linkanim.player.state.handlers import edits, looks, outside, shelf
+from linkanim.player.state.handlers import edits, looks, outside, places, shelf
 from linkanim.player.state.state import State
 from linkanim.scenes.editing.closures import closure_name
 
@@ -123,6 +123,9 @@ ACTIONS: Mapping[str, Rule] = {
     "start": Rule(_nothing, edits.start, answer=edits.answered),
     # the phase to go to, rad
     "scrub": Rule(_number, _running(lambda clock, frame, phase: clock.go(frame, phase, paused=True))),
+    "type_place": Rule(_text, places.write),
+    "erase_place": Rule(_nothing, places.erase),
+    "go": Rule(_nothing, places.go),
     "mechanism": Rule(_whole, shelf.mechanism, answer=_place),  # places further on the shelf
     "select": Rule(_whole, shelf.select, answer=_place),  # the place in the catalogue, from 0
     "put": Rule(_whole, shelf.put, answer=_place),  # the place on the shelf, from 0

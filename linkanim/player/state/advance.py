@@ -40,7 +40,7 @@ def aged(state: State) -> State:
     if state.toast and state.frame >= state.toast.until:
         state = replace(state, toast=None)
     if state.chip and state.frame >= state.chip.until:
-        state = replace(state, chip=None)
+        state = replace(state, chip=None, place_typed="")
     over = [name for name, life in _LIVES.items() if _is_over(getattr(state, name), life, state.frame)]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
     return _followed(state) if state.glide else state

@@ -59,6 +59,7 @@ class State:
     `kept` are the other places whose scenes were edited. `chip` is the
     answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
+    `place_typed` is the input's angle, or travel, that is being typed while paused.
     `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
     which an edit made another class of the linkage, while the list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "fullscreen",
@@ -79,6 +80,7 @@ class State:
     browsing: Browsing | None = None
     glide: Glide | None = None
     turned: int | None = None
+    place_typed: str = ""
     toast: Toast | None = None
     chip: Toast | None = None
     faded: int | None = None
@@ -98,7 +100,9 @@ class State:
         """What the keys are for."""
         if self.editing.open:
             return "edit"
-        return "list" if self.listing else "shelf" if self.browsing else "play"
+        if self.listing or self.browsing:
+            return "list" if self.listing else "shelf"
+        return "paused" if self.clock.paused else "play"
 
     @property
     def edited(self) -> frozenset[int]:
@@ -109,7 +113,7 @@ class State:
     @property
     def is_covered(self) -> bool:
         """Whether something is open that Esc closes."""
-        return self.help or self.mode != "play"
+        return self.help or self.mode not in ("play", "paused")
 
     @property
     def listed(self) -> bool:
@@ -119,7 +123,9 @@ class State:
     @property
     def typing(self) -> bool:
         """Whether something has been begun in the open list."""
-        return self.editing.typed != "" if self.editing.open else bool(self.listing and self.listing.sieve)
+        if self.editing.open:
+            return self.editing.typed != ""
+        return bool(self.listing.sieve if self.listing else self.place_typed)
 
     @property
     def phase(self) -> float:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+import numpy as np
+
 from linkanim.digits import significant, typeset
 from linkanim.mechanics.facts.register import Quantity
+from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel, Quantities, Shelf
 from linkanim.picture.text.text import subscripted
@@ -26,6 +29,8 @@ _BAR = "Space pause · Tab next · drag the crank pin · H keys"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _IDLE = 45 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
+_READ, _NEAR = 15, 40
+"""How many frames a value in the list of quantities stands, and how many rows by the chosen have one."""
 _STEPS = 12
 """So many shades of a flash: each is drawn once."""
 
@@ -70,13 +75,23 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
 def _quantities(state: State, listing: Listing) -> Quantities:
     scene = state.scene
     found = [quantity(scene, token) for token in listed(scene, listing.sieve)]
-    rows = tuple((one.words, _with_unit(one, scene.length_unit)) for one in found)
+    # Four times a second while it runs: values that change faster are not read, and each costs its drawing.
+    pose = state.shown.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
+    near = range(listing.chosen - _NEAR, listing.chosen + _NEAR)
+    rows = tuple(
+        (one.words, _value(one, pose, scene.length_unit) if n in near or n < _NEAR else one.symbol)
+        for n, one in enumerate(found)
+    )
     return Quantities(rows, listing.chosen, listing.sieve, _LIST_HINT)
 
 
-def _with_unit(one: Quantity, length_unit: str) -> str:
+def _value(one: Quantity, pose: Pose, length_unit: str) -> str:
+    """Return a quantity's symbol and what it is at a pose, a vector by its components."""
+    found = one.shown(pose)
+    parts = found if isinstance(found, tuple | list | np.ndarray) and np.ndim(found) else (found,)
+    values = ", ".join(typeset(significant(float(part), 4)) for part in parts if part is not None)
     unit = one.shown_unit(length_unit)
-    return f"{one.symbol} ({unit})" if unit else one.symbol
+    return f"{one.symbol} = {values or '–'}{'' if unit == '°' else ' '}{unit}".rstrip()
 
 
 def _shelf(state: State, browsing: Browsing) -> Shelf:
@@ -90,7 +105,13 @@ def _chip(state: State) -> Fading | None:
 
 def _hint_bar(state: State) -> Fading | None:
     """Return the hint bar: in the first seconds until a key is pressed, and now and then when none is."""
-    busy = state.clock.paused or state.mode != "play" or state.help or state.recording or state.attract
+    busy = (
+        state.clock.paused
+        or state.mode not in ("play", "paused")
+        or state.help
+        or state.recording
+        or state.attract
+    )
     idle = state.frame - state.touched
     if busy or state.toast or state.chip or 0 < state.touched > state.frame - _IDLE:
         return None

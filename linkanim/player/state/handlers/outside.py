@@ -26,6 +26,8 @@ def back(state: State, _: None) -> State:
         return replace(state, listing=None, browsing=None)
     if state.editing.open and state.editing.begun:
         return replace(state, editing=edit_.let_go(state.editing))
+    if state.place_typed:
+        return replace(state, place_typed="", chip=None)
     return edit(state, None) if state.editing.open else with_toast(state, "Q quits")
 
 
