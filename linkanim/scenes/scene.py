@@ -89,6 +89,13 @@ class Scene:
 
         return register(self.linkage, self.info.link_names)
 
+    @cached_property
+    def telling(self) -> tuple[str, ...]:
+        """The tokens of the six to ten quantities that say most of it, the most telling first."""
+        from linkanim.mechanics.facts.register import key_quantities
+
+        return key_quantities(self.cycle(96), self.trace)
+
     @property
     def period(self) -> float:
         """The true period in phase: 2π, or a whole multiple where it takes longer to be back."""

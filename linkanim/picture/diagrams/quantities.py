@@ -7,11 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.facts.register import Quantity, key_quantities, look_up
+from linkanim.mechanics.facts.register import Quantity, look_up
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes.scene import Scene
-
-_TRIED = 96
 
 
 class Series(NamedTuple):
@@ -34,7 +32,7 @@ def quantities(scene: Scene) -> tuple[str, ...]:
 
 def telling(scene: Scene) -> tuple[str, ...]:
     """Return the tokens of the six to ten quantities that say most of a scene, the most telling first."""
-    return key_quantities(scene.cycle(_TRIED), scene.trace)
+    return scene.telling
 
 
 def quantity(scene: Scene, token: str) -> Quantity:
