@@ -215,7 +215,7 @@ def draw(parser: Parser) -> None:
     where = parser.add_mutually_exclusive_group()
     _angle(where)
     where.add_argument(
-        "--phase", type=units.angle, metavar="PHASE", help="phase instead (default: the start)"
+        "--phase", type=units.angle, metavar="PHASE", help="phase instead (default: joints farthest apart)"
     )
     _size(parser)
     _look(parser, "draw")

@@ -10,11 +10,14 @@ from pathlib import Path
 import pygame
 
 from linkanim.atomic_files import replacing
+from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
+from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
+from linkanim.picture.parts.driven import driven_words
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen, png_bytes
 from linkanim.picture.raster.raster import Colour
@@ -28,6 +31,7 @@ SUFFIXES = (".svg", ".png", ".pdf")
 class Figured:
     """What a figure shows of a scene: a phase, and over it `poses` faint ones spread over the period.
 
+    Without a phase it is that at which the joints are farthest apart.
     Its words are for `speed`, the scene's own where none is given. Names stand as is best for its pose alone,
     or `as_seen` in a window.
     """
@@ -35,22 +39,33 @@ class Figured:
     scene: Scene
     size: tuple[int, int]
     look: Look
-    phase: float = 0.0
+    phase: float | None = None
     poses: int = 0
     speed: float | None = None
     as_seen: bool = False
 
     @cached_property
+    def shown_phase(self) -> float:
+        """The phase that it shows."""
+        return figure(self.scene).clearest if self.phase is None else self.phase
+
+    @property
+    def caption(self) -> str:
+        """Where the input is, in words: θ₂ = 87.0°."""
+        symbol, value = input_symbol(self.scene.linkage), self.scene.pose(self.shown_phase, 0).coordinate
+        return f"{symbol} = {driven_words(self.scene, value)}"
+
+    @cached_property
     def picture(self) -> Picture:
         """The picture that it is a pose of."""
-        moment = None if self.as_seen else self.phase
+        moment = None if self.as_seen else self.shown_phase
         return Picture(self.scene, self.size, self.look, apart=True, moment=moment)
 
     @cached_property
     def _poses(self) -> tuple[Pose, tuple[Pose, ...]]:
         """The pose drawn in full and the faint ones: the other closure's, then those over the period."""
-        pose, faint = self.picture.poses(self.phase, self.speed)
-        phases = (self.phase + self.scene.period * n / self.poses for n in range(self.poses))
+        pose, faint = self.picture.poses(self.shown_phase, self.speed)
+        phases = (self.shown_phase + self.scene.period * n / self.poses for n in range(self.poses))
         return pose, (*faint, *(self.scene.pose(phase, 0) for phase in phases))
 
     def groups(self) -> Iterator[Group]:

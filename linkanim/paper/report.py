@@ -34,8 +34,9 @@ class Report:
     def files(self) -> Iterator[tuple[str, str]]:
         """Yield the report's files, the page first: (name, text)."""
         charts = tuple(self._charts())
-        picture = Figured(self.scene, _FIGURE, Look(names=2, hud=False)).document()
-        yield "report.html", html.page(self.scene.title, self._body(picture, charts))
+        shown = Figured(self.scene, _FIGURE, Look(names=2, hud=False))
+        picture = shown.document()
+        yield "report.html", html.page(self.scene.title, self._body(picture, shown.caption, charts))
         yield "figure.svg", picture
         for number, (_, token, text) in enumerate(charts, start=1):
             yield f"chart-{number:03}-{_UNSAFE.sub('-', token)}.svg", text
@@ -49,13 +50,14 @@ class Report:
             drawn = Page(found, _CHART)
             yield title, token, svg(_CHART, drawn.background, drawn.groups(), title=drawn.about)
 
-    def _body(self, picture: str, charts: tuple[tuple[str, str, str], ...]) -> Iterator[str]:
+    def _body(self, picture: str, caption: str, charts: tuple[tuple[str, str, str], ...]) -> Iterator[str]:
         scene = self.scene
         yield html.heading(1, scene.title)
         yield html.paragraph(scene.source, "source")
         if scene.look_at:
             yield html.paragraph(scene.look_at)
         yield html.figure(picture)
+        yield html.paragraph(caption)
         yield html.heading(2, "Facts")
         yield html.facts(scene.info.lines)
         yield html.heading(2, "Dimensions")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property, partial, reduce
+from itertools import combinations
 from math import tau
 
 import numpy as np
@@ -153,6 +154,27 @@ class Figure:
         swept = np.concatenate(points)
         low, high = np.nanmin(swept, axis=0), np.nanmax(swept, axis=0)
         return Box(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+
+    @cached_property
+    def clearest(self) -> float:
+        """The phase at which its joints are farthest apart: the two nearest, or bars from lying in line.
+
+        What keeps its distance does not count; the first of several such phases; 0 of one that is rigid.
+        """
+        places = {name: np.atleast_2d(self.cycle.position[name]) @ DOWN for name in self.shown}
+        far = [np.abs(places[one] - places[other]) for one, other in combinations(places, 2)]
+        for one, other in combinations((body.joints[:2] for body in self.bodies), 2):
+            for joint in {*one} & {*other}:
+                ways = [places[end] - places[joint] for pair in (one, other) for end in {*pair} - {joint}]
+                longer = np.max(np.abs(ways), axis=0)
+                # how far the end of the shorter bar is from the line of the longer
+                far += [
+                    np.abs(np.imag(ways[0] * np.conj(ways[-1]))) / np.maximum(longer, _STILL * self.extent)
+                ]
+        apart = np.stack([*far, np.full(len(self.cycle.phase), self.extent)])
+        moving = apart[np.ptp(apart, axis=1) > _STILL * self.extent]
+        nearest = np.round(np.nan_to_num(moving).min(axis=0, initial=self.extent) / (_STILL * self.extent))
+        return float(self.cycle.phase[nearest.argmax()])
 
     @property
     def extent(self) -> float:

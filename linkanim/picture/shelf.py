@@ -150,7 +150,7 @@ class _Live:
     def go(self, turn: int) -> None:
         """Print the picture of a turn."""
         self.turn, self.printed = turn, pygame.Surface(self.picture.size, pygame.SRCALPHA, 32)
-        phase = self.picture.scene.linkage.drive.speed * turn / _PER_SECOND
+        phase = self.picture.figure.clearest + self.picture.scene.linkage.drive.speed * turn / _PER_SECOND
         self.printer.paint(self.printed, self.picture, self.picture.scene.pose(phase))
 
 

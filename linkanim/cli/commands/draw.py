@@ -12,18 +12,20 @@ from linkanim.scenes.scene import Scene
 
 
 def run(options: Namespace) -> None:
-    """Write the figure that was asked for, and print its path."""
+    """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
     scene, size, target = scene_size_target(options, SUFFIXES, ".svg")
     look = look_of(scene, options)
-    phase = _phase(scene, options)
-    write(Figured(scene, size, look, phase, options.poses or 0), target)
+    shown = Figured(scene, size, look, _phase(scene, options), options.poses or 0)
+    write(shown, target)
     print(target)
+    if shown.phase is None:
+        print(f"{shown.caption}: the joints farthest apart; --angle or --phase for another pose")
 
 
-def _phase(scene: Scene, options: Namespace) -> float:
-    """Return the phase asked for, 0 where none is; OutOfRange for an angle that is not reached."""
+def _phase(scene: Scene, options: Namespace) -> float | None:
+    """Return the phase asked for, None where none is; OutOfRange for an angle that is not reached."""
     if options.angle is None:
-        return float(options.phase or 0.0)
+        return None if options.phase is None else float(options.phase)
     phase = float(scene.solve(angle=options.angle, derivatives=0).phase)
     if isnan(phase):
         raise out_of_range(scene, options.angle)
