@@ -190,6 +190,15 @@ COMMANDS = {
             "linkanim draw kite -o kite.svg --poses 12 --no-trace",
         ),
     ),
+    "share": Command(
+        "write one page that moves in any browser, without a network",
+        options.share,
+        (
+            "linkanim share press",
+            'linkanim share crank-rocker -o rocker.html --chart rocker.angle --names --speed "30 rpm"',
+            "linkanim share --all site",
+        ),
+    ),
     "path": Command(
         "find linkages whose coupler point follows a drawn curve, and write them as scenes",
         options.path,

@@ -225,6 +225,16 @@ def draw(parser: Parser) -> None:
     parser.set_defaults(hud=False)
 
 
+def share(parser: Parser) -> None:
+    """Add what a page that moves takes."""
+    parser.add_argument("scene", nargs="?", metavar="SCENE", help=IN_SCENE)
+    _output(parser, "LINKAGE.html (default: SCENE.html here)")
+    parser.add_argument("--all", type=Path, metavar="DIR", help="every built-in scene, and an index of them")
+    _speed(parser)
+    _look(parser, "share")
+    parser.set_defaults(theme=None)
+
+
 def report(parser: Parser) -> None:
     """Add what a report takes."""
     parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)

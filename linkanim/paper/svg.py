@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import count
 from xml.sax.saxutils import escape, quoteattr
 
@@ -12,9 +12,11 @@ from linkanim.picture.items import Caption, Group, Item, clipped
 from linkanim.picture.raster.raster import Colour, Layer, Loop
 from linkanim.picture.text.text import runs, typesetting
 
-_FACES = "'Source Sans Pro', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
+FACES = "'Source Sans Pro', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
 _ANCHORS = {"left": "start", "centre": "middle", "right": "end"}
 _SEMIBOLD = 600
+
+Paint = Callable[[Colour], str]
 
 
 def svg(
@@ -27,20 +29,27 @@ def svg(
     width, height = size
     body = [f"<title>{escape(title)}</title>"]
     if background is not None:
-        body.append(f'<rect width="{width}" height="{height}" fill="{_hex(background)}"/>')
+        body.append(f'<rect width="{width}" height="{height}" fill="{hexadecimal(background)}"/>')
     ids: set[str] = set()
     for item in items:
         if not isinstance(item, Group):
-            body += _drawn([item])
-        elif inside := _drawn([*clipped(item), *item.captions]):
+            body += drawn([item])
+        elif inside := drawn([*clipped(item), *item.captions]):
             body += [f"<g id={quoteattr(_unused(item.name, ids))}>", *inside, "</g>"]
-    head = f'width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family={quoteattr(_FACES)}'
+    head = f'width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family={quoteattr(FACES)}'
     lines = "\n".join(body)
     return f'<svg xmlns="http://www.w3.org/2000/svg" {head}>\n{lines}\n</svg>\n'
 
 
-def _drawn(items: Iterable[Item]) -> list[str]:
-    return [_path(item) if isinstance(item, Layer) else _text(item) for item in items if _shows(item)]
+def hexadecimal(colour: Colour) -> str:
+    """Return a colour as #rrggbb."""
+    return "#" + "".join(f"{part:02x}" for part in colour)
+
+
+def drawn(items: Iterable[Item], paint: Paint = hexadecimal) -> list[str]:
+    """Return the elements of items, their colours as `paint` writes them."""
+    shown = (item for item in items if _shows(item))
+    return [_path(item, paint) if isinstance(item, Layer) else _text(item, paint) for item in shown]
 
 
 def _unused(name: str, ids: set[str]) -> str:
@@ -56,9 +65,9 @@ def _shows(item: Item) -> bool:
     return bool(item.loops) if isinstance(item, Layer) else bool(item.text)
 
 
-def _path(layer: Layer) -> str:
+def _path(layer: Layer, paint: Paint) -> str:
     opacity = f' fill-opacity="{layer.alpha:.3g}"' if layer.alpha < 1 else ""
-    return f'<path fill="{_hex(layer.colour)}"{opacity} d="{"".join(map(_closed, layer.loops))}"/>'
+    return f'<path fill="{paint(layer.colour)}"{opacity} d="{"".join(map(_closed, layer.loops))}"/>'
 
 
 def _closed(loop: Loop) -> str:
@@ -68,18 +77,18 @@ def _closed(loop: Loop) -> str:
     return "M" + "L".join(f"{point.real:g} {point.imag:g}" for point in points.tolist()) + "Z"
 
 
-def _text(line: Caption) -> str:
+def _text(line: Caption, paint: Paint) -> str:
     how = typesetting(line.size)
     weight = f' font-weight="{_SEMIBOLD}"' if line.strong else ""
     at = f'x="{line.at[0]:.2f}" y="{line.at[1] + how.baseline:.2f}" font-size="{how.em:.2f}"'
-    anchor = f'text-anchor="{_ANCHORS[line.anchor]}" fill="{_hex(line.colour)}"'
-    return f"<text {at} {anchor}{weight}{_rim(line)}{_faded(line)}>{''.join(_spans(line))}</text>"
+    anchor = f'text-anchor="{_ANCHORS[line.anchor]}" fill="{paint(line.colour)}"'
+    return f"<text {at} {anchor}{weight}{_rim(line, paint)}{_faded(line)}>{''.join(_spans(line))}</text>"
 
 
-def _rim(line: Caption) -> str:
+def _rim(line: Caption, paint: Paint) -> str:
     if line.halo is None:
         return ""
-    rim = f'stroke="{_hex(line.halo.colour)}" stroke-width="{2 * line.halo.width:.2f}"'
+    rim = f'stroke="{paint(line.halo.colour)}" stroke-width="{2 * line.halo.width:.2f}"'
     return f' {rim} stroke-linejoin="round" paint-order="stroke"'
 
 
@@ -98,7 +107,3 @@ def _spans(line: Caption) -> Iterator[str]:
         size = f' font-size="{how.small:.2f}"' if run.lowered else ""
         yield f'<tspan dy="{shift:.2f}"{size}>{escape(run.text)}</tspan>'
         lowered = run.lowered
-
-
-def _hex(colour: Colour) -> str:
-    return "#" + "".join(f"{part:02x}" for part in colour)

@@ -120,7 +120,7 @@ class Drawing:
         """Yield what turns on them; what only turns looks the same again after some teeth."""
         for n, part in enumerate(self.parts.wheels):
             key = (n, part.turn(places)) if part.fold > 1 else None
-            yield Group(f"wheel-{part.head}", part.placed(places), key=key)
+            yield Group(f"wheel-{part.head}", part.placed(places), key=key, made_of=part)
 
     def faint(self, pose: Pose) -> list[Layer]:
         """Return a pose's bodies and pins, mostly background."""
@@ -135,7 +135,7 @@ class Drawing:
         if look.names:
             yield Group("ground-line", ground_line(pivots(figure), *self.setting.known), still=True)
         for trace in self.parts.traces:
-            yield Group(f"curve-{trace.joint}", [trace.whole()], still=True)
+            yield Group(f"curve-{trace.joint}", [trace.whole()], still=True, made_of=trace)
         if self._rolling:
             yield Group("fixed-centrode", [self._rolling.fixed()], still=True)
         if self.dead_centres:
@@ -153,16 +153,17 @@ class Drawing:
             yield Group("moving-centrode", [self._rolling.moving(places)])
         for trace in parts.traces:
             recent = trace.recent(pose.phase, places[trace.joint], forward=pose.input_speed >= 0)
-            yield Group(f"recent-{trace.joint}", recent)
+            yield Group(f"recent-{trace.joint}", recent, made_of=trace)
         for item, strut in zip(self.setting.figure.struts, parts.struts, strict=True):
-            yield Group(f"strut-{item.name}", strut.layers(places))
+            yield Group(f"strut-{item.name}", strut.layers(places), made_of=strut)
         yield from self._pinned(places)
-        yield Group("dimensions", placed(parts.legs, places))
-        yield Group("input", list(self._turning(pose, places)))
+        yield Group("dimensions", placed(parts.legs, places), made_of=parts.legs)
+        yield Group("input", list(self._turning(pose, places)), made_of=parts.turning)
         masses = [self.setting.view.place(at) for at in pose.com_position.values()]
-        yield Group("centres-of-mass", parts.mass.at(masses))
+        yield Group("centres-of-mass", parts.mass.at(masses), made_of=parts.mass)
         arrows = arrow_layers(parts.arrows, pose, self.setting.view, self.setting.figure.scene.trace)
-        yield from (Group(kind.words, layers) for kind, layers in zip(parts.arrows, arrows, strict=True))
+        for kind, layers in zip(parts.arrows, arrows, strict=True):
+            yield Group(kind.words, layers, made_of=kind)
         if parts.centres:
             yield parts.centres.marks(pose, places)
 
@@ -178,9 +179,17 @@ class Drawing:
         """Yield the bodies with their pins, each pin at the depth of its own links."""
         for names, part in zip_longest(self.parts.pinned, self.parts.bodies):
             for together in [(name,) for name in names] if self._apart else [names]:
-                yield Group("-".join(("joint", *together)), self._stamped(together, places))
+                shapes = self._stamped(together, places)
+                yield Group("-".join(("joint", *together)), shapes, made_of=self._pin(together))
             if part:
-                yield Group(part.title, part.placed(places))
+                yield Group(part.title, part.placed(places), made_of=part)
+
+    def _pin(self, names: tuple[str, ...]) -> Part | None:
+        """Return what is drawn of a joint as a part; None of those that share a group."""
+        if not self._apart:
+            return None
+        (name,) = names
+        return Part(name, name, name, tuple(self._stamped(names, {name: 0j})))
 
     def _stamped(self, names: tuple[str, ...], places: Places) -> list[Layer]:
         pins = [places[name] for name in names if name in self.setting.figure.pins]

@@ -42,7 +42,8 @@ class Group(NamedTuple):
 
     Groups lie over each other in their order, but that words lie over the shapes of all groups up to the
     next that is `over` them. A `still` group is the same object at every frame. Nothing of a group shows
-    outside of what it is `within`. Groups of one picture with equal keys have equal shapes.
+    outside of what it is `within`. Groups of one picture with equal keys have equal shapes. `made_of` is
+    what puts the shapes where a pose has them, for printers of all poses at once.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Group(NamedTuple):
     over: bool = False
     within: Rect | None = None
     key: Hashable = None
+    made_of: object = None
 
 
 def grouped(name: str, items: Iterable[Item], *, still: bool = False) -> Group:

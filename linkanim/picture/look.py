@@ -90,7 +90,11 @@ class Look:
     )
     names: int = _toggle(
         0,
-        Option("names", "name joints and links; twice: their dimensions and the input's angle, too"),
+        Option(
+            "names",
+            "name joints and links; twice: their dimensions and the input's angle, too",
+            commands=("record", "draw", "share"),
+        ),
         steps=(0, 1, 2),
         answers=("no names", "names", "names and dimensions"),
         keys=("n",),
@@ -129,13 +133,17 @@ class Look:
     chart: str | None = _toggle(
         None,
         Option(
-            "chart", "a quantity over the period, such as rocker.angle", metavar="QTY", commands=("record",)
+            "chart",
+            "a quantity over the period, such as rocker.angle",
+            metavar="QTY",
+            commands=("record", "share"),
         ),
         steps=(),
     )
     theme: ThemeName = _toggle(  # noqa: RUF009 -- gives a field
         "light",
         Option("theme", "default: light", commands=("play", "record", "chart", "draw")),
+        Option("theme", "default: as the reader's setting is", commands=("share",)),
         steps=("light", "dark"),
         answers=("light", "dark"),
         keys=("l",),

@@ -179,8 +179,8 @@ class Picture:
         if self.names:
             places = self.drawing.places(pose)
             lines = [*self.names.lines(pose, places, self._dimension_lines)]
-            yield Group("dimension-lines", lines)
-            yield Group("names", (), self.names.captions(pose, places))
+            yield Group("dimension-lines", lines, made_of=self._dimension_lines)
+            yield Group("names", (), self.names.captions(pose, places), made_of=self.names)
 
     @cached_property
     def _dimension_lines(self) -> dict[str, Part]:

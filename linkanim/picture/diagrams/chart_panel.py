@@ -94,6 +94,17 @@ class ChartPanel:
 
     def still(self) -> Iterator[Item]:
         """Yield what stands still, back to front."""
+        yield from self.frame()
+        for n, column in enumerate(self.curves[1].T):
+            yield curve_layer(self.plot, self.curves[0], column, self.colour(n), self.width)
+
+    @property
+    def width(self) -> float:
+        """How wide curves are drawn, in pixels."""
+        return 1.3 * self.pen.line
+
+    def frame(self) -> Iterator[Item]:
+        """Yield what stands still but for the curves."""
         title, pen = self.course.title, self.pen
         yield from axes(self.plot if self._has_foot else beside_title(self.plot, title, pen), pen)
         yield x_title(self.plot, title, pen, foot=self._has_foot)
@@ -101,8 +112,6 @@ class ChartPanel:
         heights = np.interp([place for place, _ in self.course.marks], x, values[:, 0])
         yield from marked(self.plot, self.course.marks, heights, pen)
         yield self._y_title()
-        for n, column in enumerate(values.T):
-            yield curve_layer(self.plot, x, column, self.colour(n), 1.3 * pen.line)
 
     def _y_title(self) -> Caption:
         """Return the vertical axis' title: words, symbol and unit, as much as leaves room for the reading."""

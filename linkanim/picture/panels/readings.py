@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from math import degrees, floor, inf, log10, pi, tau
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from linkanim.digits import stepped
 from linkanim.mechanics.facts.effort import effort_token
@@ -62,7 +62,7 @@ def rows_of(scene: Scene) -> tuple[Row, ...]:
     known; a damper without a coefficient is a cylinder, told by its length; lengths are in the scene's
     unit, forces in newtons, tension positive.
     """
-    return *_input_rows(scene), *_strut_rows(scene), *_effort_row(scene)
+    return *_input_rows(scene), *(_row(one, scene.length_unit) for one in measured(scene))
 
 
 def _input_rows(scene: Scene) -> Iterator[Row]:
@@ -97,41 +97,47 @@ def _live(scene: Scene) -> Callable[[Pose], str]:
     return lambda pose: f"{stepped(speed_in(unit, read(pose)), step)} {sign_of(unit)}"
 
 
-def _strut_rows(scene: Scene) -> Iterator[Row]:
-    linkage, known, unit = scene.linkage, register(scene.linkage), scene.length_unit
+class MeasuredRow(NamedTuple):
+    """A row that tells a quantity to a step."""
+
+    rank: int
+    label: str
+    quantity: Quantity
+    step: float
+
+
+def measured(scene: Scene) -> Iterator[MeasuredRow]:
+    """Yield the quantities that a scene's rows tell: of its struts, and what the input has to deliver."""
+    yield from _of_struts(scene)
+    usual = scene.info.usual_effort
+    if usual is not None:
+        step = 10.0 ** (floor(log10(usual)) - 2) if usual > 0 else 0.1
+        quantity = register(scene.linkage)[effort_token(scene.linkage)]
+        yield MeasuredRow(2, f"input {scene.info.effort[0]}", quantity, step)
+
+
+def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
+    linkage, known = scene.linkage, register(scene.linkage)
     for item in linkage.springs + linkage.dampers:
         word = linkage.strut_word(item)
         kind = "spring" if word == "spring" else "damper"
         part = "rate" if word == "damper" else "length"
-        yield Row(4, f"{item.name} {word}, {part}", _tenths(known[f"{item.name}.{part}"], unit))
+        yield MeasuredRow(4, f"{item.name} {word}, {part}", known[f"{item.name}.{part}"], 0.1)
         if item.forceful:
-            yield Row(2, f"{kind} force", _tenths(known[f"{item.name}.force"], unit))
+            yield MeasuredRow(2, f"{kind} force", known[f"{item.name}.force"], 0.1)
     if linkage.drive.actuator.along is not None:
-        yield Row(2, "driving cylinder", _tenths(known["input.length"], unit))
+        yield MeasuredRow(2, "driving cylinder", known["input.length"], 0.1)
 
 
-def _tenths(quantity: Quantity, length_unit: str) -> Callable[[Pose], str | None]:
-    """Return what puts a quantity into words, to a tenth; None where it is not known."""
+def _row(one: MeasuredRow, length_unit: str) -> Row:
+    """Return the row that puts a quantity into words; None where it is not known."""
+    quantity, unit = one.quantity, one.quantity.shown_unit(length_unit)
 
     def value(pose: Pose) -> str | None:
-        found, unit = quantity.shown(pose), quantity.shown_unit(length_unit)
-        return None if found is None else f"{stepped(float(found), 0.1)} {unit}"
+        found = quantity.shown(pose)
+        return None if found is None else f"{stepped(float(found), one.step)} {unit}"
 
-    return value
-
-
-def _effort_row(scene: Scene) -> Iterator[Row]:
-    """Yield what the input has to deliver, to three digits of what is usual, where anything has force."""
-    usual = scene.info.usual_effort
-    if usual is not None:
-        name, unit = scene.info.effort
-        step, read = 10.0 ** (floor(log10(usual)) - 2) if usual > 0 else 0.1, _effort(scene)
-        yield Row(2, f"input {name}", lambda pose: f"{stepped(float(read(pose)), step)} {unit}")
-
-
-def _effort(scene: Scene) -> Callable[[Any], Any]:
-    """Return how what the input delivers is read."""
-    return register(scene.linkage)[effort_token(scene.linkage)].read
+    return Row(one.rank, one.label, value)
 
 
 class Note(NamedTuple):

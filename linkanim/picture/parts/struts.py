@@ -21,7 +21,7 @@ from linkanim.picture.view import View
 
 _COILS = (4, 20)
 """Of how few and how many coils a spring has, as its shortest length allows."""
-_TILT = 0.35
+TILT = 0.35
 """How far a coil's front stands forward of its side, as a share of its radius."""
 _CYLINDER = 0.6
 """How long a cylinder that holds or drives is at the least, in lengths of it drawn in."""
@@ -85,7 +85,7 @@ class Coil:
         """A coil's far half and its near one, the spring along the real axis: along it, and about it."""
         along = np.add.outer([0.5, 0.0], np.linspace(0, 0.5, 13))
         way = directions(2 * pi * along - pi / 2)
-        about = self.radius * (_TILT * way.real + 1j * way.imag)
+        about = self.radius * (TILT * way.real + 1j * way.imag)
         return along.astype(np.complex128), about.astype(np.complex128)
 
 

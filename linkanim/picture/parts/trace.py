@@ -19,12 +19,12 @@ from linkanim.picture.raster.shapes import offsets, stroke
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
-_RECENT = 0.3 * 2 * pi
+RECENT = 0.3 * 2 * pi
 """How much phase the recent part covers."""
 _SHADES = 10
 _ORDER = (0, *(shade + step for shade in range(1, _SHADES - 1, 2) for step in (1, 0)), _SHADES - 1)
 """In which shades are painted: the odd ones after both neighbours, else from the oldest on."""
-_SWELL = 1.7
+SWELL = 1.7
 """How much wider than the whole curve the recent part ends."""
 _FAINT = 0.5
 """How much of the background is in the whole curve's colour."""
@@ -56,7 +56,7 @@ class Trace:
         """Return what the joint, now at `place`, has passed through last, brighter towards it."""
         count = len(self.path)
         here = phase / self.period * count
-        tail = max(round(_RECENT / self.period * count), _SHADES)
+        tail = max(round(RECENT / self.period * count), _SHADES)
         # run backwards, the curve is passed through from its end
         last, share = (floor(here), here % 1) if forward else (-ceil(here) - 1, -here % 1)
         first = (last - tail) % count
@@ -98,7 +98,7 @@ class _Course(NamedTuple):
 @lru_cache(maxsize=16)
 def _swelling(count: int, width: float) -> NDArray[np.float64]:
     """Return half the width of a recent part at each of its points."""
-    return np.asarray(width / 2 * (1 + (_SWELL - 1) / (count - 1) * np.arange(count)), np.float64)
+    return np.asarray(width / 2 * (1 + (SWELL - 1) / (count - 1) * np.arange(count)), np.float64)
 
 
 @lru_cache(maxsize=16)

@@ -24,9 +24,9 @@ from linkanim.picture.view import View
 
 Angles = TypeVar("Angles", float, NDArray[np.float64])
 
-_SWEEP = 1.25
+SWEEP = 1.25
 """How much of a turn the arrow covers where the input is fastest, in radians."""
-_AHEAD = 0.3
+AHEAD = 0.3
 """How far ahead of the bar it begins, in radians."""
 _CLEAR, _LONGEST = 3.0, 6.0
 """How far from a slider's middle a straight one begins, and its length at most, in half widths of a bar."""
@@ -63,8 +63,8 @@ class Turning:
         """Yield points (n, k) along the arrow and the angle, for joints at `ends` (n); half their widths."""
         centre, pin = ends
         way, share = (pin - centre) / np.abs(pin - centre), np.linspace(0, 1, 16)
-        sweep = _SWEEP * np.clip(-rates / (self.fastest or 1.0), -1, 1)[:, None]
-        shaft = np.sign(sweep) * _AHEAD + sweep * np.linspace(0, 1, 6)
+        sweep = SWEEP * np.clip(-rates / (self.fastest or 1.0), -1, 1)[:, None]
+        shaft = np.sign(sweep) * AHEAD + sweep * np.linspace(0, 1, 6)
         head = shaft[:, -1:] + np.sign(sweep) * 6.0 * self.gauge.line / self.arrow * np.array([-0.5, 1])
         for bend, half in ((shaft, 1.8), (head, 4.2)):
             yield centre[:, None] + self.arrow * way[:, None] * directions(bend), half * self.gauge.line
@@ -76,7 +76,7 @@ class Turning:
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
         """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
         turning = -pose.coordinate_rate * rate / self.fastest if self.fastest > 0 else 0.0
-        sweep = _SWEEP * min(max(turning, -1.0), 1.0)
+        sweep = SWEEP * min(max(turning, -1.0), 1.0)
         if not abs(sweep) > 0.02:
             return []
         centre, way = self._bar(places)
@@ -109,7 +109,7 @@ def _bent(sweep: float, radius: float, thick: float) -> tuple[Outlines, Outlines
     steady speed has the same arrow at every frame: the last ones are kept.
     """
     side, line, rim = 1 if sweep > 0 else -1, 1.7 * thick, 0.9 * thick
-    bend: Loop = radius * directions(side * _AHEAD + sweep * np.linspace(0, 1, 16))
+    bend: Loop = radius * directions(side * AHEAD + sweep * np.linspace(0, 1, 16))
     head, turn = min(6.5 * thick, 0.8 * abs(sweep) * radius), bend[-1] / radius * 1j * side
     (rimmed,), (bare,) = strokes(bend, (line + 2 * rim, line))
     barbs = (bend[-1] + _barb(length) * turn for length in (head + 2 * rim, head))

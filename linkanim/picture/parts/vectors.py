@@ -20,7 +20,7 @@ from linkanim.picture.view import View
 Kind = Literal["v", "a"]
 LONGEST = 0.22
 """The longest arrow of a cycle, as a share of the window's height."""
-_ORDER = {"v": 1, "a": 2}
+ORDER = {"v": 1, "a": 2}
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Arrows:
         It changes with the input's speed and with nothing else, so that an arrow's length tells
         where in the cycle the motion is fast, whatever the speed.
         """
-        faster = abs(speed / self.drive) ** _ORDER[self.kind]
+        faster = abs(speed / self.drive) ** ORDER[self.kind]
         return self.longest / (self.most * faster) if self.most > 0 and faster > 0 else 0.0
 
     def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[tuple[complex, complex]]:

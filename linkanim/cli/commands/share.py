@@ -1,0 +1,50 @@
+"""`linkanim share`: a scene as one page that moves in any browser, or all of them as a site."""
+
+from __future__ import annotations
+
+import sys
+from argparse import Namespace
+from pathlib import Path
+
+from tqdm import tqdm
+
+from linkanim.atomic_files import checked_target, replacing
+from linkanim.errors import BadInput
+from linkanim.scenes import load, names
+from linkanim.share.page import Shared, document
+from linkanim.share.site import INDEX, write_site
+
+SUFFIXES = (".html", ".htm")
+
+
+def run(options: Namespace) -> None:
+    """Write the page or pages that were asked for, and print the path to open.
+
+    `BadInput` before anything is written for an output that cannot be, a quantity that the scene has not,
+    and a scene beside `--all`.
+    """
+    print(_site(options) if options.all else _page(options))
+
+
+def _page(options: Namespace) -> Path:
+    if options.scene is None:
+        raise BadInput("name a scene (`linkanim scenes` lists them), or give --all DIR for all of them")
+    target = checked_target(options.output or f"{Path(options.scene).stem}.html", SUFFIXES)
+    text = document(_shared(options, options.scene))
+    with replacing(target) as part:
+        part.write_text(text, encoding="utf-8")
+    return target
+
+
+def _site(options: Namespace) -> Path:
+    for given, word in ((options.scene, "a scene"), (options.output, "-o"), (options.chart, "--chart")):
+        if given:
+            raise BadInput(f"--all writes every scene into its folder; leave out {word}, which is for one")
+    every = names()
+    with tqdm(every, unit=" scenes", leave=False, disable=None, file=sys.stderr) as shown:
+        write_site(options.all, shown, _shared(options, every[0]))
+    return Path(options.all / INDEX)
+
+
+def _shared(options: Namespace, scene: str) -> Shared:
+    return Shared(load(scene), options.speed, options.theme, options.chart, options.names)

@@ -1,0 +1,1 @@
+"""One page that moves in any browser: a scene's picture and motion in one file."""

@@ -1,0 +1,69 @@
+"""Every scene as a page, and an index of them by chapter: a site that needs no server."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from html import escape
+from itertools import groupby
+from pathlib import Path
+from string import Template
+
+from linkanim.manifest import FileSet, replacing
+from linkanim.picture.items import clipped
+from linkanim.picture.look import Look
+from linkanim.picture.picture import Picture
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+from linkanim.share.page import Shared, document, packaged, themes_of
+from linkanim.share.pairs import Pairs
+
+INDEX = "index.html"
+_SIZE = (240, 150)
+_EARLY = 0.09
+"""Which part of its period a scene is in on the index: not at a limit, where much lies in line."""
+
+
+def write_site(folder: Path, names: Iterable[str], shared: Shared) -> None:
+    """Write a page for each scene, as `shared` has the first, as NAME.html into a folder, and the index.
+
+    All appear together or none does; they replace only files that we wrote. `BadInput` before any work where
+    it cannot be a folder or a name is taken by another file.
+    """
+    chosen = tuple(names)
+    pages = [f"{name}.html" for name in chosen]
+    with replacing(FileSet(folder, "share", r"[\w.-]+\.html"), [*pages, INDEX]) as new:
+        scenes = []
+        for name, page in zip(chosen, pages, strict=True):
+            scenes.append(load(name))
+            (new / page).write_text(document(replace(shared, scene=scenes[-1])), encoding="utf-8")
+        (new / INDEX).write_text(_index(scenes, shared), encoding="utf-8")
+
+
+def _index(scenes: Iterable[Scene], shared: Shared) -> str:
+    pairs = Pairs()
+    chapters = [
+        f"<h2>{escape(chapter[:1].upper() + chapter[1:])}</h2>\n"
+        f"<ul>{''.join(_entry(scene, shared, pairs) for scene in some)}</ul>"
+        for chapter, some in groupby(scenes, lambda scene: scene.chapter)
+    ]
+    return Template(packaged(INDEX)).substitute(
+        styles=pairs.styles(themes_of(shared), shared.theme), chapters="\n".join(chapters)
+    )
+
+
+def _entry(scene: Scene, shared: Shared, pairs: Pairs) -> str:
+    picture = "".join(_drawn(scene, shared, pairs))
+    words = f"<b>{escape(scene.title)}</b><span>{escape(scene.info.class_name)}</span>"
+    size = f"0 0 {_SIZE[0]} {_SIZE[1]}"
+    drawn = f'<svg viewBox="{size}" aria-hidden="true">{picture}</svg>'
+    return f'<li><a href="{escape(scene.name)}.html">{drawn}{words}</a></li>'
+
+
+def _drawn(scene: Scene, shared: Shared, pairs: Pairs) -> Iterator[str]:
+    light, dark = (
+        Picture(scene, _SIZE, Look(hud=False, trace=False, theme=theme)) for theme in themes_of(shared)
+    )
+    pose, _ = light.poses(_EARLY * scene.period)
+    for one, other in zip(light.groups(pose), dark.groups(pose), strict=True):
+        yield from pairs.elements(clipped(one), clipped(other))

@@ -1,0 +1,261 @@
+"""The page in a real browser: where joints lie in it, hand and keys, what it loads and logs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+from math import atan2, cos, degrees, pi, sin
+from pathlib import Path
+from typing import Any
+
+import pytest
+from browser import PROGRAM, Page, browser
+
+from linkanim.scenes import load, names
+from linkanim.scenes.editing.closures import ghost_of
+from linkanim.share.page import Shared, document
+
+pytestmark = [pytest.mark.window, pytest.mark.skipif(not PROGRAM, reason="needs Chromium")]
+
+FINEST = 0.01
+"""Of a pixel on a screen of 3840 × 2160."""
+WIDE = 3840
+SAMPLE = ("press", "double-rocker", "excavator", "driven-piston", "kite")
+PHASES = (0.0, 0.7, 2.0, 3.1, 4.4, 6.0)
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    with browser(tmp_path_factory.mktemp("profile")) as opened:
+        opened.sized(1280, 720)
+        opened.prefer(reduced_motion="reduce", color_scheme="light")
+        yield opened
+
+
+def put(folder: Path, shared: Shared) -> str:
+    """Write a page into a folder with blanks in its name, and return its address."""
+    room = folder / "a folder with blanks"
+    room.mkdir(exist_ok=True)
+    target = room / f"{shared.scene.name} 1.html"
+    target.write_text(document(shared), encoding="utf-8")
+    return target.as_uri()
+
+
+def shown(page: Page, name: str) -> str:
+    return str(page.value(f"document.getElementById({name!r}).textContent"))
+
+
+def pressed(page: Page, name: str) -> str:
+    return str(page.value(f"document.getElementById({name!r}).getAttribute('aria-pressed')"))
+
+
+def phase(page: Page) -> float:
+    return float(page.value("Number(document.getElementById('input').value)"))
+
+
+def go_to(page: Page, phase: float) -> None:
+    page.value(
+        "{ const input = document.getElementById('input'); "
+        f"input.value = {phase!r}; input.dispatchEvent(new Event('input')); }}"
+    )
+    page.frame()
+
+
+JOINTS = """
+(() => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const number = data.sides.findIndex((_, n) => !document.getElementById(`side${n}`).hasAttribute("hidden"));
+  const side = data.sides[number], found = {};
+  const groups = document.getElementById(`side${number}`).querySelectorAll("[data-m]");
+  side.movers.forEach((mover, n) => {
+    if (mover.kind !== "part") return;
+    const { e, f } = groups[n].transform.baseVal.consolidate().matrix;
+    found[mover.at] = [e, f];
+  });
+  return { found, view: side.view, picture: document.getElementById("picture").viewBox.baseVal.width };
+})()
+"""
+
+
+def farthest(page: Page, scene: Any, phase: float) -> float:
+    """Return how far the farthest joint in the page is off, in pixels of the largest screen."""
+    go_to(page, phase)
+    known = page.value(JOINTS)
+    scale, x, y = known["view"]
+    places, off = scene.pose(phase, 0).position, 0.0
+    for name, (px, py) in known["found"].items():
+        if name in places:
+            there = complex(x + scale * places[name][0], y - scale * places[name][1])
+            off = max(off, abs(complex(px, py) - there))
+    assert known["found"]
+    return off * WIDE / float(known["picture"])
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in SAMPLE else pytest.mark.long) for name in names()]
+)
+def test_joints_lie_where_the_solver_has_them_on_both_closures(name: str, page: Page, tmp_path: Path) -> None:
+    scene = load(name)
+    address = put(tmp_path, Shared(scene, names=1))
+    page.go(address)
+    for one in filter(None, (scene, ghost_of(scene))):
+        assert max(farthest(page, one, at * scene.period / (2 * pi)) for at in PHASES) < FINEST
+        page.key("b")
+    page.value("document.getElementById('play').click()")
+    page.frame()
+    assert page.messages == []
+    assert page.requests == [address]
+
+
+def test_the_mouse_drags_the_crank(page: Page, tmp_path: Path) -> None:
+    scene = load("crank-rocker")
+    page.go(put(tmp_path, Shared(scene)))
+    for target in (40.0, 100.0, 170.0, 250.0, 330.0):
+        drag(page, target)
+        assert degrees(scene.pose(phase(page), 0).coordinate) % 360 == pytest.approx(target, abs=0.6)
+    assert shown(page, "play") == "Play"
+
+
+def drag(page: Page, target: float) -> None:
+    """Drag the crank's pin to an angle, in degrees."""
+    pin = page.value(
+        "(() => { const box = document.getElementById('handle').getBoundingClientRect();"
+        "return [box.x + box.width / 2, box.y + box.height / 2]; })()"
+    )
+    centre = centre_of(page)
+    radius = abs(complex(*pin) - complex(*centre))
+    begin = atan2(centre[1] - pin[1], pin[0] - centre[0])
+    turn = (target / 180 * pi - begin + pi) % (2 * pi) - pi
+    page.mouse("mouseMoved", *pin)
+    page.mouse("mousePressed", *pin)
+    for n in range(1, 9):
+        angle = begin + turn * n / 8
+        page.mouse("mouseMoved", centre[0] + radius * cos(angle), centre[1] - radius * sin(angle))
+    page.frame()
+    page.mouse("mouseReleased", *pin)
+
+
+def centre_of(page: Page) -> list[float]:
+    """Return where the crank's pivot lies on the screen."""
+    return list(
+        page.value(
+            "(() => { const data = JSON.parse(document.getElementById('data').textContent).sides[0];"
+            "const svg = document.getElementById('picture').getScreenCTM();"
+            "const at = new DOMPoint(data.view[1], data.view[2]).matrixTransform(svg);"
+            "return [at.x, at.y]; })()"
+        )
+    )
+
+
+def test_a_finger_drags_an_input_that_swings_on_through_its_limit(page: Page, tmp_path: Path) -> None:
+    scene = load("double-rocker")
+    page.go(put(tmp_path, Shared(scene)))
+    go_to(page, 0.9 * pi)
+    there = page.value(
+        "(() => { const box = document.getElementById('handle').getBoundingClientRect();"
+        "return [box.x + box.width / 2, box.y + box.height / 2]; })()"
+    )
+    page.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": there[0], "y": there[1]}])
+    for at in (0.95, 1.0, 1.05, 1.1):
+        place = page.value(
+            f"(() => {{ const data = JSON.parse(document.getElementById('data').textContent);"
+            "const svg = document.getElementById('picture').getScreenCTM(), view = data.sides[0].view;"
+            f"const point = {list(scene.pose(at * pi, 0).position[scene.linkage.drive.joint])};"
+            "const to = new DOMPoint(view[1] + view[0] * point[0], view[2] - view[0] * point[1]);"
+            "const at = to.matrixTransform(svg); return [at.x, at.y]; })()"
+        )
+        page.call("Input.dispatchTouchEvent", type="touchMove", touchPoints=[{"x": place[0], "y": place[1]}])
+        page.frame()
+    page.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+    assert phase(page) == pytest.approx(1.1 * pi, abs=0.02)
+
+
+def test_keys_do_what_they_do_in_the_window(page: Page, tmp_path: Path) -> None:
+    page.go(put(tmp_path, Shared(load("press"), chart="5.travel_velocity", names=1)))
+    assert shown(page, "play") == "Play"
+    page.key("ArrowRight", code="ArrowRight")
+    page.key("ArrowRight", code="ArrowRight", modifiers=8)
+    assert degrees(phase(page)) == pytest.approx(11.0)
+    page.key("ArrowLeft", code="ArrowLeft")
+    assert degrees(phase(page)) == pytest.approx(10.0)
+    for key, name, now in (("t", "trace", "false"), ("v", "velocity", "true"), ("a", "acceleration", "true")):
+        page.key(key)
+        assert pressed(page, name) == now
+    page.key("d")
+    assert pressed(page, "reverse") == "true"
+    assert shown(page, "rows").startswith("crank angle10.0°input speed−20 rpm")
+    page.key(" ")
+    assert shown(page, "play") == "Pause"
+    page.key("r")
+    page.key(" ")
+    assert page.messages == []
+
+
+def test_numbers_are_those_of_the_solver(page: Page, tmp_path: Path) -> None:
+    scene = load("press")
+    page.go(put(tmp_path, Shared(scene, chart="5.travel_velocity")))
+    go_to(page, 1.0)
+    page.value("document.getElementById('numbers').open = true")
+    page.frame()
+    motion = scene.pose(1.0)
+    assert f"{motion.spring['return'].length:.1f} mm" in shown(page, "rows")
+    assert f"{motion.damper['cushion'].force:.1f} N" in shown(page, "rows")
+    x, y = (f"{value:.4g}".replace("-", "−") for value in motion.position["B"])
+    assert f"B({x}, {y})" in shown(page, "numbers")
+    assert f"{motion.travel_velocity['5']:.1f} mm/s" in shown(page, "chart")
+
+
+def test_the_pointer_reads_the_joint_under_it(page: Page, tmp_path: Path) -> None:
+    scene = load("crank-rocker")
+    page.go(put(tmp_path, Shared(scene)))
+    go_to(page, 1.0)
+    centre = centre_of(page)
+    page.mouse("mouseMoved", *centre)
+    page.frame()
+    assert shown(page, "reading").startswith("O2 (0, 0) mm\nv = 0 mm/s")
+
+
+def test_it_runs_in_a_frame_and_rests_where_motion_is_not_wanted(page: Page, tmp_path: Path) -> None:
+    held = escape(document(Shared(load("slider-crank"))), quote=True)
+    outer = tmp_path / "slide.html"
+    outer.write_text(
+        f"<!doctype html><title>slide</title><link rel=icon href='data:,'>"
+        f'<iframe width=640 height=360 srcdoc="{held}"></iframe>',
+        encoding="utf-8",
+    )
+    inside = "document.querySelector('iframe').contentDocument.getElementById('play').textContent"
+    for wish, word in (("reduce", "Play"), ("no-preference", "Pause")):
+        page.prefer(reduced_motion=wish)
+        page.go(outer.as_uri())
+        assert page.value(inside) == word
+        high, whole = page.value(
+            "(() => { const root = document.querySelector('iframe').contentDocument.documentElement;"
+            "return [root.scrollHeight, root.clientHeight]; })()"
+        )
+        assert high <= whole
+        assert page.messages == []
+    page.prefer(reduced_motion="reduce")
+
+
+def test_colours_go_by_the_reader_s_setting_unless_one_is_stated(page: Page, tmp_path: Path) -> None:
+    back = "getComputedStyle(document.body).backgroundColor"
+    dark, light = "rgb(17, 20, 26)", "rgb(252, 252, 250)"
+    for stated, wish, found in ((None, "dark", dark), (None, "light", light), ("light", "dark", light)):
+        page.prefer(color_scheme=wish, reduced_motion="reduce")
+        page.go(put(tmp_path, Shared(load("kite"), theme=stated)))  # type: ignore[arg-type]
+        assert page.value(back) == found
+    page.prefer(color_scheme="light", reduced_motion="reduce")
+
+
+def test_all_that_is_pressed_has_a_name_for_a_screen_reader(page: Page, tmp_path: Path) -> None:
+    page.go(put(tmp_path, Shared(load("press"), chart="5.travel_velocity", names=1)))
+    nodes = page.call("Accessibility.getFullAXTree")["nodes"]
+    roles = ("button", "slider", "combobox", "image", "toolbar")
+    named = [
+        (node["role"]["value"], node.get("name", {}).get("value", ""))
+        for node in nodes
+        if not node.get("ignored") and node.get("role", {}).get("value") in roles
+    ]
+    assert ("slider", "crank angle") in named
+    assert len(named) >= 12
+    assert [role for role, name in named if not name] == []

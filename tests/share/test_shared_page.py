@@ -1,0 +1,187 @@
+"""What a page holds, what it must not, and what is refused before anything is written."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from linkanim.cli import main
+from linkanim.errors import BadInput
+from linkanim.scenes import load
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.read import scene_from
+from linkanim.share.page import LARGEST, Shared, document
+from linkanim.share.site import INDEX, write_site
+
+VOID = {"meta", "link", "input"}
+
+
+class Reader(HTMLParser):
+    """Reads a page strictly: what is opened is closed, in its order."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.seen: list[tuple[str, dict[str, str | None]]] = []
+        self.text: dict[str, str] = {}
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        tag = self.open[-1] if self.open else ""
+        self.text[tag] = self.text.get(tag, "") + data
+
+
+def held(text: str) -> Any:
+    found = re.search(r'id="data">(.*?)</script>', text, re.DOTALL)
+    assert found
+    return json.loads(found[1])
+
+
+def test_the_fullest_page_is_small_and_asks_for_nothing() -> None:
+    text = document(Shared(load("press"), chart="5.travel_velocity", names=2))
+    page = Reader(text)
+    assert len(text.encode()) <= LARGEST == 200_000
+    addresses = {attrs[key] for _, attrs in page.seen for key in ("src", "href") if key in attrs}
+    assert {address for address in addresses if not str(address).startswith("#")} == {"data:,"}
+    assert not re.search(r"@import|url\(|https?://(?!www\.w3\.org/2000/svg)", text)
+    policy = next(attrs["content"] for _, attrs in page.seen if "http-equiv" in attrs)
+    script = text.split("<script>")[1].split("</script>")[0]
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert str(policy).startswith("default-src 'none'")
+    assert f"script-src 'sha256-{digest}'" in str(policy)
+
+
+def test_words_of_a_scene_are_words_and_nothing_else() -> None:
+    title = "</script><img src=x onerror=alert(1)> & \"quotes\" fill='#000000'"
+    text = f"title = '''{title}'''\n[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
+    scene = scene_from(parse(text, "odd"), name="odd", where="odd")
+    page = Reader(document(Shared(scene, names=1)))
+    assert page.text["title"] == page.text["h1"] == title
+    assert not any(tag == "img" for tag, _ in page.seen)
+
+
+@pytest.mark.parametrize(
+    ("shared", "declared"),
+    [(None, ["#fcfcfa", "#11141a"]), ("light", ["#fcfcfa"]), ("dark", ["#11141a"])],
+)
+def test_a_stated_theme_is_the_only_one(shared: Any, declared: list[str]) -> None:
+    text = document(Shared(load("scotch-yoke"), theme=shared))
+    assert [colour for colour in ("#fcfcfa", "#11141a") if f": {colour};" in text] == declared
+
+
+def test_both_closures_are_there_and_know_their_names() -> None:
+    sides = held(document(Shared(load("crank-rocker"))))["sides"]
+    assert [side["name"] for side in sides] == ["open", "crossed"]
+    assert len(held(document(Shared(load("scotch-yoke"))))["sides"]) == 1
+
+
+def test_a_page_runs_at_the_speed_asked_for() -> None:
+    found = held(document(Shared(load("press"), speed=-1.5)))
+    assert found["speed"] == -1.5
+    assert found["sides"][0]["rows"][1]["text"] == ["−14.32 rpm", "14.32 rpm"]
+
+
+GEARED = """
+title = "slow"
+[drive]
+speed = "20 rpm"
+[ground]
+O = [0, 0]
+Q = [100, 0]
+P = [200, 0]
+[joints.A]
+crank = "O"
+length = 20
+[joints.D]
+crank = "Q"
+length = 25
+gear = { with = "A", ratio = "11/12", offset = "0 deg" }
+[joints.B]
+from = ["A", "D"]
+length = [90, 80]
+side = "left"
+[joints.E]
+crank = "P"
+length = 25
+gear = { with = "A", ratio = "7/11", offset = "0 deg" }
+[joints.C]
+from = ["B", "E"]
+length = [150, 150]
+side = "left"
+[trace]
+joints = ["B", "C"]
+"""
+
+
+def test_what_takes_too_many_turns_to_be_back_is_refused() -> None:
+    scene = scene_from(parse(GEARED, "slow"), name="slow", where="slow")
+    with pytest.raises(BadInput, match="200 kB is the most; it is back after 132 turns"):
+        document(Shared(scene))
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        pytest.param(["press", "--chart", "foo.bar"], "quantity 'foo.bar'", id="quantity"),
+        pytest.param(["press", "--speed", "0 rpm"], "nothing moves", id="speed"),
+        pytest.param(["press", "-o", "out.pdf"], "use one of .html, .htm", id="suffix"),
+        pytest.param(["press", "-o", "none/out.html"], "there is no folder none", id="folder"),
+        pytest.param([], "name a scene", id="no scene"),
+        pytest.param(["press", "--all", "site"], "leave out a scene", id="scene and all"),
+        pytest.param(["--all", "site", "--chart", "B.velocity"], "leave out --chart", id="chart and all"),
+    ],
+)
+def test_what_cannot_be_is_refused_before_anything_is_written(
+    words: list[str],
+    sentence: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["share", *words]) == 2
+    assert sentence in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_names_its_file_after_the_scene(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["share", "scotch-yoke", "--names"]) == 0
+    assert capsys.readouterr().out == "scotch-yoke.html\n"
+    assert held((tmp_path / "scotch-yoke.html").read_text(encoding="utf-8"))["input"] == "crank angle"
+
+
+def test_a_site_has_an_index_and_takes_nothing_that_is_not_its_own(tmp_path: Path) -> None:
+    site, some = tmp_path / "site", ("crank-rocker", "scotch-yoke")
+    for _ in range(2):
+        write_site(site, some, Shared(load("press")))
+        pages = {path.name for path in site.glob("*.html")}
+        assert pages == {INDEX, *(f"{name}.html" for name in some)}
+    index = Reader((site / INDEX).read_text(encoding="utf-8"))
+    assert [attrs["href"] for tag, attrs in index.seen if tag == "a"] == [f"{name}.html" for name in some]
+    (site / "scotch-yoke.html").write_text("mine", encoding="utf-8")
+    with pytest.raises(BadInput, match="was changed after linkanim wrote it"):
+        write_site(site, some, Shared(load("press")))
+    assert (site / "scotch-yoke.html").read_text(encoding="utf-8") == "mine"

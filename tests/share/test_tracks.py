@@ -1,0 +1,88 @@
+"""Where a page puts joints, read from what it holds as its script reads it, against the solver."""
+
+from __future__ import annotations
+
+import base64
+from typing import Any
+
+import numpy as np
+import pytest
+
+from linkanim.picture.figure import DOWN, figure
+from linkanim.picture.view import View
+from linkanim.scenes import load, names
+from linkanim.scenes.editing.closures import ghost_of
+from linkanim.scenes.scene import Scene
+from linkanim.share.tracks import GRID, packed_tracks, tracks
+
+WIDTH = 960.0
+FINEST = 0.01 * WIDTH / 3840
+"""A hundredth of a pixel of the largest screen, in pixels of the picture."""
+MOMENTS = 600
+
+
+def unpacked(text: str, kind: str) -> Any:
+    return np.frombuffer(base64.b64decode(text), kind).astype(float)
+
+
+def read(held: Any, phases: Any, period: float) -> Any:
+    """Return place, velocity and acceleration (3, n, 2) by phase: a quintic's Hermite basis between nodes."""
+    (nodes, places, rates), grain = held["track"], held["grain"]
+    node = np.append(unpacked(nodes, "<u2"), GRID + unpacked(nodes, "<u2")[0])
+    known = np.hstack((grain * unpacked(places, "<i4").reshape(-1, 2), unpacked(rates, "<f4").reshape(-1, 4)))
+    known = np.vstack((known, known[0]))
+    here = phases / period % 1.0 * GRID
+    n = np.searchsorted(node, here, side="right") - 1
+    width = (node[n + 1] - node[n]) * period / GRID
+    u = (here - node[n]) / (node[n + 1] - node[n])
+    ends = np.stack((known[n], known[n + 1])).reshape(2, -1, 3, 2)
+    scaled = ends * np.stack((np.ones_like(width), width, width**2), axis=1)[..., None]
+    basis = np.array(
+        [
+            [[1, 0, 0, -10, 15, -6], [0, 1, 0, -6, 8, -3], [0, 0, 0.5, -1.5, 1.5, -0.5]],
+            [[0, 0, 0, 10, -15, 6], [0, 0, 0, -4, 7, -3], [0, 0, 0, 0.5, -1, 0.5]],
+        ]
+    )
+    course = np.einsum("enkx,ekp->npx", scaled, basis)
+    found = []
+    for order in range(3):
+        powers = np.stack([_derivative(power, order, u) for power in range(6)], axis=1)
+        found.append(np.einsum("np,npx->nx", powers, course) / width[:, None] ** order)
+    return np.stack(found)
+
+
+def _derivative(power: int, order: int, u: Any) -> Any:
+    factor = float(np.prod([power - n for n in range(order)]))
+    return factor * u ** (power - order) if power >= order else 0.0 * u
+
+
+def view_of(scene: Scene) -> View:
+    box = figure(scene).box
+    scale = WIDTH / max(box.right - box.left, box.high - box.low)
+    return View(scale, -scale * box.left, scale * box.high)
+
+
+@pytest.mark.sampled
+@pytest.mark.parametrize("name", names())
+def test_no_point_is_a_hundredth_of_a_pixel_off_on_the_largest_screen(name: str) -> None:
+    scene = load(name)
+    for one in filter(None, (scene, ghost_of(scene))):
+        view = view_of(one)
+        packed = packed_tracks(tracks(one, view))
+        phases = np.sort(np.random.default_rng(1).uniform(0, one.period, MOMENTS))
+        motion = one.solve(phase=phases, speed=1.0)
+        for joint in motion.position:
+            held = {"track": packed["points"][joint], "grain": packed["grain"]}
+            place, velocity, acceleration = read(held, phases, one.period)
+            there = motion.position[joint] @ DOWN * view.scale + complex(view.x, view.y)
+            assert np.abs(place @ (1, 1j) - there).max() < FINEST, joint
+            for found, true in ((velocity, motion.velocity), (acceleration, motion.acceleration)):
+                wanted = true[joint] @ DOWN * view.scale
+                assert np.abs(found @ (1, 1j) - wanted).max() <= 0.01 * np.abs(wanted).max() + 1e-3, joint
+
+
+def test_more_nodes_lie_where_a_joint_turns_sharply() -> None:
+    scene = load("jansen")
+    foot = tracks(scene, view_of(scene))[scene.trace[0]]
+    gaps = np.diff(foot.nodes)
+    assert gaps.max() >= 4 * gaps.min()
