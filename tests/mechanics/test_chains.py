@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from build import four_bar, six_bar
+from limits import Limits
 
+from linkanim.errors import LinkanimError
 from linkanim.mechanics.closing.chain import Touch
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.linkage.drive import Drive
@@ -174,3 +176,36 @@ def test_a_swing_turns_back_only_before_a_limit_that_cannot_be_passed(
     solved = mechanism(replace(linkage, joints=tuple(joints)))
     assert solved.assembly.path.ends == ends
     runs_smoothly(solved)
+
+
+def test_a_slot_whose_ends_lie_in_one_place_for_a_while_is_refused_at_once() -> None:
+    """Its margin is rounding there, and has hundreds of extremes."""
+    kite = {
+        "lengths": [20, 60, 65, 90, 25, 40, 40, 25],
+        "ground_angle": "45 deg",
+        "link_angle": "-107.47 deg",
+    }
+    document = {
+        "six-bar": {**kite, "assembly": "open", "assembly2": "open"},
+        "joints": {"S": {"slot": {"pivot": "D", "through": "O4"}, "length": 200}},
+    }
+    with Limits(10, 400).held(), pytest.raises(LinkanimError, match="S: it is at its limit"):
+        scene_from(document, name="kite", where="kite.toml")
+
+
+def test_what_keeps_from_its_limit_behind_a_change_point_has_none() -> None:
+    document = {
+        "drive": {"start": "180 deg"},
+        "six-bar": {
+            "lengths": [70, 65, 110, 150, 10, 10, 60, 60],
+            "ground_angle": "180 deg",
+            "link_angle": "180 deg",
+            "assembly": "crossed",
+            "assembly2": "crossed",
+        },
+        "ground": {"G": {"length": 110, "angle": "90 deg"}},
+        "joints": {"E": {"slot": {"pivot": "G", "through": "D"}, "length": 40}},
+    }
+    path = scene_from(document, name="six-bar", where="six-bar.toml").mechanism.assembly.path
+    assert isinstance(path, Swing)
+    assert path.ends == ("B", "B")

@@ -184,9 +184,13 @@ LEAST = 1e-40
 def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assembly, Separations]:
     """Return the assembly with the zeros of the dyads on moving points, and how they fare on it.
 
-    In the chain's order: where one passes onto its other closure, what stands on it goes another way.
+    In the chain's order: where one passes onto its other closure, what stands on it goes another way, and
+    may no longer come near its limits.
     """
-    for name in found.names:
+    names = found.names
+    for name in names:
+        if name not in found.names:
+            continue
         through = _through(assembly, name, found)
         if found.touches(name):
             found = separations(through)

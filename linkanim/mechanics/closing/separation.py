@@ -35,6 +35,8 @@ TOUCHING = 1e-12
 """Share of a margin's scale within which floats cannot tell its sign."""
 BARELY = 1 / 64
 """Share of its scale below which a margin that turns back costs what is made of it its digits."""
+MOST_TOUCHING = 24
+"""Extremes in a turn of the fastest crank at which floats cannot tell a margin's sign."""
 ROUNDING = 2.0**-48
 """Share of the longest bar that rounded lengths make: within it bars just fall into line."""
 UNEVEN = 0.1
@@ -201,10 +203,14 @@ def _phases(assembly: Assembly) -> Array:
 
     The start is among them, and the ends of a way there and back.
     """
-    fastest = max((abs(gearing.ratio) for gearing in assembly.gears.values()), default=1)
-    count = max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * fastest))
+    count = max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * _fastest(assembly)))
     marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
     return np.sort(np.concatenate([around(assembly.path.periods, count), marks]))
+
+
+def _fastest(assembly: Assembly) -> float:
+    """Return how often the crank that turns most turns while the input turns once, at least once."""
+    return max([1.0, *(float(abs(gearing.ratio)) for gearing in assembly.gears.values())])
 
 
 def _scales(assembly: Assembly, phases: Array) -> Mapping[str, float]:
@@ -336,8 +342,13 @@ def _low(assembly: Assembly, name: str, extremes: Sampled, row: int) -> tuple[Ar
 
 
 def _settled(assembly: Assembly, name: str, phases: Array) -> Iterator[Extreme]:
-    """Yield the extremes at which floats cannot tell a dyad's margin from nothing."""
+    """Yield the extremes at which floats cannot tell a dyad's margin from nothing.
+
+    AssemblyError where there are so many that they are rounding on a stretch of nothing.
+    """
     longest = _longest(assembly)
+    if len(phases) > MOST_TOUCHING * assembly.path.periods * _fastest(assembly):
+        raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     for phase in phases.tolist():
         place, gap, reach = extreme(assembly, name, phase)
         closes = 0 if abs(gap) <= ROUNDING * longest else 1 if gap > 0 else -1

@@ -67,7 +67,7 @@ class Assembly:
 
 
 AT_ITS_LIMIT = (
-    "it is at its limit at every angle of the input, where rounding alone would move it; "
+    "it is at its limit at every angle of the input, or at many in a row, where rounding alone would move it; "
     "make one length longer or shorter"
 )
 
