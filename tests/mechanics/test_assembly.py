@@ -18,6 +18,7 @@ from linkanim.mechanics.linkage.joint import Line
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.scenes.reading.read import scene_from
 
 Lengths = tuple[float, float, float, float]
 Point = tuple[float, float]
@@ -302,3 +303,18 @@ def test_a_dyad_in_line_just_where_it_turns_back_is_refused() -> None:
     )
     with pytest.raises(AssemblyError, match="just where it turns back"):
         mechanism(linkage)
+
+
+@pytest.mark.parametrize("apart", [2e-16, 4e-16, 1e-15, 3e-15, 1e-14, 1e-13, 1e-11, 1e-8])
+@pytest.mark.parametrize(("bars", "pivots"), [(0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (1, -1), (2, 1)])
+def test_bars_keep_their_lengths_next_to_a_kite(apart: float, bars: int, pivots: int) -> None:
+    """Lengths that differ in their last digit are those of a kite; others limit it, or let it turn."""
+    crank, coupler = 4.8, 6.6
+    lengths = {"ground": crank * (1 + pivots * apart), "rocker": coupler * (1 + bars * apart)}
+    document = {"four-bar": {"crank": crank, "coupler": coupler, **lengths, "assembly": "crossed"}}
+    solved = scene_from(document, name="kite", where="kite.toml").mechanism
+    phases = np.concatenate([np.linspace(0, 4 * math.pi, 97), [1e-16, 1e-12, math.pi + 1e-12]])
+    position = solved.solve(phase=phases, speed=1.0, derivatives=0).position
+    for ends, length in ((("A", "B"), coupler), (("O4", "B"), lengths["rocker"])):
+        long = np.hypot(*(position[ends[1]] - position[ends[0]]).T)
+        assert long == pytest.approx(length, abs=16 * 2.0**-52 * coupler)

@@ -67,8 +67,8 @@ class Assembly:
 
 
 AT_ITS_LIMIT = (
-    "it is at its limit at every angle of the input, or at many in a row, where rounding alone would move it; "
-    "make one length longer or shorter"
+    "it is at its limit at every angle of the input, or at many in a row, where rounding alone would"
+    " move it; make one length longer or shorter"
 )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import partial
@@ -147,10 +147,17 @@ def pin_against_pin(
 def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     """Return the ground link from a crank's pivot to another fixed pin, as exactly as it was written.
 
-    None where they are one point, and no direction leads from one to the other. A length that is
-    read from coordinates is the crank's own where rounding is all that tells them apart.
+    None where they are one point, and no direction leads from one to the other. The length is the
+    crank's own where rounding is all that tells them apart.
     """
-    first, second = linkage.pin(crank.pivot), linkage.pin(end)
+    ground = _between(linkage, crank.pivot, end)
+    if ground and gap(ground.length, ground.rest, -crank.length) == 0:
+        return replace(ground, length=crank.length, rest=0.0)
+    return ground
+
+
+def _between(linkage: Linkage, begin: str, end: str) -> Ground | None:
+    first, second = linkage.pin(begin), linkage.pin(end)
     if _written_from(second, first):
         return _written(second, turned=False)
     if _written_from(first, second):
@@ -166,8 +173,6 @@ def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     direction = Vec(Constant(dx / length, along), Constant(dy / length, left))
     if not (dx and dy):
         angle = exact_angle(math.atan2(dy, dx))
-    if gap(exact.high, exact.low, -crank.length) == 0:
-        exact = Sum(crank.length)
     return Ground(exact.high, direction, angle, exact.low)
 
 

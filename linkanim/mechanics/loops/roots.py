@@ -18,6 +18,10 @@ from linkanim.mechanics.formulas.constant import Constant, nearest
 from linkanim.mechanics.formulas.exact import HALF_TURN, Sum, gap, quarter_turns, total
 from linkanim.mechanics.formulas.precise import context, nearest_sum, sine_and_cosine
 
+_STEPS, _SETTLED = 8, Decimal("1e-24")
+"""Newton's steps at the most, and one after which the next is below all digits of the sum."""
+ALIKE = 2.0**-51
+"""Share of the perimeter that rounded lengths of a kite may differ by."""
 WIDE = 1 / 16
 """Share of K above which U is its greatest value less K sin²(ψ/2)."""
 
@@ -94,12 +98,19 @@ def factor(least: float, most: float, spread: Fraction, exact_most: Fraction) ->
 
 
 def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
-    """Return x with sin²(x/2) = square as a sum of two floats: one Newton step from a float."""
+    """Return x with sin²(x/2) = square as a sum of two floats: Newton's steps from a float.
+
+    One is enough but next to a right angle, where what is missing to it is to be right to its own digits.
+    """
     with localcontext(context()):
         target = Decimal(square.numerator) / Decimal(square.denominator)
         half = Decimal(half_guess)
-        sine, cosine = sine_and_cosine(half)
-        return nearest_sum(2 * (half + (target - sine * sine) / (2 * sine * cosine)))
+        for _ in range(_STEPS):
+            sine, cosine = sine_and_cosine(half)
+            half += (step := (target - sine * sine) / (2 * sine * cosine))
+            if abs(step) < _SETTLED:
+                break
+        return nearest_sum(2 * half)
 
 
 def four_bar_root(ground: Sum, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:
@@ -115,6 +126,8 @@ def four_bar_root(ground: Sum, crank: float, bars: tuple[float, float], referenc
     u_most, w_most = (a + b) ** 2 - (g - r) ** 2, (g + r) ** 2 - (a - b) ** 2
     u_least = gap(coupler, rocker, *shorter, -crank) * total(coupler, rocker, *longer, crank)
     w_least = gap(*longer, -crank, -coupler, rocker) * gap(*longer, -crank, coupler, -rocker)
+    if alike(ground, crank, bars):
+        w_least = 0.0
     touching_u = gap(coupler, rocker, *shorter, crank) == 0
     touching_w = 0 in (gap(*longer, crank, -coupler, rocker), gap(*longer, crank, coupler, -rocker))
     spread = 2 * r if u_least > 0 and w_least > 0 else Fraction(1)
@@ -127,6 +140,12 @@ def four_bar_root(ground: Sum, crank: float, bars: tuple[float, float], referenc
         reference,
         unit,
     )
+
+
+def alike(ground: Sum, crank: float, bars: tuple[float, float]) -> bool:
+    """Tell whether a kite's pins meet: ground and crank, and both bars, differ by rounding alone."""
+    reach = ALIKE * math.fsum((float(ground), crank, *bars))
+    return max(abs((ground - Sum(float(crank))).constant), abs(bars[0] - bars[1])) <= reach
 
 
 def slider_root(crank: float, rod: float, eccentricity: Sum, reference: Sum) -> LoopRoot:

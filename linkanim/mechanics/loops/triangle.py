@@ -32,6 +32,7 @@ from linkanim.mechanics.formulas.constant import Constant
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Value, select, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec
+from linkanim.mechanics.loops.roots import alike
 from linkanim.mechanics.loops.signed import Reduced, SignedRoot
 
 ALIKE = 1 / 4
@@ -240,7 +241,7 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
     Lengths squared are taken over the root's unit, so that L² is K sin²(ψ/2) and a constant.
     """
     (a, b), short, total = lengths, loop.short, loop.ground.high + loop.crank
-    if short == 0 and a == b:
+    if alike(loop.ground, loop.crank, lengths):
         return _kite(loop, root)
     w, wd = loop.pace.value, loop.pace.rate
     unit, squares = loop.unit, loop.half.squares(loop.spread)
