@@ -209,3 +209,21 @@ def test_what_keeps_from_its_limit_behind_a_change_point_has_none() -> None:
     path = scene_from(document, name="six-bar", where="six-bar.toml").mechanism.assembly.path
     assert isinstance(path, Swing)
     assert path.ends == ("B", "B")
+
+
+@pytest.mark.parametrize("aside", [0.0, 1e-15, 1e-14, 1e-12, 1e-6, 1e-3])
+def test_a_cell_that_folds_at_both_limits_is_whole_there(aside: float) -> None:
+    """Its arms, and both bars on them, lie in one line there, and the ends of the last dyad meet."""
+    joints = {
+        "D": {"crank": "O2", "length": 40},
+        "A": {"from": ["D", "Q"], "length": [105, 60], "side": "right"},
+        "B": {"from": ["O", "A"], "length": [200, 100], "side": "left"},
+        "C": {"from": ["O", "A"], "length": [200, 100], "side": "right"},
+        "P": {"from": ["B", "C"], "length": [100, 100], "side": "left"},
+    }
+    document = {"ground": {"O": [0, 0], "Q": [60, 0], "O2": [aside, -105]}, "joints": joints}
+    solved = scene_from(document, name="cell", where="cell.toml").mechanism
+    assert solved.assembly.path.ends == ("B", "B")
+    motion = solved.solve(phase=np.linspace(0, 2 * math.pi, 181), speed=1.0)
+    assert np.isfinite(np.stack([motion.position["P"], motion.velocity["P"], motion.acceleration["P"]])).all()
+    assert motion.position["P"][:, 0] == pytest.approx(250, abs=1e-9 + 10 * aside)

@@ -84,7 +84,7 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
         if swing.amplitude < NO_WAY:
             raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
         limited, on_swing = _limited(assembly, swing)
-        up = (on_swing.phases >= 0) & (on_swing.phases <= math.pi)
+        up = (on_swing.phases > 0) & (on_swing.phases < math.pi)  # at its ends rounding alone decides
         if not on_swing.shut[:, up].any():
             break
     return swing, limited, on_swing
@@ -169,12 +169,22 @@ def _limit(
     assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_]
 ) -> tuple[Sum, str]:
     """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
-    row = int(shut.argmax())
+    row = _first_shut(shut, found.margins(np.array(bracket[1:]))[:, 0])
     start = found.beside(bracket[1], row, 1 if bracket[0] > bracket[1] else -1)
     if start is None:
         inside, outside = (np.array([phase]) for phase in bracket)
         start = Sum(float(ends_of(lambda phase: found.margins(phase)[row] >= 0, inside, outside)[0]))
     return refined(assembly, found.names[row], start), found.names[row]
+
+
+def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:
+    """Return the first dyad of the chain that does not close at a phase.
+
+    One whose margin is no number stands on another that does not close, if only by rounding.
+    """
+    row = int(shut.argmax())
+    before = np.flatnonzero(margins[:row] < 0)
+    return int(before[0]) if math.isnan(margins[row]) and len(before) else row
 
 
 LEAST = 1e-40
