@@ -258,6 +258,9 @@ def test_it_has_no_angle() -> None:
     [
         pytest.param('joint = "C"', 'joint = "A"', "slider.joint", "that is C", id="a joint of a dyad"),
         pytest.param("to = 150", "to = 90", "slider.to", "nothing would move", id="no travel"),
+        pytest.param(
+            "to = 150", "to = 90.0000000000001", "slider.to", "nothing would move", id="next to no travel"
+        ),
         pytest.param(", to = 150", "", "drive.slider", '"to" is missing', id="no end"),
         pytest.param("from = 90", "form = 90", "slider.form", "did you mean", id="a misspelt key"),
         pytest.param("speed", 'start = "3 deg"\nspeed', "drive.start", "leave it out", id="a start"),

@@ -25,6 +25,8 @@ Measure = Literal[
 Schema = Mapping[str, Any]
 
 _LARGEST, _LONGEST = 1e30, 1e12
+SHORTEST = 1 / _LONGEST
+"""The least length of a scene file, and the least way of an input."""
 _MOST_TURNS = 100
 _SMALL, _STEEP = 12, 100
 _FRACTION = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)?", re.A)

@@ -10,6 +10,7 @@ from linkanim.mechanics.linkage.pins import Crank, DrivenSlider
 from linkanim.mechanics.linkage.rigid_bodies import coincide
 from linkanim.scenes.fields.scene_file import SECTIONS
 from linkanim.scenes.fields.table import Table
+from linkanim.scenes.fields.types import SHORTEST
 from linkanim.units import shown
 
 Values = Mapping[str, Any]
@@ -69,7 +70,7 @@ def _slider_drive(top: Table, values: Values) -> Drive:
         raise top.table("joints").wrong(
             f"{other} is a second input beside {name}; let it follow: give it from and length"
         )
-    if travel["from"] == travel["to"]:
+    if abs(travel["to"] - travel["from"]) < SHORTEST:
         raise slider.error("to", "is the same place as from, so nothing would move")
     actuator = Travel(travel["from"], travel["to"])
     return Drive(name, values["speed"], actuator=actuator, retraced=values["returns"] == "same")
@@ -90,6 +91,6 @@ def _cylinder(table: Table, values: Values, driven: str) -> Cylinder:
     carried = [frame for frame in others if {crank.pivot, driven, moving} <= frame.keys()]
     if not carried or coincide(carried[0], crank.pivot, moving):
         raise table.error("between", f"{moving} is no joint of the body that turns with {driven}")
-    if values["from"] == values["to"]:
+    if abs(values["to"] - values["from"]) < SHORTEST:
         raise table.error("to", "is the same length as from, so nothing would move")
     return Cylinder((fixed, moving), values["from"], values["to"])
