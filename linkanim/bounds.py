@@ -6,6 +6,8 @@ MOST_NAMES = 64
 """Joints, pins, bodies, springs or dampers of a scene, each: so many run smoothly with all their names."""
 MOST_TURNS = 1_000
 """Turns of the input, or ways there and back, after which every joint is back."""
+MOST_GEARED_TURNS = 20_000
+"""Turns of the quickest crank in those."""
 MOST_DYAD_TURNS = 2_000
 """The same times the dyads, each of which is looked at all along."""
 MOST_PROBLEMS = 100

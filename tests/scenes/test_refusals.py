@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from limits import Limits
 
 import linkanim.scenes
 from linkanim.errors import AssemblyError, BadInput, SceneError
@@ -503,3 +504,17 @@ def test_a_list_of_names_to_choose_from_stays_short() -> None:
     text = f"{FOUR_BAR}\n[ground]\n{pins}\n[trace]\njoints = ['Q']"
     with pytest.raises(SceneError, match=r"x\d+ and \d+ more$"):
         scene_from(parse(text, "my.toml"), name="my", where="my.toml")
+
+
+def test_a_crank_that_turns_too_often_is_refused_and_one_that_turns_often_takes_little_memory() -> None:
+    def geared(last: int) -> dict[str, Any]:
+        train = {"A": {"crank": "O2", "length": 30}}
+        for mate, name, ratio in (("A", "B", 100), ("B", "C", 100), ("C", "D", last)):
+            train[name] = {"crank": mate, "length": 9, "gear": {"with": mate, "ratio": ratio}}
+        arm = {"joints": ["A", "B"], "com": [5, 0], "mass": "2 kg"}
+        return {"ground": {"O2": [0, 0]}, "joints": train, "bodies": {"arm": arm}}
+
+    with pytest.raises(AssemblyError, match=r"joint D: it turns 30000 times as fast as the input"):
+        scene_from(geared(3), name="geared", where="geared.toml")
+    with Limits(10, 200).held():
+        assert scene_from(geared(2), name="geared", where="geared.toml").info.demand is not None

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from linkanim.bounds import MOST_DYAD_TURNS, MOST_TURNS
+from linkanim.bounds import MOST_DYAD_TURNS, MOST_GEARED_TURNS, MOST_TURNS
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.kinds import CLOSERS
 from linkanim.mechanics.closing.kinematics import walk_at
@@ -156,6 +156,12 @@ def turns_to_return(linkage: Linkage, loops: Mapping[str, Loop]) -> int:
             f"joint {geared[-1].partition(' ')[0]}: with the gears {', '.join(geared)} every joint is back "
             f"after {turns:,} turns only, and {most:,} are the most here;"
             " give their ratios denominators in common"
+        )
+    quickest = max(gears, key=lambda name: abs(gears[name].ratio), default="")
+    if quickest and turns * abs(gears[quickest].ratio) > MOST_GEARED_TURNS:
+        raise AssemblyError(
+            f"joint {quickest}: it turns {gears[quickest].ratio} times as fast as the input, and at most"
+            f" {MOST_GEARED_TURNS:,} turns are looked at until every joint is back; give it a smaller ratio"
         )
     return turns
 

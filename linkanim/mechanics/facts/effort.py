@@ -24,6 +24,8 @@ from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
 from linkanim.mechanics.motion.measures import as_complex, between, growth, over, size
 
+_AT_ONCE = 1 << 16
+"""Phases that are solved at once, so that many of them take little memory."""
 _FINE = 24.0
 """The gear ratio up to which the usual number of samples is enough."""
 _ROUNDING = 1e-13
@@ -187,10 +189,9 @@ def demand(solved: Callable[[Array], Any], periods: int, *, quickest: float, lim
     """
     fine = math.ceil(quickest / _FINE)
     phases = _phases(periods * fine) / fine
-    cycle = solved(phases)
-    power, effort = np.asarray(input_power(cycle)), np.asarray(input_effort(cycle))
-    dampers = _strut_power(cycle, _MOVING, cycle.setting.linkage.dampers)
-    used = sum((part for part, _ in dampers), 0.0 * phases)
+    cycles = map(solved, np.array_split(phases, math.ceil(len(phases) / _AT_ONCE)))
+    parts = [_needs_of(cycle := part) for part in cycles]
+    power, effort, used = (np.concatenate(rows) for rows in zip(*parts, strict=True))
     work = float(np.mean(used)) * math.tau * periods / abs(float(cycle.input_speed))
     idle = np.abs(power) <= _BOUNDED * np.abs(power).max()
     if (limited and not idle[:: len(idle) // (2 * periods)].all()) or not np.isfinite(effort).all():
@@ -198,6 +199,13 @@ def demand(solved: Callable[[Array], Any], periods: int, *, quickest: float, lim
     peak = _peak(lambda near: np.asarray(input_effort(solved(near))), phases, effort)
     steady = np.ndim(cycle.coordinate_rate) == 0
     return Demand(work, peak, float(np.mean(used) / cycle.coordinate_rate) if steady else _mean(effort))
+
+
+def _needs_of(cycle: Any) -> tuple[Array, Array, Array]:
+    """Return the input's power and effort, and the power that dampers use up."""
+    dampers = _strut_power(cycle, _MOVING, cycle.setting.linkage.dampers)
+    power = np.asarray(input_power(cycle))
+    return power, np.asarray(input_effort(cycle)), sum((part for part, _ in dampers), 0.0 * power)
 
 
 def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> float:

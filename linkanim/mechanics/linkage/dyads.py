@@ -231,7 +231,10 @@ class RPR(Joint):
         import numpy as np
 
         arm = abs(place(self.through) - place(self.pivot))
-        return np.arccos(np.minimum(abs(self.offset) / arm, 1.0))
+        if not self.offset:
+            return np.arccos(0.0 * arm)
+        with np.errstate(divide="ignore"):  # the pin on the pivot, where rounding brings it
+            return np.arccos(np.minimum(abs(self.offset) / arm, 1.0))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say that the slot's offset is too large."""
