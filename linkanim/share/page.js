@@ -96,6 +96,11 @@
 
   // --- what moves: each kind gets its group, and gives what puts it at a pose ---------------------
 
+  // What is set already is left alone: what stands still costs a frame nothing.
+  const put = (node, name, value) => {
+    if (node.getAttribute(name) !== String(value)) node.setAttribute(name, value);
+  };
+  const say = (node, text) => { if (node.textContent !== text) node.textContent = text; };
   const part = (group, name, attributes) => {
     const made = group.appendChild(document.createElementNS(SVG, name));
     for (const key in attributes) made.setAttribute(key, attributes[key]);
@@ -120,9 +125,9 @@
     part(group, { at, tail, head, shown }) {
       const still = tail === head, strength = shown && strengthOf(shown);
       return (place) => {
-        if (strength) group.setAttribute("opacity", strength());
+        if (strength) put(group, "opacity", strength());
         const turn = still ? [1, 0] : unit(sub(place(head), place(tail)));
-        group.setAttribute("transform", matrix(turn, place(at)));
+        put(group, "transform", matrix(turn, place(at)));
       };
     },
 
@@ -135,8 +140,8 @@
         const clear = 0.5 * (Math.abs(normal[0]) * sides[0] + Math.abs(normal[1]) * sides[1]) + 1.3 * bar;
         const foot = add(add(place(at), mul(begin, span)), by(along, share));
         const middle = add(add(foot, by(normal, aside * (clear + further))), off);
-        group.setAttribute("transform", `translate(${xy(middle)})`);
-        group.setAttribute("opacity", strength());
+        put(group, "transform", `translate(${xy(middle)})`);
+        put(group, "opacity", strength());
       };
     },
 
@@ -160,9 +165,9 @@
           far += line(half(0.5, foot, pitch, turn));
           near += line(half(0, foot, pitch, turn));
         }
-        back.setAttribute("d", far);
-        edge.setAttribute("d", near);
-        core.setAttribute("d", near);
+        put(back, "d", far);
+        put(edge, "d", near);
+        put(core, "d", near);
       };
     },
 
@@ -178,9 +183,9 @@
         const share = reach[1] > reach[0] ? clamp((span - reach[0]) / (reach[1] - reach[0]), 0, 1) : 0.5;
         const depth = foot + length * (0.16 + 0.68 * share);
         const along = (way) => add(start, by(turn, way));
-        cylinder.setAttribute("transform", matrix(turn, along(foot)));
-        piston.setAttribute("transform", matrix(turn, along(depth)));
-        rods.setAttribute("d", line([along(depth), along(Math.max(span, depth))]) + line([start, along(foot)]));
+        put(cylinder, "transform", matrix(turn, along(foot)));
+        put(piston, "transform", matrix(turn, along(depth)));
+        put(rods, "d", line([along(depth), along(Math.max(span, depth))]) + line([start, along(foot)]));
       };
     },
 
@@ -199,7 +204,7 @@
         group.classList.toggle("off", !state.trace);
         if (!state.trace) return;
         const tail = Math.min(phase, page.period) * Math.sign(speed());
-        paths.forEach((path, n) => path.setAttribute("d", line(Array.from({ length: pieces + 1 }, (_, k) => {
+        paths.forEach((path, n) => put(path, "d", line(Array.from({ length: pieces + 1 }, (_, k) => {
           const age = 1 - (n + k / pieces) / shades.length;
           return tracks[at].at(state.phase - tail * age).p;
         }))));
@@ -219,7 +224,7 @@
           const { p, v, a } = pose(name);
           const reach = order === 1 ? by(v, gain * Math.sign(speed())) : by(a, gain);
           const long = size(reach), seen = long > 0.01 * longest && long < 100 * longest;
-          paths[n].setAttribute("d", seen ? arrow(p, reach, width) : "");
+          put(paths[n], "d", seen ? arrow(p, reach, width) : "");
         });
       };
     },
@@ -238,16 +243,16 @@
         const rate = gain * inputRate(), bend = -sweep * clamp(rate, -1, 1), side = Math.sign(bend);
         const drawn = Math.abs(bend) > 0.02;
         const points = bent(side * ahead, side * ahead + bend).map((to) => add(centre, by(mul(to, way), radius)));
-        for (const path of [rim, bow]) path.setAttribute("d", drawn ? line(points) : "");
+        for (const path of [rim, bow]) put(path, "d", drawn ? line(points) : "");
         const last = points[24], on = mul(unit(sub(last, centre)), [0, side]);
         const head = Math.min(6.5 * thick, 0.8 * Math.abs(bend) * radius);
         const barb = [[0.75, 0], [-0.35, 0.5], [-0.35, -0.5]].map((to) => add(last, mul(on, by(to, head))));
-        tip.setAttribute("d", drawn ? line(barb) + "Z" : "");
+        put(tip, "d", drawn ? line(barb) + "Z" : "");
         if (!angle) return;
         const turned = middle + mod(Math.atan2(-way[1], way[0]) - middle + Math.PI, TURN) - Math.PI;
         const path = line(bent(0, -turned).map((to) => add(centre, by(to, arc))));
-        for (const each of [halo, round]) each.setAttribute("d", path);
-        level.setAttribute("d", line([centre, add(centre, [1.45 * arc, 0])]));
+        for (const each of [halo, round]) put(each, "d", path);
+        put(level, "d", line([centre, add(centre, [1.45 * arc, 0])]));
       };
     },
 
@@ -258,7 +263,7 @@
       return (place) => {
         const reach = by(along, longest * clamp(gain * inputRate(), -1, 1));
         const drawn = size(reach) > 0.02 * longest;
-        path.setAttribute("d", drawn ? arrow(add(place(at), by(unit(reach), room)), reach, 1.7 * thick) : "");
+        put(path, "d", drawn ? arrow(add(place(at), by(unit(reach), room)), reach, 1.7 * thick) : "");
       };
     },
   };
@@ -301,7 +306,7 @@
     const pose = (name) => poses[name] || (poses[name] = side.tracks[name].at(state.phase));
     const place = (name) => pose(name).p;
     for (const move of side.moves) move(place, pose);
-    byId("grip").setAttribute("transform", `translate(${xy(place(side.data.drive))})`);
+    put(byId("grip"), "transform", `translate(${xy(place(side.data.drive))})`);
     drawRows(side);
     if (side.charts.length) drawCursor(side.charts[state.way > 0 ? 0 : 1]);
     drawInput(side);
@@ -335,7 +340,7 @@
         return [name, value];
       }));
     }
-    side.rows.forEach((row, n) => { list.children[2 * n + 1].textContent = rowWords(row); });
+    side.rows.forEach((row, n) => { say(list.children[2 * n + 1], rowWords(row)); });
   }
 
   let spoken = "";
@@ -378,13 +383,13 @@
 
   function drawCursor(data) {
     const [left, top, width, high] = data.area, share = chartShare(data), x = left + width * share;
-    cursor.rule.setAttribute("d", `M${x.toFixed(2)} ${top}V${top + high}`);
-    cursor.label.textContent = data.curves.map(({ table, label }, n) => {
+    put(cursor.rule, "d", `M${x.toFixed(2)} ${top}V${top + high}`);
+    say(cursor.label, data.curves.map(({ table, label }, n) => {
       const value = reading(table, share), dot = cursor.dots[n];
       dot.setAttribute("cx", x);
       dot.setAttribute("cy", Number.isFinite(value) ? cursor.level(value) : -100);
       return `${label} ${words(value, data.digits, data.unit)}`.trim();
-    }).join("   ");
+    }).join("   "));
   }
 
   function scrub(event) {
@@ -434,7 +439,7 @@
         }
       }
     }
-    if (byId("reading").textContent !== text) byId("reading").textContent = text;
+    say(byId("reading"), text);
   }
 
   function drawNumbers(side, pose) {
