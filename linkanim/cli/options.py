@@ -217,6 +217,7 @@ def draw(parser: Parser) -> None:
     where.add_argument(
         "--phase", type=units.angle, metavar="PHASE", help="phase instead (default: joints farthest apart)"
     )
+    _speed(parser)
     _size(parser)
     _look(parser, "draw")
     parser.add_argument(

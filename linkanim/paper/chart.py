@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from math import radians
 from typing import NamedTuple
 
 import numpy as np
 import pygame
 
-from linkanim.digits import stepped
+from linkanim.digits import short, stepped, typeset
 from linkanim.paper.curves import Curve, Curves, Peak, extremes
 from linkanim.paper.measured import MeasuredCurve
 from linkanim.picture.diagrams.axis import Axis, linear, range_around, zeros_level
@@ -30,7 +31,7 @@ from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
 from linkanim.picture.parts.driven import driven_words
-from linkanim.picture.placing import Clutter, LabelPlaces, place
+from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import box as rounded_box
@@ -46,6 +47,12 @@ _ROOM = 0.13
 """Of a curve's span, above and below it, where its extremes are written."""
 _BELOW = 0.8
 """Below each plot, in heights of tick labels."""
+_CLOSE = 0.7
+"""Words about a dot that are farther from it, in their heights, have a line to it."""
+_EVERY = 4
+"""So many of a curve's points make a straight line that words keep off."""
+_DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0), (4.0, 2.0), (12.0, 4.0))
+"""The dashes and gaps of curves that share a plot, in widths of a line; the first is whole."""
 _LINE = 1.5
 """From line to line, in heights of their text."""
 
@@ -163,7 +170,9 @@ class Page:
         yield from marked(plots[0], self.curves.marks, heights, pen)
         for plot, side in zip(plots, sides, strict=True):
             for curve in side:
-                yield curve_layer(plot, curve.x, curve.values, self.colour(curve), 1.2 * pen.line)
+                width, number = 1.2 * pen.line, self.curves.curves.index(curve)
+                dashes = _DASHES[number % len(_DASHES)]
+                yield curve_layer(plot, curve.x, curve.values, self.colour(curve), width, dashes)
         if self.measured and self.measured.curve in sides[0]:
             yield from point_layers(plots[0], self.measured.points, pen.theme.ink, _finer(pen))
         yield from self._peaks(plots, sides)
@@ -192,14 +201,36 @@ class Page:
             _about(plot, peak, pen.type.width(text, pen.small), pen, high=high)
             for (plot, _, peak, high), text in zip(found, words, strict=True)
         ]
-        placed = place(to_place, Clutter(plots[0].area))
+        lines = [
+            (curve, line)
+            for plot, side in zip(plots, sides, strict=True)
+            for curve in side
+            for line in _tracks(plot, curve, 0.6 * pen.line)
+        ]
+        owners = [curve for curve, _ in lines]
+        for n, (_, curve, _, _) in enumerate(found):
+            mine = frozenset(m for m, owner in enumerate(owners) if owner is curve)
+            to_place[n] = to_place[n]._replace(beside=mine)
+        placed = place(to_place, Clutter(plots[0].area, solids=tuple(line for _, line in lines)))
         for (plot, curve, peak, _), text, label, spot in zip(found, words, to_place, placed, strict=True):
+            (wide, tall), middle = label.size, complex(label.places[0, spot.which])
+            if spot.shown[0]:
+                yield from self._leader(complex(plot.place(peak.x, peak.value)), middle, label.size, curve)
             yield from point_layers(plot, [(peak.x, peak.value)], self.colour(curve), _finer(pen))
             if spot.shown[0]:
-                (wide, tall), middle = label.size, complex(label.places[0, spot.which])
                 yield Layer(pen.theme.background, [middle + rounded_box(wide + 4, tall, 3)], 0.7)
                 at = (middle.real - wide / 2, middle.imag - tall / 2)
                 yield Caption(text, at, pen.small, pen.theme.ink)
+
+    def _leader(
+        self, dot: complex, middle: complex, size: tuple[float, float], curve: Curve
+    ) -> Iterator[Layer]:
+        """Yield the line from a dot to the words about it, where they are not close by."""
+        away = dot - middle
+        off = complex(max(abs(away.real) - size[0] / 2, 0), max(abs(away.imag) - size[1] / 2, 0))
+        if abs(off) > _CLOSE * self.pen.small:
+            nearest = dot - complex(np.copysign(off.real, away.real), np.copysign(off.imag, away.imag))
+            yield Layer(self.colour(curve), segments(dot, nearest, 0.6 * self.pen.line))
 
     def _extremes(
         self, plots: list[Plot], sides: list[list[Curve]]
@@ -215,6 +246,8 @@ def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
     scene = curves.scene
     unit = "°" if curve.quantity.shown_unit(scene.length_unit) == "°" else ""
     value = stepped(peak.value, (plot.y.high - plot.y.low) / 500)
+    if curves.over == "time":
+        return f"{value}{unit} at {typeset(short(float(f'{peak.x:.4g}')))} s"
     angle = radians(peak.angle) if scene.linkage.drive.coordinate.is_angle else peak.angle
     return f"{value}{unit} at {driven_words(scene, angle)}"
 
@@ -224,8 +257,17 @@ def _about(plot: Plot, peak: Peak, wide: float, pen: Pen, *, high: bool) -> Labe
     place, tall = complex(plot.place(peak.x, peak.value)), 1.15 * pen.small
     rows = (tall / 2 - 1.6 * pen.small, tall / 2 + 0.5 * pen.small)
     columns = (0.0, wide / 2 + 0.6 * pen.small, -wide / 2 - 0.6 * pen.small)
-    places = [place + complex(x, y) for y in rows[:: 1 if high else -1] for x in columns]
-    return LabelPlaces((wide, tall), np.array([places]), np.arange(6.0))
+    near = [place + complex(x, y) for y in rows[:: 1 if high else -1] for x in columns]
+    levels = [sign * n * tall for n in (1.6, 2.8, 4.0, 5.2) for sign in ((-1, 1) if high else (1, -1))]
+    far = [place + complex(x, y) for y in levels for x in columns]
+    return LabelPlaces((wide, tall), np.array([[*near, *far]]), 0.2 * np.arange(30.0))
+
+
+def _tracks(plot: Plot, curve: Curve, half: float) -> Iterator[Solid]:
+    """Yield a curve in short straight lines."""
+    points = plot.place(curve.x, np.where(np.isfinite(curve.values), curve.values, np.nan))[::_EVERY]
+    for begin, end in pairwise(points[np.isfinite(points)]):
+        yield Solid(np.array([[begin, end]]), half)
 
 
 def _zero(plot: Plot, pen: Pen) -> Iterator[Layer]:

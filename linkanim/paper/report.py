@@ -58,6 +58,7 @@ class Report:
             yield html.paragraph(scene.look_at)
         yield html.figure(picture)
         yield html.paragraph(caption)
+        yield html.figure(Figured(scene, _FIGURE, Look(trace=False, polygons=True, hud=False)).document())
         yield html.heading(2, "Facts")
         yield html.facts(scene.info.lines)
         yield html.heading(2, "Dimensions")

@@ -267,7 +267,8 @@ class Picture:
             return ()
         from linkanim.picture.diagrams.polygons import polygons_of
 
-        return polygons_of(self.figure, self.layout.polygons, pen_for(self.layout, self.type, self.theme))
+        pen = pen_for(self.layout, self.type, self.theme)
+        return polygons_of(self.figure, self.layout.polygons, pen, self._moment)
 
     def _named(self, before: Picture | None, *, held: bool) -> Names:
         """Return the names of joints and links, and their dimensions, placed as the scene fits the window.

@@ -64,7 +64,7 @@ def test_chart_words_and_key_stand_as_in_the_window(look: Look) -> None:
     scene, size, surface = load("press"), (960, 540), offscreen((960, 540))
     look = replace(look, chart="C.acceleration", vectors=frozenset("va"))
     SurfacePrinter().print(surface, Picture(scene, size, look), 1.0, 4.0, Overlay())
-    figured = Figured(scene, size, look, phase=1.0, speed=4.0)
+    figured = Figured(scene, size, look, phase=1.0, speed=4.0, as_seen=True)
     assert psnr(_levels(figured.surface()), _levels(surface)) > (30 if look.framed else 45)
     assert {"chart", "words", "key"} <= _groups(figured).keys()
 

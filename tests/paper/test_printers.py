@@ -66,7 +66,7 @@ def _window(name: str, look: Look, monkeypatch: pytest.MonkeyPatch) -> Pixels:
 
 def _compared(name: str, look: Look, monkeypatch: pytest.MonkeyPatch) -> None:
     window = _window(name, look, monkeypatch)
-    figured = Figured(load(name), SIZE, look, PHASE)
+    figured = Figured(load(name), SIZE, look, PHASE, as_seen=True)
     groups = list(_wordless(figured.groups()))
     background = figured.picture.theme.background if look.background else None
     # the reader of SVG that comes with pygame (nanosvg)

@@ -56,7 +56,8 @@ def test_the_page_holds_everything_and_loads_nothing(press: Path) -> None:
     page = Parts(text)
     assert page.loaded == []
     assert "script" not in page.tags
-    assert page.tags.count("svg") == 1 + len(list(press.glob("chart-*.svg")))
+    # the figure, and that with the polygons
+    assert page.tags.count("svg") == 2 + len(list(press.glob("chart-*.svg")))
     assert "@page" in text
     assert "size: A4" in text
     assert not re.search(r"url\(|@import|https?://(?!www\.w3\.org)", text)

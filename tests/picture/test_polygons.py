@@ -112,6 +112,18 @@ def test_a_symbol_stands_beside_the_vector_that_it_names(name: str, phase: float
                 assert away < 0.5 * wide + caption.size
 
 
+@pytest.mark.parametrize("name", FEW)
+def test_in_a_figure_of_one_pose_they_fill_their_place(name: str) -> None:
+    assert WINDOW.polygons is not None
+    shown, pen = figure(load(name)), pen_for(WINDOW, Type(), LIGHT)
+    for panel in polygons_of(shown, WINDOW.polygons, pen, 1.0):
+        pose = shown.scene.pose(1.0)
+        reach = [loop for layer in panel.group(pose).layers[:-2] for loop in layer.loops]
+        points, room = np.concatenate(reach), panel._room
+        filled = max(np.ptp(points.real) / room.width, np.ptp(points.imag) / room.height)
+        assert 0.95 < filled < 1.1
+
+
 def test_the_pole_is_a_dot() -> None:
     for panel in panels("crank-rocker"):
         pole, found = panel.pole(panel.figure.scene.linkage.drive.speed), drawn(panel, 1.0)

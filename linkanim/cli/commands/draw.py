@@ -15,7 +15,7 @@ def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
     scene, size, target = scene_size_target(options, SUFFIXES, ".svg")
     look = look_of(scene, options)
-    shown = Figured(scene, size, look, _phase(scene, options), options.poses or 0)
+    shown = Figured(scene, size, look, _phase(scene, options), options.poses or 0, options.speed)
     write(shown, target)
     print(target)
     if shown.phase is None:

@@ -144,10 +144,25 @@ def _lines(feet: Loop, reach: complex, pen: Pen) -> list[Loop]:
     return segments(feet, feet + reach, 0.6 * pen.line) if feet.size else []
 
 
-def curve_layer(plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, width: float) -> Layer:
-    """Return a curve; it is broken where a value is not finite."""
+def curve_layer(
+    plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, width: float, dashes: Sequence[float] = ()
+) -> Layer:
+    """Return a curve, dashed in widths of its line; it is broken where a value is not finite."""
     pixels = plot.place(x, np.where(np.isfinite(y), y, np.nan))
-    return Layer(colour, [loop for run in _runs(pixels) for loop in stroke(run, width)])
+    runs = _runs(pixels)
+    parts = (part for run in runs for part in _dashed(run, width * np.array(dashes))) if dashes else runs
+    return Layer(colour, [loop for part in parts for loop in stroke(part, width)])
+
+
+def _dashed(run: Loop, dashes: NDArray[np.float64]) -> Iterator[Loop]:
+    """Yield the pieces of a path that dashes leave, each dash followed by a gap."""
+    gone = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(run)))))
+    ends = np.concatenate(([0.0], np.cumsum(dashes)))
+    for start in np.arange(0.0, gone[-1], ends[-1]):
+        for begin, end in start + ends[:-1].reshape(-1, 2):
+            along = np.concatenate(([begin], gone[(gone > begin) & (gone < end)], [min(end, gone[-1])]))
+            if begin < gone[-1]:
+                yield np.interp(along, gone, run.real) + 1j * np.interp(along, gone, run.imag)
 
 
 def point_layers(plot: Plot, points: list[tuple[float, float]], colour: Colour, pen: Pen) -> list[Layer]:

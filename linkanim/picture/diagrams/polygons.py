@@ -16,7 +16,7 @@ from linkanim.picture.diagrams.axis import round_step
 from linkanim.picture.diagrams.chart import Pen
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo
-from linkanim.picture.placing import Clutter, LabelPlaces, place
+from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import arrows, disc, segments, unit
 from linkanim.picture.view import Box, Rect
@@ -51,12 +51,16 @@ class Arrow(NamedTuple):
 
 @dataclass(frozen=True)
 class Polygon:
-    """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole."""
+    """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
+
+    With a `moment` they are such as fill the place at that phase.
+    """
 
     figure: Figure
     order: Order
     rect: Rect
     pen: Pen
+    moment: float | None = None
 
     def group(self, pose: Pose) -> Group:
         """Return the polygon of a pose with its title and the bar of its scale."""
@@ -112,7 +116,9 @@ class Polygon:
     @cached_property
     def _box(self) -> Box:
         """What the polygons of the cycle take up about the pole, at the scene's own speed."""
-        ends = np.concatenate([np.atleast_1d(end) for end in self._ends(self.figure.cycle)])
+        scene, cycle = self.figure.scene, self.figure.cycle
+        motion = cycle if self.moment is None else scene.pose(self.moment, speed=scene.linkage.drive.speed)
+        ends = np.concatenate([np.atleast_1d(end) for end in self._ends(motion)])
         ends = np.append(ends[np.isfinite(ends)], 0.0)
         x, y = ends.real, ends.imag
         return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
@@ -156,8 +162,11 @@ class Polygon:
             _beside(arrow, middle, pen.type.width(arrow.side.symbol, pen.small), pen.small)
             for arrow in arrows_
         ]
-        room = self.rect.inset(-2.0 * pen.text)
-        for arrow, label, placed in zip(arrows_, to_place, place(to_place, Clutter(room)), strict=True):
+        ends = [np.array([[arrow.foot, arrow.foot + arrow.reach]]) for arrow in found]
+        clutter = Clutter(
+            self.rect.inset(-2.0 * pen.text), solids=tuple(Solid(end, pen.line) for end in ends)
+        )
+        for arrow, label, placed in zip(arrows_, to_place, place(to_place, clutter), strict=True):
             if placed.shown[0]:
                 at = complex(label.places[0, placed.which])
                 top = at.real, at.imag - pen.small / 2
@@ -196,14 +205,15 @@ def _beside(arrow: Arrow, middle: complex, wide: float, high: float) -> LabelPla
         across = -across
     away = 0.5 * (abs(across.real) * wide + abs(across.imag) * high) + 0.175 * high
     places = [
-        arrow.foot + share * arrow.reach + side * away * across
+        arrow.foot + share * arrow.reach + side * (away + further) * across
+        for further in (0, 0.3 * high)
         for share in (0.5, 0.35, 0.65)
         for side in (1, -1)
     ]
-    return LabelPlaces((wide, high), np.array([places]), np.arange(6.0))
+    return LabelPlaces((wide, high), np.array([places]), np.arange(12.0))
 
 
-def polygons_of(figure: Figure, rect: Rect, pen: Pen) -> tuple[Polygon, Polygon]:
+def polygons_of(figure: Figure, rect: Rect, pen: Pen, moment: float | None = None) -> tuple[Polygon, Polygon]:
     """Return both polygons in a rectangle: over each other where it is tall, else side by side."""
     if rect.height >= rect.width:
         first = rect._replace(height=0.48 * rect.height)
@@ -211,4 +221,4 @@ def polygons_of(figure: Figure, rect: Rect, pen: Pen) -> tuple[Polygon, Polygon]
     else:
         first = rect._replace(width=0.48 * rect.width)
         second = first._replace(x=rect.right - first.width)
-    return Polygon(figure, 1, first, pen), Polygon(figure, 2, second, pen)
+    return Polygon(figure, 1, first, pen, moment), Polygon(figure, 2, second, pen, moment)
