@@ -135,8 +135,8 @@ KINDS = (stretched_bars, folded_bars, slider, slot)
 def dyads_that_barely_close(seed: int = 7) -> Iterator[Barely]:
     """Yield dyads behind a loop that come near their limit on the crank's turn, or on its way up.
 
-    Left out are points C that come near to S, since their place is rounded, extremes beside a limit of the
-    crank, and what `_smooth` says.
+    Left out are points C that come within half a bar of S, whose direction from there is as rounded as their
+    place, extremes beside a limit of the crank, and what `_smooth` says.
     """
     rng = Random(seed)
     while True:
@@ -150,7 +150,7 @@ def dyads_that_barely_close(seed: int = 7) -> Iterator[Barely]:
         joint, longest, close = dyad.made(least, most, gap)
         loop.document["joints"]["J"] = joint
         solved = _read(loop.document)
-        if solved is not None and least > max(2.0, 0.1 * longest) and _smooth(solved):
+        if solved is not None and least > max(2.0, 0.5 * longest) and _smooth(solved):
             guided = Guided(loop.document, max(loop.longest, longest), _closed(loop, pin, close))
             yield Barely(guided, solved, _angle(loop, solved), phase, gap)
 
