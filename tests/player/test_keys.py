@@ -67,6 +67,7 @@ PLAYING = {
     "s": (Press("s", "s"), Action("screenshot")),
     "f12": (Press("f12"), Action("screenshot")),
     "shift s": (Press("s", "S", shift=True), Action("svg")),
+    "shift g": (Press("g", "G", shift=True), Action("share")),
     "r": (Press("r", "r"), Action("start")),
     "+ as shift and =": (Press("=", "+", shift=True), Action("zoom", (1.0, 0.0, 0.0))),
     "+ on its own key": (Press("+", "+"), Action("zoom", (1.0, 0.0, 0.0))),

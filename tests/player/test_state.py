@@ -61,6 +61,7 @@ CHANGES: dict[str, tuple[Action, Callable[[State], object], object]] = {
     "record": (Action("record", "mp4"), lambda s: s.effects, (Action("record", "mp4"),)),
     "screenshot": (Action("screenshot"), lambda s: s.effects, (Action("screenshot"),)),
     "svg": (Action("svg"), lambda s: s.effects, (Action("svg"),)),
+    "share": (Action("share"), lambda s: s.effects, (Action("share"),)),
     "fullscreen": (Action("fullscreen"), lambda s: s.effects, (Action("fullscreen"),)),
     "save": (Action("save"), lambda s: s.effects, (Action("save"),)),
     "quit": (Action("quit"), lambda s: s.effects, (Action("quit"),)),

@@ -283,6 +283,16 @@ def test_q_asks_once_while_something_is_recorded(player: Player, monkeypatch: py
     assert not player.press(*plain("q"))
 
 
+def test_shift_g_writes_a_page_of_what_runs(player: Player, here: Path) -> None:
+    player.press(*plain("c"))
+    player.press(*shifted("g"))
+    text = (here / "recordings" / "crank-rocker-1.html").read_text(encoding="utf-8")
+    assert '"charts":[{' in text
+    player.tick(1)
+    assert player.state.toast
+    assert "crank-rocker-1.html saved" in player.state.toast.text
+
+
 def test_edits_stay_with_their_scene_and_r_twice_takes_them_back(
     player: Player, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -115,6 +115,7 @@ KEYS: tuple[KeyRow, ...] = (
     KeyRow("keep", "S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
     KeyRow("keep", "G", "record GIF: start, stop", _on("g", "record", "gif")),
     KeyRow("keep", "M", "record MP4: start, stop", _on("m", "record", "mp4")),
+    KeyRow("keep", "Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
     KeyRow("keep", "Ctrl+S", "write the scene as a new file", _on("ctrl+s", "save")),
     KeyRow("keep", "F5", "reloads a scene opened from a file", _on("f5", "reload")),
 )

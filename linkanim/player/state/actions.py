@@ -162,6 +162,7 @@ ACTIONS: Mapping[str, Rule] = {
     "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),
     "screenshot": Rule(_nothing, outside.screenshot, taped=False),
     "svg": Rule(_nothing, outside.svg, taped=False),
+    "share": Rule(_nothing, outside.effect("share"), taped=False),
     "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),
     "save": Rule(_nothing, outside.effect("save"), taped=False),
     "reload": Rule(_nothing, outside.effect("reload"), taped=False),

@@ -62,8 +62,8 @@ class State:
     `place_typed` is the input's angle, or travel, that is being typed while paused.
     `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
     which an edit made another class of the linkage, while the list shows it. `effects` is what the last
-    advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "fullscreen",
-    "save", "reload", "quit", and "report" (with the text of a fault's report).
+    advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
+    "fullscreen", "save", "reload", "quit", and "report" (with the text of a fault's report).
     """
 
     scene: Scene

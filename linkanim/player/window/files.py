@@ -37,6 +37,15 @@ def vector(state: State, size: tuple[int, int]) -> Path:
     return _added(shown.document().encode(), scene.name, ".svg")
 
 
+def page(state: State) -> Path:
+    """Write the scene as a page that moves, with its chart; errors as `document`, `_added`."""
+    from linkanim.share.page import Shared, document
+
+    look = state.look
+    shown = Shared(state.scene, state.clock.speed, chart=look.chart, names=look.names)
+    return _added(document(shown).encode(), state.scene.name, ".html")
+
+
 def report(text: str, name: str) -> Path:
     """Write a fault's report under a free name; errors as `_added`."""
     return _added(f"{text}\n".encode(), f"{name}-fault", ".json")

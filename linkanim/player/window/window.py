@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
-_BESIDE_A_TAPE = frozenset({"screenshot", "svg", "fullscreen", "quit", "close", "back"})
+_BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
 
 
 class Window:
@@ -178,6 +178,8 @@ class Window:
                 self._notes.append(f"{files.screenshot(picture, self.state.scene.name)} saved")
             case "svg":
                 self._notes.append(f"{files.vector(self.state, pygame.display.get_window_size())} saved")
+            case "share":
+                self._notes.append(f"{files.page(self.state)} saved")
             case "report":
                 self._report(str(effect.value))
             case "save":
