@@ -523,15 +523,16 @@ def test_the_crank_is_dragged_by_its_pin(player: Player) -> None:
     assert player.state.clock.paused
 
 
+@pytest.mark.parametrize("key", ["f1", "s"], ids=["beside help", "on a screenshot first"])
 def test_a_scene_without_the_joint_under_the_mouse_takes_the_place_of_one_that_has_it(
-    here: Path, player: Player
+    here: Path, player: Player, key: str
 ) -> None:
     """The light stands round the drive's joint as long as the mouse is over it, and goes with its scene."""
     other = here / "other.toml"
     other.write_text(ONE_CRANK, encoding="utf-8")
     player.mouse(pygame.MOUSEMOTION, player.window.screen.crank_pin(), rel=(0, 0), buttons=(0, 0, 0))
     player.window.state = begin(load(other))
-    player.tick()
+    player.press(pygame.key.key_code(key))
     assert player.state.scene.linkage.drive.joint == "Q"
     assert not list(here.rglob("*fault*"))
 

@@ -64,7 +64,7 @@ class Screen:
 
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
         """Return the state painted on a surface of its own, as large as the window."""
-        surface = display.surface().copy()
+        surface, self._state = display.surface().copy(), state
         self._paint(surface, self._framing.fitting(state, surface.get_size()), state, over)
         return surface
 
