@@ -392,4 +392,5 @@ def test_a_notebook_shows_a_recording(tmp_path: Path, form: str, tag: str | None
     made = record(load("kite"), tmp_path / f"kite.{form}", size=SIZE, seconds=0.2)
     page, picture = made._repr_html_(), made._repr_png_()
     assert page is None if tag is None else (page or "").startswith(tag)
+    assert page is None or f'width="{SIZE[0]}"' in page
     assert (picture == made.path.read_bytes()) == (form == "png")
