@@ -141,8 +141,9 @@ def test_the_hud_says_what_solve_prints_and_where_the_cursor_stands(
         for kind, items in (("spring", linkage.springs), ("damper", linkage.dampers)):
             for strut in items:
                 found, word = printed[f"{kind}s"][strut.name], linkage.strut_word(strut)
-                main_value = found["rate"] if word == "damper" else found["length"]
-                assert _number(told[f"{word} {strut.name}"]) == pytest.approx(main_value, abs=0.051)
+                part = "rate" if word == "damper" else "length"
+                main_value = found[part]
+                assert _number(told[f"{strut.name} {word}, {part}"]) == pytest.approx(main_value, abs=0.051)
                 if found["force"] is not None:
                     assert _number(told[f"{kind} force"]) == pytest.approx(found["force"], abs=0.051)
 

@@ -58,7 +58,6 @@ class Report:
             yield html.paragraph(scene.look_at)
         yield html.figure(picture)
         yield html.paragraph(caption)
-        yield html.figure(Figured(scene, _FIGURE, Look(trace=False, polygons=True, hud=False)).document())
         yield html.heading(2, "Facts")
         yield html.facts(scene.info.lines)
         yield html.heading(2, "Dimensions")
@@ -68,6 +67,8 @@ class Report:
         for note in scene.notes:
             yield html.paragraph(note)
         yield from self._tables()
+        yield html.heading(2, "Velocities and accelerations as polygons")
+        yield html.figure(Figured(scene, _FIGURE, Look(trace=False, polygons=True, hud=False)).document())
         yield html.heading(2, f"Over one period, at {', '.join(map(_speed, self.paces))}")
         for title in dict.fromkeys(title for title, _, _ in charts):
             yield html.heading(3, title)

@@ -71,7 +71,8 @@ def test_the_page_s_headings_outline_it(press: Path) -> None:
     assert {level for level, _ in headings} == {"1", "2", "3"}
     assert outline[:2] == ["Facts", "Dimensions"]
     assert [words.partition(" =")[0] for words in outline[2:]] == [
-        *["At θ₂"] * (len(outline) - 3),
+        *["At θ₂"] * (len(outline) - 4),
+        "Velocities and accelerations as polygons",
         "Over one period, at 5 rad/s, 10 rad/s, 20 rad/s",
     ]
     last = max(n for n, (level, _) in enumerate(headings) if level == "2")
