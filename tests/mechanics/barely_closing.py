@@ -144,26 +144,27 @@ def dyads_that_barely_close(seed: int = 7) -> Iterator[Barely]:
         pin, dyad = loop.pin(rng), rng.choice(KINDS)(rng, loop.tilt)
         base = _read(loop.document)
         found = base and _extreme(loop, base, pin, dyad)
-        if not found:
+        if not (base and found):
             continue
         phase, least, most = found
         joint, longest, close = dyad.made(least, most, gap)
         loop.document["joints"]["J"] = joint
         solved = _read(loop.document)
-        if solved is not None and least > max(2.0, 0.5 * longest) and _smooth(solved):
+        if solved is not None and least > max(2.0, 0.5 * longest) and _smooth(base, solved):
             guided = Guided(loop.document, max(loop.longest, longest), _closed(loop, pin, close))
             yield Barely(guided, solved, _angle(loop, solved), phase, gap)
 
 
-def _smooth(solved: Mechanism) -> bool:
+def _smooth(base: Mechanism, solved: Mechanism) -> bool:
     """Tell whether J's extremes are no sharper than a tenth of a radian, and J stops the crank nowhere.
 
     Of a sharper one a polynomial holds for less: beyond, the margin's own digits are all there are. A swing
     that is back after two periods only has its extremes by half the phase, whose digits an angle lacks.
     """
-    root, ends = solved.assembly.chain["J"], solved.assembly.path.ends
-    wide = all(dip.near is None or 2 * dip.near.root.width > SHARP for dip in root.dips)
-    return wide and "J" not in ends and solved.periods == 1
+    if solved.periods > 1 or solved.assembly.path != base.assembly.path:
+        return False
+    dips = solved.assembly.chain["J"].dips
+    return all(dip.near is None or 2 * dip.near.root.width > SHARP for dip in dips)
 
 
 def _closed(loop: Loop, pin: Any, close: Callable[[Any, Any], Any]) -> Callable[[Any], Any]:

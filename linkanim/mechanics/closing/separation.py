@@ -34,7 +34,7 @@ SAMPLES_A_GEARED_TURN = 96
 TOUCHING = 1e-12
 """Share of a margin's scale within which floats cannot tell its sign."""
 BARELY = 1 / 64
-"""Share of its scale below which a margin that turns back costs what is made of it its digits."""
+"""Share of its greatest value below which a margin that turns back costs what is made of it its digits."""
 MOST_TOUCHING = 24
 """Extremes in a turn of the fastest crank at which floats cannot tell a margin's sign."""
 ROUNDING = 2.0**-48
@@ -143,7 +143,7 @@ def separations(assembly: Assembly) -> Separations:
         return Separations(
             (), nothing[:, 0], phases, nothing > 0, (), (), lambda places: nothing[:, : len(places)]
         )
-    scale = np.array([*scales.values()])
+    scale, barely = np.array([*scales.values()]).T
     found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
     closings = {name: found[name] for name in scales}
     run = _program(closings)
@@ -152,11 +152,11 @@ def separations(assembly: Assembly) -> Separations:
         return _over(scale, phases, run(phases))
 
     samples = _halved(sampled, sampled(phases))
-    extremes = _places(sampled, samples, _turning(samples), 0)
+    extremes = _places(sampled, samples, _turning(samples, barely), 0)
     peaks = _places(sampled, samples, _passing(samples), 3)
     samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
     low = [
-        _low(assembly, name, sampled(places), row)
+        _low(assembly, name, (places, sampled(places).rows[2, row]), barely[row])
         for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
     ]
     settled = tuple(
@@ -213,10 +213,11 @@ def _fastest(assembly: Assembly) -> float:
     return max([1.0, *(float(abs(gearing.ratio)) for gearing in assembly.gears.values())])
 
 
-def _scales(assembly: Assembly, phases: Array) -> Mapping[str, float]:
+def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, float]]:
     """Return what the margin of each dyad that comes near its limits is beside: its greatest, or its bars'.
 
-    One that all along is more than it changes between three samples at the most keeps away from them.
+    And the share of it below which the dyad barely closes. One whose margin is all along more than that, and
+    than it changes between three samples at the most, keeps away from them.
     """
     closings = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings
     if not closings:
@@ -231,9 +232,12 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, float]:
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     scale = np.minimum(most, size)
     changes = np.fmax.reduce(np.abs(np.diff(margins, axis=1)), axis=1)
-    near = np.fmin.reduce(margins, axis=1) <= np.maximum(3 * changes, BARELY * scale)
-    scales = scale.tolist()
-    return {name: scale for name, scale, comes in zip(closings, scales, near, strict=True) if comes}
+    # A greatest margin of bars is a quarter of their size; where it never comes near that, all are low.
+    low = BARELY * np.maximum(scale, size / 4)
+    near = np.fmin.reduce(margins, axis=1) <= np.maximum(3 * changes, low)
+    with np.errstate(all="ignore"):
+        scales = np.column_stack([scale, low / scale]).tolist()
+    return {name: tuple(pair) for name, pair, comes in zip(closings, scales, near, strict=True) if comes}
 
 
 def _behind(shut: Bools) -> Bools:
@@ -300,10 +304,10 @@ def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
     return np.asarray(_near(left, right, fastest) & ~(even & (none | one)) & ~flat & ~blind)
 
 
-def _turning(samples: Sampled) -> Bools:
+def _turning(samples: Sampled, barely: Array) -> Bools:
     """Tell between which neighbours a separation near a limit has its extreme (D, N - 1)."""
     positive, margins = samples.rows[0] > 0, samples.rows[2]
-    low = (np.minimum(margins[:, 1:], margins[:, :-1]) > 0) & (margins[:, 1:] <= BARELY)
+    low = (np.minimum(margins[:, 1:], margins[:, :-1]) > 0) & (margins[:, 1:] <= barely[:, None])
     near = _near(*_neighbours(samples)) | low
     return np.asarray(near & (positive[:, 1:] != positive[:, :-1]))
 
@@ -333,12 +337,12 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
     return [found[dyads == dyad] for dyad in range(len(cells))]
 
 
-def _low(assembly: Assembly, name: str, extremes: Sampled, row: int) -> tuple[Array, Array]:
-    """Return the phases of extremes at which a dyad barely closes, if it does, and the margins there."""
-    margins = extremes.rows[2, row]
-    inside = [not _at_own_end(assembly.path, name, phase) for phase in extremes.phases.tolist()]
-    low = (margins >= -TOUCHING) & (margins <= BARELY) & np.array(inside, bool)
-    return extremes.phases[low], margins[low]
+def _low(assembly: Assembly, name: str, extremes: tuple[Array, Array], barely: float) -> tuple[Array, Array]:
+    """Return of extremes, phases and margins, those at which a dyad barely closes, if it does."""
+    phases, margins = extremes
+    inside = [not _at_own_end(assembly.path, name, phase) for phase in phases.tolist()]
+    low = (margins >= -TOUCHING) & (margins <= barely) & np.array(inside, bool)
+    return phases[low], margins[low]
 
 
 def _settled(assembly: Assembly, name: str, phases: Array) -> Iterator[Extreme]:
