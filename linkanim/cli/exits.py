@@ -53,6 +53,8 @@ def _code_of(error: BaseException) -> int:
             return _say("interrupted", INTERRUPTED)
         case Ended(args=(code,)):
             return _say("the terminal was closed" if code == HUNG_UP else "terminated", code)
+        case RuntimeError(__cause__=(Ended() | KeyboardInterrupt()) as cause):
+            return _code_of(cause)  # so Python 3.11 wraps what arrives while a class is made
         case LinkanimError():
             return _say(str(error), error.exit_code)
         case MemoryError() | ImportError() if _lacks_memory(error):

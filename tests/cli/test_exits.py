@@ -308,3 +308,16 @@ def test_a_terminal_without_greek_letters_gets_question_marks() -> None:
     )
     assert b"?" in done.stdout
     assert done.stderr == b""
+
+
+@pytest.mark.parametrize(
+    ("ending", "code"), [(Ended(129), 129), (Ended(143), 143), (KeyboardInterrupt(), 130)]
+)
+def test_a_signal_while_a_class_is_made_ends_us_as_any_other(
+    ending: BaseException, code: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def wrapped() -> None:
+        raise RuntimeError("Error calling __set_name__ on 'cached_property' instance") from ending
+
+    assert guarded(wrapped) == code
+    assert "unexpected" not in capsys.readouterr().err
