@@ -318,3 +318,14 @@ def test_bars_keep_their_lengths_next_to_a_kite(apart: float, bars: int, pivots:
     for ends, length in ((("A", "B"), coupler), (("O4", "B"), lengths["rocker"])):
         long = np.hypot(*(position[ends[1]] - position[ends[0]]).T)
         assert long == pytest.approx(length, abs=16 * 2.0**-52 * coupler)
+
+
+@pytest.mark.parametrize("apart", [0.0, 5e-324, 1e-300])
+def test_pins_next_to_nothing_apart_are_one_point(apart: float) -> None:
+    joints = {
+        "A": {"crank": "O2", "length": 20},
+        "D": {"from": ["A", "G"], "length": [15, 31], "side": "right"},
+    }
+    document = {"ground": {"O2": [0, 0], "G": [apart, 0]}, "joints": joints}
+    position = scene_from(document, name="arm", where="arm.toml").pose(1.0).position
+    assert math.dist(position["D"], position["G"]) == pytest.approx(31, rel=1e-15)

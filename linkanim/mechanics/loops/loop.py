@@ -26,6 +26,10 @@ from linkanim.mechanics.loops.signed import SignedRoot, Swinging, sharpened, sig
 STRAIGHT = Sum(0.0)
 
 
+ONE_POINT = 2.0**-100
+"""Share of a crank's length within which two pins are one point."""
+
+
 @dataclass(frozen=True, slots=True)
 class Gearing:
     """How a crank turns with the input: angle = ratio × θ + offset."""
@@ -151,6 +155,8 @@ def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     crank's own where rounding is all that tells them apart.
     """
     ground = _between(linkage, crank.pivot, end)
+    if ground and ground.length < ONE_POINT * crank.length:
+        return None
     if ground and gap(ground.length, ground.rest, -crank.length) == 0:
         return replace(ground, length=crank.length, rest=0.0)
     return ground
