@@ -25,7 +25,17 @@ RANK = {
     for rank, rooms in enumerate(
         [
             ("errors",),
-            ("bounds", "child", "digits", "document", "export", "intake", "units", "atomic_files"),
+            (
+                "bounds",
+                "child",
+                "digits",
+                "document",
+                "export",
+                "intake",
+                "number_table",
+                "units",
+                "atomic_files",
+            ),
             ("manifest",),
             ("mechanics",),
             ("scenes",),
@@ -57,6 +67,7 @@ THIRD_PARTIES = {
     "digits": set(),
     "document": set(),
     "intake": set(),
+    "number_table": set(),
     "units": set(),
     "atomic_files": set(),
     "manifest": set(),

@@ -199,7 +199,7 @@ def chart(parser: Parser) -> None:
     )
     _speeds(parser, "a curve for each")
     parser.add_argument(
-        "--data", type=Path, metavar="OTHER.csv", help="lay a table over it: angle in degrees, value"
+        "--data", type=Path, metavar="OTHER.csv", help="lay a table over it: what --over says, value"
     )
     parser.add_argument(
         "--label", metavar="TEXT", help="what that table is called (default: its file's name)"

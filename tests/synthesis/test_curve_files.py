@@ -63,9 +63,9 @@ def test_a_path_is_read(data: str, expected: list[complex], tmp_path: Path) -> N
 
 
 REFUSED = {
-    "line 2": ("c.csv", "1,2\n3,4,5,6\n5,6\n"),
-    "line 2 is not finite": ("c.csv", "1,2\n3,nan\n5,6\n"),
-    "has no points": ("c.csv", "# nothing\n"),
+    "line 2 has 4 columns": ("c.csv", "1,2\n3,4,5,6\n5,6\n"),
+    'line 2, column 2: "nan"': ("c.csv", "1,2\n3,nan\n5,6\n"),
+    "has no rows": ("c.csv", "# nothing\n"),
     "1 of 3 rows have an angle": ("c.csv", "1,2\n3,4,5\n5,6\n"),
     "no such file": ("c.csv", None),
     "is not SVG": ("c.svg", "<svg"),

@@ -10,13 +10,13 @@ from linkanim.digits import stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of
-from linkanim.paper.measured import MeasuredCurve, beside, read_table
+from linkanim.paper.measured import MeasuredCurve, beside, read_table, usual_over
 from linkanim.paper.write import SUFFIXES, write
 from linkanim.scenes.scene import Scene
 
 
 def run(options: Namespace) -> None:
-    """Write the chart that was asked for; print its path, and of a table beside it the largest difference."""
+    """Write the chart that was asked for; print its path, and how far a table beside it differs."""
     scene, size, target = scene_size_target(options, SUFFIXES, ".png")
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, ChartRequest(tokens, paces(scene, options), options.over))
@@ -38,13 +38,17 @@ def _measured(curves: Curves, options: Namespace) -> MeasuredCurve | None:
         if options.label is not None:
             raise BadInput("--label names the table of --data; add --data OTHER.csv")
         return None
-    return beside(curves, read_table(options.data), options.label or options.data.stem)
+    table = read_table(options.data, usual_over(curves))
+    return beside(curves, table, options.label or options.data.stem)
 
 
 def _difference(curves: Curves, measured: MeasuredCurve) -> str:
-    unit = measured.curve.quantity.shown_unit(curves.scene.length_unit)
+    """Return the table of both, and the largest difference in a line."""
+    unit, row = measured.curve.quantity.shown_unit(curves.scene.length_unit), measured.worst
+    step, place = (0.01, "deg") if measured.over != "time" else (1e-4, "s")
     return (
+        f"{measured.table(curves.scene.length_unit)}\n\n"
         f"largest difference of {measured.label} from {measured.curve.quantity.token}: "
-        f"{measured.largest:.6g} {unit}".rstrip()
-        + f" at {stepped(measured.angle, 0.01)} deg"
+        f"{measured.differences[row]:.6g} {unit}".rstrip()
+        + f" at {stepped(float(measured.inputs[row]), step)} {place}"
     )
