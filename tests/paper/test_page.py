@@ -11,9 +11,10 @@ import numpy as np
 import pygame
 import pytest
 
+from linkanim.number_table import Row
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Pace, curves_of
-from linkanim.paper.measured import beside
+from linkanim.paper.measured import MeasuredTable, beside
 from linkanim.paper.svg import svg
 from linkanim.picture.diagrams.quantities import telling
 from linkanim.picture.items import Caption, Group, Halo
@@ -292,16 +293,20 @@ def test_groups_of_one_name_have_ids_of_their_own() -> None:
     assert [group.get("id") for group in document.iter(f"{SVG}g")] == ["a_b", "a_b-2", "c", "a_b-3"]
 
 
+def _table(first: np.ndarray, values: np.ndarray) -> MeasuredTable:
+    rows = [Row(n, (x, y)) for n, (x, y) in enumerate(zip(first.tolist(), values.tolist(), strict=True), 1)]
+    return MeasuredTable("t.csv", "", tuple(rows))
+
+
 def test_a_table_is_laid_over_the_curve_and_its_largest_difference_found() -> None:
     page = _page("press", "3.angle", speeds=(10.0,))
     scene = page.curves.scene
     angles = np.array([0.0, 87.0, 200.0, 359.0])
     exact = np.degrees(scene.solve(angle=np.radians(angles)).angle["3"])
     errors = np.array([0.0, 0.02, 360.0 - 0.05, 0.01])
-    table = np.column_stack([angles, exact + errors])
-    found = beside(page.curves, table, "measured")
-    assert found.largest == pytest.approx(-0.05)
-    assert found.angle == 200.0
+    found = beside(page.curves, _table(angles, exact + errors), "measured")
+    assert found.differences == pytest.approx([0.0, 0.02, -0.05, 0.01])
+    assert found.worst == 2
     assert [x for x, _ in found.points] == pytest.approx(angles)
     shown = Page(page.curves, SIZE, measured=found)
     assert "measured" in _said(shown)
@@ -317,8 +322,8 @@ def test_a_table_of_rates_is_compared_at_the_charts_speed_also_of_a_swing() -> N
     page = _page("double-rocker", "rocker.angular_velocity", speeds=(3.0,))
     phases = np.array([0.5, 1.0, 2.0])
     motion = page.curves.scene.solve(phase=phases, speed=3.0)
-    table = np.column_stack([np.degrees(motion.coordinate), motion.angular_velocity["rocker"]])
-    assert beside(page.curves, table, "t").largest == pytest.approx(0.0, abs=1e-9)
+    table = _table(np.degrees(motion.coordinate), motion.angular_velocity["rocker"])
+    assert beside(page.curves, table, "t").differences == pytest.approx(0.0, abs=1e-9)
 
 
 def test_words_about_an_extreme_lie_on_no_other_curve_and_have_a_line_to_their_dot() -> None:
