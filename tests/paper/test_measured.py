@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.paper.curves import ChartRequest, Pace, curves_of
@@ -21,8 +22,10 @@ def laid(path: Path, scene: str, token: str, over: Over | None) -> MeasuredCurve
     return beside(curves, read_table(path, usual_over(curves)), "theirs")
 
 
-def written(path: Path, first: object, values: object, heading: str = "") -> Path:
-    rows = "".join(f"{x!r},{y!r}\n" for x, y in np.column_stack([first, values]).tolist())
+def written(path: Path, first: ArrayLike, values: ArrayLike, heading: str = "") -> Path:
+    rows = "".join(
+        f"{x!r},{y!r}\n" for x, y in np.column_stack([np.asarray(first), np.asarray(values)]).tolist()
+    )
     path.write_text(heading + rows)
     return path
 
