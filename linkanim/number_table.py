@@ -16,7 +16,7 @@ _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _WITH_COMMA = re.compile(r"[+-]?\d+(,\d+)?([eE][+-]?\d+)?")
 
 
-class Row(NamedTuple):
+class NumberRow(NamedTuple):
     """The numbers of a line, and which line it is."""
 
     line: int
@@ -27,7 +27,7 @@ class NumberTable(NamedTuple):
     """The cells of a table's heading, none where it has no such line, and its rows."""
 
     heading: tuple[str, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[NumberRow, ...]
 
 
 class _Line(NamedTuple):
@@ -91,7 +91,7 @@ def _plain(cell: str) -> str:
     return cell.strip().removesuffix("°").replace("−", "-").replace("\N{NO-BREAK SPACE}", "")
 
 
-def _row(line: _Line, needed: int, columns: str, where: str, comma: bool) -> Row:
+def _row(line: _Line, needed: int, columns: str, where: str, comma: bool) -> NumberRow:
     place = f"{where}: line {line.number}"
     cells = line.cells
     while len(cells) > needed and not cells[-1].strip():
@@ -104,7 +104,7 @@ def _row(line: _Line, needed: int, columns: str, where: str, comma: bool) -> Row
         if not math.isfinite(number):
             way_out = "; give a number" if cell.strip() else "; give a number, or leave the line out"
             raise BadInput(f"{place}, column {column}: {shown(cell)} is not a finite number{way_out}")
-    return Row(line.number, tuple(numbers))
+    return NumberRow(line.number, tuple(numbers))
 
 
 def _number(cell: str, comma: bool) -> float:

@@ -16,7 +16,7 @@ from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns
 from linkanim.intake import Intake, named
 from linkanim.mechanics.facts.register import plain_unit
-from linkanim.number_table import Row, read_numbers
+from linkanim.number_table import NumberRow, read_numbers
 from linkanim.paper.curves import Curve, Curves
 from linkanim.picture.diagrams.course import Over
 
@@ -39,7 +39,7 @@ class MeasuredTable(NamedTuple):
 
     where: str
     heading: str
-    rows: tuple[Row, ...]
+    rows: tuple[NumberRow, ...]
 
     def column(self, number: int) -> Floats:
         """Return a column."""

@@ -11,7 +11,7 @@ import numpy as np
 import pygame
 import pytest
 
-from linkanim.number_table import Row
+from linkanim.number_table import NumberRow
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Pace, curves_of
 from linkanim.paper.measured import MeasuredTable, beside
@@ -294,7 +294,9 @@ def test_groups_of_one_name_have_ids_of_their_own() -> None:
 
 
 def _table(first: np.ndarray, values: np.ndarray) -> MeasuredTable:
-    rows = [Row(n, (x, y)) for n, (x, y) in enumerate(zip(first.tolist(), values.tolist(), strict=True), 1)]
+    rows = [
+        NumberRow(n, (x, y)) for n, (x, y) in enumerate(zip(first.tolist(), values.tolist(), strict=True), 1)
+    ]
     return MeasuredTable("t.csv", "", tuple(rows))
 
 
