@@ -30,7 +30,7 @@ class NumberTable(NamedTuple):
     rows: tuple[NumberRow, ...]
 
 
-class _Line(NamedTuple):
+class _CellRow(NamedTuple):
     number: int
     cells: list[str]
 
@@ -44,7 +44,7 @@ def read_numbers(text: str, where: str, columns: str) -> NumberTable:
     """
     lines = _lines(text, where)
     between, comma = _form([line for _, line in lines])
-    table = [_Line(number, _cells(line, between)) for number, line in lines]
+    table = [_CellRow(number, _cells(line, between)) for number, line in lines]
     start = next((n for n, line in enumerate(table) if not _is_heading(line.cells)), len(table))
     if start == len(table):
         raise BadInput(f"{where}: has no rows; give a table of numbers: {columns}")
@@ -91,7 +91,7 @@ def _plain(cell: str) -> str:
     return cell.strip().removesuffix("°").replace("−", "-").replace("\N{NO-BREAK SPACE}", "")
 
 
-def _row(line: _Line, needed: int, columns: str, where: str, comma: bool) -> NumberRow:
+def _row(line: _CellRow, needed: int, columns: str, where: str, comma: bool) -> NumberRow:
     place = f"{where}: line {line.number}"
     cells = line.cells
     while len(cells) > needed and not cells[-1].strip():
