@@ -151,6 +151,7 @@ def solve(parser: Parser) -> None:
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="one object, or a list of them for a sweep")
     form.add_argument("--csv", metavar="OUT", help="write the sweep to the file OUT (- for stdout)")
+    _look(parser, "solve")
 
 
 def _speed(parser: Parser) -> None:
@@ -192,11 +193,6 @@ def chart(parser: Parser) -> None:
         help="such as rocker.angular_velocity or B.velocity.x; a wrong one is answered with the list",
     )
     _output(parser, "OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png here)")
-    parser.add_argument(
-        "--over",
-        choices=("angle", "time", "phase"),
-        help="default: the driven bar's angle, of an input that swings the time",
-    )
     _speeds(parser, "a curve for each")
     parser.add_argument(
         "--data", type=Path, metavar="OTHER.csv", help="lay a table over it: what --over says, value"

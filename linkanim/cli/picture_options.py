@@ -12,6 +12,7 @@ from linkanim.picture.look import TOGGLES, Look
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
 from linkanim.scenes.editing.closures import other_closure
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 
 _SIZE = (1280, 720)
@@ -27,7 +28,7 @@ def scene_size_target(
     target = checked_target(options.output or f"{Path(options.scene).stem}{usual}", suffixes)
     size = options.size or _SIZE
     refuse_size(size)
-    return load(options.scene), size, target
+    return in_unit(load(options.scene), getattr(options, "unit", None)), size, target
 
 
 def look_of(scene: Scene, options: Namespace) -> Look:
@@ -39,6 +40,10 @@ def look_of(scene: Scene, options: Namespace) -> Look:
     look = Look(**{name: value for name, value in vars(options).items() if name in TOGGLES})
     if look.centres > 1 and coupler_body(scene.linkage) is None:
         raise BadInput(f"--centrodes: {scene.name} has no coupler; --instant-centres marks what there is")
+    if look.over == "angle" and not scene.info.full_turn:
+        raise BadInput(
+            f"--over angle: the input of {scene.name} swings; a chart beside it runs over time or phase"
+        )
     if look.ghost:
         other_closure(scene)  # which says why where there is none
     return look

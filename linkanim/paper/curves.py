@@ -14,8 +14,9 @@ from linkanim.mechanics.closing.search import highest
 from linkanim.mechanics.facts.register import Quantity
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.picture.diagrams.axis import Axis, linear
-from linkanim.picture.diagrams.course import Course, Floats, Over, course, gain_of, input_title
+from linkanim.picture.diagrams.course import Course, Floats, course, gain_of, input_title
 from linkanim.picture.diagrams.quantities import quantity, series_of
+from linkanim.picture.look import Over
 from linkanim.scenes.scene import Scene
 
 SAMPLES = 720

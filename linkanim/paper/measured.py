@@ -18,7 +18,7 @@ from linkanim.intake import Intake, named
 from linkanim.mechanics.facts.register import plain_unit
 from linkanim.number_table import NumberRow, read_numbers
 from linkanim.paper.curves import Curve, Curves
-from linkanim.picture.diagrams.course import Over
+from linkanim.picture.look import Over
 
 _TABLE_FILE = Intake("a table of two columns", most_bytes=1_000_000, most_values=2 * MOST_ROWS_READ)
 _SECONDS = re.compile(r"\W*(t|time|s|sec|seconds?)\b", re.IGNORECASE)

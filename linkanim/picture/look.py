@@ -10,7 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Any, Literal, NamedTuple, TypeVar
 
+from linkanim.units import LENGTH_UNITS
+
 ThemeName = Literal["light", "dark"]
+Over = Literal["angle", "time", "phase"]
+"""What a chart's values are shown over."""
 Default = TypeVar("Default")
 
 VELOCITY: Literal["v"] = "v"
@@ -62,13 +66,14 @@ class Look:
     """What is shown; two pictures of one pose with equal looks and sizes have the same bytes.
 
     `vectors` holds "v" (velocity) and "a" (acceleration). `chart` names one of
-    `quantities(scene)`, None for no chart. With `background` False what is not drawn stays
-    transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in
-    fractions of the window's height. `ghost` draws the other closure faintly, where it is given.
-    `names` is 0 for none, 1 for those of joints and links with the ground line and the input's
-    direction of turning, 2 for dimensions and the input's angle as well. `polygons` draws those of
-    velocity and acceleration beside the linkage. `centres` is 0 for none, 1 for the instant centres, 2 for
-    the coupler's centrodes as well.
+    `quantities(scene)`, None for no chart; it runs `over` what is usual of the scene's input where that is
+    None, or an axis that the scene has not. Lengths are shown in `unit`, the scene's own where it is None.
+    With `background` False what is not drawn stays transparent. `zoom` multiplies the fitted scale; `pan`
+    shifts the picture right and down, in fractions of the window's height. `ghost` draws the other closure
+    faintly, where it is given. `names` is 0 for none, 1 for those of joints and links with the ground line
+    and the input's direction of turning, 2 for dimensions and the input's angle as well. `polygons` draws
+    those of velocity and acceleration beside the linkage. `centres` is 0 for none, 1 for the instant
+    centres, 2 for the coupler's centrodes as well.
     """
 
     trace: bool = _toggle(
@@ -139,6 +144,28 @@ class Look:
             commands=("record", "share"),
         ),
         steps=(),
+    )
+    over: Over | None = _toggle(  # noqa: RUF009 -- gives a field
+        None,
+        Option(
+            "over",
+            "the chart's axis (default: the driven bar's angle, of an input that swings the time)",
+            commands=("record", "chart"),
+        ),
+        steps=("angle", "time", "phase"),
+        answers=("charts over the input's angle", "charts over time", "charts over phase"),
+        keys=("x",),
+    )
+    unit: str | None = _toggle(
+        None,
+        Option(
+            "unit",
+            "of the lengths shown, and so of velocities (default: the file's)",
+            commands=("play", "record", "solve", "draw", "chart"),
+        ),
+        steps=LENGTH_UNITS,
+        answers=tuple(f"lengths in {unit}" for unit in LENGTH_UNITS),
+        keys=("shift+u",),
     )
     theme: ThemeName = _toggle(  # noqa: RUF009 -- gives a field
         "light",

@@ -26,6 +26,7 @@ from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.view import Rect, View, moved
 from linkanim.scenes.editing.closures import ghost_of
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -36,11 +37,11 @@ if TYPE_CHECKING:
 class Picture:
     """A scene at one pixel size and look: what stands where is measured once, `groups` is a pose of it.
 
-    The view fits what is shown: the scene, and its other closure where the look has it in view. `listed`
-    leaves room for the edit list, instead of the HUD. With `apart` each joint has a group of its own. What
-    `before` measured of the same scene is taken over; names keep their places on one that is zoomed, on its
-    way to another, or `held` by the hand. With a `moment` names stand as is best at that phase alone. Raises
-    BadInput where the look's chart is no quantity of the scene.
+    The view fits what is shown: the scene, and its other closure where the look has it in view. `scene` is
+    in the unit of the look. `listed` leaves room for the edit list, instead of the HUD. With `apart` each
+    joint has a group of its own. What `before` measured of the same scene is taken over; names keep their
+    places on one that is zoomed, on its way to another, or `held` by the hand. With a `moment` names stand
+    as is best at that phase alone. Raises BadInput where the look's chart is no quantity of the scene.
     """
 
     def __init__(
@@ -55,14 +56,14 @@ class Picture:
         apart: bool = False,
         moment: float | None = None,
     ) -> None:
-        self.scene, self.size, self.look = scene, size, look
-        self._made_for = (size, look, listed, held)
-        self._goal = scene.towards or scene
+        self._made_for = (scene, size, look, listed, held)
+        self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
+        self._goal = self.scene.towards or self.scene
         self.type: Type = before.type if before else Type()
         self.theme: Theme = theme_of(look.theme)
         self._beside = self._other_closure(before) if look.ghost else None
         self._apart, self._moment = apart, moment
-        follows = held or scene.towards is not None
+        follows = held or self.scene.towards is not None
         request = request_of(size, look, listed=listed)
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
             kept = follows or before._goal is self._goal
@@ -94,7 +95,7 @@ class Picture:
         self, scene: Scene, size: tuple[int, int], look: Look, *, listed: bool = False, held: bool = False
     ) -> bool:
         """Return whether it is made for these."""
-        return self.scene is scene and self._made_for == (size, look, listed, held)
+        return self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held)
 
     def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
@@ -259,7 +260,7 @@ class Picture:
         if self.look.chart is None:
             return None
         pen = pen_for(self.layout, self.type, self.theme)
-        return chart_panel(self.figure, self.look.chart, self.layout, pen)
+        return chart_panel(self.figure, self.look.chart, self.layout, pen, self.look.over)
 
     @cached_property
     def _polygons(self) -> tuple[Polygon, ...]:

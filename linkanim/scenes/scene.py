@@ -96,6 +96,17 @@ class Scene:
 
         return key_quantities(self.cycle(96), self.trace)
 
+    @cached_property
+    def length_step(self) -> float:
+        """The step in which its lengths are told: a power of ten, some three thousandth of the longest."""
+        lengths = [abs(length) for joint in self.linkage.joints for length in joint.lengths]
+        return 10.0 ** round(math.log10(max(lengths) / 3000))
+
+    @cached_property
+    def elsewhere(self) -> dict[str, Scene]:
+        """The scene in other units of length, as far as `in_unit` was asked for them."""
+        return {}
+
     @property
     def period(self) -> float:
         """The true period in phase: 2π, or a whole multiple where it takes longer to be back."""

@@ -12,7 +12,7 @@ import pytest
 from linkanim.errors import BadInput
 from linkanim.mechanics.facts.register import register
 from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of, extremes, table
-from linkanim.picture.diagrams.course import Over
+from linkanim.picture.look import Over
 from linkanim.scenes import load
 
 FIVE, TEN = Pace(5.0, "5 rad/s"), Pace(-10.0, "-10 rad/s")

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.paper.curves import ChartRequest, Pace, curves_of
 from linkanim.paper.measured import MeasuredCurve, beside, read_table, usual_over
-from linkanim.picture.diagrams.course import Over
+from linkanim.picture.look import Over
 from linkanim.scenes import load
 
 PACE = Pace(10.0, "10 rad/s")

@@ -22,7 +22,7 @@ from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.layout import Layout, layout
-from linkanim.picture.look import Look
+from linkanim.picture.look import Look, Over
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.surface import SurfacePrinter
@@ -95,6 +95,30 @@ def test_an_input_that_swings_is_charted_over_time(speed: float, share: float) -
 )
 def test_the_driven_bar_has_its_symbol(name: str, symbol: str) -> None:
     assert input_symbol(load(name).linkage) == symbol
+
+
+# scene, the axis that was chosen, speed: how far along the cursor stands at phase 1, and the axis' title
+AXES: list[tuple[str, Over | None, float, float, str]] = [
+    ("crank-rocker", "time", 2.0, 1.0 / math.tau, "time (s)"),
+    ("crank-rocker", "time", -2.0, 1.0 - 1.0 / math.tau, "time (s)"),
+    ("slider-crank", "phase", 2.0, 1.0 / math.tau, "phase φ (°)"),
+    ("slider-crank", "angle", 2.0, (math.pi / 3 + 1.0) / math.tau, "crank angle θ₂ (°)"),
+    ("double-rocker", "phase", 2.0, 1.0 / math.tau, "phase φ (°)"),
+    ("double-rocker", "angle", 2.0, 1.0 / math.tau, "time (s)"),
+]
+
+
+@pytest.mark.parametrize(("name", "over", "speed", "share", "title"), AXES)
+def test_the_axis_is_the_one_that_was_chosen(
+    name: str, over: Over | None, speed: float, share: float, title: str
+) -> None:
+    pen = pen_for(WINDOW, Type(), LIGHT)
+    token = "rocker.angle" if name != "slider-crank" else "slider.travel"
+    chart = chart_panel(figure(load(name)), token, WINDOW, pen, over).at(speed)
+    assert chart.course.title == title
+    assert _share(chart, 1.0) == pytest.approx(share, abs=2e-3)
+    foot = chart.foot(_pose(chart, 1.0))
+    assert chart.phase_at(foot.real, foot.imag) == pytest.approx(1.0, abs=1e-9)
 
 
 def test_the_limits_of_a_swing_are_marked_with_their_angles() -> None:

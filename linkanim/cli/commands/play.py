@@ -10,4 +10,9 @@ from linkanim.player.window.loop import run as play
 
 def run(options: Namespace) -> None:
     """Open the window on a scene, a scene file or a tape, and return when it is closed."""
-    play(options.scene, look=Look(theme=options.theme), attract=options.attract, size=options.size)
+    play(
+        options.scene,
+        look=Look(theme=options.theme, unit=options.unit),
+        attract=options.attract,
+        size=options.size,
+    )

@@ -22,6 +22,7 @@ from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import csv_head, csv_rows, json_text, lines
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes import load
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 
 _NUMBER = "\0"
@@ -45,7 +46,7 @@ def run(options: Namespace) -> None:
     """
     inputs = _inputs(options)
     target = _target(options.csv)
-    scene = load(options.scene)
+    scene = in_unit(load(options.scene), options.unit)
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     found = _blocks(scene, inputs, speed, options.acceleration)
     if options.csv:

@@ -41,7 +41,7 @@ class Coordinate:
         """Return the unit that goes with `shown`."""
         return "°" if self.is_angle else length_unit
 
-    def text(self, value: float, length_unit: str, step: float = 0.1) -> str:
+    def text(self, value: float, length_unit: str, step: float) -> str:
         """Return a value in words, to that step: 87.0°, 12.5 mm."""
         return stepped(self.shown(value), step) + ("°" if self.is_angle else f" {length_unit}")
 

@@ -25,11 +25,12 @@ from linkanim.picture.diagrams.chart import (
     plot_area,
     x_title,
 )
-from linkanim.picture.diagrams.course import Course, Floats, course
+from linkanim.picture.diagrams.course import Course, Floats, axis_of, course
 from linkanim.picture.diagrams.quantities import Series, cleared, quantity, series_of
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import Layout
+from linkanim.picture.look import Over
 from linkanim.picture.raster.parts import Stamp
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import segments
@@ -43,13 +44,14 @@ _GAP = 1.2
 
 @dataclass(frozen=True)
 class ChartPanel:
-    """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back)."""
+    """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back), `over` an axis."""
 
     figure: Figure
     quantity: Quantity
     rect: Rect
     pen: Pen
     speed: float
+    over: Over | None = None
 
     def at(self, speed: float) -> ChartPanel:
         """Return the chart of the same motion at another speed; nothing is solved for it."""
@@ -58,7 +60,8 @@ class ChartPanel:
     @cached_property
     def course(self) -> Course:
         """What the values are shown over."""
-        return course(self.figure.scene, self.speed)
+        scene = self.figure.scene
+        return course(scene, self.speed, axis_of(scene, self.over))
 
     @cached_property
     def series(self) -> Series:
@@ -197,10 +200,10 @@ class ChartPanel:
         return float(self.course.phase_of(share * self.course.span)) % self.course.period
 
 
-def chart_panel(figure: Figure, token: str, layout: Layout, pen: Pen) -> ChartPanel:
-    """Return the chart of a quantity for a window, at the scene's own speed.
+def chart_panel(figure: Figure, token: str, layout: Layout, pen: Pen, over: Over | None = None) -> ChartPanel:
+    """Return the chart of a quantity for a window, at the scene's own speed, over the usual or another axis.
 
     BadInput where the scene has no such quantity.
     """
     rect = layout.chart or Rect(0, 0, *layout.size)
-    return ChartPanel(figure, quantity(figure.scene, token), rect, pen, figure.linkage.drive.speed)
+    return ChartPanel(figure, quantity(figure.scene, token), rect, pen, figure.linkage.drive.speed, over)

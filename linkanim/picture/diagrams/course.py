@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import degrees, pi, radians
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.picture.diagrams.axis import Axis, linear
 from linkanim.picture.diagrams.quantities import Series
+from linkanim.picture.look import Over
 from linkanim.picture.parts.driven import driven_words
 from linkanim.scenes.scene import Scene
 
-Over = Literal["angle", "time", "phase"]
 Floats = NDArray[np.float64]
 
 
@@ -76,6 +75,17 @@ def gain_of(series: Series) -> Floats:
     return gain
 
 
+def axes_of(scene: Scene) -> tuple[Over, ...]:
+    """Return over what a chart beside the scene may run, the usual first; not an angle that swings."""
+    return ("angle", "time", "phase") if scene.info.full_turn else ("time", "phase")
+
+
+def axis_of(scene: Scene, over: Over | None) -> Over:
+    """Return over what the chart beside the scene runs: `over` where that may be, else the usual."""
+    axes = axes_of(scene)
+    return over if over in axes else axes[0]
+
+
 def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
     """Return the course of a scene that runs at `speed` (rad/s, negative: the phase runs back).
 
@@ -85,7 +95,7 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
     if over == "angle":
         scene.linkage.drive.check_angle(scene.name, "show it over time or phase")
     turns = scene.info.full_turn
-    chosen = over or ("angle" if turns else "time")
+    chosen = over or axes_of(scene)[0]
     period = scene.period
     if chosen == "time":
         pace = speed or scene.linkage.drive.speed

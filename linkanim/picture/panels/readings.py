@@ -90,7 +90,7 @@ def _live(scene: Scene) -> Callable[[Pose], str]:
     coordinate = scene.linkage.drive.coordinate
     read = known[coordinate.rate_token].read
     if not coordinate.is_angle:
-        return lambda pose: f"{stepped(read(pose), 0.1)} {scene.length_unit}/s"
+        return lambda pose: f"{stepped(read(pose), scene.length_step)} {scene.length_unit}/s"
     unit = speed_unit(scene)
     largest = abs(speed_in(unit, scene.linkage.drive.speed))
     step = 10.0 ** (floor(log10(largest)) - 2)
@@ -122,11 +122,11 @@ def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
         word = linkage.strut_word(item)
         kind = "spring" if word == "spring" else "damper"
         part = "rate" if word == "damper" else "length"
-        yield MeasuredRow(4, f"{item.name} {word}, {part}", known[f"{item.name}.{part}"], 0.1)
+        yield MeasuredRow(4, f"{item.name} {word}, {part}", known[f"{item.name}.{part}"], scene.length_step)
         if item.forceful:
             yield MeasuredRow(2, f"{kind} force", known[f"{item.name}.force"], 0.1)
     if linkage.drive.actuator.along is not None:
-        yield MeasuredRow(2, "driving cylinder", known["input.length"], 0.1)
+        yield MeasuredRow(2, "driving cylinder", known["input.length"], scene.length_step)
 
 
 def _row(one: MeasuredRow, length_unit: str) -> Row:

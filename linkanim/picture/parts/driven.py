@@ -17,7 +17,8 @@ _SPELT = {"°/s": "deg/s"}
 
 def driven_words(scene: Scene, value: float) -> str:
     """Return where the input is in words: its angle, 87.0°; of a slider that drives its travel, 12.5 mm."""
-    return scene.linkage.drive.coordinate.text(value, scene.length_unit)
+    coordinate = scene.linkage.drive.coordinate
+    return coordinate.text(value, scene.length_unit, 0.1 if coordinate.is_angle else scene.length_step)
 
 
 def speed_unit(scene: Scene) -> str:

@@ -101,7 +101,9 @@ KEYS: tuple[KeyRow, ...] = (
         "chart: next quantity, off",
         _on("c", "chart", 1) + _on("shift+c", "chart", -1),
     ),
+    KeyRow("measure", "X", "the chart's axis: angle, time, phase", _of_look("over")),
     KeyRow("measure", "K", "the list of quantities", _on("k", "list")),
+    KeyRow("measure", "Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
     KeyRow("edit", "E", "edit dimensions (H there: how)", _on("e", "edit")),
     KeyRow(
         "edit", "B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")

@@ -107,11 +107,12 @@ def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any],
 
 def _of_look(name: str) -> Rule:
     """Return the rule of a field of the look; some do more than to go on a step."""
-    handle = {"ghost": looks.ghost, "theme": looks.theme}.get(name, looks.toggling(name))
+    more = {"ghost": looks.ghost, "theme": looks.theme, "unit": looks.unit, "over": looks.over}
+    handle = more.get(name, looks.toggling(name))
     return Rule(
         _one_of(*TOGGLES[name].members),
         handle,
-        answer=lambda before, after: answer(before.look, after.look, name),
+        answer=lambda before, after: answer(looks.settled(before), looks.settled(after), name),
     )
 
 
@@ -146,7 +147,9 @@ ACTIONS: Mapping[str, Rule] = {
     "erase": Rule(_nothing, edits.erase),
     "take": Rule(_nothing, edits.take),
     "grab": Rule(_text, edits.grab),  # a joint
-    "carry": Rule(_numbers(3), edits.carry),  # to (x, y) in the scene's unit, in such parts of a nudge's step
+    "carry": Rule(
+        _numbers(3), edits.carry
+    ),  # to (x, y) of the scene as shown, in such parts of a nudge's step
     "drop": Rule(_nothing, edits.drop),
     "undo": Rule(_nothing, edits.undo, answer=_undo),
     "reset": Rule(_nothing, edits.reset),

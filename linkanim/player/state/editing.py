@@ -14,8 +14,9 @@ from decimal import Decimal
 from linkanim.digits import degrees, typeset
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.facts.classify import Info
-from linkanim.scenes.editing.edit import Dimension, dimensions, with_dimensions
+from linkanim.scenes.editing.edit import Dimension, dimensions, with_dimensions, with_unit
 from linkanim.scenes.editing.handles import dragged, handles
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.fields.form import Key
 from linkanim.scenes.scene import Scene
 
@@ -94,23 +95,26 @@ def let_go(editing: Editing) -> Editing:
     return _clear(editing) if editing.typed else _clear(editing, drafts=())
 
 
-def take(editing: Editing, scene: Scene) -> tuple[Editing, Scene]:
-    """Return the scene with all values begun in place at once, or the same scene and the refusal."""
+def take(editing: Editing, scene: Scene, unit: str | None = None) -> tuple[Editing, Scene]:
+    """Return the scene with all values begun in place at once, or the same scene and the refusal.
+
+    Lengths without a unit are in the one that is shown, the scene's own without any.
+    """
     values = dict(_drafts(editing, scene))
-    return _tried(editing, scene, values, editing.typed) if values else (editing, scene)
+    return _tried(editing, scene, values, editing.typed, unit) if values else (editing, scene)
 
 
-def nudge(editing: Editing, scene: Scene, steps: int) -> tuple[Editing, Scene]:
+def nudge(editing: Editing, scene: Scene, steps: int, unit: str | None = None) -> tuple[Editing, Scene]:
     """Return the scene with the chosen value so many small steps larger, or the same and the refusal.
 
-    A step depends on the unit alone, so that as many steps back end on the same value.
+    A step depends on the unit that is shown alone, so that as many steps back end on the same value.
     """
-    item = chosen(editing, scene)
+    item = chosen(editing, in_unit(scene, unit))
     if item is None:
         return editing, scene
     value = Decimal(repr(item.value)) + steps * step_of(item.unit)
     text = f"{value.normalize():f}"
-    return _tried(_clear(editing), scene, {item.key: text}, text)
+    return _tried(_clear(editing), scene, {item.key: text}, text, unit)
 
 
 def step_of(unit: str) -> Decimal:
@@ -157,14 +161,18 @@ def _drafts(editing: Editing, scene: Scene) -> tuple[tuple[Key, str], ...]:
     return (*(pair for pair in editing.drafts if pair[0] != item.key), (item.key, editing.typed))
 
 
-def _tried(editing: Editing, scene: Scene, values: Mapping[Key, str], typed: str) -> tuple[Editing, Scene]:
+def _tried(
+    editing: Editing, scene: Scene, values: Mapping[Key, str], typed: str, unit: str | None
+) -> tuple[Editing, Scene]:
     """Put values where they belong, all at once; refused ones stay begun, to be mended.
 
-    Values that end the crank's full turn are refused once, with the way to take them all the same.
+    Values that end the crank's full turn are refused once, with the way to take them all the same. The
+    reason is in the unit that is shown.
     """
     try:
-        after = with_dimensions(scene, values)
-        loss = None if editing.warned else loss_of_turning(scene.info, after.info)
+        before, shown = in_unit(scene, unit), with_dimensions(in_unit(scene, unit), values)
+        loss = None if editing.warned else loss_of_turning(before.info, shown.info)
+        after = shown if before is scene else with_dimensions(scene, united(before, values))
     except LinkanimError as error:
         reason = str(error).removeprefix(f"{scene.name}: ")
         return replace(editing, typed=typed, refusal=_reason(reason, values, scene), warned=False), scene
@@ -173,6 +181,12 @@ def _tried(editing: Editing, scene: Scene, values: Mapping[Key, str], typed: str
         return replace(editing, typed=typed, refusal=refusal, warned=True), scene
     drafts = tuple(pair for pair in editing.drafts if pair[0] not in values)
     return changed(replace(editing, drafts=drafts), scene), after
+
+
+def united(shown: Scene, values: Mapping[Key, str]) -> dict[Key, str]:
+    """Return values with their unit, those that have none with that of a scene as it is shown."""
+    items = {item.key: item for item in dimensions(shown)}
+    return {key: with_unit(text, items[key]) for key, text in values.items()}
 
 
 def loss_of_turning(before: Info, after: Info) -> str | None:

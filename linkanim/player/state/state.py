@@ -17,6 +17,7 @@ from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.state.editing import Editing, Held
 from linkanim.player.state.glide import Glide
 from linkanim.scenes import load, names
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 
 TOAST_FRAMES = 3 * FRAMES_PER_SECOND
@@ -94,6 +95,11 @@ class State:
     def shown(self) -> Scene:
         """The scene to draw: `scene`, or one on the way to it while a length is changing."""
         return self.glide.scene if self.glide else self.scene
+
+    @property
+    def displayed(self) -> Scene:
+        """The scene to draw, in the unit in which lengths are shown."""
+        return in_unit(self.shown, self.look.unit)
 
     @property
     def mode(self) -> Mode:

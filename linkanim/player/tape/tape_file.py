@@ -216,7 +216,9 @@ def _step(part: Section, name: str) -> Any:
             return frozenset(members.choice(key, steps) for key in members.values)
         case str():
             return part.choice(name, steps)
-    return None if part.need(name) is None else part.text(name)
+    if part.need(name) is None:
+        return None
+    return part.choice(name, steps) if steps else part.text(name)
 
 
 def _editing(part: Section) -> Editing:

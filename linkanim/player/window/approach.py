@@ -103,4 +103,4 @@ def _are_one(one: Picture, other: Picture) -> bool:
     """Return whether both are of one scene, or of one before and after an exchange that is no glide."""
     scenes = (one.scene, other.scene)
     named = one.scene.name == other.scene.name and not any(scene.towards for scene in scenes)
-    return one.scene is other.scene or named
+    return one.scene is other.scene or (named and one.scene.length_unit == other.scene.length_unit)

@@ -32,7 +32,7 @@ def vector(state: State, size: tuple[int, int]) -> Path:
     """Write the picture as an SVG under a free name, without what lies over it; errors as `_added`."""
     from linkanim.paper.figure import Figured
 
-    scene = state.scene
+    scene = state.displayed
     shown = Figured(scene, size, state.look, state.phase, speed=state.clock.speed, as_seen=True)
     return _added(shown.document().encode(), scene.name, ".svg")
 
@@ -42,7 +42,7 @@ def page(state: State) -> Path:
     from linkanim.share.page import Shared, document
 
     look = state.look
-    shown = Shared(state.scene, state.clock.speed, chart=look.chart, names=look.names)
+    shown = Shared(state.displayed, state.clock.speed, chart=look.chart, names=look.names)
     return _added(document(shown).encode(), state.scene.name, ".html")
 
 

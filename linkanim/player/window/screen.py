@@ -70,8 +70,8 @@ class Screen:
 
     @property
     def scene(self) -> Scene:
-        """The scene that is shown."""
-        return self._state.shown
+        """The scene that is shown, in the unit in which lengths are."""
+        return self._state.displayed
 
     @property
     def phase(self) -> float:

@@ -19,6 +19,7 @@ from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.state import FLASH_FRAMES, SHUTTER_FRAMES, State
 from linkanim.scenes.editing.edit import Dimension, dimensions
 from linkanim.scenes.editing.handles import span
+from linkanim.scenes.editing.shown_unit import in_unit
 
 _HINT = (
     "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   Ctrl+S save   "
@@ -57,7 +58,7 @@ def kept(state: State) -> Overlay:
 
 def _items(state: State) -> tuple[Dimension, ...]:
     """Return the dimensions of the open list."""
-    return dimensions(state.scene) if state.editing.open else ()
+    return dimensions(in_unit(state.scene, state.look.unit)) if state.editing.open else ()
 
 
 def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
@@ -73,10 +74,10 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
 
 
 def _quantities(state: State, listing: Listing) -> Quantities:
-    scene = state.scene
+    scene = state.displayed
     found = [quantity(scene, token) for token in listed(scene, listing.sieve)]
     # Four times a second while it runs: values that change faster are not read, and each costs its drawing.
-    pose = state.shown.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
+    pose = scene.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
     near = range(listing.chosen - _NEAR, listing.chosen + _NEAR)
     rows = tuple(
         (one.words, _value(one, pose, scene.length_unit) if n in near or n < _NEAR else one.symbol)
@@ -126,7 +127,7 @@ def _measured(state: State, items: tuple[Dimension, ...]) -> tuple[str, str, str
         return None
     item = items[state.editing.chosen % len(items)]
     ends = span(state.scene, item.key)
-    return ends and (*ends, _valued(item))
+    return ends and (*ends, _valued(item, _digits(state)))
 
 
 def _recording(state: State) -> str | None:
@@ -138,9 +139,13 @@ def _recording(state: State) -> str | None:
 
 def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
     """Return the list of dimensions, the values begun in their places."""
-    editing, info = state.editing, state.scene.info
+    editing, info = state.editing, in_unit(state.scene, state.look.unit).info
     at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
-    rows = (_row(item, begun.get(item.key), chosen=n == at) for n, item in enumerate(items))
+    shown = (begun.get(item.key) or _valued(item, _digits(state)) for item in items)
+    rows = (
+        EditRow(_label(item), value, chosen=n == at, draft=item.key in begun)
+        for n, (item, value) in enumerate(zip(items, shown, strict=True))
+    )
     typed = f"{editing.typed}_" if editing.typed else None
     return Panel(
         tuple(replace(row, value=typed, draft=True) if typed and row.chosen else row for row in rows),
@@ -151,13 +156,17 @@ def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
     )
 
 
-def _row(item: Dimension, draft: str | None, *, chosen: bool) -> EditRow:
-    label = _NAME.sub(lambda name: subscripted(name[0]), item.label)
-    return EditRow(label, draft or _valued(item), chosen=chosen, draft=draft is not None)
+def _label(item: Dimension) -> str:
+    return _NAME.sub(lambda name: subscripted(name[0]), item.label)
 
 
-def _valued(item: Dimension) -> str:
-    return typeset(f"{significant(item.value, 10)} {item.unit}".strip())
+def _valued(item: Dimension, digits: int) -> str:
+    return typeset(f"{significant(item.value, digits)} {item.unit}".strip())
+
+
+def _digits(state: State) -> int:
+    """Return how many digits a dimension has: all that were written, or enough in a unit of another."""
+    return 10 if state.look.unit in (None, state.scene.length_unit) else 6
 
 
 def _flash(state: State) -> float:

@@ -15,7 +15,7 @@ from linkanim import units
 from linkanim.scenes.editing.numbers import Number, numbers
 from linkanim.scenes.editing.titles import retitled
 from linkanim.scenes.fields.form import Key
-from linkanim.scenes.fields.types import Measure
+from linkanim.scenes.fields.types import LENGTHS, Measure
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -76,7 +76,7 @@ def _with(scene: Scene, values: Mapping[Key, float | str]) -> Mapping[str, Any]:
 def _dimension(number: Number, scene: Scene) -> Dimension:
     measure, written = number.type.measure, number.written
     assert measure
-    if measure in ("length", "offset"):
+    if measure in LENGTHS:
         value, unit = units.length(written, unit=scene.length_unit), scene.length_unit
     elif measure == "ratio":
         value, unit = float(Fraction(written)), ""
@@ -88,12 +88,15 @@ def _dimension(number: Number, scene: Scene) -> Dimension:
 def _written(value: float | str, dimension: Dimension) -> object:
     """Return a new value as the document writes it: a number, or a text with its unit."""
     text = value.strip() if isinstance(value, str) else repr(value)
-    if _BARE.fullmatch(text) is None:
-        return text
-    if not dimension.bare:
-        return f"{text} {dimension.unit}"
+    if _BARE.fullmatch(text) is None or not dimension.bare:
+        return with_unit(text, dimension)
     number = float(text)
     return int(number) if number.is_integer() and abs(number) < _EXACT else number
+
+
+def with_unit(text: str, dimension: Dimension) -> str:
+    """Return a value as it is typed with the dimension's unit, where it is a number without any."""
+    return f"{text} {dimension.unit}" if _BARE.fullmatch(text.strip()) and dimension.unit else text
 
 
 def replaced(document: Any, key: Key, value: object) -> Any:

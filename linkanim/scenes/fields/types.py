@@ -22,6 +22,7 @@ Measure = Literal[
     "length", "angle", "speed", "offset", "ratio", "stiffness", "damping", "mass", "inertia", "gravity"
 ]
 """What a number of a scene file measures; an "offset" is a length of either sign."""
+LENGTHS: tuple[Measure, ...] = ("length", "offset")
 Schema = Mapping[str, Any]
 
 _LARGEST, _LONGEST = 1e30, 1e12

@@ -15,6 +15,7 @@ from linkanim.scenes.editing.closures import other_return
 from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.scene import Scene
+from linkanim.units import metre
 
 AGAIN = "R again: the file's dimensions"
 
@@ -42,11 +43,13 @@ def grab(state: State, joint: str) -> State:
 
 
 def carry(state: State, to: tuple[float, float, float]) -> State:
-    """Drag the held joint to a point (scene's unit), in whole units times the third number."""
+    """Drag the held joint to a point of the scene as shown, in whole units of its own times `to[2]`."""
     held = state.held
     if held is None or not to[2] > 0.0:
         return state
-    editing, scene = carried_to(state.editing, state.scene, held, to[:2], to[2])
+    ratio = metre(state.displayed.length_unit) / metre(state.scene.length_unit)
+    point = (to[0] * ratio, to[1] * ratio)
+    editing, scene = carried_to(state.editing, state.scene, held, point, to[2])
     if scene is state.scene:
         return replace(state, editing=editing)
     state = replace(exchanged(state, scene), editing=editing)
@@ -68,11 +71,11 @@ def _listed(work: Callable[[Editing, Scene, Any], Editing]) -> Handler:
     return lambda state, value: replace(state, editing=work(state.editing, state.scene, value))
 
 
-def _remade(work: Callable[[Editing, Scene, Any], tuple[Editing, Scene]]) -> Handler:
+def _remade(work: Callable[[State, Any], tuple[Editing, Scene]]) -> Handler:
     """Make a handler of what may give another scene; the picture follows it smoothly."""
 
     def handle(state: State, value: Any) -> State:
-        editing, scene = work(state.editing, state.scene, value)
+        editing, scene = work(state, value)
         if scene is state.scene:
             return replace(state, editing=editing)
         way = glide(state.shown, scene, state.frame)
@@ -85,13 +88,12 @@ choose = _listed(edit_.choose)
 pass_on = _listed(edit_.pass_on)
 write = _listed(lambda editing, _, text: edit_.write(editing, text))
 erase = _listed(lambda editing, scene, _: edit_.erase(editing, scene))
-nudge = _remade(edit_.nudge)
-take = _remade(lambda editing, scene, _: edit_.take(editing, scene))
-undo = _remade(lambda editing, scene, _: edit_.undo(editing, scene))
-redo = _remade(lambda editing, scene, _: edit_.redo(editing, scene))
-reset = _remade(lambda editing, scene, _: edit_.reset(editing, scene))
-
-returns = _remade(lambda editing, scene, _: (edit_.changed(editing, scene), other_return(scene)))
+nudge = _remade(lambda state, steps: edit_.nudge(state.editing, state.scene, steps, state.look.unit))
+take = _remade(lambda state, _: edit_.take(state.editing, state.scene, state.look.unit))
+undo = _remade(lambda state, _: edit_.undo(state.editing, state.scene))
+redo = _remade(lambda state, _: edit_.redo(state.editing, state.scene))
+reset = _remade(lambda state, _: edit_.reset(state.editing, state.scene))
+returns = _remade(lambda state, _: (edit_.changed(state.editing, state.scene), other_return(state.scene)))
 
 
 def start(state: State, _: None) -> State:

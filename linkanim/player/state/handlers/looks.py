@@ -5,12 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeVar
 
 from linkanim.errors import LinkanimError
+from linkanim.picture.diagrams.course import axes_of, axis_of
 from linkanim.picture.diagrams.quantities import telling
 from linkanim.picture.look import Look, toggled
 from linkanim.player.state.state import State, with_toast
 from linkanim.scenes.editing.closures import other_closure
+from linkanim.units import LENGTH_UNITS
+
+Step = TypeVar("Step")
 
 _NOTCH = 1.25
 _NOTCHES = (-8, 16)
@@ -39,6 +44,31 @@ def ghost(state: State, _: None) -> State:
         except LinkanimError as error:
             return with_toast(state, str(error))
     return replace(state, look=toggled(state.look, "ghost"))
+
+
+def unit(state: State, _: None) -> State:
+    """Show lengths in the next unit; the scene's own is that of the scene that is on."""
+    following = _after(settled(state).unit, LENGTH_UNITS, usual=state.scene.length_unit)
+    return replace(state, look=replace(state.look, unit=following))
+
+
+def over(state: State, _: None) -> State:
+    """Run the chart over the next axis that the scene has, the usual one among them."""
+    axes = axes_of(state.scene)
+    following = _after(settled(state).over, axes, usual=axes[0])
+    return replace(state, look=replace(state.look, over=following))
+
+
+def _after(now: Step | None, steps: tuple[Step, ...], *, usual: Step) -> Step | None:
+    """Return the step after this one, None for the usual one."""
+    following = steps[(steps.index(now) + 1) % len(steps)] if now in steps else usual
+    return None if following == usual else following
+
+
+def settled(state: State) -> Look:
+    """Return the look with what the scene has as usual instead of None."""
+    scene, look = state.scene, state.look
+    return replace(look, unit=look.unit or scene.length_unit, over=axis_of(scene, look.over))
 
 
 def theme(state: State, _: None) -> State:

@@ -37,7 +37,7 @@ def go(state: State, _: None) -> State:
     text, state = state.place_typed, replace(state, place_typed="", chip=None)
     if not text:
         return state
-    scene, path = state.scene, state.scene.mechanism.assembly.path
+    scene, path = state.displayed, state.displayed.mechanism.assembly.path
     try:
         value = float(text)
     except ValueError:
