@@ -18,8 +18,8 @@ from linkanim.picture.layout import Layout
 from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
 from linkanim.picture.panels.legend import Legend, legend_for
-from linkanim.picture.panels.marks import glow, grip, measure
-from linkanim.picture.panels.overlay import DimensionLine, Overlay
+from linkanim.picture.panels.marks import MeasuredLine, glow, grip, measure
+from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.parts.turning import motion_of
 from linkanim.picture.raster.parts import Part
 from linkanim.picture.text.text import Type
@@ -219,10 +219,11 @@ class Picture:
     def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
         """Yield what is there for the hand: the chosen bar, and the joint to be dragged."""
         gauge = self.fit.arrangement.gauge
-        if overlay.measured:
-            begin, end, text = overlay.measured
-            shown = DimensionLine((pose.position[begin], pose.position[end]), text)
-            yield from measure(self.type, self.layout, self.theme, (self.view, gauge), shown)
+        for shown in overlay.measured:
+            at, head = map(self.view.place, (pose.position[name] for name in shown.frame))
+            way = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
+            begin, end = (at + place.conjugate() * way for place in (shown.begin, shown.end))
+            yield from measure(self.type, self.layout, self.theme, gauge, MeasuredLine(begin, end, shown))
         if overlay.glow:
             yield Group("glow", list(glow(self.view, pose, overlay.glow, gauge)), over=True)
 

@@ -70,6 +70,10 @@ class SurfacePrinter:
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 
+    def row_at(self, picture: Picture, overlay: Overlay, x: float, y: float) -> int | None:
+        """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
+        return self._panels_of(picture).row_at(overlay, x, y)
+
     def _on_still(
         self, surface: pygame.Surface, picture: Picture, still: tuple[Group, ...]
     ) -> pygame.Surface:

@@ -15,7 +15,7 @@ from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
 from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.edit_list import edit_list
-from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel
+from linkanim.picture.panels.overlay import DimensionLine, EditRow, Fading, Overlay, Panel
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.surface import SurfacePrinter
@@ -39,8 +39,11 @@ def _painted(painter: Picture, overlay: Overlay) -> pygame.Surface:
     return surface
 
 
+MEASURED = DimensionLine(("O2", "O4"), 0, 1, "100 mm")
+
+
 def test_the_bar_that_is_edited_is_lit_and_measured_beside_it(painter: Picture) -> None:
-    bare, lit = _painted(painter, Overlay()), _painted(painter, Overlay(measured=("O2", "O4", "100 mm")))
+    bare, lit = _painted(painter, Overlay()), _painted(painter, Overlay(measured=(MEASURED,)))
     places = painter.drawing.places(painter.scene.pose(1.0))
     begin, end = places["O2"], places["O4"]
     bar, middle = painter.drawing.setting.gauge.bar, (begin + end) / 2

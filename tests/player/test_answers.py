@@ -10,7 +10,7 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.panels.overlay import DimensionLine, Overlay
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
@@ -220,14 +220,22 @@ def test_a_charts_cursor_has_a_grip(player: Player) -> None:
 
 def test_the_chosen_bar_is_measured_on_the_picture(rocker: State) -> None:
     state = after(rocker, "edit", Action("choose", 1))
-    assert overlay(state).measured == ("O2", "A", "50 mm")
-    assert overlay(after(state, Action("choose", -2))).measured is None
-    assert overlay(after(state, "edit")).measured is None
+    assert overlay(state).measured == (DimensionLine(("O2", "A"), 0, 1, "50 mm"),)
+    assert overlay(after(state, Action("choose", -2))).measured == ()
+    assert overlay(after(state, "edit")).measured == ()
+
+
+def test_a_coupler_points_construction_is_on_the_picture(rocker: State) -> None:
+    state = after(rocker, "edit", Action("choose", 5))
+    chosen, other = overlay(state).measured
+    assert (chosen.words, chosen.chosen) == ("to the right 70 mm", True)
+    assert (other.words, other.chosen) == ("along 80 mm", False)
+    assert chosen.begin == other.end
 
 
 # Everything that only the window shows changes the picture, and nothing of it stays.
 MARKS = {
-    "a measure": Overlay(measured=("O2", "A", "50 mm")),
+    "a measure": Overlay(measured=(DimensionLine(("O2", "A"), 0, 1, "50 mm"),)),
     "a glow": Overlay(glow="B"),
     "a grip": Overlay(grip=True),
 }

@@ -12,9 +12,12 @@ from linkanim.player.state.state import State, begin
 from linkanim.player.tape.tape import Tape, starting
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
-from linkanim.scenes.editing.handles import handles, span
+from linkanim.scenes.editing.handles import handles
+from linkanim.scenes.editing.stretches import Stretch, stretches
 from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.fields.form import Key
 from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
 
 
 def after(state: State, *actions_: Action | str) -> State:
@@ -190,13 +193,53 @@ def test_a_tape_keeps_a_drag() -> None:
 @pytest.mark.sampled
 def test_every_span_is_the_bar_that_its_dimension_measures(name: str) -> None:
     scene = load(name)
-    pose = scene.pose(0.7, 0)
-    spans = [(item, span(scene, item.key)) for item in dimensions(scene)]
-    for item, ends in spans:
-        if ends:
-            (x0, y0), (x1, y1) = (pose.position[end] for end in ends)
-            assert ((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5 == pytest.approx(item.value)
-    assert any(ends for _, ends in spans)
+    values_ = {item.key: item.value for item in dimensions(scene)}
+    found = [one for key in values_ for one in stretches(scene, key)]
+    for one in found:
+        begin, end = _drawn(scene, one, 0.7)
+        assert abs(end - begin) == pytest.approx(abs(values_[one.key]))
+    assert found
+
+
+def _drawn(scene: Scene, one: Stretch, phase: float) -> tuple[complex, complex]:
+    """Return where a stretch begins and ends at a phase."""
+    places = scene.pose(phase, 0).position
+    at, head = (complex(*places[name]) for name in one.frame)
+    way = head - at if one.frame[0] != one.frame[1] else 1
+    return at + one.begin * way, at + one.end * way
+
+
+# A dimension of a place, and the joint at which its construction ends, or that lies on the offset's line.
+CONSTRUCTED = {
+    "along": ("crank-rocker", ("four-bar", "coupler_point", 0), "P", 2),
+    "to the left": ("crank-rocker", ("four-bar", "coupler_point", 1), "P", 2),
+    "of the long form": ("press", ("joints", "H", "at", 0), "H", 2),
+    "a fixed pin": ("press", ("ground", "G", 1), "G", 2),
+    "a guide": ("slider-crank", ("slider-crank", "offset"), "B", 1),
+}
+
+
+@pytest.mark.parametrize(("name", "key", "joint", "count"), CONSTRUCTED.values(), ids=CONSTRUCTED)
+def test_a_construction_ends_at_its_place(name: str, key: Key, joint: str, count: int) -> None:
+    scene = load(name)
+    found = stretches(scene, key)
+    assert found[0].key == key
+    assert len(found) == count
+    last = max(found, key=lambda one: one.key)
+    for phase in (0.3, 2.0, 4.4):
+        end, there = _drawn(scene, last, phase)[1], complex(*scene.pose(phase, 0).position[joint])
+        across = there - end
+        if count == 1:  # the guide is level: along it the slider runs
+            assert across.imag == pytest.approx(0.0, abs=1e-9)
+        else:
+            assert abs(across) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_an_angle_and_a_speed_have_no_construction() -> None:
+    scene = load("press")
+    angles = [item for item in dimensions(scene) if item.kind not in ("length", "offset")]
+    assert angles
+    assert not [one for item in angles for one in stretches(scene, item.key)]
 
 
 def test_a_joint_is_dragged_with_the_mouse(player: Player) -> None:

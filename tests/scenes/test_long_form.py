@@ -20,7 +20,8 @@ from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.scenes import load
 from linkanim.scenes.editing.closures import closure_name
 from linkanim.scenes.editing.edit import dimensions, with_dimensions
-from linkanim.scenes.editing.handles import handles, span
+from linkanim.scenes.editing.handles import handles
+from linkanim.scenes.editing.stretches import Stretch, stretches
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -203,4 +204,5 @@ def test_a_ground_angle_follows_its_pin_as_an_angle() -> None:
 
 @pytest.mark.parametrize(("n", "ends"), [(1, ("O2", "A")), (2, ("A", "B")), (3, ("O4", "B"))])
 def test_a_six_bar_s_length_measures_its_bar(n: int, ends: tuple[str, str]) -> None:
-    assert span(load("six-bar"), ("six-bar", "lengths", n)) == ends
+    key = ("six-bar", "lengths", n)
+    assert stretches(load("six-bar"), key) == (Stretch(ends, 0, 1, key),)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from math import floor
+from typing import NamedTuple
 
 import pygame
 
@@ -15,6 +17,9 @@ from linkanim.picture.theme import Theme
 
 STEP = 1.42
 """From line to line of a list, in heights of its text."""
+
+POINTED = 0.5
+"""How much of the chosen row's colour a row has that the mouse is over."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +79,19 @@ class Board:
     def widest(self, lines: Iterable[str], size: int, *, strong: bool = False) -> int:
         """Return the width of the widest of some lines, 0 where there is none."""
         return max((self.type.width(line, size, strong=strong) for line in lines), default=0)
+
+
+class Rows(NamedTuple):
+    """Which rows of a list are shown, how far down on its sheet they begin, and how high each is."""
+
+    shown: range
+    top: float
+    high: float
+
+    def at(self, y: float) -> int | None:
+        """Return the row so far down on the sheet; None above and below them all."""
+        place = floor((y - self.top) / self.high)
+        return self.shown[place] if 0 <= place < len(self.shown) else None
 
 
 def around(count: int, chosen: int, room: int) -> range:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from linkanim.picture.panels.board import STEP, Board, around
+from linkanim.picture.panels.board import POINTED, STEP, Board, Rows, around
 from linkanim.picture.panels.overlay import EditRow, Panel
 from linkanim.picture.raster.raster import Colour
 from linkanim.picture.theme import ORANGE, mixed
@@ -34,6 +34,11 @@ class _Division:
         """The height of the whole in lines."""
         return len(self.facts) + len(self.rows) + len(self.foot) + _FRAME
 
+    @property
+    def top(self) -> float:
+        """How far down the first row's text begins, in its heights."""
+        return 0.9 + STEP * (1 + len(self.facts)) + (0.25 if self.facts else 0.0)
+
 
 def edit_list(board: Board, panel: Panel) -> pygame.Surface:
     """Return the list; where it would not fit at a size that reads, the rows around the chosen one."""
@@ -41,12 +46,21 @@ def edit_list(board: Board, panel: Panel) -> pygame.Surface:
     size = parts.size
     sheet = board.sheet(parts.wide, STEP * size * parts.lines)
     _head(board, sheet, panel, parts)
-    top = 0.9 + STEP * (1 + len(parts.facts)) + (0.25 if parts.facts else 0.0)
-    for n, row in enumerate(panel.rows[parts.rows.start : parts.rows.stop]):
-        _row(board, sheet, row, (top + STEP * n) * size, size)
+    top = parts.top
+    for n, row in zip(parts.rows, panel.rows[parts.rows.start : parts.rows.stop], strict=True):
+        y = (top + STEP * (n - parts.rows.start)) * size
+        if n == panel.pointed and not row.chosen:
+            board.bar(sheet, y, size, mixed(board.theme.panel, board.theme.chosen, POINTED))
+        _row(board, sheet, row, y, size)
     for n, (line, colour) in enumerate(parts.foot, start=len(parts.rows)):
         board.write(sheet, line, (1.2 * size, (top + 0.3 + STEP * n) * size), size=size, colour=colour)
     return sheet
+
+
+def edit_rows(board: Board, panel: Panel) -> Rows:
+    """Return where the rows are on the list's sheet."""
+    parts = _fitting(board, panel)
+    return Rows(parts.rows, (parts.top - (STEP - 1) / 2) * parts.size, STEP * parts.size)
 
 
 def _fitting(board: Board, panel: Panel) -> _Division:

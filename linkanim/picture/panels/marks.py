@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
 
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.items import Caption, Group
@@ -21,13 +24,20 @@ _LIT = 0.45
 """How strongly the bar being edited is lit."""
 
 
+class MeasuredLine(NamedTuple):
+    """What is measured, in pixels, and what it is."""
+
+    begin: complex
+    end: complex
+    shown: DimensionLine
+
+
 def measure(
-    type_: Type, layout: Layout, theme: Theme, drawn: tuple[View, Gauge], shown: DimensionLine
+    type_: Type, layout: Layout, theme: Theme, gauge: Gauge, measured: MeasuredLine
 ) -> Iterator[Group]:
-    """Yield the light on a bar, its dimension line beside it, and the value on the line."""
-    (view, gauge), size = drawn, layout.small_size
-    begin, end = (view.place(place) for place in shown.ends)
-    if abs(end - begin) < 1.0:
+    """Yield the light on what is measured, its dimension line beside it, and the value on the line."""
+    (begin, end, shown), size = measured, layout.small_size
+    if not 1.0 <= abs(end - begin) < np.inf:
         return
     away = 1j * unit(end - begin)
     away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
@@ -35,9 +45,11 @@ def measure(
     middle = _inside(layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
     back = Layer(theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
     at = (middle.real, middle.imag - 0.52 * size)
-    words = Caption(shown.words, at, size, theme.ink, "centre", strong=True)
+    words = Caption(shown.words, at, size, theme.ink, "centre", strong=shown.chosen)
     line = Layer(theme.ink, dimension_line(begin, end, away, gauge))
-    lines = [*_lit(begin, end, gauge), line, back]
+    along = [*_lit(begin, end, gauge)] if shown.chosen else []
+    thin = [] if shown.is_bar else [Layer(theme.ink, segments(begin, end, gauge.line))]
+    lines = [*along, *thin, line, back]
     yield Group("measure", lines, [words], over=True)
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from linkanim.mechanics.linkage.joint import Point
 from linkanim.picture.look import ThemeName
 from linkanim.scenes.scene import Scene
 
@@ -26,7 +26,8 @@ class EditRow:
 class Panel:
     """The edit list; `error` is the reason, in words, why the chosen value is refused.
 
-    `facts` are what the lengths make of the linkage; they stand out while `flash` (0 to 1) is above 0.
+    `facts` are what the lengths make of the linkage; they stand out while `flash` (0 to 1) is above 0. The
+    mouse is over the row `pointed`.
     """
 
     rows: tuple[EditRow, ...]
@@ -35,16 +36,21 @@ class Panel:
     flash: float = 0.0
     error: str | None = None
     hint: str = ""
+    pointed: int | None = None
 
 
 @dataclass(frozen=True)
 class Quantities:
-    """The list of quantities: rows of words and symbol, the chosen one's number, the letters that sift."""
+    """The list of quantities: rows of words and symbol, the chosen one's number, the letters that sift.
+
+    The mouse is over the row `pointed`.
+    """
 
     rows: tuple[tuple[str, str], ...]
     chosen: int
     sieve: str = ""
     hint: str = ""
+    pointed: int | None = None
 
 
 @dataclass(frozen=True)
@@ -69,12 +75,22 @@ class Fading:
     eighths: int = 8
 
 
-@dataclass(frozen=True)
-class DimensionLine:
-    """A bar between two places of the scene, and its length in words."""
+class DimensionLine(NamedTuple):
+    """A length in words, from place to place in the frame of two joints, whose way is 1 and to its left 1j.
 
-    ends: tuple[Point, Point]
+    Of one joint twice, 1 is the scene's unit, level. The `chosen` one is lit.
+    """
+
+    frame: tuple[str, str]
+    begin: complex
+    end: complex
     words: str
+    chosen: bool = True
+
+    @property
+    def is_bar(self) -> bool:
+        """Whether it lies along a bar from joint to joint."""
+        return self.frame[0] != self.frame[1] and (self.begin, self.end) == (0, 1)
 
 
 Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
@@ -86,8 +102,9 @@ class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
     With `noted` the HUD says where a limit or a change point is near. `chip` answers a key, `hint` says what
-    there is to press. `measured` are two joints and the words for their distance, `glow` the joint under the
-    mouse; with `grip` the chart's cursor has one. `shutter` is how white the picture is, in eighths.
+    there is to press. `measured` is what the chosen dimension and those beside it measure, `glow` the joint
+    under the mouse; with `grip` the chart's cursor has one. `shutter` is how white the picture is, in
+    eighths.
     """
 
     paused: bool = False
@@ -99,7 +116,7 @@ class Overlay:
     shelf: Shelf | None = None
     chip: Fading | None = None
     hint: Fading | None = None
-    measured: tuple[str, str, str] | None = None
+    measured: tuple[DimensionLine, ...] = ()
     glow: str | None = None
     grip: bool = False
     shutter: int = 0

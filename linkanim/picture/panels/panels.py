@@ -14,10 +14,10 @@ import pygame
 from linkanim.picture.layout import Layout
 from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.chips import chip, hint_bar, put
-from linkanim.picture.panels.edit_list import edit_list
+from linkanim.picture.panels.edit_list import edit_list, edit_rows
 from linkanim.picture.panels.help_sheet import help_sheet
-from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.panels.quantity_list import quantity_list
+from linkanim.picture.panels.overlay import Overlay, Panel, Quantities
+from linkanim.picture.panels.quantity_list import quantity_list, quantity_rows
 from linkanim.picture.raster.raster import Layer, Loop, paint
 from linkanim.picture.raster.shapes import box, disc
 from linkanim.picture.text.text import Type
@@ -50,11 +50,11 @@ class Panels:
             surface.blit(self._keep("veil", None, self._veil), (0, 0))
         left = 0
         if overlay.panel:
-            drawn = self._keep("panel", overlay.panel, partial(edit_list, self.board))
+            drawn = self._edit_list(overlay.panel)
             surface.blit(drawn, self._listed(drawn))
             left = self.board.margin + drawn.get_width() if self._listed(drawn)[1] <= self.board.margin else 0
         if overlay.quantities:
-            drawn = self._keep("quantities", overlay.quantities, partial(quantity_list, self.board))
+            drawn = self._quantities(overlay.quantities)
             surface.blit(drawn, self._listed(drawn))
         if overlay.help:
             room = self.layout.size[0] - left
@@ -65,6 +65,26 @@ class Panels:
         if overlay.toast:
             drawn, at = self._keep("toast", overlay.toast, self._toast)
             surface.blit(drawn, at)
+
+    def row_at(self, overlay: Overlay, x: float, y: float) -> int | None:
+        """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
+        if overlay.panel:
+            drawn, rows = self._edit_list(overlay.panel), edit_rows(self.board, overlay.panel)
+        elif overlay.quantities:
+            drawn, rows = self._quantities(overlay.quantities), quantity_rows(self.board, overlay.quantities)
+        else:
+            return None
+        left, top = self._listed(drawn)
+        if not Rect(left, top, *drawn.get_size()).holds(x, y):
+            return None
+        found = rows.at(y - top)
+        return -1 if found is None else found
+
+    def _edit_list(self, panel: Panel) -> pygame.Surface:
+        return self._keep("panel", panel, partial(edit_list, self.board))  # type: ignore[no-any-return]
+
+    def _quantities(self, shown: Quantities) -> pygame.Surface:
+        return self._keep("quantities", shown, partial(quantity_list, self.board))  # type: ignore[no-any-return]
 
     def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
         """Return where a list stands: at the top of its place, or at the window's foot."""

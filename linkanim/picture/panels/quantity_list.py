@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pygame
 
-from linkanim.picture.panels.board import STEP, Board, around
+from linkanim.picture.panels.board import POINTED, STEP, Board, Rows, around
 from linkanim.picture.panels.overlay import Quantities
+from linkanim.picture.theme import mixed
 
 _FRAME = 2.6
 """How many lines high the list is without its rows and hint."""
@@ -14,13 +15,8 @@ _TITLE = "Quantities"
 
 def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     """Return the list, as many rows around the chosen one as the window has room for."""
-    size = board.layout.small_size
-    wide, high = board.layout.lists.width, board.layout.lists.height
-    hint = board.type.wrapped(shown.hint, size, wide - 2.4 * size, gap="   ")
-    room = int(high / STEP / size - _FRAME)
-    if room - len(hint) < 4:
-        hint = []
-    rows = around(len(shown.rows), shown.chosen, room - len(hint))
+    size, wide = board.layout.small_size, board.layout.lists.width
+    rows, hint = _divided(board, shown)
     lines = max(len(rows), 1) + len(hint) + _FRAME
     sheet = board.sheet(wide, STEP * size * lines)
     _head(board, sheet, shown, size)
@@ -35,6 +31,21 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     return sheet
 
 
+def quantity_rows(board: Board, shown: Quantities) -> Rows:
+    """Return where the rows are on the list's sheet."""
+    size = board.layout.small_size
+    return Rows(_divided(board, shown)[0], (0.9 + 0.5 * (STEP + 1)) * size, STEP * size)
+
+
+def _divided(board: Board, shown: Quantities) -> tuple[range, list[str]]:
+    """Return which rows there is room for, and the lines of the hint, if there is room for it."""
+    size, place = board.layout.small_size, board.layout.lists
+    hint = board.type.wrapped(shown.hint, size, place.width - 2.4 * size, gap="   ")
+    room = int(place.height / STEP / size - _FRAME)
+    hint = hint if room - len(hint) >= 4 else []
+    return around(len(shown.rows), shown.chosen, room - len(hint)), hint
+
+
 def _head(board: Board, sheet: pygame.Surface, shown: Quantities, size: int) -> None:
     """Draw the title or what has been typed, and where in the list the chosen row is."""
     at, right = (1.2 * size, 0.7 * size), (sheet.get_width() - 1.2 * size, 0.7 * size)
@@ -46,8 +57,9 @@ def _head(board: Board, sheet: pygame.Surface, shown: Quantities, size: int) -> 
 
 
 def _row(board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size: int, y: float) -> None:
-    if row == shown.chosen:
-        board.bar(sheet, y, size, board.theme.chosen)
+    if row in (shown.chosen, shown.pointed):
+        share = 1.0 if row == shown.chosen else POINTED
+        board.bar(sheet, y, size, mixed(board.theme.panel, board.theme.chosen, share))
     (words, symbol), room = shown.rows[row], sheet.get_width() - 2.4 * size
     left = room - board.type.width(words, size) - size
     ways = (symbol, symbol.rpartition(" = ")[2])

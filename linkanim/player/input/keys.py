@@ -140,6 +140,7 @@ EDIT_KEYS: tuple[KeyRow, ...] = (
     ),
     KeyRow("in E", "Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),
     KeyRow("in E", "Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
+    KeyRow("in E", "click, wheel, drag (Shift: ×10)", "choose a row, nudge its value"),
     KeyRow("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
 )
 """What the keys do while the dimensions are being edited."""
@@ -152,7 +153,7 @@ LIST_KEYS: tuple[KeyRow, ...] = (
         _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
     ),
     KeyRow("in K", "type", "filter by what is in the name", _on("backspace", "unsift", held=True)),
-    KeyRow("in K", "Enter", "chart it", _on("return kp_enter", "pick")),
+    KeyRow("in K", "Enter, click", "chart it", _on("return kp_enter", "pick")),
 )
 """What the keys do while the list of quantities is open."""
 

@@ -1,4 +1,4 @@
-"""The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor or a joint."""
+"""The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor, a joint or a value."""
 
 from __future__ import annotations
 
@@ -11,11 +11,14 @@ from pygame.event import Event
 
 from linkanim.mechanics.formulas.exact import unit
 from linkanim.mechanics.linkage.pins import DrivenSlider
-from linkanim.player.state.action import Action
+from linkanim.player.state.action import Action, Mode
 from linkanim.scenes.scene import Scene
 
 _REACH = 0.035  # of the window's height
 _TENTHS = 0.1
+_PULL = 0.011
+"""How far a value is dragged for a step, in the window's height."""
+_COARSE = 10
 
 
 def latest(events: list[Event]) -> list[Event]:
@@ -55,6 +58,13 @@ class MouseTarget(Protocol):
     def is_shelf_open(self) -> bool:
         """Whether the shelf lies over the picture."""
 
+    @property
+    def mode(self) -> Mode:
+        """What the keys are for, and whether a list is open."""
+
+    def row_at(self, x: float, y: float) -> int | None:
+        """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
+
     def shelf_at(self, x: float, y: float) -> int | None:
         """Return the place on the open shelf under a pixel; None between its pictures."""
 
@@ -63,7 +73,9 @@ class Mouse:
     """Knows what is being dragged, and where the mouse was last."""
 
     def __init__(self) -> None:
-        self._drag: Literal["pan", "crank", "chart", "joint"] | None = None
+        self._drag: Literal["pan", "crank", "chart", "joint", "row"] | None = None
+        self._taken, self._steps = 0.0, 0
+        self._turned: int | None = None
         self._at = (0.0, 0.0)
         self._seen = False
 
@@ -72,6 +84,8 @@ class Mouse:
         self._seen = self._seen or event.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN)
         if target.is_shelf_open:
             return self._on_the_shelf(event, target)
+        if self._drag in (None, "row") and (found := self._on_a_list(event, target)) is not None:
+            return found
         match event.type:
             case pygame.MOUSEWHEEL:
                 return self._zoomed(event.y, target) if event.y else ()
@@ -90,9 +104,54 @@ class Mouse:
                 return self._panned(before, target) if self._drag == "pan" else self._moved(target)
         return ()
 
+    def _on_a_list(self, event: Event, target: MouseTarget) -> tuple[Action, ...] | None:
+        """Return what is asked of the open list: a click, the wheel, a value dragged; None beside it."""
+        at = getattr(event, "pos", self._at)
+        if self._drag == "row" and event.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONUP):
+            self._at = at
+            return self._pulled(event, target)
+        row = target.row_at(*at)
+        if row is None:
+            return None
+        self._at, editing = at, target.mode == "edit"
+        if event.type == pygame.MOUSEWHEEL:
+            # A list that is longer than its room moves on below a mouse that stands still.
+            self._turned = row if self._turned is None else self._turned
+            return self._wheeled(event.y, self._turned, editing=editing) if event.y else ()
+        self._turned = None
+        if event.type != pygame.MOUSEBUTTONDOWN or event.button != 1 or row < 0:
+            return ()
+        if not editing:
+            return (Action("pick", row),)
+        self._drag, self._taken, self._steps = "row", self._at[0], 0
+        return (Action("grab_row", row),)
+
+    def _wheeled(self, notches: int, row: int, *, editing: bool) -> tuple[Action, ...]:
+        """Nudge the value under the mouse; beside the values, and in the list of quantities, choose."""
+        if editing and row >= 0:
+            return (Action("grab_row", row), Action("drop"), Action("nudge", notches * _coarser()))
+        return (Action("choose" if editing else "move", -notches),)
+
+    def _pulled(self, event: Event, target: MouseTarget) -> tuple[Action, ...]:
+        """Change the value of the row that is held by how far the mouse has gone to the right."""
+        if event.type == pygame.MOUSEBUTTONUP:
+            self._drag = None
+            return (Action("drop"),)
+        before, self._steps = self._steps, round((self._at[0] - self._taken) / (_PULL * target.size[1]))
+        return (Action("pull", self._steps * _coarser()),) if self._steps != before else ()
+
+    def pointed(self, target: MouseTarget) -> int | None:
+        """Return the row of the open list that the mouse is over; None before the mouse was seen."""
+        if not self._seen or self._drag not in (None, "row") or target.is_shelf_open:
+            return None
+        row = target.row_at(*self._at)
+        return row if row is not None and row >= 0 else None
+
     def hovered(self, target: MouseTarget) -> str | None:
         """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
-        if not self._seen or target.is_shelf_open or self._drag in ("pan", "chart"):
+        if not self._seen or target.is_shelf_open or self._drag in ("pan", "chart", "row"):
+            return None
+        if self._drag is None and target.row_at(*self._at) is not None:
             return None
         return target.handle_at(*self._at, _REACH * target.size[1]) or (
             target.scene.linkage.drive.joint if self._is_at_pin(target) else None
@@ -136,6 +195,11 @@ class Mouse:
             return (Action("carry", (*target.world(*self._at), fine)),)
         phase = target.charted(*self._at) if self._drag == "chart" else None
         return () if phase is None else (Action("scrub", phase),)
+
+
+def _coarser() -> int:
+    """Return how many steps one stands for: more with Shift."""
+    return _COARSE if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1
 
 
 def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> float:

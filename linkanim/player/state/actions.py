@@ -150,6 +150,8 @@ ACTIONS: Mapping[str, Rule] = {
     "carry": Rule(
         _numbers(3), edits.carry
     ),  # to (x, y) of the scene as shown, in such parts of a nudge's step
+    "grab_row": Rule(_whole, edits.grab_row),  # a row of the list of dimensions
+    "pull": Rule(_whole, edits.pull),  # steps from the value that was taken hold of
     "drop": Rule(_nothing, edits.drop),
     "undo": Rule(_nothing, edits.undo, answer=_undo),
     "reset": Rule(_nothing, edits.reset),

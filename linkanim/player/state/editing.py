@@ -112,9 +112,14 @@ def nudge(editing: Editing, scene: Scene, steps: int, unit: str | None = None) -
     item = chosen(editing, in_unit(scene, unit))
     if item is None:
         return editing, scene
-    value = Decimal(repr(item.value)) + steps * step_of(item.unit)
-    text = f"{value.normalize():f}"
+    text = _nudged(item, steps)
     return _tried(_clear(editing), scene, {item.key: text}, text, unit)
+
+
+def _nudged(item: Dimension, steps: int) -> str:
+    """Return a dimension's value so many small steps larger, as it would be typed."""
+    value = Decimal(repr(item.value)) + steps * step_of(item.unit)
+    return f"{value.normalize():f}"
 
 
 def step_of(unit: str) -> Decimal:
@@ -214,7 +219,7 @@ def _clear(editing: Editing, **changes: object) -> Editing:
 
 @dataclass(frozen=True)
 class Held:
-    """A joint that is being dragged: the scene and the phase it was taken at, and whether that ran on."""
+    """A joint that is being dragged, "" for the chosen value: where it was taken, and whether that ran on."""
 
     joint: str
     scene: Scene
@@ -234,15 +239,23 @@ def values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key,
     return found
 
 
-def carried_to(
-    editing: Editing, scene: Scene, held: Held, point: tuple[float, float], share: float
-) -> tuple[Editing, Scene]:
-    """Return the scene with the joint dragged to a point, or the same scene and why it is refused.
+def pulled_by(editing: Editing, held: Held, steps: int, unit: str | None) -> dict[Key, str]:
+    """Return the chosen dimension so many small steps of the unit that is shown from where it was taken."""
+    shown = in_unit(held.scene, unit)
+    item = chosen(editing, shown)
+    values = {item.key: _nudged(item, steps)} if item else {}
+    return values if shown is held.scene else united(shown, values)
 
-    However far it is dragged, undo goes back to where it was taken.
+
+def changed_to(
+    editing: Editing, scene: Scene, held: Held, values: Mapping[Key, str]
+) -> tuple[Editing, Scene]:
+    """Return the scene that was taken hold of with these values, or the same scene and why it is refused.
+
+    However far they are dragged, undo goes back to where they were taken.
     """
     try:
-        after = with_dimensions(held.scene, values_at(held, point, share))
+        after = with_dimensions(held.scene, values)
         lost = loss_of_turning(held.scene.info, after.info)
     except LinkanimError as error:
         return replace(editing, refusal=str(error).removeprefix(f"{scene.name}: ")), scene

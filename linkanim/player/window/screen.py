@@ -8,6 +8,7 @@ from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, ShelfPrinter, by_chapter, grid
 from linkanim.picture.surface import SurfacePrinter
+from linkanim.player.state.action import Mode
 from linkanim.player.state.browsing import Browsing
 from linkanim.player.state.state import State
 from linkanim.player.window import display
@@ -31,11 +32,12 @@ class Screen:
         self._shelf = ShelfPrinter()
         self._fade = Fade()
         self._printer = SurfacePrinter()
+        self._over = Overlay()
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
         surface = display.surface()
-        self._state = state
+        self._state, self._over = state, over
         self._name(f"{state.scene.title}{' • edited' * (state.place in state.edited)}")
         picture, veiled = self._framing.at(state, surface.get_size()), self._fade.strength(state, surface)
         shown = (picture, state.phase, state.clock.speed, over, veiled)
@@ -124,6 +126,15 @@ class Screen:
 
     def _grid(self, browsing: Browsing) -> Grid:
         return grid(self.size, [count for _, count in by_chapter(browsing.entries)])
+
+    @property
+    def mode(self) -> Mode:
+        """What the keys are for, and whether a list is open."""
+        return self._state.mode
+
+    def row_at(self, x: float, y: float) -> int | None:
+        """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
+        return self._printer.row_at(self._framing.last, self._over, x, y) if self._state.listed else None
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -11,15 +12,15 @@ from linkanim.digits import significant, typeset
 from linkanim.mechanics.facts.register import Quantity
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.quantities import quantity
-from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel, Quantities, Shelf
+from linkanim.picture.panels.overlay import DimensionLine, EditRow, Fading, Overlay, Panel, Quantities, Shelf
 from linkanim.picture.text.text import subscripted
 from linkanim.player.input.keys import help_groups
 from linkanim.player.state.browsing import Browsing, Listing, listed
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.state import FLASH_FRAMES, SHUTTER_FRAMES, State
 from linkanim.scenes.editing.edit import Dimension, dimensions
-from linkanim.scenes.editing.handles import span
 from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.editing.stretches import stretches
 
 _HINT = (
     "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   Ctrl+S save   "
@@ -30,22 +31,27 @@ _BAR = "Space pause · Tab next · drag the crank pin · H keys"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _IDLE = 45 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
+_WAYS = ("along", "to the left", "to the right", "x", "y")
+"""What the labels of places end in, and the other side."""
 _READ, _NEAR = 15, 40
 """How many frames a value in the list of quantities stands, and how many rows by the chosen have one."""
 _STEPS = 12
 """So many shades of a flash: each is drawn once."""
 
 
-def overlay(state: State, hover: str | None = None) -> Overlay:
-    """Return all that the window shows beside the scene; `hover` is the joint under the mouse."""
+def overlay(state: State, hover: str | None = None, row: int | None = None) -> Overlay:
+    """Return all that the window shows beside the scene; `hover` and `row` are what is under the mouse."""
     items = _items(state)
+    lists = _kept(state, items)
     return replace(
-        _kept(state, items),
+        lists,
+        panel=lists.panel and replace(lists.panel, pointed=row),
+        quantities=lists.quantities and replace(lists.quantities, pointed=row),
         toast=state.toast.text if state.toast else None,
         chip=_chip(state),
         hint=_hint_bar(state),
-        measured=_measured(state, items),
-        glow=state.held.joint if state.held else hover,
+        measured=tuple(_measured(state, items)),
+        glow=(state.held.joint or None) if state.held else hover,
         grip=state.look.chart is not None,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
     )
@@ -121,13 +127,20 @@ def _hint_bar(state: State) -> Fading | None:
     return Fading(_BAR, eighths) if eighths > 0 else None
 
 
-def _measured(state: State, items: tuple[Dimension, ...]) -> tuple[str, str, str] | None:
-    """Return the bar that the chosen dimension measures, and its length in words."""
-    if not items:
-        return None
-    item = items[state.editing.chosen % len(items)]
-    ends = span(state.scene, item.key)
-    return ends and (*ends, _valued(item, _digits(state)))
+def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLine]:
+    """Yield what the chosen dimension measures, and the others by which its place is found, in words."""
+    known, scene = {item.key: item for item in items}, in_unit(state.scene, state.look.unit)
+    chosen = items[state.editing.chosen % len(items)].key if items else ()
+    for frame, begin, end, key in stretches(scene, chosen):
+        yield DimensionLine(frame, begin, end, _worded(known[key], _digits(state)), key == chosen)
+
+
+def _worded(item: Dimension, digits: int) -> str:
+    """Return a dimension's value; of a place on a body with the way that it leads, and no sign."""
+    way = item.label.rpartition(", ")[2]
+    if way == "to the left" and item.value < 0:
+        item, way = replace(item, value=-item.value), "to the right"
+    return f"{way} {_valued(item, digits)}" if way in _WAYS else _valued(item, digits)
 
 
 def _recording(state: State) -> str | None:

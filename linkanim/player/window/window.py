@@ -111,7 +111,8 @@ class Window:
             yield Action("put", browsing.chosen)
         elif action.name == "pick" and listing:
             tokens = listed(self.state.scene, listing.sieve)
-            yield from (Action("plot", token) for token in tokens[listing.chosen : listing.chosen + 1])
+            row = action.value if isinstance(action.value, int) else listing.chosen
+            yield from (Action("plot", token) for token in tokens[row : row + 1])
         elif action.name == "back" and not self.state.is_covered and display.is_full():
             yield Action("fullscreen")
         elif action.name == "back" and not self.state.is_covered and self.state.recording:
@@ -141,7 +142,7 @@ class Window:
         if hover not in self.state.shown.linkage.by_name:
             hover = None  # a joint of the scene that was there until now
         try:
-            self.screen.show(self.state, overlay(self.state, hover))
+            self.screen.show(self.state, overlay(self.state, hover, self._mouse.pointed(self.screen)))
         except Exception as error:
             if self._good is None:
                 raise

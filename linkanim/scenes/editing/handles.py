@@ -1,4 +1,4 @@
-"""Joints as handles: which dimensions follow when a joint is dragged, and which bar a dimension measures."""
+"""Joints as handles: which dimensions follow when a joint is dragged."""
 
 from __future__ import annotations
 
@@ -26,15 +26,6 @@ class Handle:
     on: tuple[str, str] | None = None
     part: int | None = None
     angle: bool = False
-
-
-def span(scene: Scene, key: Key) -> tuple[str, str] | None:
-    """Return the two joints between which a dimension measures a bar; None for any other dimension."""
-    for number in numbers(scene.document):
-        if number.key == key and number.field.drag == "distance":
-            start, end = number.ends(scene)
-            return (start, end) if start else None
-    return None
 
 
 def handles(scene: Scene, joint: str) -> tuple[Handle, ...]:

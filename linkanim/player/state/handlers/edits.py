@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 from linkanim.player.state import editing as edit_
-from linkanim.player.state.editing import Editing, Held, carried_to
+from linkanim.player.state.editing import Editing, Held, changed_to, pulled_by, values_at
 from linkanim.player.state.glide import glide
 from linkanim.player.state.handlers.shelf import exchanged
 from linkanim.player.state.state import State
 from linkanim.scenes.editing.closures import other_return
 from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.editing.handles import handles
+from linkanim.scenes.fields.form import Key
 from linkanim.scenes.scene import Scene
 from linkanim.units import metre
 
@@ -45,17 +46,40 @@ def grab(state: State, joint: str) -> State:
 def carry(state: State, to: tuple[float, float, float]) -> State:
     """Drag the held joint to a point of the scene as shown, in whole units of its own times `to[2]`."""
     held = state.held
-    if held is None or not to[2] > 0.0:
+    if held is None or not held.joint or not to[2] > 0.0:
         return state
     ratio = metre(state.displayed.length_unit) / metre(state.scene.length_unit)
-    point = (to[0] * ratio, to[1] * ratio)
-    editing, scene = carried_to(state.editing, state.scene, held, point, to[2])
-    if scene is state.scene:
-        return replace(state, editing=editing)
-    state = replace(exchanged(state, scene), editing=editing)
+    point, before = (to[0] * ratio, to[1] * ratio), state.scene
+    state = _dragged(state, held, values_at(held, point, to[2]))
+    if state.scene is before:
+        return state
     angle = held.scene.pose(held.phase, 0).coordinate
-    phase = scene.mechanism.assembly.path.phase_of(angle, state.phase)
+    phase = state.scene.mechanism.assembly.path.phase_of(angle, state.phase)
     return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+
+
+def grab_row(state: State, row: int) -> State:
+    """Take hold of a row's value; what is begun in another row waits as a draft."""
+    items, state = dimensions(state.scene), drop(state, None)
+    if not state.editing.open or not 0 <= row < len(items):
+        return state
+    further = row - state.editing.chosen % len(items)
+    editing = edit_.pass_on(state.editing, state.scene, further) if further else state.editing
+    held = Held("", state.scene, state.phase, not state.clock.paused)
+    return replace(state, held=held, editing=editing, glide=None)
+
+
+def pull(state: State, steps: int) -> State:
+    """Change the value that is held by so many small steps from what it was."""
+    held = state.held
+    if held is None or held.joint:
+        return state
+    return _dragged(state, held, pulled_by(state.editing, held, steps, state.look.unit))
+
+
+def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
+    editing, scene = changed_to(state.editing, state.scene, held, values)
+    return replace(state if scene is state.scene else exchanged(state, scene), editing=editing)
 
 
 def drop(state: State, _: None) -> State:
