@@ -85,11 +85,12 @@ class Page:
                 self.requests.append(found["params"]["request"]["url"])
 
     def go(self, url: str) -> None:
-        """Open an address, and wait until all of it is there."""
+        """Open an address, and wait until all of it is there and shows: before that the mouse is not heeded."""
         self.messages.clear()
         self.requests.clear()
         self.call("Page.navigate", url=url)
         self._until(lambda found: found.get("method") == "Page.loadEventFired")
+        self.frame()
 
     def value(self, script: str) -> Any:
         """Return the value of an expression in the page, of a promise what it becomes."""
