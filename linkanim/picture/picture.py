@@ -68,17 +68,17 @@ class Picture:
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
             kept = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if kept else request
-        self._arrange(request, before)
+        self._arrange(request, before, held=held)
         self.names: Names | None = self._named(before, held=held) if look.names else None
         if self.names and self.names.unlisted:
-            self._arrange(self.fit.request._replace(table=self._table_size()), before)
+            self._arrange(self.fit.request._replace(table=self._table_size()), before, held=False)
             self.names = self._named(None, held=False)
         self._behind: tuple[float, tuple[Group, ...]] | None = None
 
-    def _arrange(self, request: FitRequest, before: Picture | None) -> None:
+    def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:
         """Fit the scene into what is requested."""
         scene, look, last = self.scene, self.look, before.fit if before else None
-        self.fit: SceneFit = fitted(self._goal, self._beside, request, self.type, before=last)
+        self.fit: SceneFit = fitted(self._goal, self._beside, request, self.type, before=last, held=held)
         self.figure: Figure = figure(scene) if scene.towards else self.fit.subject.figure
         self.layout: Layout = self.fit.arrangement.layout
         self.fitted: View = self.fit.view_of(self.figure)

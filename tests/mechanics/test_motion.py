@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import pickle
+import weakref
 
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ from build import four_bar, slider_crank
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.facts.register import register
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.reading.read import scene_from
@@ -357,3 +359,18 @@ def test_a_used_scene_and_a_motion_go_through_a_pickle(name: str) -> None:
     for quantity, (many, one) in zip(known, meant, strict=True):
         assert np.array_equal(quantity.read(motion_again), many, equal_nan=True), quantity.token
         assert np.array_equal(quantity.read(pose_again), one, equal_nan=True), quantity.token
+
+
+# A pause for a search of the memory is seen as a jerk; a length that is dragged makes a linkage in each frame.
+@pytest.mark.parametrize("name", ["crank-rocker", "press", "double-rocker"])
+def test_a_linkage_that_nobody_uses_is_freed_at_once(name: str) -> None:
+    used = Mechanism(load(name).linkage, load(name).mechanism.assembly)
+    used.solve(phase=[0.1, 0.2], speed=1.0).acceleration  # noqa: B018 -- compiled by being read
+    used.pose(0.1, 1.0, 0.0, 2)
+    left = weakref.ref(used)
+    gc.disable()
+    try:
+        del used
+        assert left() is None
+    finally:
+        gc.enable()

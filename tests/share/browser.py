@@ -85,7 +85,7 @@ class Page:
                 self.requests.append(found["params"]["request"]["url"])
 
     def go(self, url: str) -> None:
-        """Open an address, and wait until all of it is there and shows: before that the mouse is not heeded."""
+        """Open an address, and wait until all of it shows: before that the mouse does nothing."""
         self.messages.clear()
         self.requests.clear()
         self.call("Page.navigate", url=url)

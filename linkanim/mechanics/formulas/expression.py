@@ -24,6 +24,7 @@ class Graph:
         self.exact = exact
         """Whether it will be run in many digits, on functions that are right in all of them."""
         self._nodes: dict[tuple[object, ...], Expr] = {}
+        self._count = 0
 
     def input(self, name: str, *, uniform: bool = False) -> Expr:
         """Return the named input of the program; `uniform` where it is one number for a whole array."""
@@ -42,9 +43,17 @@ class Graph:
         key = (op, *args)
         found = self._nodes.get(key)
         if found is None:
-            found = Expr(self, op, args, len(self._nodes))
+            found = Expr(self, op, args, self._count)
             self._nodes[key] = found
+            self._count += 1
         return found
+
+    def forget(self) -> None:
+        """Let go of the nodes, which are whole without it, so that they are freed as their last user is.
+
+        An operation that is recorded again later is a new node.
+        """
+        self._nodes.clear()
 
 
 class Expr:

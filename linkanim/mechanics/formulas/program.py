@@ -13,7 +13,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from ctypes import addressof, c_char
 from dataclasses import dataclass, field
 from decimal import Decimal
-from types import MappingProxyType
+from functools import lru_cache
+from types import CodeType, MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -87,9 +88,15 @@ def _name(value: Value | str) -> str:
 def _define(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
     """Return the function of that name from source text that this module wrote."""
     space = dict(names)
-    exec(compile(source, f"<linkanim {name}>", "exec"), space)
-    function: Callable[..., Any] = space[name]
+    exec(_compiled(source, f"<linkanim {name}>"), space)
+    function: Callable[..., Any] = space.pop(name)
     return function
+
+
+@lru_cache(maxsize=128)
+def _compiled(source: str, name: str) -> CodeType:
+    """Return the code of a text; a linkage of other lengths mostly has the same."""
+    return compile(source, name, "exec")
 
 
 FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": math.atan2}

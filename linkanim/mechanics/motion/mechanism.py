@@ -73,9 +73,9 @@ class Mechanism:
         """Whether a dyad down the chain limits the input or touches a change point."""
         return any(root.zeros for root in self.assembly.chain.values())
 
-    @cached_property
+    @property
     def setting(self) -> Setting:
-        """What motions and poses share."""
+        """What motions and poses share; it knows the mechanism, which keeps nothing that does."""
         return Setting(self.linkage, self.assembly.gears, self)
 
     @cached_property
@@ -87,7 +87,7 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _programs(self) -> dict[Variant, Programs]:
+    def _programs(self) -> dict[Variant, dict[tuple[str, ...], tuple[Batch, ResultLayout]]]:
         return {}
 
     def pose(
@@ -106,9 +106,11 @@ class Mechanism:
         self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
     ) -> Pose:
         key = derivatives, acceleration != 0.0, per_input
+        if self.passing:
+            return Pose(self._from_arrays(key, phase, speed, acceleration))
         program = self._poses.get(key) or self._program_of_poses(key)
         try:
-            return Pose(program(phase, speed, acceleration))
+            return Pose(program(phase, speed, acceleration, self))
         except (ZeroDivisionError, ValueError):
             return Pose(self._from_arrays(key, phase, speed, acceleration))
 
@@ -125,11 +127,8 @@ class Mechanism:
 
     def _program_of_poses(self, key: tuple[int, bool, bool]) -> Callable[..., dict[str, Any]]:
         derivatives, accelerates, per_input = key
-        if self.passing:
-            found: Callable[..., dict[str, Any]] = partial(self._from_arrays, key)
-        else:
-            found = self._scalar(self._trace(Variant(True, accelerates, per_input=per_input)), derivatives)
-        self._poses[key] = found
+        trace = self._trace(Variant(True, accelerates, per_input=per_input))
+        found = self._poses[key] = _scalar(trace, derivatives)
         return found
 
     def _trace(self, variant: Variant) -> Traced:
@@ -145,6 +144,7 @@ class Mechanism:
             places = zip(COORDINATE, state.coordinate(unscale), strict=True)
             driven = {kind: {"": (value,)} for kind, value in places}
             rows = dict(_quantities(walked(self.assembly, state), unscale))
+            graph.forget()
             found = self._traces[variant] = Traced(names, driven | rows)
         return found
 
@@ -156,16 +156,6 @@ class Mechanism:
             return ("x",), path.state(graph.input("x"), pace)
         return path.state_by_angle(graph, pace)
 
-    def _scalar(self, trace: Traced, derivatives: int) -> Callable[..., dict[str, Any]]:
-        outputs: list[Value] = []
-        parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
-        for kind, values in trace.rows.items():
-            if kind in COORDINATE or (values and DERIVATIVE_OF[kind] <= derivatives):
-                outputs.extend(component for components in values.values() for component in components)
-                parts.append(f"{kind!r}: {'{}' if kind in COORDINATE else _dict_display(values)}")
-        display = f"{{{{{', '.join(parts)}}}}}"
-        return scalar((*trace.names, "w", "a"), outputs, display, {"setting": self.setting})
-
     def _from_arrays(
         self, key: tuple[int, bool, bool], phase: float, speed: float, second: float
     ) -> dict[str, Any]:
@@ -175,7 +165,7 @@ class Mechanism:
         motion = motion.per_input if per_input else motion
         found = {kind: _plain(values) for kind, values in motion.every.items()}
         inputs = ("phase", "input_speed", "input_acceleration", *COORDINATE)
-        return found | {name: float(getattr(motion, name)) for name in inputs} | {"setting": self.setting}
+        return found | {name: float(getattr(motion, name)) for name in inputs} | {"solver": self}
 
     def solve(
         self,
@@ -203,11 +193,8 @@ class Mechanism:
 
     def programs(self, variant: Variant) -> Programs:
         """Return the programs over arrays for one way of asking."""
-        found = self._programs.get(variant)
-        if found is None:
-            compiled = partial(self._compiled, variant)
-            found = self._programs[variant] = Programs(self.assembly.path, variant, compiled)
-        return found
+        found = self._programs.setdefault(variant, {})
+        return Programs(self.assembly.path, variant, partial(self._compiled, variant), found)
 
     def _compiled(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
         trace = self._trace(variant)
@@ -216,6 +203,18 @@ class Mechanism:
         pins = {joint.name: joint.position for joint in self.linkage.pins}
         places = layout({kind: trace.rows[kind] for kind in kinds}, pins, VECTORS[:3])
         return batch(varying, places.outputs), places
+
+
+def _scalar(trace: Traced, derivatives: int) -> Callable[..., dict[str, Any]]:
+    """Return the program of one instant in plain floats."""
+    outputs: list[Value] = []
+    parts = ["'solver': solver, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
+    for kind, values in trace.rows.items():
+        if kind in COORDINATE or (values and DERIVATIVE_OF[kind] <= derivatives):
+            outputs.extend(component for components in values.values() for component in components)
+            parts.append(f"{kind!r}: {'{}' if kind in COORDINATE else _dict_display(values)}")
+    display = f"{{{{{', '.join(parts)}}}}}"
+    return scalar((*trace.names, "w", "a", "solver"), outputs, display)
 
 
 def _plain(values: Mapping[str, Array]) -> dict[str, Any]:
@@ -276,7 +275,7 @@ def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:
     return vector.x, vector.y
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=8)
 def mechanism(linkage: Linkage) -> Mechanism:
     """Return the linkage made ready; AssemblyError where it cannot be put together."""
     return Mechanism(linkage, restricted(assemble(linkage), linkage))

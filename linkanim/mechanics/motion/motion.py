@@ -45,6 +45,10 @@ class Strut(NamedTuple):
 class Solver(Protocol):
     """What solves the linkage of a motion at other instants and rates."""
 
+    @property
+    def setting(self) -> Setting:
+        """What motions and poses share."""
+
     def solve(
         self, *, phase: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = ..., derivatives: int = ...
     ) -> Motion:
@@ -304,7 +308,7 @@ class Pose(Derived[Pair, float]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as what was solved, without what follows from it."""
-        kinds = (*ORDER, "setting", "input_speed", "input_acceleration")
+        kinds = (*ORDER, "solver", "input_speed", "input_acceleration")
         return Pose, ({kind: vars(self)[kind] for kind in kinds if kind in vars(self)},)
 
     def __getattr__(self, name: str) -> Any:
@@ -313,11 +317,18 @@ class Pose(Derived[Pair, float]):
             raise AttributeError(f"a pose has no {name!r}")
         return NOTHING
 
+    solver: Solver
+
+    @cached_property
+    def setting(self) -> Setting:  # type: ignore[override]
+        """What it shares with others of its linkage; made when asked for, which is not in every frame."""
+        return self.solver.setting
+
     @cached_property
     def per_input(self) -> Pose:
         """The same instant, with rates by the input's angle, or travel, instead of those in time."""
         rated = self.angular_acceleration or self.travel_acceleration
-        return self.setting.solver.pose_per_input(self.phase) if rated else self
+        return self.solver.pose_per_input(self.phase) if rated else self
 
     def _continuous(self, ends: tuple[str, str]) -> float:
         return float(direction(between(self.position, ends)))

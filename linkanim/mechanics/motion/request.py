@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -186,18 +186,17 @@ class Variant(NamedTuple):
     per_input: bool = False
 
 
-@dataclass(frozen=True)
-class Programs:
+class Programs(NamedTuple):
     """The programs over arrays for one way of asking, compiled when first needed."""
 
     path: InputPath
     variant: Variant
     compiled: Callable[[tuple[str, ...]], tuple[Batch, ResultLayout]]
-    found: dict[tuple[str, ...], tuple[Batch, ResultLayout]] = field(default_factory=dict)
+    found: dict[tuple[str, ...], tuple[Batch, ResultLayout]]
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle without what is compiled."""
-        return Programs, (self.path, self.variant, self.compiled)
+        return Programs, (self.path, self.variant, self.compiled, {})
 
     def of(self, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
         """Return the program that works these quantities out, and where its results lie."""

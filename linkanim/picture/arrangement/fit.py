@@ -47,8 +47,13 @@ class Subject:
 
     figure: Figure
     beside: Scene | None
-    sweep: Sweep
     type: Type
+
+    @cached_property
+    def sweep(self) -> Sweep:
+        """What both sweep."""
+        swept = sweep_of(self.figure)
+        return swept | sweep_of(figure(self.beside)) if self.beside else swept
 
     @cached_property
     def rows(self) -> tuple[WidestRow, ...]:
@@ -84,26 +89,40 @@ class SceneFit:
 
 
 def fitted(
-    scene: Scene, beside: Scene | None, request: FitRequest, type_: Type, *, before: SceneFit | None = None
+    scene: Scene,
+    beside: Scene | None,
+    request: FitRequest,
+    type_: Type,
+    *,
+    before: SceneFit | None = None,
+    held: bool = False,
 ) -> SceneFit:
     """Return how a scene fits, and one that must fit into its view too.
 
-    What `before` has of the same scenes is taken over, all of it where the same is requested.
+    What `before` has of the same scenes is taken over, all of it where the same is requested. What the hand
+    changes while it is `held` stays in its place, as long as it has room there.
     """
     known = before.subject if before else None
     if known is None or known.figure.scene is not scene or known.beside is not beside:
-        subject = _subject(scene, beside, type_)
+        subject = Subject(figure(scene), beside, type_)
     elif before and before.request == request:
         return before
     else:
         subject = known
+    if held and before and before.request == request and _has_room(before.arrangement, subject):
+        return SceneFit(subject, request, before.arrangement)
     return SceneFit(subject, request, _arranged(subject, request, type_))
 
 
-def _subject(scene: Scene, beside: Scene | None, type_: Type) -> Subject:
-    shown = figure(scene)
-    sweep = sweep_of(shown) | sweep_of(figure(beside)) if beside else sweep_of(shown)
-    return Subject(shown, beside, sweep, type_)
+def _has_room(arrangement: Arrangement, subject: Subject) -> bool:
+    """Return whether a subject is within the scene's room as something else is arranged."""
+    room, view = arrangement.layout.stage, arrangement.view
+    boxes = [one.box for one in (subject.figure, *map(figure, subject.scenes[1:]))]
+    return all(
+        room.x <= x <= room.right and room.y <= y <= room.bottom
+        for box in boxes
+        for x, y in (view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low))
+    )
 
 
 def _arranged(subject: Subject, request: FitRequest, type_: Type) -> Arrangement:

@@ -6,6 +6,7 @@ comes late is skipped, never slowed down: the frame's number follows the clock.
 
 from __future__ import annotations
 
+import gc
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -42,6 +43,7 @@ def run(
     state = tape.start if tape else begin(scene, look=look)
     with display.opened(size) as connection:
         window = Window(replace(state, attract=attract), tape, None if tape else _file(scene))
+        gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame
         try:
             for count in frames(time.monotonic, time.sleep):
                 if not window.tick(count):
@@ -49,6 +51,7 @@ def run(
                 connection.check()
         finally:
             window.close()
+            gc.unfreeze()
     return 0
 
 
