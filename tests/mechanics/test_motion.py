@@ -361,7 +361,7 @@ def test_a_used_scene_and_a_motion_go_through_a_pickle(name: str) -> None:
         assert np.array_equal(quantity.read(pose_again), one, equal_nan=True), quantity.token
 
 
-# A pause for a search of the memory is seen as a jerk; a length that is dragged makes a linkage in each frame.
+# A pause for a search of the memory is seen as a jerk; a drag makes a linkage in each frame.
 @pytest.mark.parametrize("name", ["crank-rocker", "press", "double-rocker"])
 def test_a_linkage_that_nobody_uses_is_freed_at_once(name: str) -> None:
     used = Mechanism(load(name).linkage, load(name).mechanism.assembly)

@@ -10,6 +10,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import State, begin
 from linkanim.player.tape.tape import Tape, starting
+from linkanim.player.window.approach import Framing
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.editing.handles import handles
@@ -290,3 +291,18 @@ def test_a_pin_s_angle_has_a_handle_however_its_degrees_are_written(angle: str) 
     text = f'[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\nground_angle = "{angle}"\n'
     scene = scene_from(parse(text, "my.toml"), name="my", where="my.toml")
     assert ("four-bar", "ground_angle") in {handle.key for handle in handles(scene, "O4")}
+
+
+def test_the_view_stands_still_under_the_hand_as_long_as_there_is_room() -> None:
+    framing, size = Framing(), (1280, 720)
+    state = opened("crank-rocker", 1.0)
+    before = framing.at(state, size).view
+    near = drag(state, "B", (9.0, 7.0))
+    assert near.scene is not state.scene
+    assert framing.at(near, size).view == before
+    far = after(near, Action("carry", (170.0, 400.0, 1.0)))
+    assert far.scene is not near.scene
+    framing.at(far, size)
+    assert framing.fitting(far, size).view.scale < before.scale
+    left = after(near, "drop")
+    assert framing.fitting(left, size).view != before
