@@ -187,6 +187,11 @@ class Figure:
         spans = [abs(self.start(body.joints[1]) - self.start(body.joints[0])) for body in self.bodies]
         return min(spans, default=1.0)
 
+    def wheel_reach(self, body: Body) -> float:
+        """Return how far a body drawn as a wheel reaches from its first joint, in the scene's unit."""
+        far = (abs(self.start(name) - self.start(body.joints[0])) for name in body.joints)
+        return max(*far, self.scene.style(body.name).radius or 0.0)
+
     def start(self, name: str) -> complex:
         """Return where a joint stands as the cycle begins, in the scene's unit, y up."""
         x, y = self.cycle.position[name][0]

@@ -20,16 +20,23 @@ if TYPE_CHECKING:
     from linkanim.mechanics.motion.motion import Motion, Pose
 
 
-Outline = Literal["bar", "plate", "wheel", "slot", "hook", "none"]
-"""How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, a bar
-with a slot from its first to its second, one that ends in a hook, not at all."""
+Outline = Literal["bar", "plate", "wheel", "railwheel", "slot", "hook", "pad", "bucket", "none"]
+"""How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, one on
+a rail, a bar with a slot from its first to its second, one that ends in a hook or a pad, a bucket whose edge
+is its last joint, not at all."""
+Block = Literal["block", "piston"]
+"""How what slides may be drawn: between rails, or in a cylinder with a head."""
 
 
 class BodyStyle(NamedTuple):
-    """How a scene has a body drawn: its outline, and its colour (red, green, blue); None where it is free."""
+    """How a scene has a body drawn: its outline, its colour (red, green, blue), and its radius as a wheel.
 
-    outline: Outline | None = None
+    Each is None where it is free.
+    """
+
+    outline: Outline | Block | None = None
     colour: tuple[int, int, int] | None = None
+    radius: float | None = None
 
 
 FREE_STYLE = BodyStyle()

@@ -12,7 +12,7 @@ import numpy as np
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.items import Caption, Group, Item, clipped
 from linkanim.picture.labels.names import Label, Names
-from linkanim.picture.parts.struts import TILT, Coil, Damping
+from linkanim.picture.parts.struts import BACK, CORE, EDGE, TILT, Coil, Damping
 from linkanim.picture.parts.trace import RECENT, SWELL, Trace
 from linkanim.picture.parts.turning import AHEAD, SWEEP, Sliding, Turning
 from linkanim.picture.parts.vectors import ORDER, Arrows
@@ -129,8 +129,14 @@ class Mobile:
     def _coil(self, light: Coil, dark: Coil) -> Mover:
         layers = (coil.layers(dict(zip(coil.between, (0j, 1 + 0j), strict=True))) for coil in (light, dark))
         colours = [self.pairs.variable(one.colour, other.colour) for one, other in zip(*layers, strict=True)]
-        between, wire = list(light.between), 1.5 * light.gauge.line
-        size = {"radius": light.radius, "lead": light.lead, "coils": light.coils, "wire": wire, "tilt": TILT}
+        between, widths = list(light.between), [wide * light.wire for wide in (BACK, EDGE, CORE)]
+        size = {
+            "radius": light.radius,
+            "lead": light.lead,
+            "coils": light.coils,
+            "widths": widths,
+            "tilt": TILT,
+        }
         return {"kind": "coil", "between": between, **size, "colours": colours}
 
     def _damping(self, light: Damping, dark: Damping) -> Mover:

@@ -145,10 +145,10 @@
       };
     },
 
-    coil(group, { between, radius, lead, coils, wire, tilt, colours }) {
-      const back = stroked(group, colours[0], wire);
-      const edge = stroked(group, colours[1], 2.6 * wire, { "stroke-linecap": "round" });
-      const core = stroked(group, colours[2], 1.5 * wire, { "stroke-linecap": "round" });
+    coil(group, { between, radius, lead, coils, widths, tilt, colours }) {
+      const back = stroked(group, colours[0], widths[0]);
+      const edge = stroked(group, colours[1], widths[1], { "stroke-linecap": "round" });
+      const core = stroked(group, colours[2], widths[2], { "stroke-linecap": "round" });
       const half = (from, foot, pitch, turn) => Array.from({ length: 13 }, (_, n) => {
         const along = from + n / 24, way = TURN * along - Math.PI / 2;
         return add(foot, mul(turn, [pitch * along + radius * tilt * Math.cos(way), radius * Math.sin(way)]));
@@ -157,9 +157,11 @@
         const start = place(between[0]), end = place(between[1]);
         const span = size(sub(end, start)), turn = unit(sub(end, start));
         const ends = Math.min(lead, 0.2 * span), pitch = (span - 2 * ends) / coils;
-        let far = line([start, add(start, by(turn, ends)), add(start, mul(turn, [ends, -radius]))]);
-        far += line([end, sub(end, by(turn, ends)), add(end, mul(turn, [-ends, -radius]))]);
-        let near = "";
+        const led = (from, way) => line(Array.from({ length: 13 }, (_, n) => {
+          const share = n / 12;
+          return add(from, mul(turn, [way * ends * share, -radius * share * share * (3 - 2 * share)]));
+        }));
+        let far = "", near = led(start, 1) + led(end, -1);
         for (let n = 0; n < coils; n++) {
           const foot = add(start, by(turn, ends + pitch * n));
           far += line(half(0.5, foot, pitch, turn));

@@ -9,10 +9,13 @@ import pytest
 
 from linkanim.errors import SceneError
 from linkanim.picture.arrangement.sweep import sweep_of
-from linkanim.picture.figure import figure
+from linkanim.picture.figure import Figure, figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts.bodies import body_parts, colours_of
-from linkanim.picture.parts.body_shapes import SHAPES, wheel_radius
+from linkanim.picture.parts.body_shapes import SHAPES, WHEELS, wheel_radius
+from linkanim.picture.parts.fittings import Bench, fittings, rail_reach, rails_of
+from linkanim.picture.parts.ground import ground_layers
+from linkanim.picture.raster.raster import Loop
 from linkanim.picture.theme import DARK, LIGHT
 from linkanim.picture.view import View
 from linkanim.scenes import load
@@ -43,7 +46,7 @@ def test_every_look_is_drawn() -> None:
 
 
 @pytest.mark.parametrize("points", [CORNERS, CORNERS[:2]], ids=["three joints", "two"])
-@pytest.mark.parametrize("look", [look for look in get_args(Outline) if look not in ("none", "wheel")])
+@pytest.mark.parametrize("look", [look for look in get_args(Outline) if look not in ("none", *WHEELS)])
 def test_a_look_reaches_from_joint_to_joint_and_little_further(look: str, points: list[complex]) -> None:
     left, right, top, bottom = covered(look, points)
     bar = GAUGE.bar
@@ -102,6 +105,8 @@ def test_looks_change_no_motion() -> None:
         ({"colour": "red"}, "bodies.rocker.colour", "#d55e00"),
         ({"colour": "#12345"}, "bodies.rocker.colour", "#d55e00"),
         ({"colour": 3}, "bodies.rocker.colour", "text"),
+        ({"radius": 30}, "bodies.rocker.radius", 'look = "wheel"'),
+        ({"look": "bar", "radius": 30}, "bodies.rocker.radius", 'look = "wheel"'),
     ],
 )
 def test_a_look_that_is_none_is_refused(body: dict[str, Any], where: str, words: str) -> None:
@@ -111,5 +116,84 @@ def test_a_look_that_is_none_is_refused(body: dict[str, Any], where: str, words:
     assert words in str(refusal.value)
 
 
-def test_the_locomotive_runs_on_wheels() -> None:
-    assert [style.outline for _, style in load("parallel-locomotive").styles].count("wheel") == 2
+def test_the_locomotive_runs_on_a_rail_its_crank_pins_within_its_wheels() -> None:
+    shown, view = figure(load("parallel-locomotive")), View(1.0, 0.0, 0.0)
+    wheels = [body for body in shown.bodies if shown.scene.style(body.name).outline == "railwheel"]
+    assert [shown.wheel_reach(body) for body in wheels] == [64, 64]
+    assert max(abs(shown.start(name)) for name in wheels[0].joints) < 40
+    lines = np.concatenate(list(ground_layers(shown, view, GAUGE, LIGHT)[0].loops))
+    rail = lines[abs(lines.imag - 64) < 3]
+    assert rail.real.min() <= -64
+    assert rail.real.max() >= 140 + 64
+
+
+def test_what_the_locomotive_lists_before_its_wheels_lies_behind_them() -> None:
+    parts = body_parts(figure(load("parallel-locomotive")), View(1.0, 0.0, 0.0), GAUGE, LIGHT)
+    names = [part.name for part in parts]
+    assert names.index("rod2") < names.index("wheel") < names.index("wheel2") < names.index("rod")
+
+
+def test_a_wheel_is_as_large_as_it_says_and_no_smaller_than_its_joints() -> None:
+    for radius, wanted in ((120.0, 120.0), (10.0, 80.0)):
+        shown = figure(four_bar(look="wheel", radius=radius))
+        (body,) = (body for body in shown.bodies if body.name == "rocker")
+        assert shown.wheel_reach(body) == pytest.approx(wanted)
+        assert covered_by(shown, "rocker").imag.max() == pytest.approx(wanted, abs=GAUGE.bar + 0.5)
+
+
+def covered_by(shown: Figure, name: str) -> Loop:
+    """Return the points of a body about its first joint."""
+    parts = body_parts(shown, View(1.0, 0.0, 0.0), GAUGE, LIGHT)
+    (part,) = (part for part in parts if part.name == name)
+    return np.concatenate([loop for layer in part.layers for loop in layer.loops])
+
+
+# A jaw bends down: so does its pad. A bar that bends up has it above, a straight one below.
+@pytest.mark.parametrize(
+    ("points", "side"),
+    [([0j, 60 - 20j, 120 + 0j], 1), ([0j, 60 + 20j, 120 + 0j], -1), ([0j, 100 + 0j], 1)],
+)
+def test_a_pad_is_on_the_side_to_which_its_bar_bends(points: list[complex], side: int) -> None:
+    drawn = np.concatenate([loop for layer in SHAPES["pad"](points, GAUGE, COLOURS) for loop in layer.loops])
+    end = points[-1]
+    across = ((drawn - end) / ((end - points[-2]) / abs(end - points[-2]))).imag * side
+    assert across.max() > 2 * GAUGE.bar
+    assert across[np.abs(drawn - end) < 3 * GAUGE.bar].min() > -1.2 * GAUGE.bar
+
+
+def test_a_bucket_s_back_bends_away_from_its_first_joint_and_ends_in_a_tooth() -> None:
+    pivot, link, edge = 0j, -60 + 0j, 30 + 80j
+    layers = SHAPES["bucket"]([pivot, link, edge], GAUGE, COLOURS)
+    drawn = np.concatenate([loop for layer in layers for loop in layer.loops])
+    across = ((drawn - link) / (edge - link)).imag * abs(edge - link)
+    assert across.max() > 0.15 * abs(edge - link)
+    assert np.abs(layers[0].loops[0] - edge).max() > 2 * GAUGE.bar
+
+
+def test_the_engine_s_rod_stays_within_its_cylinder_and_the_piston_below_the_head() -> None:
+    shown, view, gauge = figure(load("engine")), View(3.0, 0.0, 0.0), Gauge(8.0, 1.0, 4.0, 2.0)
+    bench = Bench(shown, view, gauge, LIGHT)
+    (lines,) = rails_of(bench)
+    walls = np.concatenate(lines)
+    piston = fittings(bench)[0].behind[0]
+    pin, crank = (shown.path(name, view) for name in ("B", "A"))
+    aside, opening = rail_reach(bench, "B"), walls.imag.max()
+    share = np.clip((opening - pin.imag) / (crank.imag - pin.imag), 0, 1)
+    within = np.abs((pin + share * (crank - pin)).real)
+    assert within.max() + gauge.bar < aside
+    reach = np.concatenate([loop for layer in piston.layers for loop in layer.loops])
+    assert np.abs(reach.real).max() < aside
+    assert pin.imag.min() + reach.imag.min() > walls.imag.min() + gauge.bar
+
+
+def test_guides_are_open_where_they_cross() -> None:
+    shown, view = figure(load("elliptic-trammel")), View(3.0, 0.0, 0.0)
+    bench = Bench(shown, view, GAUGE, LIGHT)
+    for lines in rails_of(bench):
+        long = [loop for loop in lines if np.ptp(loop.real) + np.ptp(loop.imag) > 50]
+        assert len(long) == 4
+        inside = rail_reach(bench, "X") - GAUGE.line
+        assert all(np.abs(loop.real).max() > inside < np.abs(loop.imag).max() for loop in long)
+        assert not any(
+            loop.real.min() < 0 < loop.real.max() or loop.imag.min() < 0 < loop.imag.max() for loop in long
+        )

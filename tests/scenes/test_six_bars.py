@@ -168,9 +168,9 @@ def test_coupled_wheels_turn_alike_through_each_others_change_points() -> None:
     assert np.max(np.abs(b - a - [140, 0])) <= 1e-14 * 260
     # A loop down the chain passes its change points to 1e-8 of the longest link, rounded up to twice that.
     assert np.max(np.abs(d - c - [140, 0])) <= 2e-8 * 140
-    assert np.max(np.abs(c - np.stack((-a[:, 1], a[:, 0]), axis=1))) <= 1e-14 * 60
-    # Whichever rod lies along the line of the wheels, the other's pins are at least 60 / √2 off it.
-    assert np.min(np.maximum(np.abs(a[:, 1]), np.abs(c[:, 1]))) >= 60 / math.sqrt(2) - 1e-9
+    assert np.max(np.abs(c - np.stack((-a[:, 1], a[:, 0]), axis=1))) <= 1e-14 * 34
+    # Whichever rod lies along the line of the wheels, the other's pins are at least 34 / √2 off it.
+    assert np.min(np.maximum(np.abs(a[:, 1]), np.abs(c[:, 1]))) >= 34 / math.sqrt(2) - 1e-9
 
 
 def test_andrewss_squeezer_stands_as_published() -> None:

@@ -12,7 +12,7 @@ Mechanisms). Vectors are x + yi: complex numbers for a `Pose`, arrays (N,) for a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
@@ -64,13 +64,14 @@ def image(motion: Any, joint: str, order: Order) -> Any:
     return as_complex((motion.velocity if order == 1 else motion.acceleration)[joint])
 
 
-def chains(motion: Any, linkage: Linkage, order: Order) -> tuple[Chain, ...]:
+def chains(motion: Any, linkage: Linkage, order: Order, points: Collection[str] = ()) -> tuple[Chain, ...]:
     """Return a polygon's chains: the absolute vectors, then those of bars and of what slides.
 
+    Of points of bodies those are in it from which others are found, and the `points`, such as coupler points.
     The point of a guide that lies under what slides on it is marked by a dash, B′. Where everything rests no
     side has a length; where rates are unbounded the ends are not finite.
     """
-    return tuple(_Images(motion, linkage, order).chains())
+    return tuple(_Images(motion, linkage, order, points).chains())
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,7 @@ class _Images:
     motion: Any
     linkage: Linkage
     order: Order
+    points: Collection[str]
 
     def chains(self) -> Iterator[Chain]:
         relative = tuple(self._relative())
@@ -91,7 +93,7 @@ class _Images:
 
     def _relative(self) -> Iterator[Chain]:
         """Yield the chains of bars, of points of bodies from which others are found, and of what slides."""
-        needed = {need for joint in self.linkage.joints for need in joint.needs}
+        needed = {need for joint in self.linkage.joints for need in joint.needs} | {*self.points}
         for joint in self.linkage.joints:
             starts = [start for start, _ in joint.bars]
             if isinstance(joint, Rigid) and joint.name in needed:

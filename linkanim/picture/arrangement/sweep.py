@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.picture.figure import Figure
+from linkanim.picture.parts.body_shapes import ENDED, WHEELS
 from linkanim.picture.parts.fittings import outlines
 from linkanim.picture.parts.wheels import wheels
 from linkanim.picture.view import Box, joined
@@ -28,7 +29,7 @@ Points = NDArray[np.complex128]
 class Sweep:
     """Points x + yi of the plane, in the scene's unit, so close that nothing of size lies between them.
 
-    `feet` are those points about which more is drawn than a bar's width: pedestals and guides. `solid`
+    `feet` are those points about which more is drawn than a bar's width: pedestals, guides, pads. `solid`
     are those about which nothing is drawn: the rims of wheels.
     """
 
@@ -113,7 +114,9 @@ def sweep_of(figure: Figure) -> Sweep:
     swept = np.concatenate([np.zeros(0, complex), *_swept(figure)])
     swept = np.concatenate([swept, *_fitted(figure)])
     guided = (joint.name for joint in figure.linkage.joints if joint.travels)
-    feet = np.concatenate([np.zeros(0, complex), *(_path(figure, name) for name in (*figure.fixed, *guided))])
+    ends = (body.joints[-1] for body in figure.bodies if figure.scene.style(body.name).outline in ENDED)
+    broad = (*figure.fixed, *guided, *ends)
+    feet = np.concatenate([np.zeros(0, complex), *(_path(figure, name) for name in broad)])
     rims = np.concatenate([np.zeros(0, complex), *_rims(figure)])
     return Sweep(*(points[np.isfinite(points)] for points in (swept, feet, rims)))
 
@@ -161,11 +164,10 @@ def _round(figure: Figure) -> Iterator[tuple[str, float]]:
 
 
 def _body_wheels(figure: Figure) -> Iterator[tuple[str, float]]:
-    """Yield the centre of each body that is drawn as a wheel, and how far its furthest joint is from it."""
+    """Yield the centre of each body that is drawn as a wheel, and how far it reaches from there."""
     for body in figure.linkage.bodies:
-        if figure.scene.style(body.name).outline == "wheel":
-            centre, *others = body.joints
-            yield centre, max(abs(figure.start(name) - figure.start(centre)) for name in others)
+        if figure.scene.style(body.name).outline in WHEELS:
+            yield body.joints[0], figure.wheel_reach(body)
 
 
 def _between(begin: Points, end: Points) -> Points:

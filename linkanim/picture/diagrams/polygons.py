@@ -124,12 +124,16 @@ class Polygon:
         return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
 
     def _ends(self, motion: object) -> list[complex]:
-        found = chains(motion, self.figure.linkage, self.order)
-        return [side.end for chain in found for side in chain.sides]
+        return [side.end for side in self._sides(motion)]
+
+    def _sides(self, motion: object) -> list[Side]:
+        """Return the vectors, those of the traced coupler points among them."""
+        found = chains(motion, self.figure.linkage, self.order, self.figure.scene.trace)
+        return [side for chain in found for side in chain.sides]
 
     def _arrows(self, pose: Pose, pole: complex, scale: float) -> list[Arrow]:
         """Return what is drawn in pixels: all that has a length; nothing where one is unbounded."""
-        sides = [side for chain in chains(pose, self.figure.linkage, self.order) for side in chain.sides]
+        sides = self._sides(pose)
         if not np.isfinite([side.end for side in sides]).all():
             return []
         found = [

@@ -16,7 +16,7 @@ from linkanim.mechanics.motion.measures import output_slider
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.parts.driven import driven_words
-from linkanim.picture.parts.fittings import rail_reach
+from linkanim.picture.parts.fittings import Bench, rail_reach
 from linkanim.picture.raster.raster import Layer, Loop
 from linkanim.picture.raster.shapes import arrows, segments
 from linkanim.picture.theme import Theme
@@ -76,9 +76,7 @@ class DeadCentres:
     @cached_property
     def _ends(self) -> tuple[complex, complex] | None:
         """Where the slider is in pixels, furthest back and forward; None where it travels too little."""
-        scene, phases = self.figure.scene, self.figure.scene.info.dead_centres
-        body = output_slider(self.figure.linkage)
-        slider = body.slider if body else None
+        scene, phases, slider = self.figure.scene, self.figure.scene.info.dead_centres, self._slider
         if slider is None or phases is None or self.figure.linkage.joint(slider).slides[0].start is not None:
             return None
         back, forward = (self.view.place(scene.pose(phase, 0).position[slider]) for phase in phases)
@@ -108,10 +106,17 @@ class DeadCentres:
         stage, high = self.layout.stage, (self._reach + 2.8 * self.layout.small_size) * out
         return all(stage.holds((end + high).real, (end + high).imag) for end in self._ends)
 
-    @property
+    @cached_property
     def _reach(self) -> float:
         """How far the ticks reach from the line of travel."""
-        return rail_reach(self.gauge) + _TICK * self.gauge.bar
+        assert self._slider
+        bench = Bench(self.figure, self.view, self.gauge, self.theme)
+        return rail_reach(bench, self._slider) + _TICK * self.gauge.bar
+
+    @cached_property
+    def _slider(self) -> str | None:
+        body = output_slider(self.figure.linkage)
+        return body.slider if body else None
 
     def _angle(self, phase: float) -> str:
         scene = self.figure.scene

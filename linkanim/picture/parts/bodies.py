@@ -8,7 +8,7 @@ from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts.body_shapes import SHAPES
+from linkanim.picture.parts.body_shapes import SHAPES, WHEELS
 from linkanim.picture.parts.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, Bench, fittings
 from linkanim.picture.parts.struts import piston
 from linkanim.picture.raster.directions import directions
@@ -22,19 +22,22 @@ from linkanim.picture.view import View
 def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
     """Return every body with its joints' fittings, back to front: plates, then bars, in the scene's order.
 
-    Plates are clear enough to show what lies behind them.
+    Plates are clear enough to show what lies behind them: on a locomotive bars that come before its wheels.
     """
     colours = colours_of(figure, theme)
     shown = (body for body in figure.bodies if figure.scene.style(body.name).outline != "none")
     placed = {body: _local(body, figure, view) for body in shown}
     plates = [body for body, points in placed.items() if _is_wide(body, figure, points)]
     bars = [body for body in placed if body not in plates]
+    on_rails = [n for n, body in enumerate(placed) if figure.scene.style(body.name).outline == "railwheel"]
+    far = [body for body in list(placed)[: max(on_rails, default=0)] if body in bars]
+    near = [body for body in bars if body not in far]
     bench = Bench(figure, view, gauge, theme)
     fitted = fittings(bench)
     behind = [part for fitting in fitted for part in fitting.behind]
     before = [part for fitting in fitted for part in fitting.before]
     worked = [fitting.bar for fitting in fitted if fitting.bar]
-    solid = [_body(body, placed[body], worked, bench, colours[body.name]) for body in plates + bars]
+    solid = [_body(body, placed[body], worked, bench, colours[body.name]) for body in far + plates + near]
     return (*behind, *solid, *before)
 
 
@@ -69,16 +72,17 @@ def _local(body: Body, figure: Figure, view: View) -> list[complex]:
 def _is_wide(body: Body, figure: Figure, points: list[complex]) -> bool:
     """Whether a body may hide others, so that it lies behind them: a plate, or a wheel."""
     outline = figure.scene.style(body.name).outline
-    return outline in ("plate", "wheel") or (outline is None and len(hull(points)) > 2)
+    return outline in ("plate", "bucket", *WHEELS) or (outline is None and len(hull(points)) > 2)
 
 
 def _body(body: Body, points: list[complex], worked: list[Bar], bench: Bench, colour: Colour) -> Part:
     bar = next((bar for bar in worked if set(bar.ends) <= set(body.joints)), None)
     plate, gauge = _is_wide(body, bench.figure, points), bench.gauge
-    outline, colours = bench.figure.scene.style(body.name).outline, (bench.theme.outline, colour)
+    style, colours = bench.figure.scene.style(body.name), (bench.theme.outline, colour)
     layers: list[Layer] = []
-    if outline is not None and bar is None:
-        layers += SHAPES[outline](points, gauge, colours)
+    if style.outline is not None and bar is None:
+        radius = {"radius": style.radius * bench.view.scale} if style.radius else {}
+        layers += SHAPES[style.outline](points, gauge, colours, **radius)
     elif plate or bar is None:
         layers += (glazed if plate else lined)(points, gauge.bar, gauge.outline, colours)
     if bar:

@@ -5,9 +5,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import frexp
+from typing import NamedTuple
 
 import numpy as np
 
@@ -36,6 +37,12 @@ ROD, BARREL = 0.6, 1.2
 """Half the widths of a rod that slides through a swivel, and of the cylinder that it slides in."""
 PISTON = 1.1
 """The length of the piston at its end, in half widths of a bar."""
+_BORE = 1.5
+"""How wide an engine's cylinder is, in widths that its rod sweeps where it is open."""
+_CROWN, _SKIRT = 0.8, 0.55
+"""How far an engine's piston reaches beyond its pin and back, in half widths of its cylinder."""
+_RINGS, _HEAD = (0.5, 0.72), 1.3
+"""Where its rings and, as it is furthest out, the cylinder's head are between its pin and its crown."""
 
 
 @dataclass(frozen=True)
@@ -61,17 +68,30 @@ class Bar:
     piston: bool = False
 
 
+class GuideRails(NamedTuple):
+    """Two lines on the ground and the joint that travels between them: the way `along`, y down, has length 1.
+
+    They lie `aside` of its line of travel, and begin and end so far `beyond` its ends; with a `head` they
+    are a cylinder that is closed at their end.
+    """
+
+    joint: str
+    along: complex
+    aside: float
+    beyond: tuple[float, float]
+    head: bool = False
+
+
 @dataclass(frozen=True)
 class Fitting:
-    """What a joint adds to the picture: parts behind the bodies and before them, rails on the ground.
+    """What a joint adds to the picture: parts behind the bodies and before them, its guide on the ground.
 
-    `rails` has the joint that travels between them and their direction, y down; `bar` is what it makes
-    of its bar.
+    `bar` is what it makes of its bar.
     """
 
     behind: tuple[Part, ...] = ()
     before: tuple[Part, ...] = ()
-    rails: tuple[str, complex] | None = None
+    guide: GuideRails | None = None
     bar: Bar | None = None
 
 
@@ -92,6 +112,14 @@ def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
     bench = Bench(figure, View(scale, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
     parts = [part for fitting in fittings(bench) for part in (*fitting.behind, *fitting.before)]
     step = max(len(figure.cycle.phase) // _TRIED, 1)
+    for fitting in fittings(bench):
+        if fitting.guide and fitting.guide.head:
+            ends = [end for line, _ in _placed(fitting.guide, bench).lines for end in line]
+            yield (
+                np.array(ends, np.complex128).conj() / scale,
+                np.zeros(1, np.complex128),
+                np.ones(1, np.complex128),
+            )
     for part in parts:
         at, tail, head = (
             np.atleast_2d(figure.cycle.position[name])[::step] @ DOWN.conj()
@@ -118,8 +146,11 @@ def _slider(joint: RRP, bench: Bench) -> Fitting:
     """Return a block between rails on the ground, or a small one in the slot of a body that carries it."""
     along = complex(directions(-joint.line.angle))
     if joint.line.on is None:
+        bodies = (body for body in bench.figure.linkage.bodies if body.slider == joint.name)
+        if any(bench.figure.scene.style(body.name).outline == "piston" for body in bodies):
+            return _cylindered(joint, along, bench)
         block = Part(joint.name, joint.name, joint.name, _block(bench, along), (joint.name,))
-        return Fitting(behind=(block,), rails=(joint.name, along))
+        return Fitting(behind=(block,), guide=_rails(joint.name, along, bench.gauge))
     guide, slot = _carried_slot(joint.name, joint.line, along, bench)
     block = Part(joint.name, *joint.line.on, _block(bench, along, 0.62), (joint.name,))
     return Fitting(behind=(guide,), before=(slot, block))
@@ -131,7 +162,27 @@ def _driven_slider(joint: DrivenSlider, bench: Bench) -> Fitting:
     rim, metal = _block(bench, along)
     coloured = Layer(bench.theme.bodies[0], metal.loops)
     block = Part(joint.name, joint.name, joint.name, (rim, coloured), (joint.name,))
-    return Fitting(behind=(block,), rails=(joint.name, along))
+    return Fitting(behind=(block,), guide=_rails(joint.name, along, bench.gauge))
+
+
+def _cylindered(joint: RRP, along: complex, bench: Bench) -> Fitting:
+    """Return a piston in a cylinder that its rod stays within; its head is where the rod is not."""
+    gauge, paths = bench.gauge, (bench.figure.path(name, bench.view) for name in (joint.name, joint.end))
+    place, end = (path * np.conj(along) for path in paths)
+    out = along if np.nanmean((place - end).real) > 0 else -along
+    way, rod = place * np.conj(out / along), (end - place) * np.conj(out / along)
+    # how far aside the rod is where the cylinder is open
+    share = np.minimum((way.real - np.nanmin(way.real)) / np.maximum(-rod.real, 1e-9), 1.0)
+    aside = max(_BORE * float(np.nanmax(np.abs(share * rod.imag))), _reach_of_rails(gauge))
+    crown, skirt, edge = _CROWN * aside, _SKIRT * aside, gauge.outline
+    wide, middle = 2 * (aside - gauge.line), (crown - skirt) / 2
+    outer = box(crown + skirt, wide, 0.4 * gauge.bar) + middle
+    inner = box(crown + skirt - 2 * edge, wide - 2 * edge, 0.3 * gauge.bar) + middle
+    rings = [box(2 * edge, wide - 2 * edge) + share * crown for share in _RINGS]
+    shapes = ((bench.theme.outline, [outer]), (bench.theme.metal, [inner]), (bench.theme.outline, rings))
+    layers = tuple(Layer(colour, [out * loop for loop in loops]) for colour, loops in shapes)
+    block = Part(joint.name, joint.name, joint.name, layers, (joint.name,))
+    return Fitting((block,), guide=GuideRails(joint.name, out, aside, (0.0, _HEAD * crown), head=True))
 
 
 def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[Part, Part]:
@@ -159,27 +210,79 @@ def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[La
 
 
 def rails_of(bench: Bench) -> Iterator[list[Loop]]:
-    """Yield the lines of each guide on the ground."""
-    for fitting in fittings(bench):
-        if fitting.rails is not None:
-            yield list(_rails(*fitting.rails, bench))
+    """Yield the lines of each guide on the ground; they are open where another guide crosses them."""
+    places = [_placed(fitting.guide, bench) for fitting in fittings(bench) if fitting.guide]
+    for place in places:
+        others = [other for other in places if other is not place]
+        parts = [(part, side) for line, side in place.lines for part in _opened(line, others)]
+        yield [loop for part, side in parts for loop in hatched(*part, bench.gauge, side)]
 
 
-def rail_reach(gauge: Gauge) -> float:
-    """Return how far a rail lies from the line of travel."""
+def rail_reach(bench: Bench, joint: str) -> float:
+    """Return how far the rails of a joint on the ground lie from its line of travel."""
+    return next(one.guide.aside for one in fittings(bench) if one.guide and one.guide.joint == joint)
+
+
+def _rails(name: str, along: complex, gauge: Gauge) -> GuideRails:
+    """Return the guide of a block."""
+    beyond = (_BLOCK[0] / 2 + 0.9) * gauge.bar
+    return GuideRails(name, along, _reach_of_rails(gauge), (beyond, beyond))
+
+
+def _reach_of_rails(gauge: Gauge) -> float:
     return (_BLOCK[1] / 2) * gauge.bar + gauge.line
 
 
-def _rails(name: str, along: complex, bench: Bench) -> Iterator[Loop]:
-    """Yield the lines of two rails, as long as the joint's travel needs."""
-    gauge, path = bench.gauge, bench.figure.path(name, bench.view)
-    way = np.real(path * np.conj(along))
-    across = float(np.nanmean(np.imag(path * np.conj(along))))
-    beyond = (_BLOCK[0] / 2 + 0.9) * gauge.bar
-    near, far = float(np.nanmin(way)) - beyond, float(np.nanmax(way)) + beyond
-    for side in (1, -1):
-        level = 1j * (across + side * rail_reach(gauge))
-        yield from hatched(along * (near + level), along * (far + level), gauge, side)
+_Line = tuple[complex, complex]
+"""Both ends of a line in pixels."""
+
+
+class _Channel(NamedTuple):
+    """A guide in its place, in pixels: the middles of its ends, how far aside it reaches, and its lines.
+
+    With each line comes the side that is hatched.
+    """
+
+    begin: complex
+    end: complex
+    aside: float
+    lines: list[tuple[_Line, int]]
+
+
+def _placed(guide: GuideRails, bench: Bench) -> _Channel:
+    """Return a guide as long as the joint's travel needs."""
+    path = bench.figure.path(guide.joint, bench.view) * np.conj(guide.along)
+    way, across = path.real, 1j * float(np.nanmean(path.imag))
+    begin = guide.along * (float(np.nanmin(way)) - guide.beyond[0] + across)
+    end = guide.along * (float(np.nanmax(way)) + guide.beyond[1] + across)
+    off = 1j * guide.along * guide.aside
+    lines = [((begin + side * off, end + side * off), side) for side in (1, -1)]
+    head = [((end + off, end - off), 1)] if guide.head else []
+    return _Channel(begin, end, guide.aside, lines + head)
+
+
+def _opened(line: _Line, others: Iterable[_Channel]) -> list[_Line]:
+    """Return what is left of a line outside of other guides."""
+    parts = [line]
+    for other in others:
+        parts = [part for whole in parts for part in _outside(*whole, other)]
+    return parts
+
+
+def _outside(begin: complex, end: complex, other: _Channel) -> Iterator[_Line]:
+    """Yield what of a line lies before a channel and beyond it; all of it where it does not cross it."""
+    along, long = unit(other.end - other.begin), abs(other.end - other.begin)
+    first, last = ((place - other.begin) / along for place in (begin, end))
+    if first.imag * last.imag >= 0 or min(abs(first.imag), abs(last.imag)) < other.aside:
+        yield begin, end
+        return
+    where = first.imag / (first.imag - last.imag)
+    half = other.aside / abs(first.imag - last.imag)
+    if not 0 < (first + where * (last - first)).real < long:
+        yield begin, end
+        return
+    yield begin, begin + (where - half) * (end - begin)
+    yield begin + (where + half) * (end - begin), end
 
 
 def _facing(line: Line, bench: Bench) -> Loop:
@@ -242,7 +345,7 @@ def _yoke(joint: RPP, bench: Bench) -> Fitting:
     yoke = Part(joint.name, *ways, (*_block(bench, along), *bar))
     collar = Part(joint.pin, *ways, _block(bench, across, 0.62), (joint.pin,))
     if joint.line.on is None:
-        return Fitting((yoke,), (collar,), (joint.name, along))
+        return Fitting((yoke,), (collar,), _rails(joint.name, along, gauge))
     guide, slot = _carried_slot(joint.name, joint.line, along, bench)
     return Fitting((guide, slot, yoke), (collar,))
 

@@ -22,6 +22,10 @@ _PRESSURE = radians(25)
 """Steep enough for a wheel of the fewest teeth, whose flanks would be undercut at the usual 20 degrees."""
 _SHADED = 0.3
 """How much of the ground's colour is in the driven wheel's."""
+_MARK = (1.7, 0.55)
+"""The length of a pitch circle's mark and half its width, in half widths of a bar."""
+_DASHES = ((0.0, 0.5, 5), (0.72, 0.78, 2))
+"""Where the dash and the dot of a pitch circle begin and end, in steps, and their points."""
 _HOLES, _HOLED, _HOLE = 5, 0.62, 0.19
 """How many holes a wheel has, how far from its middle, and how large: shares of what is within its teeth."""
 
@@ -31,10 +35,14 @@ def wheel_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list
     layers = []
     for pair in pairs(figure):
         for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel)):
+            if wheel.pitch:
+                circle = _pitch_circle(wheel.radius * view.scale, gauge)
+                layers += Stamp((Layer(theme.ground, circle),)).at([_centre(figure, view, wheel)])
+                continue
             still = [Layer(_tone(wheel, pair, theme), [disc(_root(wheel, view, gauge))])]
             shown = still if wheel.arm else _wheel(wheel, pair, (view, gauge, theme), moving=True)
             layers += Stamp(tuple(shown)).at([_centre(figure, view, wheel)])
-        if not pair.driven.teeth and not pair.planetary:
+        if pair.belted and not pair.planetary:
             layers.append(Layer(theme.ground, list(_belt(_pulled(pair, figure, view), gauge))))
     return layers
 
@@ -50,12 +58,15 @@ def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple
         for wheel in (wheel for wheel in pair.wheels if wheel.arm or not _stays(figure, wheel)):
             stays = _stays(figure, wheel)
             ends = wheel.centre, wheel.centre, wheel.arm or wheel.centre
+            if wheel.pitch:
+                parts.append(Part(*ends, (Layer(theme.outline, [_mark(wheel, view, gauge)]),)))
+                continue
             rim, *holes, edge = _wheel(wheel, pair, (view, gauge, theme), moving=not stays)
             # the outline of a pulley has equal sides instead of teeth
             fold = (wheel.teeth or len(rim.loops[0])) if stays else 1
             parts.append(Part(*ends, (rim, edge), fold=fold))
             parts += [Part(*ends, (hole,), fold=_HOLES if stays else 1) for hole in holes]
-        if pair.planetary and not pair.driven.teeth:
+        if pair.planetary and pair.belted:
             far = abs(figure.start(pair.driven.centre) - figure.start(pair.driver.centre)) * view.scale
             belt = (0j, complex(far), pair.driver.radius * view.scale, pair.driven.radius * view.scale)
             ends = pair.driver.centre, pair.driver.centre, pair.driven.centre
@@ -78,6 +89,21 @@ def _wheel(
     holes = [way * (_HOLED * root) + disc(_HOLE * root) for way in ways]
     line = stroke(rim[0], gauge.outline, closed=True)
     return Layer(tone, rim), Layer(mixed(tone, theme.background, 0.6), holes), Layer(edge, line)
+
+
+def _pitch_circle(radius: float, gauge: Gauge) -> list[Loop]:
+    """Return a circle about 0 in dashes and dots."""
+    step = 2 * pi / max(round(2 * pi * radius / (9 * gauge.line)), 8)
+    ways = directions(np.arange(0, 2 * pi - step / 2, step))
+    marks = [stroke(radius * directions(np.linspace(*ends) * step), 0.8 * gauge.line)[0] for ends in _DASHES]
+    return [way * mark for way in ways for mark in marks]
+
+
+def _mark(wheel: Wheel, view: View, gauge: Gauge) -> Loop:
+    """Return a pointer to the pitch circle from within, where a tooth would be."""
+    tip, (long, half) = wheel.radius * view.scale, (share * gauge.bar for share in _MARK)
+    way = complex(directions(-wheel.tooth))
+    return way * np.array([tip, tip - long + 1j * half, tip - long - 1j * half])
 
 
 def _tone(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts.fittings import Bench, hatched, rails_of
-from linkanim.picture.raster.raster import Layer
+from linkanim.picture.raster.raster import Layer, Loop
 from linkanim.picture.raster.shapes import rounded, segments, unit
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
@@ -19,10 +19,22 @@ from linkanim.picture.view import View
 def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
     """Return pedestals and guides."""
     lines = [loop for loops in rails_of(Bench(figure, view, gauge, theme)) for loop in loops]
-    layers = [Layer(theme.ground, lines)]
+    layers = [Layer(theme.ground, [*lines, *_rails_under(figure, view, gauge)])]
     for name in figure.fixed:
         layers += _pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)
     return layers
+
+
+def _rails_under(figure: Figure, view: View, gauge: Gauge) -> Iterator[Loop]:
+    """Yield the rails that wheels on fixed pins stand on, one under all of a level."""
+    feet: dict[float, list[complex]] = {}
+    for body in figure.bodies:
+        if figure.scene.style(body.name).outline == "railwheel" and body.joints[0] in figure.fixed:
+            radius = view.scale * figure.wheel_reach(body)
+            foot = _pixel(figure, view, body.joints[0]) + 1j * radius
+            feet.setdefault(round(foot.imag, 3), []).extend((foot - radius, foot + radius))
+    for ends in feet.values():
+        yield from hatched(min(ends, key=np.real), max(ends, key=np.real), gauge, 1)
 
 
 def _pixel(figure: Figure, view: View, name: str) -> complex:

@@ -21,8 +21,12 @@ from linkanim.picture.view import View
 
 _COILS = (4, 20)
 """Of how few and how many coils a spring has, as its shortest length allows."""
-TILT = 0.35
+TILT = 0.15
 """How far a coil's front stands forward of its side, as a share of its radius."""
+BACK, EDGE, CORE = 1.9, 2.6, 1.5
+"""How wide far halves are drawn, and near ones with and without their outline, in widths of the wire."""
+_WOUND = 8.5
+"""From coil to coil where a spring is shortest, in widths of a thin line."""
 _CYLINDER = 0.6
 """How long a cylinder that holds or drives is at the least, in lengths of it drawn in."""
 _BARREL = 0.95
@@ -61,24 +65,28 @@ class Coil:
         lead = min(self.lead, 0.2 * span)
         pitch = (span - 2 * lead) / self.coils
         feet = np.asarray(start + turn * (lead + pitch * np.arange(self.coils)), np.complex128)
-        wire = 1.5 * self.gauge.line
+        wire = self.wire
         along, round_ = self._halves
         halves = turn * (pitch * along + round_)
         far, near = zip(halves, offsets(halves), strict=True)
-        # the near halves' outlines and the leads hide where the far ones end
-        back, edge, core = cut_ribbon(*far, wire), ribbon(*near, 2.6 * wire), ribbon(*near, 1.5 * wire)
-        one, other = _leads(lead, self.radius, wire)
-        leads = Outlines(np.concatenate((start + turn * one, end + turn * other)), (len(one), len(other)))
-        return [
-            Layer(self._shade, leads.joined(_repeated(feet, back))),
-            Layer(self.theme.outline, _repeated(feet, edge)),
-            Layer(self.theme.metal, _repeated(feet, core)),
-        ]
+        # the near halves' outlines hide where the far ones end
+        layers = [Layer(self._shade, _repeated(feet, cut_ribbon(*far, BACK * wire)))]
+        for colour, width in ((self.theme.outline, EDGE * wire), (self.theme.metal, CORE * wire)):
+            one, other = _leads(lead, self.radius, width)
+            points = np.concatenate((start + turn * one, end + turn * other))
+            leads = Outlines(points, (len(one), len(other)))
+            layers.append(Layer(colour, leads.joined(_repeated(feet, ribbon(*near, width)))))
+        return layers
+
+    @property
+    def wire(self) -> float:
+        """How wide its wire is reckoned, in pixels."""
+        return 1.5 * self.gauge.line
 
     @cached_property
     def _shade(self) -> Colour:
         """The colour of the far halves."""
-        return mixed(self.theme.outline, self.theme.metal, 0.35)
+        return mixed(self.theme.metal, self.theme.background, 0.3)
 
     @cached_property
     def _halves(self) -> tuple[Loop, Loop]:
@@ -90,9 +98,11 @@ class Coil:
 
 
 @lru_cache(maxsize=16)
-def _leads(lead: float, radius: float, wire: float) -> tuple[Loop, Loop]:
+def _leads(lead: float, radius: float, width: float) -> tuple[Loop, Loop]:
     """Return a spring's wire at its start and at its end, each about 0, the spring along the real axis."""
-    (first,) = stroke([0, lead, lead - 1j * radius], wire)
+    share = np.linspace(0.0, 1.0, 13)
+    rise = share * share * (3 - 2 * share)
+    (first,) = stroke(lead * share - 1j * radius * rise, width)
     return first, -first.conj()[::-1]
 
 
@@ -139,7 +149,7 @@ def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil,
     lead, found = 1.5 * gauge.bar, []
     for item in figure.linkage.springs:
         room = reach(figure, view, item).shortest - 2 * lead
-        count = min(max(int(room / (6 * gauge.line)), _COILS[0]), _COILS[1])
+        count = min(max(int(room / (_WOUND * gauge.line)), _COILS[0]), _COILS[1])
         found.append(Coil(item.between, 1.15 * gauge.bar, lead, count, gauge, theme))
     return tuple(found)
 

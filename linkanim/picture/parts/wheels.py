@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import ceil, pi
+from math import ceil, floor, pi
 
 import numpy as np
 
 from linkanim.mechanics.linkage.pins import Crank
 from linkanim.picture.figure import Figure
 
-_TEETH = 24
-"""Of about how many teeth two wheels of one size have together: few, so that each can be followed."""
+_TEETH = 48
+"""Of about how many teeth two wheels of one size have together, if they turn slowly enough."""
+_PASSING = 25 / 3
+"""So many teeth pass in a second at the most: a third of a pitch from frame to frame, so that none seem
+to turn back."""
 _FEWEST = 9
+_DWARFED = 2.0
+"""A pair both of whose wheels have radii of more than so many cranks is drawn as pitch circles."""
 TIP, FOOT = 0.85, 1.0
 """How far a tooth reaches beyond the pitch circle and the gap below it, in modules."""
 _TOGETHER = 1e-9
@@ -28,7 +33,8 @@ class Wheel:
 
     It turns with the direction from its centre to the joint `arm`, or not at all without one. `tooth` is
     the angle of a tooth ahead of that direction, in radians, counter-clockwise. The teeth of a `ring`
-    point inwards: `tooth` is then the angle of a gap.
+    point inwards: `tooth` is then the angle of a gap. Of one that is but its `pitch` circle it is that of
+    a mark.
     """
 
     centre: str
@@ -37,6 +43,7 @@ class Wheel:
     teeth: int = 0
     tooth: float = 0.0
     ring: bool = False
+    pitch: bool = False
 
     @property
     def reach(self) -> float:
@@ -61,6 +68,11 @@ class WheelPair:
     def planetary(self) -> bool:
         """Whether the driven wheel goes round with an arm."""
         return self.driver.arm is None
+
+    @property
+    def belted(self) -> bool:
+        """Whether the wheels are pulleys."""
+        return not (self.driven.teeth or self.driven.pitch)
 
 
 def pairs(figure: Figure) -> tuple[WheelPair, ...]:
@@ -105,19 +117,25 @@ def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> Whe
     assert driven.gear is not None
     ratio = abs(driven.gear.ratio)
     radius = abs(apart) * float(ratio / (1 + ratio))
-    first, second = _teeth(ratio.numerator, ratio.denominator)
+    second = abs(apart) - radius
     contact = float(np.angle(apart))
-    at = contact - _angle(figure, driver)
-    facing = contact + pi - _angle(figure, driven) + pi / second
+    at, facing = contact - _angle(figure, driver), contact + pi - _angle(figure, driven)
+    if radius > _DWARFED * driver.length and second > _DWARFED * driven.length:
+        return WheelPair(
+            Wheel(driver.pivot, driver.name, radius, tooth=at, pitch=True),
+            Wheel(driven.pivot, driven.name, second, tooth=facing, pitch=True),
+        )
+    some, others = _teeth(ratio.numerator, ratio.denominator, _turns(figure, driven))
     return WheelPair(
-        Wheel(driver.pivot, driver.name, radius, first, at),
-        Wheel(driven.pivot, driven.name, abs(apart) - radius, second, facing),
+        Wheel(driver.pivot, driver.name, radius, some, at),
+        Wheel(driven.pivot, driven.name, second, others, facing + pi / others),
     )
 
 
-def _teeth(one: int, other: int) -> tuple[int, int]:
-    """Return the numbers of teeth of two wheels whose radii are as these numbers."""
-    many = max(ceil(_FEWEST / min(one, other)), round(_TEETH / (one + other)))
+def _teeth(one: int, other: int, turns: float) -> tuple[int, int]:
+    """Return the numbers of teeth of two wheels whose radii are as these, the other at `turns` a second."""
+    many = min(_TEETH / (one + other), _PASSING / max(other * turns, 1e-9))
+    many = max(ceil(_FEWEST / min(one, other)), floor(many))
     return many * one, many * other
 
 
@@ -129,14 +147,14 @@ def _planet(figure: Figure, planet: Crank, arm: Crank) -> WheelPair | None:
     """
     assert planet.gear is not None
     ratio, long = planet.gear.ratio, arm.length
-    contact = _angle(figure, arm)
+    contact, turns = _angle(figure, arm), _turns(figure, planet)
     if ratio < 0:
-        still, small = _teeth(ratio.denominator - ratio.numerator, ratio.denominator)
+        still, small = _teeth(ratio.denominator - ratio.numerator, ratio.denominator, turns)
         tooth = contact - _angle(figure, planet)
         rolling = Wheel(planet.pivot, planet.name, long / float(-ratio), small, tooth)
         return WheelPair(Wheel(arm.pivot, None, long + rolling.radius, still, contact, ring=True), rolling)
     if ratio > 1:
-        still, small = _teeth(ratio.numerator - ratio.denominator, ratio.denominator)
+        still, small = _teeth(ratio.numerator - ratio.denominator, ratio.denominator, turns)
         facing = contact + pi - _angle(figure, planet) + pi / small
         rolling = Wheel(planet.pivot, planet.name, long / float(ratio), small, facing)
         return WheelPair(Wheel(arm.pivot, None, long - rolling.radius, still, contact), rolling)
@@ -153,13 +171,17 @@ def _angle(figure: Figure, crank: Crank) -> float:
 
 def teeth_a_second(figure: Figure) -> float:
     """Return how many teeth of the fastest wheel turn past a direction in a second at the scene's speed."""
+    turned = (wheel for wheel in wheels(figure) if wheel.arm)
+    cranks = {crank.name: crank for crank in figure.linkage.cranks}
+    return max((wheel.teeth * _turns(figure, cranks[str(wheel.arm)]) for wheel in turned), default=0.0)
+
+
+def _turns(figure: Figure, crank: Crank) -> float:
+    """Return how many turns a second a crank makes where it is fastest, at the scene's speed."""
+    arm = figure.cycle.position[crank.name] - figure.cycle.position[crank.pivot]
+    turned = np.diff(np.unwrap(np.arctan2(arm[:, 1], arm[:, 0])))
     step = figure.scene.period / len(figure.cycle.phase)
-    fastest = 0.0
-    for wheel in (wheel for pair in pairs(figure) for wheel in pair.wheels if wheel.arm):
-        arm = figure.cycle.position[str(wheel.arm)] - figure.cycle.position[wheel.centre]
-        turned = np.diff(np.unwrap(np.arctan2(arm[:, 1], arm[:, 0])))
-        fastest = max(fastest, wheel.teeth * float(np.nanmax(np.abs(turned))) / step)
-    return fastest * abs(figure.linkage.drive.speed) / (2 * pi)
+    return float(np.nanmax(np.abs(turned))) / step * abs(figure.linkage.drive.speed) / (2 * pi)
 
 
 def wheels(figure: Figure) -> Iterator[Wheel]:

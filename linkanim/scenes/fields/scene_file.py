@@ -32,7 +32,7 @@ from linkanim.scenes.fields.types import (
     choice,
 )
 from linkanim.scenes.fields.types import JOINTS as MEMBERS
-from linkanim.scenes.scene import BodyStyle, Outline
+from linkanim.scenes.scene import Block, BodyStyle, Outline
 
 
 def _refuse_block(table: Table, values: Mapping[str, Any]) -> None:
@@ -43,6 +43,7 @@ def _refuse_block(table: Table, values: Mapping[str, Any]) -> None:
 
 def _refuse_bar(table: Table, values: Mapping[str, Any]) -> None:
     """Refuse a body that is none: too few joints, not on one rigid body, or two in one point."""
+    _refuse_radius(table, values)
     members, frames = values["joints"], table.context.rigid
     if len(members) < 2:
         raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
@@ -60,6 +61,11 @@ def _refuse_bar(table: Table, values: Mapping[str, Any]) -> None:
         raise table.error("mass", f"needs to be known where it is; {halfway}")
 
 
+def _refuse_radius(table: Table, values: Mapping[str, Any]) -> None:
+    if "radius" in values and values.get("look") not in ("wheel", "railwheel"):
+        raise table.error("radius", 'is that of a wheel; write look = "wheel" beside it, or leave it out')
+
+
 def _refuse_half(table: Table, values: Mapping[str, Any]) -> None:
     if ("stiffness" in values) != ("free_length" in values):
         raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
@@ -72,8 +78,14 @@ class DrawnBody(NamedTuple):
     style: BodyStyle
 
 
-def _drawn(name: str, look: Outline | None = None, colour: Any = None, **known: Any) -> DrawnBody:
-    return DrawnBody(Body(name, **known), BodyStyle(look, colour))
+def _drawn(
+    name: str,
+    look: Outline | Block | None = None,
+    colour: Any = None,
+    radius: float | None = None,
+    **known: Any,
+) -> DrawnBody:
+    return DrawnBody(Body(name, **known), BodyStyle(look, colour, radius))
 
 
 _MASS = Field("mass", MASS, "its mass", None, label="mass")
@@ -86,6 +98,7 @@ BLOCK = form(
     _drawn,
     Field("slider", JOINT, "the joint that it travels with"),
     _MASS,
+    Field("look", choice(*get_args(Block)), "how it is drawn", None),
     _COLOUR,
     mark="slider",
     refuse=_refuse_block,
@@ -98,6 +111,7 @@ BAR = form(
     _MASS,
     Field("inertia", INERTIA, "about the centre of mass", None, label="moment of inertia"),
     Field("look", choice(*get_args(Outline)), "how it is drawn", None),
+    Field("radius", LENGTH, "of a wheel, else out to its furthest joint", None, label="wheel's radius"),
     _COLOUR,
     refuse=_refuse_bar,
     together={"mass": "com"},
