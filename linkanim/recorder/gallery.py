@@ -28,6 +28,8 @@ from linkanim.scenes.scene import Scene
 SIZE = (400, 225)
 RATES = (20.0, 100 / 6, 12.5, 10.0)
 """Frames a second, the first that keeps a GIF within `LARGEST`."""
+FASTEST = 25.0
+"""Frames a second of a scene whose teeth none of these can follow."""
 LARGEST = 150_000
 MOST = 400_000
 """A GIF that is larger even at its lowest rate is recorded at a smaller size."""
@@ -58,7 +60,7 @@ class Gallery:
 def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progress] | None = None) -> Gallery:
     """Record scenes by name into a folder as NAME.gif, from a NAME.tape.json there if it is, and the sheet.
 
-    A GIF has as many frames a second, 20 to 10, as keep it within `LARGEST` bytes, and never so few that
+    A GIF has as many frames a second, 25 to 10, as keep it within `LARGEST` bytes, and never so few that
     a gear's teeth seem to stand or to turn back. The folder is made where only it is missing. Each file
     appears when it is whole, and replaces one that we wrote; those finished stay where a later one fails.
     `watch` gives the progress to report to, by scene. `BadInput` before any work where it cannot be a
@@ -80,9 +82,9 @@ def gallery_files(folder: Path) -> FileSet:
 
 
 def rates(scene: Scene) -> tuple[float, ...]:
-    """Return those of `RATES` at which a tooth moves less than a third of its pitch; one at least."""
+    """Return those of `RATES` at which a tooth moves less than a third of its pitch, else the fastest."""
     teeth = teeth_a_second(figure(scene))
-    return tuple(fps for fps in RATES if fps > _FRAMES_A_TOOTH * teeth) or RATES[:1]
+    return tuple(fps for fps in RATES if fps > _FRAMES_A_TOOTH * teeth) or (FASTEST,)
 
 
 def contact_sheet(scenes: Iterable[Scene]) -> bytes:

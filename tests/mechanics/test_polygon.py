@@ -27,8 +27,9 @@ def polygon(name: str, order: Order, share: float = 0.1, speed: float = 2.0) -> 
 def closes(scene: Scene, order: Order) -> None:
     """Follow every chain from image to image, each as `solve` gives it."""
     motion = scene.solve(phase=MOMENTS * scene.period, speed=-3.0)
-    found = chains(motion, scene.linkage, order)
+    found = chains(motion, scene.linkage, order, scene.trace)
     assert found
+    assert {*scene.trace} <= {chain.end for chain in found}
     size = max(float(np.abs(side.end).max()) for chain in found for side in chain.sides)
     for chain in found:
         begin = image(motion, chain.start, order) if chain.start else np.zeros(len(MOMENTS))
@@ -73,6 +74,17 @@ SYMBOLS = [
 def test_the_vectors_are_named(name: str, order: Order, expected: list[str]) -> None:
     found = [side.symbol for chain in polygon(name, order) for side in chain.sides]
     assert sorted(found) == sorted(expected)
+
+
+def test_the_point_of_the_coupler_is_the_corner_of_its_velocity_image() -> None:
+    scene = load("crank-rocker")
+    pose = scene.pose(1.0)
+    found = chains(pose, scene.linkage, 1, scene.trace)
+    assert {"v_{P}", "v_{PA}"} <= {side.symbol for chain in found for side in chain.sides}
+    images = [image(pose, name, 1) for name in "ABP"]
+    places = [complex(*pose.position[name]) for name in "ABP"]
+    shapes = [(p - a) / (b - a) for a, b, p in (images, places)]
+    assert shapes[0] == pytest.approx(shapes[1], rel=1e-12)
 
 
 def test_coriolis_stands_square_to_the_slot_and_is_twice_the_rates() -> None:

@@ -88,7 +88,7 @@ def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, 
 @pytest.mark.sampled
 def test_all_that_is_drawn_lies_in_the_window(name: str) -> None:
     scene, size = load(name), (480, 270)
-    painter, surface = Picture(scene, size, Look(hud=False)), offscreen(size)
+    painter, surface = Picture(scene, size, Look(hud=False, names=1)), offscreen(size)
     edge = np.ones((size[1], size[0]), bool)
     edge[2:-2, 2:-2] = False
     for phase in _moments(name, 8):
@@ -165,7 +165,7 @@ def test_a_scene_that_is_zoomed_does_not_reach_into_a_chart_beside_it() -> None:
 
 
 def test_words_over_a_zoomed_scene_have_a_backing() -> None:
-    scene, size = load("press"), (640, 360)
+    scene, size = load("geared-five-bar-2-1"), (640, 360)
     near = Picture(scene, size, Look(zoom=6.0))
     words, pivot = near.layout.words[-1], near.view.to_pixel(0.0, 0.0)
     pan = ((words.x + words.width / 2 - pivot[0]) / 360, (words.y + words.height / 2 - pivot[1]) / 360)

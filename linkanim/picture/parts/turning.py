@@ -181,7 +181,7 @@ def turning_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turnin
     if pivot is None:
         return None
     length = view.scale * abs(figure.start(pin) - figure.start(pivot))
-    arc = max(min(0.36 * length, 7 * gauge.bar), 2.2 * gauge.bar)
+    arc = max(min(0.36 * length, 6 * gauge.bar), 2.2 * gauge.bar)
     arrow = max(min(0.7 * length, 8 * gauge.bar), arc + 1.6 * gauge.bar)
     fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
     info = figure.scene.info
