@@ -24,6 +24,9 @@ asked for: `import linkanim` alone brings in neither a window nor an encoder.
     panels/       the words about a scene, and what lies over the picture: lists, help, marks
     labels/       names, dimensions and dead centres on the scene
     arrangement/  what stands where in a window
+
+`explain`: a pose worked out by hand: `expression` and `lines` are what it consists of, `kinds/` the steps
+of each kind of joint, `solution` puts them in order, `documents` prints it.
 """
 
 import os

@@ -190,6 +190,15 @@ COMMANDS = {
             "linkanim draw kite -o kite.svg --poses 12 --no-trace",
         ),
     ),
+    "explain": Command(
+        "work one pose out line by line: vector loops, closed forms, linear equations, with numbers",
+        options.explain,
+        (
+            'linkanim explain press --angle "87 deg"',
+            'linkanim explain crank-rocker --angle "60 deg" --speed "10 rad/s" -o solution.html',
+            'linkanim explain scotch-yoke --phase "40 deg" -o solution.tex',
+        ),
+    ),
     "share": Command(
         "write one page that moves in any browser, without a network",
         options.share,

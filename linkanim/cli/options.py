@@ -87,6 +87,15 @@ def _angle(parser: _ActionsContainer) -> None:
     parser.add_argument("--angle", type=units.angle, metavar="ANGLE", help=words)
 
 
+def _pose(parser: Parser) -> None:
+    """One pose: by angle or by phase."""
+    where = parser.add_mutually_exclusive_group()
+    _angle(where)
+    where.add_argument(
+        "--phase", type=units.angle, metavar="PHASE", help="phase instead (default: joints farthest apart)"
+    )
+
+
 def _speeds(parser: Parser, what: str) -> None:
     words = f'{what}, such as "5 rad/s,10 rad/s" (default: the scene\'s)'
     parser.add_argument("--speeds", type=values.speeds, metavar="SPEED[,SPEED...]", help=words)
@@ -208,11 +217,7 @@ def draw(parser: Parser) -> None:
     """Add what a figure takes."""
     parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
     _output(parser, "OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg here)")
-    where = parser.add_mutually_exclusive_group()
-    _angle(where)
-    where.add_argument(
-        "--phase", type=units.angle, metavar="PHASE", help="phase instead (default: joints farthest apart)"
-    )
+    _pose(parser)
     _speed(parser)
     _size(parser)
     _look(parser, "draw")
@@ -230,6 +235,14 @@ def share(parser: Parser) -> None:
     _speed(parser)
     _look(parser, "share")
     parser.set_defaults(theme=None)
+
+
+def explain(parser: Parser) -> None:
+    """Add what a worked solution takes."""
+    parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
+    _output(parser, "OUT.html, OUT.tex or OUT.md (default: Markdown on stdout)")
+    _pose(parser)
+    _speed(parser)
 
 
 def report(parser: Parser) -> None:

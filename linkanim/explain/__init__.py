@@ -1,0 +1,1 @@
+"""The worked solution: how the numbers of a pose follow from the drawing, line by line."""

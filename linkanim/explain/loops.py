@@ -1,0 +1,93 @@
+"""The vector loops of a linkage: the two ways to each dyad's joint, as equations and as arrows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import reduce
+from itertools import takewhile
+from typing import NamedTuple
+
+from linkanim.explain.chains import LoopSide, Route
+from linkanim.explain.expression import ZERO, Formula, Symbol
+from linkanim.explain.kinds import KINDS
+from linkanim.explain.lines import Chapter, Equation, Step, Unknown, ValueLine
+from linkanim.explain.work import Work
+from linkanim.mechanics.linkage.joint import Joint
+
+
+class LoopArrow(NamedTuple):
+    """A vector of a loop where it lies, x + yi in the scene's unit."""
+
+    symbol: Symbol
+    begin: complex
+    end: complex
+
+
+class VectorLoop(NamedTuple):
+    """A dyad's loop: what is said of it, and its vectors."""
+
+    step: Step
+    arrows: tuple[LoopArrow, ...]
+
+
+class _Chain(NamedTuple):
+    """The way from a fixed pin: the pin, and the vectors with the places at which they begin."""
+
+    root: str
+    sides: tuple[tuple[LoopSide, complex], ...]
+
+
+def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
+    """Return the loop of each dyad, in the order in which they are solved by the lines of their positions."""
+    found = {
+        step.title: {item.value.symbol for item in step.items if isinstance(item, ValueLine)}
+        for step in places.steps
+    }
+    dyads = (joint for joint in work.linkage.joints if KINDS[type(joint)].loop)
+    return tuple(_loop(joint, work, found.get(f"Joint {{{joint.name}}}", set())) for joint in dyads)
+
+
+def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:
+    close = KINDS[type(joint)].loop
+    assert close is not None
+    one, other = (_from_ground(route, work) for route in close(joint, work))
+    same = sum(
+        1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one.sides, other.sides, strict=False))
+    )
+    left, right = list(one.sides[same:]), list(other.sides[same:])
+    if one.root != other.root:
+        right.insert(0, _ground(work, one.root, other.root))
+    sides = [[side for side, _ in way] for way in (left, right)]
+    bold = [_sum(Formula("leaf", symbol=side.symbol, shown="0") for side in way) for way in sides]
+    parts = [[_sum(side.vector[n] for side in way) for way in sides] for n in (0, 1)]
+    equations = [Equation(*pair) for pair in (bold, *parts)]
+    arrows = tuple(LoopArrow(side.symbol, at, at + _value(side)) for side, at in (*left, *right))
+    known = {leaf.symbol: leaf for pair in parts for side in pair for leaf in side.leaves}
+    unknown = tuple(leaf for symbol, leaf in known.items() if symbol in found)
+    return VectorLoop(Step(f"Loop of {{{joint.name}}}", (*equations, Unknown(unknown))), arrows)
+
+
+def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
+    way = work.points[end] - work.points[start]
+    return LoopSide(Symbol("R", work.names.length(start, end), bold=True), way), work.place(start)
+
+
+def _from_ground(route: Route, work: Work) -> _Chain:
+    """Return the whole way to where a route leads, from a fixed pin."""
+    sides, at = [], work.place(route.start)
+    for side in route.sides:
+        sides.append((side, at))
+        at += _value(side)
+    further = KINDS[type(work.linkage.joint(route.start))].route
+    if further is None:
+        return _Chain(route.start, tuple(sides))
+    before = _from_ground(further(work.linkage.joint(route.start), work), work)
+    return _Chain(before.root, (*before.sides, *sides))
+
+
+def _value(side: LoopSide) -> complex:
+    return complex(side.vector.x.value, side.vector.y.value)
+
+
+def _sum(parts: Iterable[Formula]) -> Formula:
+    return reduce(lambda a, b: a + b, parts, ZERO)

@@ -1,0 +1,243 @@
+"""The worked solution of a pose: its chapters, and the results that they lead to.
+
+It shows as few digits as let every result agree with solving to five significant digits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+
+from linkanim.explain.expression import ONE, ZERO, Components, Formula
+from linkanim.explain.inputs import Asked, Driven, place_input, start_rates
+from linkanim.explain.kinds import KINDS
+from linkanim.explain.lines import Chapter, Outcome, Step, Words
+from linkanim.explain.loops import VectorLoop, loops_of
+from linkanim.explain.names import SymbolNames, names_of
+from linkanim.explain.parts import Found, centre_of_mass, effort, strut
+from linkanim.explain.rates import BY_INPUT, IN_TIME, ORDERS, Order, Rates
+from linkanim.explain.work import Powers, Scale, Work
+from linkanim.mechanics.facts.register import input_symbol
+from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
+from linkanim.picture.figure import figure
+
+_FEWEST, _MOST = 6, 13
+_AGREES, _NOTHING = 5e-6, 5e-7
+"""A result agrees to that share of itself, or to that share of what it is at a typical length and rate."""
+_TITLES = {1: "Velocities", 2: "Accelerations"}
+_SINGULAR = (
+    "The two linear equations of a dyad are one here, at a limit or a change point: no rates follow. "
+    "Take a pose beside it."
+)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A pose worked out: chapters as they are read, loops to draw, results, and where joints lie (x + yi)."""
+
+    asked: Asked
+    chapters: tuple[Chapter, ...]
+    loops: tuple[VectorLoop, ...]
+    results: tuple[Outcome, ...]
+    places: dict[str, complex]
+    digits: int
+    singular: bool
+
+    @property
+    def title(self) -> str:
+        """What it is a solution of."""
+        return self.asked.scene.title
+
+    @property
+    def where(self) -> str:
+        """Where the input is, in a sentence."""
+        scene = self.asked.scene
+        place = float(self.asked.motion().coordinate)
+        words = scene.linkage.drive.coordinate.text(place, scene.length_unit, 0.01)
+        return f"Worked out at {input_symbol(scene.linkage)} = {words}."
+
+
+def solution(asked: Asked) -> Solution:
+    """Return the worked solution of a pose, which its input must reach.
+
+    It ends with positions where no rates follow, or none of five digits: at a limit and at a change point.
+    """
+    names = names_of(figure(asked.scene))
+    ways = [(digits, rates) for rates in (True, False) for digits in range(_FEWEST, _MOST + 1)]
+    for digits, rates in ways:
+        # a root or a quotient of rounded digits is none near a limit: more of them are taken
+        with suppress(ZeroDivisionError, ValueError):
+            found = _Draft(asked, names, digits).solution(rates)
+            if _agrees(found):
+                break
+    return found
+
+
+def _agrees(found: Solution) -> bool:
+    motion, quantities = found.asked.motion(), found.asked.scene.quantities
+    for result in found.results:
+        quantity = quantities[result.token]
+        true = float(quantity.shown(motion))
+        off = abs(result.value.value - true)
+        if result.unit == "°":
+            off = abs(math.remainder(off, 360))
+        if not off <= max(_AGREES * abs(true), result.least):
+            return False
+    return True
+
+
+class _Draft:
+    """A solution in so many digits while it is written."""
+
+    def __init__(self, asked: Asked, names: SymbolNames, digits: int) -> None:
+        self.asked, self.motion = asked, asked.motion()
+        self.linkage = asked.scene.linkage
+        length = max([abs(value) for joint in self.linkage.joints for _, value in joint.bars] or [1.0])
+        angular = self.linkage.drive.coordinate.is_angle
+        pace = max(
+            abs(float(self.motion.coordinate_rate)), math.sqrt(abs(float(self.motion.coordinate_second)))
+        )
+        rate = pace if angular else pace / length
+        scale = Scale(digits, asked.scene.length_unit, length, rate if 0 < rate < math.inf else 1.0)
+        self.work = Work(self.linkage, names, self.motion, scale)
+        by = Scale(
+            digits, scale.unit, length, 1.0 if angular else 1.0 / length, "" if angular else scale.unit
+        )
+        self.rates, self.slopes = Rates(self.work, IN_TIME, scale), Rates(self.work, BY_INPUT, by)
+        self.results: list[Outcome] = []
+        self.steps: list[Step] = []
+
+    def solution(self, rates: bool) -> Solution:
+        """Return it, with velocities and accelerations or without."""
+        places, driven = self._placed()
+        loops = loops_of(self.work, places)
+        self.work.items.clear()
+        if rates:
+            rest = [*self._by_input(), *self._in_time(driven), *self._parts()]
+        else:
+            rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
+        given = Chapter("Given", (Step("", tuple(self.work.given.values())),))
+        chapters = (given, Chapter("Vector loops", tuple(loop.step for loop in loops)), places, *rest)
+        known = self.asked.scene.quantities
+        results = tuple(result for result in self.results if result.token in known)
+        at = {name: self.work.place(name) for name in self.work.points}
+        return Solution(self.asked, chapters, loops, results, at, self.work.scale.digits, not rates)
+
+    def _step(self, title: str, write: Callable[[], object]) -> None:
+        """Add a step with the lines that are written meanwhile; none where there are none."""
+        self.work.items.clear()
+        write()
+        if self.work.items:
+            self.steps.append(Step(title, tuple(self.work.items)))
+
+    def _chapter(self, title: str) -> list[Chapter]:
+        """Return a chapter of the steps since the last one, if there are any."""
+        steps, self.steps = tuple(self.steps), []
+        return [Chapter(title, steps)] if steps else []
+
+    def _placed(self) -> tuple[Chapter, Driven]:
+        """Return the chapter of positions, and the input's rates."""
+        found: list[Driven] = []
+        self._step("The input", lambda: found.append(place_input(self.asked, self.work)))
+        for joint in self.linkage.joints:
+            self._step(f"Joint {{{joint.name}}}", partial(KINDS[type(joint)].place, joint, self.work))
+            point = self.work.points[joint.name]
+            self._tell(f"{joint.name}.position", point, self.work.scale, Powers(1))
+        self._step("Angles of the links", self._angles)
+        for body in self.linkage.bodies:
+            if body.slider in self.work.slides:
+                self._result(f"{body.name}.travel", self.work.slides[body.slider], self.work.scale, Powers(1))
+        return self._chapter("Positions")[0], found[0]
+
+    def _angles(self) -> None:
+        for body in self._turning():
+            angle = self.work.angle_of(body.joints[0], body.joints[1])
+            self._result(f"{body.name}.angle", angle, self.work.scale, Powers(angle=True))
+
+    def _turning(self) -> Iterator[Body]:
+        return (body for body in self.linkage.bodies if body.slider is None)
+
+    def _by_input(self) -> Iterator[Chapter]:
+        """Yield the chapter of kinematic coefficients."""
+        start_rates(self.slopes, Driven(ONE, ZERO))
+        for order in ORDERS:
+            self._moved(self.slopes, order)
+            self._tell_links(
+                self.slopes,
+                order,
+                ("coefficient", "second_coefficient"),
+                ("coefficient", "second_coefficient"),
+            )
+        yield from self._chapter("Kinematic coefficients")
+
+    def _in_time(self, driven: Driven) -> Iterator[Chapter]:
+        """Yield the chapters of velocities and accelerations."""
+        start_rates(self.rates, driven)
+        for order, word in zip(ORDERS, ("velocity", "acceleration"), strict=True):
+            self._moved(self.rates, order)
+            for joint in self.linkage.joints:
+                self._tell(
+                    f"{joint.name}.{word}",
+                    self.rates.of(joint.name, order),
+                    self.rates.scale,
+                    Powers(1, order),
+                )
+            turning, sliding = (
+                ("angular_velocity", "angular_acceleration"),
+                ("travel_velocity", "travel_acceleration"),
+            )
+            self._tell_links(self.rates, order, turning, sliding)
+            yield from self._chapter(_TITLES[order])
+
+    def _moved(self, rates: Rates, order: Order) -> None:
+        """Add a step for each joint that moves."""
+        for joint in self.linkage.joints:
+            self._step(f"Joint {{{joint.name}}}", partial(KINDS[type(joint)].move, joint, rates, order))
+
+    def _tell_links(
+        self, rates: Rates, order: Order, turning: tuple[str, str], sliding: tuple[str, str]
+    ) -> None:
+        for body in self.linkage.bodies:
+            if body.slider is None:
+                value, word = rates.turn(self.work.frame((body.joints[0], body.joints[1])), order), turning
+                self._result(f"{body.name}.{word[order - 1]}", value, rates.scale, Powers(0, order))
+            elif body.slider in rates.sliding:
+                value = rates.sliding[body.slider][order - 1]
+                self._result(f"{body.name}.{sliding[order - 1]}", value, rates.scale, Powers(1, order))
+
+    def _parts(self) -> Iterator[Chapter]:
+        """Yield the chapters of centres of mass, of springs and dampers, and of what the input delivers."""
+        for body in self._turning():
+            if body.com is not None:
+                self._found(f"Link {body.name}", centre_of_mass(body, self.rates))
+        yield from self._chapter("Centres of mass")
+        struts: tuple[Spring | Damper, ...] = (*self.linkage.springs, *self.linkage.dampers)
+        for item in struts:
+            word = self.linkage.strut_word(item)
+            self._found(f"{word[:1].upper()}{word[1:]} {item.name}", strut(item, self.rates))
+        yield from self._chapter("Springs and dampers")
+        if self.linkage.forceful:
+            known = {result.token: result.value for result in self.results}
+            self._found("", effort(self.rates, known))
+            yield from self._chapter("Input")
+
+    def _found(self, title: str, found: Iterable[Found]) -> None:
+        """Add a step with its results."""
+        got: list[Found] = []
+        self._step(title, lambda: got.extend(found))
+        for token, value, measure in got:
+            if measure is None:
+                self.results.append(Outcome(token, value, "", _NOTHING))
+            else:
+                self._result(token, value, self.rates.scale, measure)
+
+    def _tell(self, token: str, vector: Components, scale: Scale, measure: Powers) -> None:
+        for axis, value in zip("xy", vector, strict=True):
+            self._result(f"{token}.{axis}", value, scale, measure)
+
+    def _result(self, token: str, value: Formula, scale: Scale, measure: Powers) -> None:
+        size = 100.0 if measure.angle else scale.length**measure.length * scale.rate**measure.rate
+        self.results.append(Outcome(token, value, scale.unit_of(measure), _NOTHING * size))
