@@ -23,6 +23,10 @@ _ROW = 1.3
 _SMALLEST_ROW = 8
 _SHARE_OF_TABLE = 0.27
 """A table that would take more of the stage's width, or height, is set smaller, down to that size."""
+CAPTION_STEP = 1.25
+"""From line to line of a caption, in heights of its text."""
+_SHARE_OF_CAPTION = 0.16
+"""The greatest share of the stage's height that a caption takes."""
 _SHARE_OF_POLYGONS = 0.36
 """The polygons' share of what is left beside a chart: of its width, or of its height if that is greater."""
 
@@ -48,6 +52,10 @@ class Layout:
     """Where the words on what there is to press stand; without width where there is no room for them."""
     table: Rect | None = None
     """Where a table of dimensions stands, if it is given room."""
+    caption: Rect | None = None
+    """Where the sentence on what to watch for stands, if it is given room."""
+    passing: Rect | None = None
+    """Where it may stand for a while, on nothing that is drawn; None where there is no such place."""
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
 
@@ -119,6 +127,16 @@ def with_table(parts: Layout, rows: int, wide: float) -> Layout:
         return replace(parts, table=place, stage=stage._replace(width=stage.width - broad))
     place = Rect(stage.x + edge, stage.bottom - deep, stage.width - 2 * edge, deep - edge)
     return replace(parts, table=place, stage=stage._replace(height=stage.height - deep))
+
+
+def with_caption(parts: Layout, lines: int) -> Layout:
+    """Return a layout with room for so many lines at the stage's foot, where that takes little of it."""
+    stage, edge, size = parts.stage, parts.margin, parts.small_size
+    deep = lines * CAPTION_STEP * size
+    if not lines or deep + edge > _SHARE_OF_CAPTION * stage.height:
+        return parts
+    place = Rect(stage.x + edge, stage.bottom - deep - 0.6 * edge, stage.width - 2 * edge, deep)
+    return replace(parts, caption=place, stage=stage._replace(height=place.y - stage.y))
 
 
 def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool) -> Layout:

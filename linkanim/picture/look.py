@@ -71,9 +71,10 @@ class Look:
     With `background` False what is not drawn stays transparent. `zoom` multiplies the fitted scale; `pan`
     shifts the picture right and down, in fractions of the window's height. `ghost` draws the other closure
     faintly, where it is given. `names` is 0 for none, 1 for those of joints and links with the ground line
-    and the input's direction of turning, 2 for dimensions and the input's angle as well. `polygons` draws
-    those of velocity and acceleration beside the linkage. `centres` is 0 for none, 1 for the instant
-    centres, 2 for the coupler's centrodes as well.
+    and the input's direction of turning, 2 for dimensions and the input's angle as well. With `caption` the
+    scene's sentence on what to watch for stands below. `polygons` draws those of velocity and acceleration
+    beside the linkage. `centres` is 0 for none, 1 for the instant centres, 2 for the coupler's centrodes as
+    well.
     """
 
     trace: bool = _toggle(
@@ -133,6 +134,10 @@ class Look:
         Option("ghost", "the other closure, faintly", True, commands=("draw",)),
         answers=("one closure", "both closures"),
         keys=("shift+b",),
+    )
+    caption: bool = _toggle(
+        False,
+        Option("caption", "what to watch for, in a sentence below", True, commands=("record", "draw")),
     )
     hud: bool = _toggle(True, Option("hud", "the lines of text", commands=("record",)))
     chart: str | None = _toggle(

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.arrangement.fit import FitRequest, SceneFit, fitted, request_of
+from linkanim.picture.arrangement.words import caption_lines
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.drawing import Drawing, DrawSetting
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.items import Caption, Group, grouped
-from linkanim.picture.layout import Layout
+from linkanim.picture.layout import CAPTION_STEP, Layout
 from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
 from linkanim.picture.panels.legend import Legend, legend_for
@@ -154,6 +155,14 @@ class Picture:
             yield grouped("chart", self._chart.still(), still=True)
         if self._legend and not self.look.overrun:
             yield self._legend.group(speed)
+        if self.layout.caption:
+            yield Group("caption", (), tuple(self._caption(self.layout.caption)), still=True)
+
+    def _caption(self, place: Rect) -> Iterator[Caption]:
+        """Yield the sentence on what to watch for, below the scene."""
+        size, middle = self.layout.small_size, place.x + place.width / 2
+        for n, line in enumerate(caption_lines(self.layout, self.scene.look_at, self.type)):
+            yield Caption(line, (middle, place.y + CAPTION_STEP * size * n), size, self.theme.dim, "centre")
 
     @cached_property
     def _discs(self) -> Group:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -9,6 +10,7 @@ import pygame
 import pytest
 
 from linkanim.cli import main
+from linkanim.scenes import load
 
 
 @pytest.fixture
@@ -40,6 +42,15 @@ def test_angle_and_phase_say_the_same_pose(folder: Path) -> None:
     assert main(["draw", "crank-rocker", "-o", "c.svg", "--phase", "58 deg", "--size", "320x180"]) == 0
     texts = [(folder / f"{name}.svg").read_text(encoding="utf-8") for name in "abc"]
     assert texts[0] == texts[1] != texts[2]
+
+
+def test_a_caption_says_what_to_watch_for_where_it_is_asked_for(folder: Path) -> None:
+    texts = []
+    for words in ([], ["--caption"]):
+        assert main(["draw", "crank-rocker", *words, "-o", str(folder / "figure.svg")]) == 0
+        text = re.sub(r"<[^>]*>", "", (folder / "figure.svg").read_text(encoding="utf-8"))
+        texts.append(" ".join(text.split()))
+    assert [load("crank-rocker").look_at in text for text in texts] == [False, True]
 
 
 def test_no_pose_lies_behind_where_none_is_asked_for(folder: Path) -> None:

@@ -15,6 +15,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
 from linkanim.player.window import display
+from linkanim.player.window.approach import Framing
 from linkanim.player.window.fade import Fade
 from linkanim.player.window.show import kept, overlay
 from linkanim.player.window.window import Window
@@ -105,17 +106,57 @@ def test_a_closure_has_a_name(name: str) -> None:
 
 
 def test_a_strip_says_what_to_press_until_a_key_is(rocker: State) -> None:
-    strips = [overlay(run(rocker, frame)).hint for frame in (0, 40, 320, 360, 600)]
-    assert [strip is not None for strip in strips] == [False, True, True, False, False]
-    assert strips[1] is not None
-    assert "Space pause" in strips[1].text
+    strips = [overlay(run(rocker, frame)).hint for frame in (0, 360, 400, 680, 720, 960)]
+    assert [strip is not None for strip in strips] == [False, False, True, True, False, False]
+    assert strips[2] is not None
+    assert "Space pause" in strips[2].text
     assert overlay(run(after(rocker, "trace"), 100)).hint is None
 
 
 def test_a_strip_comes_in_and_goes_out_gently(rocker: State) -> None:
-    shown = [strip.eighths if (strip := overlay(run(rocker, n)).hint) else 0 for n in range(0, 370, 2)]
+    shown = [strip.eighths if (strip := overlay(run(rocker, n)).hint) else 0 for n in range(350, 730, 2)]
     assert max(shown) == 8
     assert max(abs(a - b) for a, b in pairwise(shown)) <= 1
+
+
+def test_what_to_watch_for_is_told_first_and_goes_gently_before_the_strip(rocker: State) -> None:
+    frames = [run(rocker, n) for n in range(0, 380, 2)]
+    told = [overlay(state).watch for state in frames]
+    shown = [one.eighths if one else 0 for one in told]
+    assert {one.text for one in told if one} == {rocker.scene.look_at}
+    assert (shown[0], max(shown), shown[-1]) == (0, 8, 0)
+    assert max(abs(a - b) for a, b in pairwise(shown)) <= 1
+    assert not any(one and overlay(state).hint for one, state in zip(told, frames, strict=True))
+
+
+# What ends the sentence: whatever is done; another mechanism has its own.
+def test_what_is_done_ends_the_sentence_and_another_mechanism_has_its_own(rocker: State) -> None:
+    assert overlay(run(rocker, 40)).watch
+    assert overlay(run(after(run(rocker, 40), "direction"), 20)).watch is None
+    on = run(after(run(rocker, 40), Action("mechanism", 1)), 40)
+    told = overlay(on).watch
+    assert told
+    assert told.text == on.scene.look_at
+    assert overlay(after(on, Action("record", "gif"))).watch is None
+
+
+def test_names_bring_the_sentence_in_the_window_alone(here: Path) -> None:
+    with display.opened((1280, 720)):
+        player = Player(after(begin(load("crank-rocker")), "pause"))
+        drawn = player.window.screen._framing
+        before = drawn.last.layout
+        assert before.caption is None
+        player.type("n")
+        place = drawn.last.layout.caption
+        assert place
+        texts = [line for group in drawn.last.groups(player.state.scene.pose(0.0)) for line in group.captions]
+        sentence = " ".join(
+            line.text for line in texts if line.at[1] >= place.y and line.at[1] < place.bottom
+        )
+        assert sentence == player.state.scene.look_at
+        recorded = Framing().at(player.state, (1280, 720))
+        assert recorded.layout.caption is None
+        player.window.close()
 
 
 def test_a_strip_comes_back_when_nothing_is_pressed_for_long(rocker: State) -> None:

@@ -47,18 +47,24 @@ class Arrangement:
 
 
 def arranged(
-    parts: Layout, sweep: Sweep, shortest: float, blocks: Iterable[Sequence[WordBlock]]
+    parts: Layout,
+    sweep: Sweep,
+    shortest: float,
+    blocks: Iterable[Sequence[WordBlock]],
+    shapes: Iterable[tuple[float, float]] = (),
 ) -> Arrangement:
     """Return the arrangement of a scene that sweeps this, its `shortest` bar in the scene's unit.
 
     `blocks` are the words, set in several ways: the first group of which one finds its place is taken.
+    `shapes` are those of the sentence that is shown for a while, the best first.
     """
     ways_ = _WaysToArrange(parts, sweep, shortest)
     found = (ways_.placed(*way[1:]) for group in blocks for way in ways_.ways(group))
     bare = Arrangement(parts, ways_.view(ways_.largest, (0.5, 0.5)), ways_.gauge, None)
     arrangement = next((one for one in found if one), bare)
     marked = replace(arrangement, layout=replace(arrangement.layout, marks=ways_.marks(arrangement)))
-    return replace(marked, layout=replace(marked.layout, hint=ways_.hint(marked)))
+    hinted = replace(marked, layout=replace(marked.layout, hint=ways_.hint(marked)))
+    return replace(hinted, layout=replace(hinted.layout, passing=ways_.free(hinted, shapes)))
 
 
 class _WaysToArrange:
@@ -127,18 +133,24 @@ class _WaysToArrange:
 
         Nowhere is a rectangle without width.
         """
-        parts, size, edge = arrangement.layout, arrangement.layout.small_size, 6 * arrangement.layout.unit
-        stage, others = (
-            parts.stage.inset(edge),
-            [one for one in (parts.hud, parts.legend, parts.marks) if one],
-        )
-        for wide, low, right in product(_HINTS, (1, 0), (1.0, 0.0, 0.5)):
-            width, high = min(wide * size, stage.width), 1.6 * size
-            at = stage.x + right * (stage.width - width), stage.y + low * (stage.height - high)
-            rect = Rect(*at, width, high)
-            if not any(rect.meets(one) for one in others) and not self._drawn_in(rect, arrangement.view, 0):
+        size, stage = arrangement.layout.small_size, self._edges(arrangement)
+        shapes = ((min(wide * size, stage.width), 1.6 * size) for wide in _HINTS)
+        return self.free(arrangement, shapes) or Rect(stage.x, stage.bottom, 0.0, 0.0)
+
+    def free(self, arrangement: Arrangement, shapes: Iterable[tuple[float, float]]) -> Rect | None:
+        """Return the first of some shapes at the stage's foot or head that lies on nothing; None for none."""
+        parts, stage = arrangement.layout, self._edges(arrangement)
+        others = [one for one in (parts.hud, parts.legend, parts.marks) if one]
+        for (wide, high), low, right in product(shapes, (1, 0), (1.0, 0.0, 0.5)):
+            at = stage.x + right * (stage.width - wide), stage.y + low * (stage.height - high)
+            rect, beyond = Rect(*at, wide, high), wide > stage.width or high > stage.height
+            taken = beyond or any(rect.meets(one) for one in others)
+            if not (taken or self._drawn_in(rect, arrangement.view, 0)):
                 return rect
-        return Rect(stage.x, stage.bottom, 0.0, 0.0)
+        return None
+
+    def _edges(self, arrangement: Arrangement) -> Rect:
+        return arrangement.layout.stage.inset(6 * arrangement.layout.unit)
 
     def view(self, scale: float, at: tuple[float, float]) -> View:
         """Return the view of a scale, so far to the right and down in the room there is (0 to 1)."""

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from linkanim.picture.arrangement.arrange import Arrangement, arranged
 from linkanim.picture.arrangement.sweep import Sweep, sweep_of
-from linkanim.picture.arrangement.words import WidestRow, blocks, widest_rows
+from linkanim.picture.arrangement.words import WidestRow, blocks, caption_lines, shapes_of, widest_rows
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.layout import layout, with_table
+from linkanim.picture.layout import layout, with_caption, with_table
 from linkanim.picture.look import Look
 from linkanim.picture.text.text import Type
 from linkanim.picture.view import View
@@ -34,11 +34,14 @@ class FitRequest(NamedTuple):
     polygons: bool = False
     table: tuple[int, float] = (0, 0.0)
     """How many rows a table beside the figure has, and how wide they are."""
+    caption: bool = False
 
 
 def request_of(size: tuple[int, int], look: Look, *, listed: bool) -> FitRequest:
     """Return what an arrangement for a look depends on."""
-    return FitRequest(size, look.chart is not None, len(look.vectors), look.hud, listed, look.polygons)
+    chart, arrows = look.chart is not None, len(look.vectors)
+    captioned = look.caption and not listed
+    return FitRequest(size, chart, arrows, look.hud, listed, look.polygons, caption=captioned)
 
 
 @dataclass(frozen=True)
@@ -145,6 +148,10 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
         request.size, chart=request.chart, beside=beside, listed=request.listed, polygons=request.polygons
     )
     parts = with_table(parts, *request.table) if request.table[0] else parts
+    sentence = subject.figure.scene.look_at
+    if request.caption:
+        parts = with_caption(parts, len(caption_lines(parts, sentence, type_)))
     worded = request.hud and not request.listed
     words = blocks(subject.scenes, subject.rows, parts, request.arrows, type_) if worded else ()
-    return arranged(parts, subject.sweep, subject.figure.shortest, words)
+    shapes = shapes_of(sentence, parts, type_) if worded and not parts.caption else ()
+    return arranged(parts, subject.sweep, subject.figure.shortest, words, shapes)

@@ -28,6 +28,7 @@ _GAP = 0.9
 """Between the name and the value of a row, in sizes."""
 _MOST_LINES = 4
 _TRIED = 24
+_SENTENCE_LINES = (1, 2, 3, 4)
 _MEASURED = 21
 """The size at which values are compared; the widest is so at any size."""
 _FASTEST = -10.0
@@ -76,6 +77,22 @@ def blocks(
     ways = [(setter, rank) for rank in ranks] + [(bare, rank) for rank in (*ranks, -1)]
     for way, rank in ways:
         yield way.group(smallest, tuple(one for one in rows if one.rank <= rank), rank >= _CLASS_RANK)
+
+
+def caption_lines(layout: Layout, text: str, type_: Type) -> list[str]:
+    """Return a sentence in lines, as it stands below a scene."""
+    room = layout.caption.width if layout.caption else layout.stage.width - 2 * layout.margin
+    return type_.wrapped(text, layout.small_size, room) if text else []
+
+
+def shapes_of(text: str, layout: Layout, type_: Type) -> Iterator[tuple[float, float]]:
+    """Yield how wide and high a sentence is on a sheet of its own, in one line and in more."""
+    size = layout.small_size
+    whole = type_.width(text, size)
+    for count in _SENTENCE_LINES if text else ():
+        lines = type_.wrapped(text, size, (1.0 + 0.2 * (count > 1)) * whole / count)
+        wide = max(type_.width(line, size) for line in lines)
+        yield wide + 2.0 * size, (1.25 * len(lines) + 0.75) * size
 
 
 class _Setter:

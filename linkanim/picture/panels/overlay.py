@@ -102,9 +102,9 @@ class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
     With `noted` the HUD says where a limit or a change point is near. `chip` answers a key, `hint` says what
-    there is to press. `measured` is what the chosen dimension and those beside it measure, `glow` the joint
-    under the mouse; with `grip` the chart's cursor has one. `shutter` is how white the picture is, in
-    eighths.
+    there is to press, `watch` what to watch for. `measured` is what the chosen dimension and those beside it
+    measure, `glow` the joint under the mouse; with `grip` the chart's cursor has one. `shutter` is how white
+    the picture is, in eighths.
     """
 
     paused: bool = False
@@ -116,6 +116,7 @@ class Overlay:
     shelf: Shelf | None = None
     chip: Fading | None = None
     hint: Fading | None = None
+    watch: Fading | None = None
     measured: tuple[DimensionLine, ...] = ()
     glow: str | None = None
     grip: bool = False

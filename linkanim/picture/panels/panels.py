@@ -18,13 +18,15 @@ from linkanim.picture.panels.edit_list import edit_list, edit_rows
 from linkanim.picture.panels.help_sheet import help_sheet
 from linkanim.picture.panels.overlay import Overlay, Panel, Quantities
 from linkanim.picture.panels.quantity_list import quantity_list, quantity_rows
-from linkanim.picture.raster.raster import Layer, Loop, paint
+from linkanim.picture.raster.raster import Colour, Layer, Loop, paint
 from linkanim.picture.raster.shapes import box, disc
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 
 _VEIL = 170
+_LITTLE = 0.12
+"""A sentence that takes more of the stage's height is shown on nothing that is drawn, or not at all."""
 _BACKING = 0.7
 """How little of what lies under a mark shows through its backing."""
 
@@ -102,6 +104,10 @@ class Panels:
             beside = left, place.y + marks
             free = self._off_words(drawn, [beside, *self._edges(drawn)])
             put(surface, drawn, free or beside, overlay.chip)
+        if overlay.watch:
+            drawn, at = self._keep("watch", overlay.watch.text, self._sentence)
+            if at:
+                put(surface, drawn, at, overlay.watch)
         if overlay.hint:
             words = self._keep("hint", overlay.hint.text, partial(hint_bar, self.board))
             at = self.layout.hint or room
@@ -109,6 +115,14 @@ class Panels:
                 leads = at.x + at.width / 2 <= room.x + room.width / 2
                 left = at.x if leads else at.right - words.get_width()
                 put(surface, words, (left, at.bottom - words.get_height()), overlay.hint)
+
+    def _sentence(self, text: str) -> tuple[pygame.Surface, tuple[float, float] | None]:
+        """Return what to watch for on a sheet where nothing is drawn, or off the words; None for nowhere."""
+        small, free, stage = self.layout.small_size, self.layout.passing, self.layout.stage
+        sheet = self._lines(text, small, (free or stage).width + 1, self.theme.dim)
+        if free or sheet.get_height() > _LITTLE * stage.height:
+            return sheet, (free.x, free.y) if free else None
+        return sheet, self._off_words(sheet, self._edges(sheet))
 
     @property
     def _marks_lead(self) -> bool:
@@ -176,14 +190,14 @@ class Panels:
         free = next(((sheet, at) for sheet, at in found if at), None)
         return free or (sheets[0], next(self._edges(sheets[0])))
 
-    def _lines(self, text: str, size: int, room: float) -> pygame.Surface:
-        """Return words on a sheet, in lines no wider than some room."""
+    def _lines(self, text: str, size: int, room: float, colour: Colour | None = None) -> pygame.Surface:
+        """Return words on a sheet, in lines no wider than some room, in ink unless a colour is given."""
         lines = self.type.wrapped(text, size, room - 2 * size)
         wide = max((self.type.width(line, size) for line in lines), default=0)
         sheet = self.board.sheet(wide + 2 * size, (1.25 * len(lines) + 0.75) * size)
         for n, line in enumerate(lines):
             at = (sheet.get_width() / 2, (0.5 + 1.25 * n) * size)
-            self.type.draw(sheet, line, at, size=size, colour=self.theme.ink, anchor="centre")
+            self.board.write(sheet, line, at, size=size, colour=colour, anchor="centre")
         return sheet
 
 

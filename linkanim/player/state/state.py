@@ -61,8 +61,9 @@ class State:
     answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
     `place_typed` is the input's angle, or travel, that is being typed while paused.
-    `held` is the joint that is being dragged. `touched` is the frame of the last action, `turned` that at
-    which an edit made another class of the linkage, while the list shows it. `effects` is what the last
+    `held` is the joint that is being dragged. `touched` is the frame of the last action, `arrived` that at
+    which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
+    list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
     "fullscreen", "save", "reload", "quit", and "report" (with the text of a fault's report).
     """
@@ -81,6 +82,7 @@ class State:
     browsing: Browsing | None = None
     glide: Glide | None = None
     turned: int | None = None
+    arrived: int | None = None
     place_typed: str = ""
     toast: Toast | None = None
     chip: Toast | None = None
@@ -153,7 +155,7 @@ def begin(
     if source not in shelf and (found.name not in shelf or load(found.name) != found):
         shelf = (found, *shelf)
     place = 0 if shelf[0] is found else shelf.index(found.name)
-    return State(found, fresh(found), shelf, place, look=look or Look(), attract=attract)
+    return State(found, fresh(found), shelf, place, look=look or Look(), attract=attract, arrived=0)
 
 
 def fresh(scene: Scene) -> Clock:

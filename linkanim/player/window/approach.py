@@ -50,9 +50,13 @@ def between(one: View, other: View, share: float) -> View:
 
 
 class Framing:
-    """The picture of each state that comes, and the last one; a list in a window takes its room."""
+    """The picture of each state that comes, and the last one; a list in a window takes its room.
 
-    def __init__(self) -> None:
+    Where it is `captioned`, as the window is, names come with the sentence on what to watch for.
+    """
+
+    def __init__(self, *, captioned: bool = False) -> None:
+        self._captioned = captioned
         self._fitting: Picture | None = None
         self._passing: Picture | None = None
         self._approach: Approach | None = None
@@ -66,10 +70,10 @@ class Framing:
 
     def fitting(self, state: State, size: tuple[int, int]) -> Picture:
         """Return the picture that fits the state; a view other than the last one's, it is approached."""
-        before, listed, held = self._fitting, state.listed, state.held is not None
-        if before and before.fits(state.shown, size, state.look, listed=listed, held=held):
+        before, listed, held, look = self._fitting, state.listed, state.held is not None, self._look(state)
+        if before and before.fits(state.shown, size, look, listed=listed, held=held):
             return before
-        made = Picture(state.shown, size, state.look, before, listed=listed, held=held)
+        made = Picture(state.shown, size, look, before, listed=listed, held=held)
         if before and _has_moved(before, made):
             self._approach = Approach((self._passing or before).view, state.frame)
         elif before and not _is_framed_alike(before, made):
@@ -77,13 +81,18 @@ class Framing:
         self._fitting = made
         return made
 
+    def _look(self, state: State) -> Look:
+        """Return the look of a state; where it is captioned, names come with what to watch for."""
+        look = state.look
+        return replace(look, caption=True) if self._captioned and look.names else look
+
     def at(self, state: State, size: tuple[int, int]) -> Picture:
         """Return the picture for this frame: one on the way to the fitting one while that is approached."""
         goal, self._passing = self.fitting(state, size), None
         if self._approach is None or self._approach.over(state.frame):
             self._approach = None
             return goal
-        look = self._approach.look(state.look, goal.fitted, goal.view, size, state.frame)
+        look = self._approach.look(self._look(state), goal.fitted, goal.view, size, state.frame)
         self._passing = Picture(state.shown, size, look, goal, listed=state.listed)
         return self._passing
 

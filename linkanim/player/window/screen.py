@@ -25,7 +25,7 @@ class Screen:
     """
 
     def __init__(self, state: State) -> None:
-        self._framing = Framing()
+        self._framing = Framing(captioned=True)
         self._shown: object = None
         self._state = state
         self._titled: str | None = None

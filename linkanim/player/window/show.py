@@ -29,6 +29,7 @@ _HINT = (
 _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
 _BAR = "Space pause · Tab next · drag the crank pin · H keys"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
+_WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _IDLE = 45 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
 _WAYS = ("along", "to the left", "to the right", "x", "y")
@@ -50,6 +51,7 @@ def overlay(state: State, hover: str | None = None, row: int | None = None) -> O
         toast=state.toast.text if state.toast else None,
         chip=_chip(state),
         hint=_hint_bar(state),
+        watch=_watch(state),
         measured=tuple(_measured(state, items)),
         glow=(state.held.joint or None) if state.held else hover,
         grip=state.look.chart is not None,
@@ -111,7 +113,7 @@ def _chip(state: State) -> Fading | None:
 
 
 def _hint_bar(state: State) -> Fading | None:
-    """Return the hint bar: in the first seconds until a key is pressed, and now and then when none is."""
+    """Return the hint bar: after the first seconds until a key is pressed, and now and then when none is."""
     busy = (
         state.clock.paused
         or state.mode not in ("play", "paused")
@@ -122,9 +124,17 @@ def _hint_bar(state: State) -> Fading | None:
     idle = state.frame - state.touched
     if busy or state.toast or state.chip or 0 < state.touched > state.frame - _IDLE:
         return None
-    since = idle % _IDLE
+    since = (idle - _WATCH_FRAMES) % _IDLE if idle >= _WATCH_FRAMES else 0
     eighths = min(since, _BAR_FRAMES - since, 32) // 4
     return Fading(_BAR, eighths) if eighths > 0 else None
+
+
+def _watch(state: State) -> Fading | None:
+    """Return what to watch for: in the first seconds of a mechanism, until something is done."""
+    gone = state.frame - (state.frame if state.arrived is None else state.arrived)
+    busy = state.is_covered or state.recording or state.toast or state.touched > (state.arrived or 0)
+    eighths = min(gone, _WATCH_FRAMES - gone, 32) // 4
+    return None if busy or eighths <= 0 or state.look.names else Fading(state.shown.look_at, eighths)
 
 
 def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLine]:

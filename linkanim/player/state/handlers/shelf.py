@@ -78,6 +78,7 @@ def put_on(state: State, place: int) -> State:
     clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
     bare = replace(state, listing=None, held=None, glide=None, turned=None, faded=state.frame)
+    bare = replace(bare, arrived=state.frame)
     editing = replace(was.editing if was else Editing(), open=state.editing.open)
     others = tuple(one for one in kept if one is not was)
     return replace(bare, editing=editing, kept=others, scene=scene, place=place, clock=clock, look=look)
