@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from linkanim.export import columns, json_text, markdown
-from linkanim.synthesis.curve import drawn
+from linkanim.synthesis.curves.drawn import drawn
 from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
 from linkanim.synthesis.request import path
 

@@ -12,6 +12,8 @@ _EDGE = 10.8
 """From the window's edge to the edit list, in units."""
 _SHARE_BELOW, _SHARE_BESIDE = 0.27, 0.45
 """A chart's share of the height, or of the width."""
+_ROW_OF_ANSWERS = 0.17
+"""The height of a row of small pictures, in heights of the window."""
 _NARROW = 30
 """A window narrower than so many heights of its text has a list at its foot, not at its left."""
 _SHARE_LISTED = 0.42
@@ -50,6 +52,8 @@ class Layout:
     polygons: Rect | None = None
     hint: Rect | None = None
     """Where the words on what there is to press stand; without width where there is no room for them."""
+    row: Rect | None = None
+    """Where a row of small pictures stands, if there is one."""
     table: Rect | None = None
     """Where a table of dimensions stands, if it is given room."""
     caption: Rect | None = None
@@ -93,13 +97,15 @@ def layout(
     beside: bool = False,
     listed: bool = False,
     polygons: bool = False,
+    row: bool = False,
 ) -> Layout:
     """Divide a window: a chart along the bottom, or `beside` the scene; the stage is what is left.
 
-    `listed` leaves room for a list, on the left or in a narrow window at the foot, and `polygons` for those,
-    on the right or below. The HUD has no place yet: that depends on the scene.
+    `listed` leaves room for a list, on the left or in a narrow window at the foot, `polygons` for those,
+    on the right or below, and a `row` for small pictures at the foot. The HUD has no place yet: that depends
+    on the scene.
     """
-    parts = _charted(size, chart=chart, beside=beside, listed=listed)
+    parts = _charted(size, chart=chart, beside=beside, listed=listed, row=row)
     if not polygons:
         return parts
     stage, edge = parts.stage, 20 * parts.unit
@@ -139,13 +145,17 @@ def with_caption(parts: Layout, lines: int) -> Layout:
     return replace(parts, caption=place, stage=stage._replace(height=place.y - stage.y))
 
 
-def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool) -> Layout:
+def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool, row: bool) -> Layout:
     """Return the layout with its chart and without polygons."""
     unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
     whole, edge = Rect(0, 0, *size), 20 * unit
     empty = Layout(size, unit, whole, None, None, None, whole, whole)
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
+    if row:
+        high = _ROW_OF_ANSWERS * room.height
+        empty = replace(empty, row=Rect(room.x, room.bottom - high, room.width, high).inset(4 * unit))
+        room = room._replace(height=room.height - high)
     if not chart:
         return replace(empty, stage=room)
     if beside:

@@ -20,7 +20,9 @@ from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
 from linkanim.picture.panels.legend import Legend, legend_for
 from linkanim.picture.panels.marks import MeasuredLine, glow, grip, measure
-from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.panels.overlay import Overlay, PathShown
+from linkanim.picture.panels.path import dashed, drawn_line, handles, sheet
+from linkanim.picture.panels.readings import measured
 from linkanim.picture.parts.turning import motion_of
 from linkanim.picture.raster.parts import Part
 from linkanim.picture.text.text import Type
@@ -33,13 +35,15 @@ from linkanim.scenes.scene import Scene
 if TYPE_CHECKING:
     from linkanim.picture.diagrams.polygons import Polygon
     from linkanim.picture.labels.names import LabelStyle, Names
+    from linkanim.synthesis.curves.drawn import DrawnCurve
 
 
 class Picture:
     """A scene at one pixel size and look: what stands where is measured once, `groups` is a pose of it.
 
     The view fits what is shown: the scene, and its other closure where the look has it in view. `scene` is
-    in the unit of the look. `listed` leaves room for the edit list, instead of the HUD. With `apart` each
+    in the unit of the look. `listed` leaves room for the edit list, instead of the HUD, and `row` for one of
+    small pictures. A `kept` view is zoomed and panned instead of the one that fits. With `apart` each
     joint has a group of its own. What `before` measured of the same scene is taken over; names keep their
     places on one that is zoomed, on its way to another, or `held` by the hand. With a `moment` names stand
     as is best at that phase alone. Raises BadInput where the look's chart is no quantity of the scene.
@@ -55,9 +59,11 @@ class Picture:
         listed: bool = False,
         held: bool = False,
         apart: bool = False,
+        row: bool = False,
+        kept: View | None = None,
         moment: float | None = None,
     ) -> None:
-        self._made_for = (scene, size, look, listed, held)
+        self._made_for, self._kept, self.row = (scene, size, look, listed, held, row), kept, row
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
         self.type: Type = before.type if before else Type()
@@ -65,16 +71,16 @@ class Picture:
         self._beside = self._other_closure(before) if look.ghost else None
         self._apart, self._moment = apart, moment
         follows = held or self.scene.towards is not None
-        request = request_of(size, look, listed=listed)
+        request = request_of(size, look, listed=listed, row=row)
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
-            kept = follows or before._goal is self._goal
-            request = request._replace(table=before.fit.request.table) if kept else request
+            same = follows or before._goal is self._goal
+            request = request._replace(table=before.fit.request.table) if same else request
         self._arrange(request, before, held=held)
         self.names: Names | None = self._named(before, held=held) if look.names else None
         if self.names and self.names.unlisted:
             self._arrange(self.fit.request._replace(table=self._table_size()), before, held=False)
             self.names = self._named(None, held=False)
-        self._behind: tuple[float, tuple[Group, ...]] | None = None
+        self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
 
     def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:
         """Fit the scene into what is requested."""
@@ -82,7 +88,7 @@ class Picture:
         self.fit: SceneFit = fitted(self._goal, self._beside, request, self.type, before=last, held=held)
         self.figure: Figure = figure(scene) if scene.towards else self.fit.subject.figure
         self.layout: Layout = self.fit.arrangement.layout
-        self.fitted: View = self.fit.view_of(self.figure)
+        self.fitted: View = self._kept or self.fit.view_of(self.figure)
         """The view before it is zoomed and panned."""
         (width, height), (right, down) = self.size, look.pan
         about, shift = (width / 2, height / 2), (right * height, down * height)
@@ -93,15 +99,30 @@ class Picture:
         self._chart = self._chart_panel()
 
     def fits(
-        self, scene: Scene, size: tuple[int, int], look: Look, *, listed: bool = False, held: bool = False
+        self,
+        scene: Scene,
+        size: tuple[int, int],
+        look: Look,
+        *,
+        listed: bool = False,
+        held: bool = False,
+        row: bool = False,
     ) -> bool:
         """Return whether it is made for these."""
-        return self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held)
+        return self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row)
 
     def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
         faint = (self._ghost.pose(phase, 0),) if self._ghost else ()
-        return self.scene.pose(phase, speed=speed), faint
+        return self.scene.pose(phase, self._order, speed=speed), faint
+
+    @cached_property
+    def _order(self) -> int:
+        """The derivatives that are asked for: none on the way to another scene where nothing shows them."""
+        look, info = self.look, self._goal.info
+        shown = look.vectors or look.chart or look.polygons or look.centres or look.names
+        still = self.scene.towards is None or not info.full_turn or any(measured(self._goal))
+        return 2 if shown or still else 0
 
     def groups(
         self,
@@ -111,7 +132,11 @@ class Picture:
         faint: Sequence[Pose] = (),
     ) -> Iterator[Group]:
         """Yield all that is drawn of a pose, back to front, with `faint` poses behind it."""
-        yield from self._behind_at(pose.input_speed)
+        path = overlay.path
+        if path and path.blank:
+            yield from (self._sheet, drawn_line(self.view, self.layout, self.theme, path))
+            return
+        yield from self._behind_at(pose.input_speed, path)
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
         for n, other in enumerate(faint, start=1):
             yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
@@ -140,14 +165,22 @@ class Picture:
             words = [*filter(self._clear, group.captions)] if group.captions else ()
             yield group._replace(captions=words, within=edge)
 
-    def _behind_at(self, speed: float) -> tuple[Group, ...]:
-        """Return what stands still behind all that moves; the chart and the key go by the speed."""
-        if self._behind is None or (self._behind[0] != speed and (self._chart or self._legend)):
-            self._behind = speed, tuple(self._still_behind(speed))
-        return self._behind[1]
+    @cached_property
+    def _sheet(self) -> Group:
+        return sheet(self.view, self.layout, self.theme)
 
-    def _still_behind(self, speed: float) -> Iterator[Group]:
+    def _behind_at(self, speed: float, path: PathShown | None) -> tuple[Group, ...]:
+        """Return what stands still behind all that moves; the chart and the key go by the speed."""
+        known, curve = self._behind, path.curve if path else None
+        if not known or known[1] is not curve or (known[0] != speed and (self._chart or self._legend)):
+            self._behind = speed, curve, tuple(self._still_behind(speed, path))
+        assert self._behind
+        return self._behind[2]
+
+    def _still_behind(self, speed: float, path: PathShown | None) -> Iterator[Group]:
         yield from self._within([self._discs])
+        if path and path.curve:
+            yield from self._within([dashed(self.view, self.fit.arrangement.gauge, self.theme, path)])
         if not self._moves_behind:
             yield from self._standing
         if self._chart:
@@ -233,6 +266,9 @@ class Picture:
             way = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
             begin, end = (at + place.conjugate() * way for place in (shown.begin, shown.end))
             yield from measure(self.type, self.layout, self.theme, gauge, MeasuredLine(begin, end, shown))
+        if overlay.path and overlay.path.curve:
+            marks = list(handles(self.view, gauge, self.theme, overlay.path))
+            yield from self._within([Group("handles", marks, over=True)])
         if overlay.glow:
             yield Group("glow", list(glow(self.view, pose, overlay.glow, gauge)), over=True)
 

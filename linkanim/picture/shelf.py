@@ -139,7 +139,7 @@ def _chapter(entry: Scene | str) -> str:
 
 
 @dataclass
-class _Live:
+class Live:
     """A mechanism on the shelf, and its picture as of a turn."""
 
     picture: Picture
@@ -161,7 +161,7 @@ class _Sheet:
     board: Board
     grid: Grid
     still: pygame.Surface
-    live: list[_Live] = field(default_factory=list)
+    live: list[Live] = field(default_factory=list)
 
 
 class ShelfPrinter:
@@ -220,7 +220,7 @@ def _sheet(size: tuple[int, int], shelf: Shelf, type_: Type) -> _Sheet:
     still = pygame.Surface(size, 0, 32)
     still.fill(board.theme.background)
     width = max(1.5 * board.layout.unit, 1.0)
-    outer, inner = ([_frame(cell, board, by) for cell in found.cells] for by in (width, 0.0))
+    outer, inner = ([frame_of(cell, board, by) for cell in found.cells] for by in (width, 0.0))
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
     for (chapter, _), at in zip(chapters, found.headings, strict=False):
         words = chapter[:1].upper() + chapter[1:]
@@ -234,7 +234,7 @@ def _joined(sheet: _Sheet, shelf: Shelf) -> None:
     scene = load(entry) if isinstance(entry, str) else entry
     size = round(cell.width), round(cell.height - sheet.grid.line)
     look = Look(theme=shelf.theme, hud=False, background=False)
-    sheet.live.append(_Live(Picture(scene, size, look)))
+    sheet.live.append(Live(Picture(scene, size, look)))
     if sheet.grid.line:
         _title(sheet, scene, cell)
 
@@ -269,7 +269,8 @@ def _marked(surface: pygame.Surface, sheet: _Sheet, chosen: int) -> None:
     board, cell = sheet.board, sheet.grid.cells[chosen]
     width = max(3.0 * board.layout.unit, 1.5)
     paint(
-        surface, [Layer(board.theme.velocity, [_frame(cell, board, width), _frame(cell, board, 0.0)[::-1]])]
+        surface,
+        [Layer(board.theme.velocity, [frame_of(cell, board, width), frame_of(cell, board, 0.0)[::-1]])],
     )
     if not sheet.grid.line and chosen < len(sheet.live):
         size, text = surface.get_size(), sheet.grid.text
@@ -277,7 +278,7 @@ def _marked(surface: pygame.Surface, sheet: _Sheet, chosen: int) -> None:
         board.write(surface, words, (size[0] / 2, size[1] - 1.5 * text), size=text, anchor="centre")
 
 
-def _frame(cell: Rect, board: Board, by: float) -> Loop:
+def frame_of(cell: Rect, board: Board, by: float) -> Loop:
     """Return the outline of a place, so much wider on every side."""
     middle = complex(cell.x + cell.width / 2, cell.y + cell.height / 2)
     corner = 7 * board.layout.unit

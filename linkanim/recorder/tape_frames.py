@@ -10,6 +10,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkanim.picture.answer_row import RowPrinter
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
@@ -40,15 +41,16 @@ class TapeFrames:
         self._fps = fps
         self._surface = offscreen(size, alpha=self.alpha)
         self._framing = Framing()
-        self._printer = SurfacePrinter()
+        self._printer, self._row = SurfacePrinter(), RowPrinter(at_once=True)
         self._ahead: Iterator[tuple[State, float]] = iter(())
         self._next = 0
 
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, to be let go before the next is drawn in their place."""
         state, phase = self._at(frame)
-        picture, speed = self._framing.at(state, self.size), state.clock.speed
-        self._printer.print(self._surface, picture, phase, speed, _lasting(overlay(state)))
+        picture, over = self._framing.at(state, self.size), _lasting(overlay(state))
+        self._printer.print(self._surface, picture, phase, state.clock.speed, over)
+        self._row.draw(self._surface, picture.layout, over.row)
         return pixel_view(self._surface)
 
     def _at(self, frame: int) -> tuple[State, float]:

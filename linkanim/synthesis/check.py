@@ -10,7 +10,7 @@ import numpy as np
 from linkanim.errors import AssemblyError, SceneError
 from linkanim.mechanics.motion.measures import as_complex, transmission_angle
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.curve import DrawnCurve
+from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.fit import Fit, parameters_of, rounded, scene_of
 from linkanim.synthesis.kinds import Complex, Real
 from linkanim.synthesis.task import PathTask
@@ -56,7 +56,7 @@ def _fit(
     off, stray, least = found
     return Fit(
         scene=scene,
-        parameters=parameters_of(task, row),
+        parameters=parameters_of(task.kind, row),
         closure=task.kind.sides[closure < 0],
         angles=angles,
         rms=float(np.sqrt((off**2).mean())),

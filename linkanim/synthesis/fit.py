@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.kinds import LinkageKind, Real
 from linkanim.synthesis.refine import FEW
 from linkanim.synthesis.task import PathTask
 
@@ -68,24 +69,34 @@ class Fit:
 
 def scene_of(task: PathTask, row: Real, closure: float, angles: Real) -> Scene:
     """Return the scene of a linkage, its crank starting at the first point and turning the points' way."""
-    document = {
-        "title": f"{task.kind.name.capitalize()} along a drawn path",
-        "source": task.source,
-        "length_unit": task.unit,
-        "drive": {
-            "joint": "A",
-            "speed": "-20 rpm" if angles[-1] < angles[0] else "20 rpm",
-            "start": f"{round(math.degrees(angles[0]) % 360, 9)!r} deg",
-        },
-        **task.kind.document(parameters_of(task, row), closure),
-        "trace": {"joints": ["P"]},
-    }
+    sense = -1.0 if angles[-1] < angles[0] else 1.0
+    document = document_of(task.kind, parameters_of(task.kind, row), closure, (float(angles[0]), sense))
+    document |= {"source": task.source, "length_unit": task.unit}
     return scene_from(document, name=task.name, where=task.name)
 
 
-def parameters_of(task: PathTask, row: Real) -> dict[str, float]:
+def document_of(
+    kind: LinkageKind, parameters: Mapping[str, float], closure: float, start: tuple[float, float]
+) -> dict[str, Any]:
+    """Return a linkage as a scene's document in mm, its crank starting at an angle, turning a way (±1)."""
+    angle, sense = start
+    return {
+        "title": f"{kind.name.capitalize()} along a drawn path",
+        "source": "",
+        "length_unit": "mm",
+        "drive": {
+            "joint": "A",
+            "speed": "-20 rpm" if sense < 0 else "20 rpm",
+            "start": f"{round(math.degrees(angle) % 360, 9)!r} deg",
+        },
+        **kind.document(parameters, closure),
+        "trace": {"joints": ["P"]},
+    }
+
+
+def parameters_of(kind: LinkageKind, row: Iterable[float]) -> dict[str, float]:
     """Return a row's parameters by name, as plain numbers."""
-    return dict(zip(task.kind.parameters, (float(value) for value in row), strict=True))
+    return dict(zip(kind.parameters, (float(value) for value in row), strict=True))
 
 
 def rounded(task: PathTask, row: Real) -> Real:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.synthesis.atlas import POINTS, Atlas
-from linkanim.synthesis.curve import DrawnCurve
+from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.kinds import Complex, Indices, Real
 
 _SHARES = (0.12, 0.2, 0.3, 0.42, 0.56, 0.72, 0.9)

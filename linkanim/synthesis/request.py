@@ -12,7 +12,7 @@ from linkanim import units
 from linkanim.document import meant
 from linkanim.errors import BadInput
 from linkanim.synthesis.cognates import with_cognates
-from linkanim.synthesis.curve import DrawnCurve, drawn
+from linkanim.synthesis.curves.drawn import DrawnCurve, drawn
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import KINDS, LinkageKind, Real
 from linkanim.synthesis.requirements import LEAST_ANGLE, SHORTEST, Requirements

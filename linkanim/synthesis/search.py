@@ -118,7 +118,7 @@ def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
     seen: list[Fit] = []
     for fit in fits:
         yield fit
-        seen += [] if any(_same(fit, other) for other in seen) else [fit]
+        seen += [] if any(is_same(fit, other) for other in seen) else [fit]
         if len(seen) > count:
             return
 
@@ -183,7 +183,7 @@ def _best(fits: list[Fit] | Iterator[Fit], count: int) -> tuple[Fit, ...]:
     """Return the best of those that differ by more than rounding."""
     kept: list[Fit] = []
     for fit in sorted(fits, key=_rank):
-        if not any(_same(fit, other) for other in kept):
+        if not any(is_same(fit, other) for other in kept):
             kept.append(fit)
     return tuple(kept[:count])
 
@@ -192,7 +192,8 @@ def _rank(fit: Fit) -> tuple[float, float]:
     return max(fit.error, _FITTED * fit.task.curve.size), -fit.transmission_angle
 
 
-def _same(one: Fit, other: Fit) -> bool:
+def is_same(one: Fit, other: Fit) -> bool:
+    """Return whether two answers differ by no more than rounding."""
     return one.closure == other.closure and bool(
         (np.abs(one.row - other.row) <= _SAME * one.task.curve.size).all()
     )

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkanim.synthesis.curve import DrawnCurve
+from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.kinds import Indices, LinkageKind, Real
 from linkanim.synthesis.match import Candidates
 from linkanim.synthesis.refine import LeastSquares

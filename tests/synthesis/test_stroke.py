@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from random_curves import curves
 
-from linkanim.synthesis.curve import DrawnCurve
+from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.request import task_of
 from linkanim.synthesis.search import answers, refitted
 

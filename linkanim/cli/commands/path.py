@@ -14,10 +14,10 @@ from linkanim.digits import significant
 from linkanim.errors import BadInput
 from linkanim.export import columns, json_text
 from linkanim.intake import named
+from linkanim.synthesis.curves.reading import CurveFile, read_curve
 from linkanim.synthesis.files import file_set, write
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import Real
-from linkanim.synthesis.reading import CurveFile, read_curve
 from linkanim.synthesis.request import path
 
 _UNIT = "mm"

@@ -32,16 +32,17 @@ class FitRequest(NamedTuple):
     listed: bool
     """Whether it leaves room for the edit list."""
     polygons: bool = False
+    row: bool = False
     table: tuple[int, float] = (0, 0.0)
     """How many rows a table beside the figure has, and how wide they are."""
     caption: bool = False
 
 
-def request_of(size: tuple[int, int], look: Look, *, listed: bool) -> FitRequest:
+def request_of(size: tuple[int, int], look: Look, *, listed: bool, row: bool) -> FitRequest:
     """Return what an arrangement for a look depends on."""
     chart, arrows = look.chart is not None, len(look.vectors)
     captioned = look.caption and not listed
-    return FitRequest(size, chart, arrows, look.hud, listed, look.polygons, caption=captioned)
+    return FitRequest(size, chart, arrows, look.hud, listed, look.polygons, row, caption=captioned)
 
 
 @dataclass(frozen=True)
@@ -145,7 +146,12 @@ def _row_count(arrangement: Arrangement) -> int:
 
 def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: bool) -> Arrangement:
     parts = layout(
-        request.size, chart=request.chart, beside=beside, listed=request.listed, polygons=request.polygons
+        request.size,
+        chart=request.chart,
+        beside=beside,
+        listed=request.listed,
+        polygons=request.polygons,
+        row=request.row,
     )
     parts = with_table(parts, *request.table) if request.table[0] else parts
     sentence = subject.figure.scene.look_at

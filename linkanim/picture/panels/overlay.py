@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+from linkanim.mechanics.linkage.joint import Point
 from linkanim.picture.look import ThemeName
 from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from linkanim.synthesis.answer import PathAnswer
+    from linkanim.synthesis.curves.drawn import DrawnCurve
 
 
 @dataclass(frozen=True)
@@ -68,6 +73,38 @@ class Shelf:
 
 
 @dataclass(frozen=True)
+class PathShown:
+    """A path that is drawn: the `pen`'s points while it is down, then the curve that was meant, as x + yi.
+
+    While it is `blank` no linkage is shown. `off` says how far off the shown one is; of the curve's points
+    one may be `held`, and so may fixed `pins`.
+    """
+
+    curve: DrawnCurve | None
+    pen: tuple[complex, ...] = ()
+    blank: bool = True
+    off: str | None = None
+    held: int | None = None
+    pins: tuple[Point, ...] = ()
+
+
+@dataclass(frozen=True)
+class AnswerRow:
+    """Linkages that follow a path, as answers or scenes, what is said of each, and which one is shown.
+
+    Lengths are in `unit`; pictures are those of a `frame`, and `still` while paused.
+    """
+
+    entries: tuple[PathAnswer | Scene, ...]
+    words: tuple[str, ...]
+    chosen: int
+    unit: str
+    frame: int
+    theme: ThemeName
+    still: bool = False
+
+
+@dataclass(frozen=True)
 class Fading:
     """Words that come and go: shown as strongly as so many eighths say."""
 
@@ -114,6 +151,8 @@ class Overlay:
     panel: Panel | None = None
     quantities: Quantities | None = None
     shelf: Shelf | None = None
+    path: PathShown | None = None
+    row: AnswerRow | None = None
     chip: Fading | None = None
     hint: Fading | None = None
     watch: Fading | None = None

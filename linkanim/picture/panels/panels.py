@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from linkanim.picture.panels.help_sheet import help_sheet
 from linkanim.picture.panels.overlay import Overlay, Panel, Quantities
 from linkanim.picture.panels.quantity_list import quantity_list, quantity_rows
 from linkanim.picture.raster.raster import Colour, Layer, Loop, paint
-from linkanim.picture.raster.shapes import box, disc
+from linkanim.picture.raster.shapes import box, disc, stroke
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
@@ -164,17 +165,28 @@ class Panels:
         leads, top = self._marks_lead, place.y
         marks = [(overlay.recording, self.theme.warning, _dot)]
         marks.append(("paused" if overlay.paused else None, self.theme.ink, _bars))
+        marks.append((overlay.path.off if overlay.path else None, self.theme.ink, _wave))
         for words, colour, sign in marks:
             if words:
-                width = self.type.width(words, size)
-                left = place.x + 1.2 * size if leads else place.right - width
-                plate = complex(left + width / 2 - 0.6 * size, top + 0.55 * size)
-                back = plate + box(width + 1.6 * size, 1.15 * size, 0.4 * size)
-                paint(surface, [Layer(self.theme.background, [back], _BACKING)])
-                self.type.draw(surface, words, (left, top), size=size, colour=colour)
-                middle = complex(left - 0.8 * size, top + 0.5 * size)
-                paint(surface, [Layer(colour, [middle + loop for loop in sign(size)])])
+                sheet = self._keep(f"mark {sign.__name__}", (words, colour), partial(self._mark, sign))
+                left = place.x - 0.2 * size if leads else place.right - sheet.get_width() + 0.2 * size
+                surface.blit(sheet, (round(left), round(top)))
                 top += 1.5 * size
+
+    def _mark(self, sign: Callable[[float], list[Loop]], said: tuple[str, Colour]) -> pygame.Surface:
+        """Return a sign and words on their backing."""
+        (words, colour), size = said, self.layout.text_size
+        wide, high = self.type.width(words, size) + 1.6 * size, 1.15 * size
+        sheet = pygame.Surface((ceil(wide), ceil(high)), pygame.SRCALPHA, 32)
+        back = complex(wide / 2, high / 2) + box(wide, high, 0.4 * size)
+        at = complex(0.6 * size, 0.5 * size)
+        shapes = [
+            Layer(self.theme.background, [back], _BACKING),
+            Layer(colour, [at + loop for loop in sign(size)]),
+        ]
+        paint(sheet, shapes)
+        self.type.draw(sheet, words, (1.4 * size, 0), size=size, colour=colour)
+        return sheet
 
     def _toast(self, text: str) -> tuple[pygame.Surface, tuple[float, float]]:
         """Return a toast and its place: where nothing is drawn, else off the words about the scene."""
@@ -203,6 +215,11 @@ class Panels:
 
 def _dot(size: float) -> list[Loop]:
     return [0.36 * size * disc(1.0)]
+
+
+def _wave(size: float) -> list[Loop]:
+    way = np.linspace(-0.42, 0.42, 16)
+    return stroke(size * (way - 0.24j * np.sin(7.5 * way)), 0.16 * size)
 
 
 def _bars(size: float) -> list[Loop]:

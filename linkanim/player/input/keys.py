@@ -106,6 +106,12 @@ KEYS: tuple[KeyRow, ...] = (
     KeyRow("measure", "Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
     KeyRow("edit", "E", "edit dimensions (H there: how)", _on("e", "edit")),
     KeyRow(
+        "edit",
+        "W (Shift: its own trace)",
+        "draw a path, get the linkage",
+        _on("w", "pencil") + _on("shift+w", "own_trace"),
+    ),
+    KeyRow(
         "edit", "B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")
     ),
     KeyRow(
@@ -115,8 +121,12 @@ KEYS: tuple[KeyRow, ...] = (
         _on("ctrl+z", "undo", held=True) + _on("ctrl+y ctrl+shift+z", "redo", held=True),
     ),
     KeyRow("keep", "S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
-    KeyRow("keep", "G", "record GIF: start, stop", _on("g", "record", "gif")),
-    KeyRow("keep", "M", "record MP4: start, stop", _on("m", "record", "mp4")),
+    KeyRow(
+        "keep",
+        "G, M",
+        "record GIF, MP4: start, stop",
+        _on("g", "record", "gif") + _on("m", "record", "mp4"),
+    ),
     KeyRow("keep", "Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
     KeyRow("keep", "Ctrl+S", "write the scene as a new file", _on("ctrl+s", "save")),
     KeyRow("keep", "F5", "reloads a scene opened from a file", _on("f5", "reload")),
@@ -178,11 +188,24 @@ PAUSED_KEYS: tuple[KeyRow, ...] = (
 )
 """What the keys do beside all others while the picture stands still."""
 
+PENCIL_KEYS: tuple[KeyRow, ...] = (
+    KeyRow("in W", "mouse", "draw a path in one stroke; drag its points and the fixed pins"),
+    KeyRow(
+        "in W",
+        "1–9, click",
+        "take another answer",
+        tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", "answer", n)),
+    ),
+    KeyRow("in W", "Enter", "keep the linkage as the scene; Esc goes back", _on("return kp_enter", "keep")),
+)
+"""What the keys do while a path is drawn."""
+
 _OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {
     "edit": EDIT_KEYS,
     "list": LIST_KEYS,
     "shelf": SHELF_KEYS,
     "paused": PAUSED_KEYS,
+    "pencil": PENCIL_KEYS,
 }
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),

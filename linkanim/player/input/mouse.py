@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from itertools import zip_longest
 from typing import Literal, Protocol
 
@@ -19,6 +20,9 @@ _TENTHS = 0.1
 _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
 _COARSE = 10
+Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead"]
+_PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead"}
+"""What the mouse does on while its button is down, by what the pencil has begun."""
 
 
 def latest(events: list[Event]) -> list[Event]:
@@ -54,6 +58,9 @@ class MouseTarget(Protocol):
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
 
+    def pencil_at(self, x: float, y: float, reach: float) -> Action:
+        """Return what the pencil begins at a pixel."""
+
     @property
     def is_shelf_open(self) -> bool:
         """Whether the shelf lies over the picture."""
@@ -73,10 +80,11 @@ class Mouse:
     """Knows what is being dragged, and where the mouse was last."""
 
     def __init__(self) -> None:
-        self._drag: Literal["pan", "crank", "chart", "joint", "row"] | None = None
+        self._drag: Drag | None = None
         self._taken, self._steps = 0.0, 0
         self._turned: int | None = None
         self._at = (0.0, 0.0)
+        self._begun, self._far = self._at, 0.0
         self._seen = False
 
     def actions(self, event: Event, target: MouseTarget) -> tuple[Action, ...]:
@@ -84,6 +92,8 @@ class Mouse:
         self._seen = self._seen or event.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN)
         if target.is_shelf_open:
             return self._on_the_shelf(event, target)
+        if target.mode == "pencil" and (found := self._of_the_pencil(event, target)) is not None:
+            return found
         if self._drag in (None, "row") and (found := self._on_a_list(event, target)) is not None:
             return found
         match event.type:
@@ -151,7 +161,7 @@ class Mouse:
         """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
         if not self._seen or target.is_shelf_open or self._drag in ("pan", "chart", "row"):
             return None
-        if self._drag is None and target.row_at(*self._at) is not None:
+        if target.mode == "pencil" or (self._drag is None and target.row_at(*self._at) is not None):
             return None
         return target.handle_at(*self._at, _REACH * target.size[1]) or (
             target.scene.linkage.drive.joint if self._is_at_pin(target) else None
@@ -171,6 +181,24 @@ class Mouse:
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
             return (Action("shelf") if place is None else Action("put", place),)
         return () if place is None else (Action("point", place),)
+
+    def _of_the_pencil(self, event: Event, target: MouseTarget) -> tuple[Action, ...] | None:
+        """Draw, or drag what is under the pencil; None for what the mouse does without one."""
+        at: tuple[float, float] = getattr(event, "pos", self._at)
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1 and target.charted(*at) is None:
+            begun = target.pencil_at(*at, _REACH * target.size[1])
+            self._drag, self._at, self._begun, self._far = _PENCIL.get(begun.name), at, at, 0.0
+            return (begun,)
+        if self._drag not in ("pen", "lead"):
+            return None
+        if event.type == pygame.MOUSEMOTION:
+            self._far, self._at = max(self._far, math.dist(self._begun, at)), at
+            return (Action("pen_to" if self._drag == "pen" else "lead", target.world(*at)),)
+        if event.type == pygame.MOUSEBUTTONUP and event.button == 1:
+            drag, self._drag = self._drag, None
+            drawn = "pen_up" if self._far > _REACH * target.size[1] else "pen_off"
+            return (Action(drawn if drag == "pen" else "let_go"),)
+        return None
 
     def _grabbed(self, target: MouseTarget) -> Literal["pan", "crank", "chart"]:
         if self._is_at_pin(target):

@@ -11,7 +11,7 @@ from linkanim.picture.look import TOGGLES, answer
 from linkanim.picture.parts.driven import speed_words
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import Clock
-from linkanim.player.state.handlers import edits, looks, outside, places, shelf
+from linkanim.player.state.handlers import edits, looks, outside, pencil, places, shelf
 from linkanim.player.state.state import State
 from linkanim.scenes.editing.closures import closure_name
 
@@ -29,6 +29,7 @@ class Rule(NamedTuple):
     answer: Callable[[State, State], str | None] | None = None
 
 
+_MOST_NUMBERS = 1_000
 MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
 """The most of an action's value: no key or mouse gives more, and no float holds whatever a tape may say."""
 
@@ -55,6 +56,30 @@ def _one_of(*words: str | None) -> Callable[[object], bool]:
 
 def _numbers(count: int) -> Callable[[object], bool]:
     return lambda value: isinstance(value, tuple) and len(value) == count and all(map(_number, value))
+
+
+def _grouped(value: object, each: int) -> bool:
+    """Tell whether a value is a number, followed by groups of so many others."""
+    if not isinstance(value, tuple) or not 1 < len(value) <= _MOST_NUMBERS:
+        return False
+    return len(value) % each == 1 and all(map(_number, value))
+
+
+def _pairs(value: object) -> bool:
+    return _grouped(value, 2)
+
+
+def _answer(value: object) -> bool:
+    # of the search nothing is imported before the pencil is taken
+    from linkanim.synthesis.answer import NUMBERS
+
+    return _numbers(NUMBERS)(value)
+
+
+def _answers(value: object) -> bool:
+    from linkanim.synthesis.answer import NUMBERS
+
+    return _grouped(value, NUMBERS)
 
 
 def _speed(_: State, after: State) -> str:
@@ -157,6 +182,21 @@ ACTIONS: Mapping[str, Rule] = {
     "reset": Rule(_nothing, edits.reset),
     "returns": Rule(_nothing, edits.returns, answer=_returns),
     "redo": Rule(_nothing, edits.redo, answer=_undo),
+    "pencil": Rule(_nothing, pencil.pencil),
+    "own_trace": Rule(_nothing, pencil.own),
+    "pen_down": Rule(_numbers(2), pencil.down),  # (x, y) in the scene's unit
+    "pen_to": Rule(_numbers(2), pencil.along),
+    "pen_up": Rule(_nothing, pencil.up),
+    "pen_off": Rule(_nothing, pencil.off),
+    "stroke": Rule(_pairs, pencil.stroke),  # 1 closed, 0 open; x, y of each point
+    "follow": Rule(_answer, pencil.follow),  # an answer's numbers
+    "answers": Rule(_answers, pencil.answers),  # which one is shown; the numbers of each
+    "answer": Rule(_whole, pencil.choose),  # its place in the row
+    "take_point": Rule(_whole, pencil.take_point),  # its place on the stroke
+    "take_pivot": Rule(_text, pencil.take_pivot),
+    "lead": Rule(_numbers(2), pencil.lead),  # to (x, y) in the scene's unit
+    "let_go": Rule(_nothing, pencil.let_go),
+    "keep": Rule(_nothing, pencil.keep),
     "back": Rule(_nothing, outside.back),
     "list": Rule(_nothing, shelf.list_, taped=False),
     "shelf": Rule(_nothing, shelf.open_shelf, taped=False),

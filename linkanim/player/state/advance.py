@@ -14,8 +14,14 @@ from linkanim.player.state.actions import ACTIONS
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import refused
 from linkanim.player.state.glide import followed
+from linkanim.player.state.handlers.pencil import come, keep, left
 from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, with_chip
 
+_WITHOUT_PENCIL = frozenset({"unit"})
+"""What is not done while a path is drawn, whose points are in the unit of then."""
+_KEEPS = frozenset({"edit"})
+_LEAVES = frozenset({"mechanism", "select", "put", "closure", "undo", "redo", "reset", "returns"})
+"""What keeps the answer that the pencil has, and what goes back to the scene before."""
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND
 
@@ -43,6 +49,7 @@ def aged(state: State) -> State:
         state = replace(state, chip=None, place_typed="")
     over = [name for name, life in _LIVES.items() if _is_over(getattr(state, name), life, state.frame)]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
+    state = come(state) if state.sketch else state
     return _followed(state) if state.glide else state
 
 
@@ -55,6 +62,10 @@ def carried(state: State, action: Action) -> State:
     rule = ACTIONS[action.name]
     if action.name != "note":
         state = replace(state, touched=state.frame)
+    if state.sketch and action.name in _WITHOUT_PENCIL:
+        return state
+    if action.name in _KEEPS | _LEAVES:
+        state = keep(state, None) if action.name in _KEEPS else left(state)
     try:
         after = rule.handle(state, action.value)
         return with_chip(after, rule.answer(state, after)) if rule.answer else after
@@ -65,7 +76,7 @@ def carried(state: State, action: Action) -> State:
 def settled(state: State) -> State:
     """Return the state at the end of a frame: left alone for a minute, it walks on through the shelf."""
     idle = state.frame - state.touched - ATTRACT_AFTER
-    busy = state.recording or state.editing.open or state.editing.changed
+    busy = state.recording or state.sketch or state.editing.open or state.editing.changed
     if not state.attract or busy or idle < 0 or idle % ATTRACT_EACH:
         return state
     onward = replace(carried(replace(state, help=False), Action("mechanism", 1)), touched=state.touched)

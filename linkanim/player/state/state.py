@@ -16,6 +16,7 @@ from linkanim.player.state.browsing import Browsing, Listing
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.state.editing import Editing, Held
 from linkanim.player.state.glide import Glide
+from linkanim.player.state.sketch import Sketch
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
@@ -56,7 +57,8 @@ class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
-    `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf.
+    `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf,
+    `sketch` what the pencil has drawn.
     `kept` are the other places whose scenes were edited. `chip` is the
     answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
@@ -65,7 +67,8 @@ class State:
     which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
     list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
-    "fullscreen", "save", "reload", "quit", and "report" (with the text of a fault's report).
+    "fullscreen", "save", "reload", "quit", "pencil" (it was taken), "search" and "follow" (answers to the
+    sketch, or the one that is shown again), and "report" (with the text of a fault's report).
     """
 
     scene: Scene
@@ -80,6 +83,7 @@ class State:
     kept: tuple[Edited, ...] = ()
     listing: Listing | None = None
     browsing: Browsing | None = None
+    sketch: Sketch | None = None
     glide: Glide | None = None
     turned: int | None = None
     arrived: int | None = None
@@ -110,6 +114,8 @@ class State:
             return "edit"
         if self.listing or self.browsing:
             return "list" if self.listing else "shelf"
+        if self.sketch:
+            return "pencil"
         return "paused" if self.clock.paused else "play"
 
     @property

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
-from linkanim.player.state.advance import advance
+from linkanim.player.state.advance import advance, carried
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.state import State
+from linkanim.scenes.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,14 @@ class Tape:
         return self.frames / FRAMES_PER_SECOND
 
     @cached_property
+    def begun(self) -> State:
+        """The state to begin with: `start`, with what is done at frame 0 done at once."""
+        state = self.start
+        for action in self.at(0):
+            state = replace(carried(state, action), glide=None, faded=None, effects=(), toast=None, chip=None)
+        return state
+
+    @cached_property
     def _by_frame(self) -> dict[int, list[Action]]:
         by_frame: dict[int, list[Action]] = {}
         for frame, action in self.actions:
@@ -46,11 +55,11 @@ class Tape:
 
     def rewound(self, state: State) -> State:
         """Return the state to go on from where it plays over and over: after the end the start."""
-        return self.start if state.frame >= self.frames else state
+        return self.begun if state.frame >= self.frames else state
 
     def states(self) -> Iterator[State]:
         """Iterate the states of frames 0 … `frames`, as the window went through them."""
-        state = self.start
+        state = self.begun
         yield state
         for frame in range(1, self.frames + 1):
             state = advance(state, self.at(frame))
@@ -69,17 +78,37 @@ class Tape:
 
 def starting(state: State) -> State:
     """Return the state as a tape starts from it: frame 0, standing where it stands, nothing to be done."""
-    clock = state.clock.go(0, state.phase)
+    clock, sketch = state.clock.go(0, state.phase), state.sketch
     return State(
-        scene=state.scene,
-        clock=clock,
+        scene=sketch.before if sketch else state.scene,
+        clock=clock.at_rate(0, sketch.clock.rate) if sketch else clock,
         shelf=state.shelf,
         place=state.place,
         look=state.look,
         help=state.help,
-        editing=state.editing,
+        editing=sketch.editing if sketch else state.editing,
         kept=state.kept,
     )
+
+
+def resumed(state: State) -> Iterator[Action]:
+    """Yield what a tape does at its frame 0, to have the pencil's sketch as it is."""
+    sketch = state.sketch
+    if sketch is None:
+        return
+    yield Action("pencil")
+    found = [one for one in sketch.answers if not isinstance(one, Scene)]
+    if len(found) < len(sketch.answers):
+        yield Action("own_trace")
+    elif sketch.curve:
+        points = (part for point in sketch.curve.points for part in (float(point.real), float(point.imag)))
+        yield Action("stroke", (float(sketch.curve.closed), *points))
+    if found:
+        yield Action("answers", (0.0, *(number for one in found for number in one.numbers)))
+        yield Action("answer", sketch.chosen)
+    for pivot, to in sketch.pivots:
+        yield from (Action("take_pivot", pivot), Action("lead", to), Action("let_go"))
+    yield from (Action("pen_to" if n else "pen_down", (at.real, at.imag)) for n, at in enumerate(sketch.pen))
 
 
 def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:
@@ -92,7 +121,7 @@ class Taping:
 
     def __init__(self, state: State, size: tuple[int, int]) -> None:
         self._start, self.since, self._size = starting(state), state.frame, size
-        self._actions: list[tuple[int, Action]] = []
+        self._actions: list[tuple[int, Action]] = [(0, action) for action in resumed(state)]
 
     def note(self, frame: int, actions: tuple[Action, ...]) -> None:
         """Keep the actions that came at a frame of the window."""

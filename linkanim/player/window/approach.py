@@ -6,6 +6,7 @@ The eye can follow what makes room for what. Window and recordings share it.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
@@ -70,11 +71,17 @@ class Framing:
 
     def fitting(self, state: State, size: tuple[int, int]) -> Picture:
         """Return the picture that fits the state; a view other than the last one's, it is approached."""
-        before, listed, held, look = self._fitting, state.listed, state.held is not None, self._look(state)
-        if before and before.fits(state.shown, size, look, listed=listed, held=held):
+        before, sketch, look = self._fitting, state.sketch, self._look(state)
+        held = state.held is not None or (sketch is not None and sketch.held is not None)
+        row = sketch is not None and bool(sketch.answers)
+        if before and before.fits(state.shown, size, look, listed=state.listed, held=held, row=row):
             return before
-        made = Picture(state.shown, size, look, before, listed=listed, held=held)
-        if before and _has_moved(before, made):
+        make = partial(Picture, state.shown, size, look, before, listed=state.listed, held=held, row=row)
+        stays = before is not None and sketch is not None and before.size == size
+        made = make(kept=before.fitted if before and stays else None)
+        if stays and not held and not _is_in_sight(made):
+            made = make(kept=made.fit.arrangement.view)
+        if before and (_has_moved(before, made) or (stays and before.fitted != made.fitted)):
             self._approach = Approach((self._passing or before).view, state.frame)
         elif before and not _is_framed_alike(before, made):
             self._approach = None
@@ -93,8 +100,16 @@ class Framing:
             self._approach = None
             return goal
         look = self._approach.look(self._look(state), goal.fitted, goal.view, size, state.frame)
-        self._passing = Picture(state.shown, size, look, goal, listed=state.listed)
+        kept = goal.fitted if state.sketch else None
+        self._passing = Picture(state.shown, size, look, goal, listed=state.listed, row=goal.row, kept=kept)
         return self._passing
+
+
+def _is_in_sight(picture: Picture) -> bool:
+    """Return whether all that a linkage will sweep lies in its room; where it is zoomed it need not."""
+    view, box, stage = picture.view, picture.fit.subject.figure.box, picture.layout.stage
+    (left, bottom), (right, top) = view.to_pixel(box.left, box.low), view.to_pixel(box.right, box.high)
+    return picture.look.framed or (stage.holds(left, top) and stage.holds(right, bottom))
 
 
 def _has_moved(one: Picture, other: Picture) -> bool:

@@ -40,7 +40,7 @@ def run(
     raises it. Whatever ends the window, a recording that runs is finished.
     """
     tape = _tape(scene)
-    state = tape.start if tape else begin(scene, look=look)
+    state = tape.begun if tape else begin(scene, look=look)
     with display.opened(size) as connection:
         window = Window(replace(state, attract=attract), tape, None if tape else _file(scene))
         gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame

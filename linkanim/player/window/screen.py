@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from math import hypot
+
 import pygame
 
+from linkanim.picture.answer_row import RowPrinter, row_cells
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, ShelfPrinter, by_chapter, grid
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.player.state.action import Mode
+from linkanim.picture.view import Rect
+from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.browsing import Browsing
+from linkanim.player.state.sketch import PIVOTS
 from linkanim.player.state.state import State
 from linkanim.player.window import display
 from linkanim.player.window.approach import Framing
@@ -33,6 +38,7 @@ class Screen:
         self._fade = Fade()
         self._printer = SurfacePrinter()
         self._over = Overlay()
+        self._row = RowPrinter()
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
@@ -53,6 +59,7 @@ class Screen:
         else:
             self._shelf.close()
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
+            self._row.draw(surface, picture.layout, over.row)
 
     def _name(self, title: str) -> None:
         """Let the window bear the scene's title; the system is told only what is new to it."""
@@ -101,6 +108,29 @@ class Screen:
     def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
         px, py = self.pixel(*place)
         return px - x, py - y
+
+    def answer_cells(self) -> tuple[Rect, ...]:
+        """Return where the pictures of the answers are, in pixels."""
+        count = len(self._state.sketch.answers) if self._state.sketch else 0
+        return row_cells(self._framing.last.layout, count)
+
+    def pencil_at(self, x: float, y: float, reach: float) -> Action:
+        """Return what the pencil begins at a pixel: it takes an answer, a pin or a point, or it draws."""
+        sketch = self._state.sketch
+        assert sketch
+        place = next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
+        if place is not None:
+            return Action("answer", place)
+        pose = self.scene.pose(self.phase, 0)
+        pivots = [name for name in PIVOTS if name in pose.position] if sketch.follows else []
+        for pivot in pivots:
+            if max(map(abs, self._from(pose.position[pivot], x, y))) <= reach:
+                return Action("take_pivot", pivot)
+        points = sketch.curve.points if sketch.curve and not sketch.is_blank else ()
+        away = [hypot(*self._from((point.real, point.imag), x, y)) for point in points]
+        if away and min(away) <= reach:
+            return Action("take_point", away.index(min(away)))
+        return Action("pen_down", self.world(x, y))
 
     def world(self, x: float, y: float) -> tuple[float, float]:
         """Return the point of the scene under a pixel."""

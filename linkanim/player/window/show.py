@@ -12,15 +12,27 @@ from linkanim.digits import significant, typeset
 from linkanim.mechanics.facts.register import Quantity
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.quantities import quantity
-from linkanim.picture.panels.overlay import DimensionLine, EditRow, Fading, Overlay, Panel, Quantities, Shelf
+from linkanim.picture.panels.overlay import (
+    AnswerRow,
+    DimensionLine,
+    EditRow,
+    Fading,
+    Overlay,
+    Panel,
+    PathShown,
+    Quantities,
+    Shelf,
+)
 from linkanim.picture.text.text import subscripted
 from linkanim.player.input.keys import help_groups
 from linkanim.player.state.browsing import Browsing, Listing, listed
 from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.sketch import Sketch
 from linkanim.player.state.state import FLASH_FRAMES, SHUTTER_FRAMES, State
 from linkanim.scenes.editing.edit import Dimension, dimensions
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.editing.stretches import stretches
+from linkanim.scenes.scene import Scene
 
 _HINT = (
     "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   Ctrl+S save   "
@@ -78,6 +90,8 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
         panel=_panel(state, items) if state.editing.open else None,
         quantities=_quantities(state, state.listing) if state.listing else None,
         shelf=_shelf(state, state.browsing) if state.browsing else None,
+        path=_path(state.sketch) if state.sketch else None,
+        row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
     )
 
 
@@ -101,6 +115,29 @@ def _value(one: Quantity, pose: Pose, length_unit: str) -> str:
     values = ", ".join(typeset(significant(float(part), 4)) for part in parts if part is not None)
     unit = one.shown_unit(length_unit)
     return f"{one.symbol} = {values or '–'}{'' if unit == '°' else ' '}{unit}".rstrip()
+
+
+def _path(sketch: Sketch) -> PathShown:
+    curve, off = sketch.curve, None if sketch.off is None else f"{_percent(sketch.off)} off"
+    held = sketch.held if isinstance(sketch.held, int) else None
+    searched = "searching" if curve and not sketch.pen else None
+    pins = tuple(place for _, place in sketch.pivots)
+    return PathShown(curve, sketch.pen, sketch.is_blank, searched if sketch.is_blank else off, held, pins)
+
+
+def _answer_row(state: State, sketch: Sketch) -> AnswerRow:
+    """Return the row of answers; while something is dragged with the picture of what was there before."""
+    entries = tuple(
+        sketch.base if sketch.base and n == sketch.chosen else one for n, one in enumerate(sketch.answers)
+    )
+    words = tuple("its own" if isinstance(one, Scene) else _percent(one.off) for one in sketch.answers)
+    unit, still = sketch.unit, state.clock.paused or sketch.held is not None
+    return AnswerRow(entries, words, sketch.chosen, unit, state.frame, state.look.theme, still)
+
+
+def _percent(share: float) -> str:
+    """Return a share in percent as it is read: to two digits, and nothing below a hundred thousandth."""
+    return f"{significant(share, 2)} %" if share >= 1e-5 else "0 %"
 
 
 def _shelf(state: State, browsing: Browsing) -> Shelf:

@@ -29,6 +29,7 @@ from linkanim.player.window.show import kept, overlay
 from linkanim.scenes.editing.write import save
 
 if TYPE_CHECKING:
+    from linkanim.player.window.following import Following
     from linkanim.player.window.rendering import Queue
 
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
@@ -49,6 +50,7 @@ class Window:
         self._tape = tape
         self._taping: Taping | None = None
         self._renderings: Queue | None = None
+        self._following: Following | None = None
         self.screen = Screen(state)
         self._keyboard, self._mouse = Keyboard(), Mouse()
         self._notes: list[str] = []
@@ -78,6 +80,9 @@ class Window:
             if self._renderings:
                 self._renderings.close()
                 self._renderings = None
+            if self._following:
+                self._following.close()
+                self._following = None
 
     def _advance(self, events: list[Event]) -> None:
         """Go one frame on; each key is asked what it means once those before it are done."""
@@ -94,7 +99,9 @@ class Window:
     def _requested(self, events: list[Event]) -> Iterator[Action]:
         """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
         yield from self._of_the_tape()
-        for event in latest(events):
+        yield from self._followed()
+        drawing = self.state.sketch is not None and self.state.sketch.pen
+        for event in events if drawing else latest(events):
             for action in self._meant(event):
                 yield from self._off_the_tape(action)
                 yield from self._resolved(action)
@@ -119,6 +126,28 @@ class Window:
             yield Action("record", self.state.recording.format)
         elif action.name not in RESOLVED:
             yield action
+
+    def _followed(self) -> Iterator[Action]:
+        """Yield what the search for linkages has replied."""
+        if self._following is None or (self.state.sketch and self.state.sketch.coming):
+            return
+        from linkanim.player.window.following import action_of
+
+        for reply in self._following.replies():
+            if action := action_of(reply, self.state.sketch):
+                yield action
+
+    def _ask_for(self, name: str) -> None:
+        """Have linkages searched for the sketch, all or only the one that is shown; start that beforehand."""
+        from linkanim.player.window.following import Following, request_of
+
+        if self._following and self._following.is_over:
+            self._following.close()
+            self._following = None
+        self._following = self._following or Following()
+        request = request_of(self.state.sketch, search=name == "search") if self.state.sketch else None
+        if request:
+            self._following.ask(request)
 
     def _rewound(self) -> State:
         """Return the state to go on from: a tape that has ended goes on from its start."""
@@ -187,6 +216,8 @@ class Window:
                 self._notes.append(f"{save(self.state.scene, Path())} saved")
             case "reload":
                 self._reload()
+            case "pencil" | "search" | "follow":
+                self._ask_for(effect.name)
             case "fullscreen":
                 self._windowed = display.fill(self._windowed)
             case "quit":

@@ -122,7 +122,7 @@ returns = _remade(lambda state, _: (edit_.changed(state.editing, state.scene), o
 
 def start(state: State, _: None) -> State:
     """Go back to the start; once more, while the chip says so, to the file's dimensions as well."""
-    again = state.chip is not None and state.chip.text == AGAIN
+    again = state.chip is not None and state.sketch is None and state.chip.text == AGAIN
     state = replace(reset(state, None) if again else state, chip=None)
     return replace(state, clock=state.clock.go(state.frame, 0.0))
 

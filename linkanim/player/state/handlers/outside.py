@@ -8,6 +8,7 @@ from typing import Literal
 
 from linkanim.player.state import editing as edit_
 from linkanim.player.state.handlers.edits import edit
+from linkanim.player.state.handlers.pencil import left
 from linkanim.player.state.state import State, Take, with_effect, with_toast
 
 _MEANT = "recording: Q again ends it, writes it and quits"
@@ -24,6 +25,8 @@ def back(state: State, _: None) -> State:
         return replace(state, help=False)
     if state.listing or state.browsing:
         return replace(state, listing=None, browsing=None)
+    if state.sketch and not state.editing.open:
+        return left(state)
     if state.editing.open and state.editing.begun:
         return replace(state, editing=edit_.let_go(state.editing))
     if state.place_typed:

@@ -10,8 +10,8 @@ import numpy as np
 from linkanim.errors import BadInput
 from linkanim.intake import Intake, named
 from linkanim.number_table import read_numbers
+from linkanim.synthesis.curves.svg_path import first_path
 from linkanim.synthesis.kinds import Complex, Real
-from linkanim.synthesis.svg_path import first_path
 
 _CURVE_FILE = Intake("a curve: two columns of numbers, or an SVG", most_bytes=5_000_000, most_values=10**7)
 _MOST_COLUMNS = 3

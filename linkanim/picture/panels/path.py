@@ -1,0 +1,82 @@
+"""A path that is drawn: the sheet, the pencil's line, and then the stroke behind its trace, with handles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import ceil, floor, log10
+
+import numpy as np
+
+from linkanim.picture.items import Caption, Group
+from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.panels.overlay import PathShown
+from linkanim.picture.raster.raster import Layer, Loop
+from linkanim.picture.raster.shapes import disc, segments, stroke
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import View
+
+HINT = "draw a path in one stroke"
+_GRID = 36
+"""The least distance of the sheet's lines, in units."""
+_DASH, _GAP = 3.2, 2.2
+"""Along the stroke, in its widths."""
+_HANDLES = 12
+"""Points of a stroke that are marked; every one can be dragged."""
+
+
+def sheet(view: View, layout: Layout, theme: Theme) -> Group:
+    """Return the empty sheet: lines at round distances in the scene's unit."""
+    width, height = layout.size
+    step = view.scale * _round_step(_GRID * layout.unit / view.scale)
+    x, y = (np.arange(start % step, end, step) for start, end in ((view.x, width), (view.y, height)))
+    lines = [*segments(x, x + 1j * height, 1.0), *segments(1j * y, width + 1j * y, 1.0)]
+    return Group("sheet", [Layer(mixed(theme.rule, theme.background, 0.4), lines)], still=True)
+
+
+def _round_step(least: float) -> float:
+    """Return the least of 1, 2 and 5 times a power of ten that is no smaller."""
+    power = 10.0 ** floor(log10(least))
+    return next(factor * power for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= least)
+
+
+def drawn_line(view: View, layout: Layout, theme: Theme, shown: PathShown) -> Group:
+    """Return the pencil's line, or the stroke while nothing follows it; words where there is neither."""
+    points = (
+        np.array(shown.pen) if shown.pen else shown.curve.polyline if shown.curve else np.zeros(0, complex)
+    )
+    size = layout.text_size
+    if not points.size:
+        at = layout.size[0] / 2, layout.size[1] / 2 - size
+        return Group("pencil", (), [Caption(HINT, at, size, theme.dim, "centre")])
+    return Group("pencil", [Layer(theme.ink, stroke(_placed(view, points), max(2.6 * layout.unit, 1.6)))])
+
+
+def dashed(view: View, gauge: Gauge, theme: Theme, shown: PathShown) -> Group:
+    """Return the stroke in dashes, wider than a trace."""
+    assert shown.curve
+    width = 2.6 * gauge.line
+    line = _placed(view, shown.curve.polyline)
+    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
+    count = max(ceil(way[-1] / ((_DASH + _GAP) * width)), 1)
+    ends = np.arange(count) * (way[-1] / count) + np.array([[0.0], [_DASH * width]])
+    begin, end = np.interp(ends, way, line.real) + 1j * np.interp(ends, way, line.imag)
+    loops = segments(begin, end, width)
+    return Group("stroke", [Layer(mixed(theme.ink, theme.background, 0.55), loops)], still=True)
+
+
+def handles(view: View, gauge: Gauge, theme: Theme, shown: PathShown) -> Iterator[Layer]:
+    """Yield the marked points of a stroke, the one that is held, and rings about pivots that are held."""
+    assert shown.curve
+    points, reach = _placed(view, shown.curve.points), 0.55 * gauge.bar
+    marked = points[:: max(len(points) // _HANDLES, 1)]
+    yield Layer(theme.ink, [at + disc(reach) for at in marked])
+    yield Layer(theme.background, [at + disc(0.6 * reach) for at in marked])
+    if shown.held is not None:
+        yield Layer(theme.velocity, [points[shown.held] + disc(1.5 * reach)])
+    for pin in shown.pins:
+        ring = view.place(pin) + disc(2.6 * gauge.bar)
+        yield Layer(theme.velocity, stroke(ring, 1.6 * gauge.line, closed=True))
+
+
+def _placed(view: View, points: Loop) -> Loop:
+    return view.x + view.scale * points.real + 1j * (view.y - view.scale * points.imag)

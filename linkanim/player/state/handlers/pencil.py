@@ -1,0 +1,251 @@
+"""Actions of the pencil: a stroke is drawn, answers come, points and pivots are dragged, one is kept."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from linkanim.errors import BadInput
+from linkanim.player.state import editing as edit
+from linkanim.player.state.glide import glide
+from linkanim.player.state.handlers.edits import drop
+from linkanim.player.state.handlers.shelf import exchanged
+from linkanim.player.state.sketch import PIVOTS, Sketch
+from linkanim.player.state.state import State, with_effect, with_toast
+from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from linkanim.synthesis.curves.drawn import DrawnCurve
+
+# The rest of the search is imported when the pencil is taken: the first frame does not wait for it.
+
+MOST_POINTS = 5_000
+"""Of a stroke under way; further ones are left out."""
+
+
+def pencil(state: State, _: None) -> State:
+    """Take the pencil, or lay it down and go back to the scene that was on."""
+    if state.sketch:
+        return left(state)
+    state = drop(state, None)
+    editing = replace(state.editing, open=False)
+    sketch = Sketch(state.scene, state.clock, edit.let_go(editing), state.displayed.length_unit)
+    state = replace(state, sketch=sketch, editing=editing, listing=None, browsing=None, glide=None)
+    return with_effect(replace(state, toast=None, faded=state.frame), "pencil")
+
+
+def own(state: State, _: None) -> State:
+    """Take the pencil, the scene's own trace as the stroke."""
+    from linkanim.mechanics.motion.measures import as_complex
+    from linkanim.synthesis.curves.stroke import trace_of
+
+    state = left(state)
+    scene = state.scene
+    if not scene.trace:
+        return with_toast(state, f"{scene.name} has no trace to take; W draws a path")
+    try:
+        curve = trace_of(as_complex(state.displayed.cycle(720, derivatives=0).position[scene.trace[0]]))
+    except BadInput as error:
+        return with_toast(state, str(error))
+    return _sketching(_searched(pencil(state, None), curve), answers=(scene,))
+
+
+def left(state: State) -> State:
+    """Lay the pencil down; the scene that was on comes back as if it had gone on."""
+    sketch = state.sketch
+    if sketch is None:
+        return state
+    faded = state.faded if state.scene is sketch.before else state.frame
+    back = replace(state, sketch=None, glide=None, faded=faded)
+    return replace(back, scene=sketch.before, clock=sketch.clock, editing=sketch.editing)
+
+
+def keep(state: State, _: None) -> State:
+    """Lay the pencil down and keep the answer in the scene's place; undo brings that back."""
+    sketch = state.sketch
+    if sketch is None or sketch.is_blank or state.scene is sketch.before:
+        return left(state)
+    return replace(state, sketch=None, editing=edit.changed(sketch.editing, sketch.before))
+
+
+def down(state: State, at: tuple[float, float]) -> State:
+    """Begin a stroke."""
+    return _sketching(state, pen=(complex(*at),), held=None)
+
+
+def along(state: State, at: tuple[float, float]) -> State:
+    """Draw the stroke on to a point."""
+    sketch = state.sketch
+    if sketch is None or not 0 < len(sketch.pen) < MOST_POINTS:
+        return state
+    return _sketching(state, pen=(*sketch.pen, complex(*at)))
+
+
+def up(state: State, _: None) -> State:
+    """End the stroke, and ask for linkages that follow it; one without extent is forgotten."""
+    import numpy as np
+
+    from linkanim.synthesis.curves.stroke import stroke_of
+
+    sketch = state.sketch
+    if sketch is None or not sketch.pen:
+        return state
+    try:
+        curve = stroke_of(np.array(sketch.pen))
+    except BadInput:
+        return off(state, None)
+    return _searched(state, curve)
+
+
+def off(state: State, _: None) -> State:
+    """Forget the stroke that was begun."""
+    return _sketching(state, pen=())
+
+
+def stroke(state: State, numbers: tuple[float, ...]) -> State:
+    """Take a stroke as it is: 1 where it is closed, else 0, and its points x, y, x, y, …"""
+    from linkanim.synthesis.curves.drawn import drawn
+
+    points = [complex(x, y) for x, y in zip(numbers[1::2], numbers[2::2], strict=True)]
+    return _searched(state, drawn(points, closed=numbers[0] > 0)) if state.sketch else state
+
+
+def _searched(state: State, curve: DrawnCurve) -> State:
+    """Return the state with another stroke, linkages for which are asked for."""
+    assert state.sketch
+    bare = replace(state.sketch, pen=(), answers=(), chosen=0, pivots=(), held=None)
+    sketch = replace(bare, curve=curve, strokes=bare.strokes + 1)
+    return with_effect(replace(state, sketch=sketch, toast=None), "search")
+
+
+def follow(state: State, numbers: tuple[float, ...]) -> State:
+    """Show an answer that has come, in the place of the one that is shown."""
+    from linkanim.synthesis.answer import answer_from
+
+    sketch = state.sketch
+    if sketch is None or sketch.curve is None:
+        return state
+    answer, unit = answer_from(numbers), sketch.unit
+    if not sketch.answers:
+        state = exchanged(state, answer.scene(unit))
+        return _sketching(replace(state, glide=None, faded=state.frame), answers=(answer,))
+    if isinstance(sketch.answer, Scene):
+        return state
+    answers = tuple(answer if n == sketch.chosen else one for n, one in enumerate(sketch.answers))
+    if sketch.held is None:
+        return _shown(_sketching(state, answers=answers), answer.scene(unit))
+    return _sketching(state, answers=answers, coming=_ready(answer.scene(unit, sketch.base), state.phase))
+
+
+def _ready(scene: Scene, phase: float) -> Scene:
+    """Return a scene with what the next frame asks first worked out: that frame has its picture to make."""
+    _ = scene.cycle(1, derivatives=0).position
+    scene.pose(phase, 0)
+    return scene
+
+
+def come(state: State) -> State:
+    """Return the state with the linkage on that was worked out for this frame."""
+    coming = state.sketch and state.sketch.coming
+    return replace(_sketching(state, coming=None), scene=coming) if coming else state
+
+
+def answers(state: State, numbers: tuple[float, ...]) -> State:
+    """Take all answers in place of those that are there: which is to be shown, and the numbers of each."""
+    from linkanim.synthesis.answer import NUMBERS, answer_from
+
+    sketch = state.sketch
+    if sketch is None or sketch.curve is None or sketch.held is not None:
+        return state
+    first, parts = round(numbers[0]), [numbers[n : n + NUMBERS] for n in range(1, len(numbers), NUMBERS)]
+    found = tuple(map(answer_from, parts))
+    if not 0 <= first < len(found):
+        return state
+    if sketch.answers and isinstance(sketch.answers[0], Scene):
+        return _sketching(state, answers=(sketch.answers[0], *found))
+    was_none = not sketch.answers
+    state = _sketching(state, answers=found, chosen=first)
+    scene = found[first].scene(sketch.unit)
+    if was_none:
+        return replace(exchanged(state, scene), glide=None, faded=state.frame)
+    return _shown(state, scene)
+
+
+def _shown(state: State, scene: Scene) -> State:
+    """Show a scene, the one that is shown gliding to it."""
+    way = glide(state.shown, scene, state.frame)
+    return replace(exchanged(state, scene), glide=way)
+
+
+def choose(state: State, place: int) -> State:
+    """Show another of the answers."""
+    sketch = state.sketch
+    if (
+        sketch is None
+        or sketch.held is not None
+        or not 0 <= place < len(sketch.answers)
+        or place == sketch.chosen
+    ):
+        return state
+    chosen = sketch.answers[place]
+    scene = chosen if isinstance(chosen, Scene) else chosen.scene(sketch.unit)
+    state = replace(exchanged(state, scene), glide=None, faded=state.frame)
+    return _sketching(state, chosen=place)
+
+
+def take_point(state: State, point: int) -> State:
+    """Take hold of a point of the stroke."""
+    sketch = state.sketch
+    if sketch is None or sketch.curve is None or not 0 <= point < len(sketch.curve.points):
+        return state
+    return _sketching(replace(state, glide=None), held=point, base=state.scene, pen=())
+
+
+def take_pivot(state: State, pivot: str) -> State:
+    """Take hold of a fixed pin of the answer that is shown."""
+    sketch = state.sketch
+    if sketch is None or pivot not in PIVOTS or sketch.answer is None or isinstance(sketch.answer, Scene):
+        return state
+    return _sketching(replace(state, glide=None), held=pivot, base=state.scene, pen=())
+
+
+def lead(state: State, to: tuple[float, float]) -> State:
+    """Drag what is held to a point; what follows is asked for."""
+    from linkanim.synthesis.curves.stroke import bent
+
+    sketch = state.sketch
+    if sketch is None or sketch.held is None:
+        return state
+    if isinstance(sketch.held, str):
+        return with_effect(
+            _sketching(state, pivots=tuple({**dict(sketch.pivots), sketch.held: to}.items())), "follow"
+        )
+    assert sketch.curve
+    with suppress(BadInput):
+        curve = bent(sketch.curve, sketch.held, complex(*to))
+        state = with_effect(_sketching(state, curve=curve, **_without_own(sketch)), "follow")
+    return state
+
+
+def _without_own(sketch: Sketch) -> dict[str, object]:
+    """Return the answers without the scene whose trace was taken: the stroke is another curve now."""
+    own = sum(isinstance(one, Scene) for one in sketch.answers)
+    return {"answers": sketch.answers[own:], "chosen": max(sketch.chosen - own, 0)}
+
+
+def let_go(state: State, _: None) -> State:
+    """Let go of what was dragged; all answers to what is there now are asked for."""
+    sketch = state.sketch
+    if sketch is None or sketch.held is None:
+        return state
+    answer = sketch.answer
+    state = _sketching(state, held=None, base=None, coming=None)
+    if answer and not isinstance(answer, Scene) and state.scene is not sketch.base:
+        state = exchanged(state, answer.scene(sketch.unit))
+    return with_effect(state, "search")
+
+
+def _sketching(state: State, **changes: object) -> State:
+    """Return the state with these changes of its sketch, if there is one."""
+    return replace(state, sketch=state.sketch and replace(state.sketch, **changes))  # type: ignore[arg-type]

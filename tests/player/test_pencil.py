@@ -1,0 +1,377 @@
+"""A path drawn in the window: strokes, the linkages that follow, what is dragged, kept, left, taped."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pygame
+import pytest
+from playing import CTRL, SHIFT, Player
+
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance
+from linkanim.player.state.glide import FRAMES
+from linkanim.player.state.sketch import Sketch
+from linkanim.player.state.state import FADE_FRAMES, TOAST_FRAMES, State, begin
+from linkanim.player.tape.tape import Tape, Taping
+from linkanim.player.tape.tape_file import read, write
+from linkanim.player.window import following
+from linkanim.player.window.following import action_of, request_of
+from linkanim.scenes import load
+from linkanim.synthesis.answer import PathAnswer
+from linkanim.synthesis.follower import Follow, Reply
+from linkanim.synthesis.kinds import FOUR_BAR
+
+ROW = (0.0, 0.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
+WIDER = (0.0, 0.0, 32.0, 95.0, 45.0, 30.0, 105.0, 5.0, 85.0)
+FIRST, BETTER, OTHER = (
+    PathAnswer(off, 1.0, 0.3, 1.0, row).numbers for off, row in ((1.5, ROW), (0.12, WIDER), (0.4, ROW))
+)
+LOOP = [(100 + 40 * math.cos(turn), 50 + 25 * math.sin(turn)) for turn in np.linspace(0, 6.2, 40)]
+
+
+def after(state: State, *actions: Action | str) -> State:
+    for one in actions:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+def drawn(state: State, *, name: str = "pen_up") -> State:
+    """Return the state after a loop was drawn with the pencil."""
+    first, *others = LOOP
+    moves = (Action("pen_to", place) for place in others)
+    return after(state, "pencil", Action("pen_down", first), *moves, name)
+
+
+def sketch_of(state: State) -> Sketch:
+    assert state.sketch
+    return state.sketch
+
+
+@pytest.fixture
+def plain() -> State:
+    return begin(load("crank-rocker"))
+
+
+@pytest.fixture
+def stroke(plain: State) -> State:
+    return drawn(plain)
+
+
+@pytest.fixture
+def answered(stroke: State) -> State:
+    return after(stroke, Action("follow", FIRST), Action("answers", (0.0, *BETTER, *OTHER)))
+
+
+def test_a_stroke_that_ends_near_its_start_is_closed(plain: State, stroke: State) -> None:
+    sketch = sketch_of(stroke)
+    assert sketch.curve is not None
+    assert (sketch.curve.closed, sketch.is_blank, sketch.pen) == (True, True, ())
+    assert [effect.name for effect in stroke.effects] == ["search"]
+    assert stroke.scene is plain.scene
+
+
+def test_a_stroke_that_ends_elsewhere_is_open(plain: State) -> None:
+    moves = [Action("pen_to", (10.0 * n, 3.0 * n * n)) for n in range(1, 9)]
+    state = after(plain, "pencil", Action("pen_down", (0.0, 0.0)), *moves, "pen_up")
+    curve = sketch_of(state).curve
+    assert curve is not None
+    assert not curve.closed
+    assert (curve.points[0], curve.points[-1]) == pytest.approx((0.0, 80 + 192j))
+
+
+@pytest.mark.parametrize("name", ["pen_off", "pen_up"])
+def test_a_dot_is_no_stroke(plain: State, name: str) -> None:
+    state = after(plain, "pencil", Action("pen_down", (3.0, 4.0)), name)
+    assert (sketch_of(state).curve, sketch_of(state).pen, state.effects) == (None, (), ())
+
+
+def test_the_first_answer_is_shown_at_once_and_glides_to_the_refined_one(stroke: State) -> None:
+    first = after(stroke, Action("follow", FIRST))
+    assert (sketch_of(first).off, first.scene.name, first.glide) == (1.5, "path", None)
+    whole = after(first, Action("answers", (0.0, *BETTER, *OTHER)))
+    assert (sketch_of(whole).off, len(sketch_of(whole).answers)) == (0.12, 2)
+    assert whole.glide is not None
+    settled = after(whole, *["direction"] * (FRAMES + 1))
+    assert settled.glide is None
+    assert settled.scene.document["joints"]["A"]["length"] == 32.0
+
+
+def test_lengths_of_an_answer_are_in_the_unit_of_the_scene_before(answered: State) -> None:
+    assert answered.scene.length_unit == sketch_of(answered).before.length_unit
+    in_metres = drawn(replace(begin(load("excavator"))))
+    unit = in_metres.scene.length_unit
+    assert after(in_metres, Action("follow", FIRST)).scene.length_unit == unit
+
+
+def test_a_stroke_drawn_in_another_unit_has_answers_in_that_unit(plain: State) -> None:
+    inches = drawn(after(plain, "unit"))
+    state = after(inches, Action("follow", FIRST))
+    assert inches.displayed.length_unit != plain.scene.length_unit
+    assert state.scene.length_unit == inches.displayed.length_unit
+    assert after(state, "unit").look == state.look
+
+
+def test_another_answer_is_taken_by_its_number(answered: State) -> None:
+    other = after(answered, Action("answer", 1))
+    assert (sketch_of(other).chosen, sketch_of(other).off) == (1, 0.4)
+    assert other.scene.document["joints"]["A"]["length"] == 30.0
+    assert after(other, Action("answer", 7)) == replace(other, frame=other.frame + 1, touched=other.frame + 1)
+
+
+def test_esc_goes_back_to_the_scene_that_was_on_as_if_it_had_gone_on(plain: State, answered: State) -> None:
+    back = after(answered, "back")
+    alone = plain
+    while alone.frame < back.frame:
+        alone = advance(alone)
+    assert (back.scene, back.sketch, back.editing) == (alone.scene, None, alone.editing)
+    assert back.phase == pytest.approx(alone.phase)
+
+
+def test_a_kept_answer_is_the_scene_and_undo_brings_the_last_one_back(plain: State, answered: State) -> None:
+    kept = after(answered, "keep")
+    assert (kept.sketch, kept.scene) == (None, answered.scene)
+    assert after(kept, "undo").scene == plain.scene
+    opened = after(answered, "edit")
+    assert (opened.sketch, opened.mode, opened.scene) == (None, "edit", answered.scene)
+
+
+@pytest.mark.parametrize("name", ["mechanism", "put", "closure", "undo"])
+def test_what_puts_another_scene_on_lays_the_pencil_down(answered: State, name: str) -> None:
+    state = after(answered, Action(name, 1) if name in ("mechanism", "put") else name)
+    assert state.sketch is None
+    assert state.scene.name != "path"
+    assert after(state, Action("mechanism", -1)).scene.name != "path"
+
+
+def test_a_point_of_the_stroke_takes_its_neighbours_along_and_the_linkage_follows(answered: State) -> None:
+    before = sketch_of(answered).curve
+    assert before is not None
+    to = before.points[10] + (5 + 3j)
+    held = after(answered, Action("take_point", 10), Action("lead", (to.real, to.imag)))
+    curve = sketch_of(held).curve
+    assert curve is not None
+    moved = np.abs(curve.points - before.points)
+    assert curve.points[10] == pytest.approx(to)
+    assert 0 < moved[13] < moved[11] < moved[10]
+    assert moved[30] == 0
+    assert [effect.name for effect in held.effects] == ["follow"]
+    led = after(held, Action("follow", OTHER), "direction")
+    assert (led.scene.document["joints"]["A"]["length"], sketch_of(led).off) == (30.0, 0.4)
+    let_go = after(led, "let_go")
+    assert [effect.name for effect in let_go.effects] == ["search"]
+    assert (let_go.scene.towards, let_go.scene) == (None, led.scene)
+
+
+def test_a_pivot_that_is_dragged_is_held_where_it_was_put(answered: State) -> None:
+    state = after(answered, Action("take_pivot", "O4"), Action("lead", (110.0, 12.0)), "let_go")
+    request = request_of(sketch_of(state), search=True)
+    assert request is not None
+    assert (list(request.pivots), request.near) == ([None, (110.0, 12.0)], BETTER)
+    assert sketch_of(drawn(replace(state, sketch=None))).pivots == ()
+
+
+def test_answers_that_come_while_something_is_dragged_wait_for_the_next(answered: State) -> None:
+    held = after(answered, Action("take_point", 10), Action("answers", (1.0, *FIRST, *OTHER)))
+    assert sketch_of(held).answers == sketch_of(answered).answers
+
+
+def test_replies_to_another_stroke_are_dropped(answered: State) -> None:
+    sketch = sketch_of(answered)
+    assert action_of(Reply(sketch.strokes, whole=False, numbers=FIRST), sketch) == Action("follow", FIRST)
+    assert action_of(Reply(sketch.strokes - 1, whole=False, numbers=FIRST), sketch) is None
+    assert action_of(Reply(sketch.strokes, whole=True, error="no room"), sketch) == Action("note", "no room")
+    assert action_of(Reply(sketch.strokes, whole=False, numbers=FIRST), None) is None
+
+
+def test_a_scene_s_own_trace_is_the_stroke_and_the_scene_is_among_the_answers(plain: State) -> None:
+    own = after(plain, "own_trace")
+    sketch = sketch_of(own)
+    assert sketch.curve is not None
+    assert (sketch.answer, sketch.off, own.scene) == (plain.scene, 0.0, plain.scene)
+    request = request_of(sketch, search=True)
+    assert request is not None
+    assert request.near is None
+    whole = after(own, Action("follow", FIRST), Action("answers", (0.0, *BETTER, *OTHER)))
+    assert (whole.scene, len(sketch_of(whole).answers)) == (plain.scene, 3)
+    bent = after(whole, Action("take_point", 3), Action("lead", (0.0, 0.0)))
+    assert len(sketch_of(bent).answers) == 2
+
+
+def test_a_scene_without_a_trace_has_none_to_take(plain: State) -> None:
+    bare = replace(plain, scene=replace(plain.scene, trace=()))
+    state = after(bare, "own_trace")
+    assert state.sketch is None
+    assert state.toast is not None
+
+
+# Values that no key or mouse gives, and a tape may hold.
+NONSENSE = {
+    "no answer": Action("answers", (0.0,)),
+    "an answer cut off": Action("answers", (0.0, *BETTER[:-1])),
+    "too few numbers": Action("follow", BETTER[:-1]),
+    "half a point": Action("stroke", (1.0, 2.0)),
+    "a stroke of no size": Action("stroke", (1.0, *(0.0, 0.0) * 5)),
+    "a negative length": Action("follow", (*BETTER[:6], -3.0, *BETTER[7:])),
+    "a place that is none": Action("take_point", -4),
+    "a pin that is none": Action("take_pivot", "Z"),
+    "an answer that is none": Action("answers", (9.0, *BETTER)),
+}
+
+
+@pytest.mark.parametrize("action", NONSENSE.values(), ids=NONSENSE)
+def test_nonsense_leaves_the_scene_as_it_is(answered: State, action: Action) -> None:
+    from linkanim.player.state.actions import is_taped
+
+    if is_taped(action):
+        state = after(answered, action)
+        assert (state.scene, state.effects) == (answered.scene, ())
+
+
+def test_a_recording_begun_in_a_sketch_begins_with_it(answered: State, tmp_path: Path) -> None:
+    held = after(answered, Action("take_pivot", "O4"), Action("lead", (110.0, 12.0)), "let_go")
+    taping = Taping(held, (1280, 720))
+    taping.note(held.frame + 3, (Action("answer", 1),))
+    write(taping.tape(held.frame + 5), tmp_path / "mine.tape.json")
+    tape = read(tmp_path / "mine.tape.json")
+    first, *_, last = tape.states()
+    assert first.scene == held.scene
+    assert first.phase == pytest.approx(held.phase)
+    one, other = sketch_of(first), sketch_of(held)
+    assert one.curve is not None
+    assert other.curve is not None
+    assert (one.answers, one.pivots, one.chosen) == (other.answers, other.pivots, other.chosen)
+    assert (one.curve.points == other.curve.points).all()
+    assert sketch_of(last).chosen == 1
+    assert not tape.is_loop
+
+
+def test_a_tape_has_what_was_found_and_searches_for_nothing(plain: State) -> None:
+    actions = [Action("pencil"), Action("stroke", (1.0, *(part for at in LOOP for part in at)))]
+    actions += [Action("follow", FIRST), Action("answers", (0.0, *BETTER, *OTHER))]
+    tape = Tape(plain, 30, tuple((3 * n, one) for n, one in enumerate(actions, start=1)))
+    *_, last = tape.states()
+    assert sketch_of(last).off == 0.12
+
+
+class InStep:
+    """Replies in the place of the process: at once, and always the same."""
+
+    asked: list[Follow]
+
+    def __init__(self) -> None:
+        self.asked, self.waiting, self.is_over = [], list[Reply](), False
+
+    def ask(self, request: Follow) -> None:
+        self.asked.append(request)
+        near = tuple(request.near or FIRST)
+        self.waiting.append(Reply(request.stroke, whole=False, numbers=near))
+        if request.search:
+            self.waiting.append(Reply(request.stroke, whole=True, numbers=(*BETTER, *OTHER)))
+
+    def replies(self) -> Iterator[Reply]:
+        found, self.waiting = self.waiting, []
+        yield from found
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.fixture
+def in_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(following, "Following", InStep)
+
+
+def loop(player: Player) -> list[tuple[float, float]]:
+    width, height = player.window.screen.size
+    turns = np.linspace(0, 6.2, 30)
+    return [(width * (0.5 + 0.2 * math.cos(turn)), height * (0.5 + 0.2 * math.sin(turn))) for turn in turns]
+
+
+def settle(player: Player) -> None:
+    """Let what glides come to rest, and the view with it, which begins to move when it is seen."""
+    player.tick(3)
+    player.tick(2 * FRAMES)
+
+
+@pytest.mark.usefixtures("in_step")
+def test_a_path_is_drawn_with_the_mouse_and_its_linkage_written(player: Player, here: Path) -> None:
+    paused = player.pixels
+    player.type("w")
+    assert player.state.mode == "pencil"
+    player.tick(FADE_FRAMES)
+    blank = player.pixels
+    player.drag(*loop(player))
+    assert player.pixels not in (paused, blank)
+    player.tick(FRAMES + 2)
+    assert sketch_of(player.state).off == 0.12
+    player.type("2")
+    assert sketch_of(player.state).chosen == 1
+    player.press(pygame.K_s, CTRL)
+    player.tick()
+    assert load(here / "path.toml").linkage == player.state.scene.linkage
+    player.press(pygame.K_ESCAPE)
+    player.tick(TOAST_FRAMES)
+    assert player.pixels == paused
+    assert player.state.sketch is None
+
+
+@pytest.mark.usefixtures("in_step")
+def test_points_pins_and_pictures_are_under_the_pencil(player: Player) -> None:
+    player.type("w")
+    player.drag(*loop(player))
+    settle(player)
+    sketch, screen = sketch_of(player.state), player.window.screen
+    assert sketch.curve is not None
+    point = sketch.curve.points[20]
+    at = screen.pixel(point.real, point.imag)
+    goal = complex(*screen.world(round(at[0] + 9), round(at[1] + 4)))
+    player.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
+    held = sketch_of(player.state).held
+    player.drag(at, (at[0] + 9, at[1] + 4))
+    dragged = sketch_of(player.state).curve
+    assert dragged is not None
+    assert isinstance(held, int)
+    assert abs(held - 20) < 3
+    assert dragged.points[held] == pytest.approx(goal)
+    settle(player)
+    pin = screen.pixel(*player.state.scene.pose(0.0, 0).position["O4"])
+    player.drag(pin, (pin[0] + 6, pin[1] + 6))
+    assert [name for name, _ in sketch_of(player.state).pivots] == ["O4"]
+    settle(player)
+    cells = screen.answer_cells()
+    player.mouse(pygame.MOUSEBUTTONDOWN, (cells[1].x + 5, cells[1].y + 5), button=1)
+    player.mouse(pygame.MOUSEBUTTONUP, (cells[1].x + 5, cells[1].y + 5), button=1)
+    assert sketch_of(player.state).chosen == 1
+    player.drag(*loop(player))
+    assert sketch_of(player.state).strokes == 2
+
+
+@pytest.mark.usefixtures("in_step")
+def test_shift_w_takes_the_scene_s_own_trace(player: Player) -> None:
+    player.press(ord("w"), SHIFT, "W")
+    player.tick(3)
+    assert len(sketch_of(player.state).answers) == 3
+    assert player.state.scene.name == "crank-rocker"
+
+
+@pytest.mark.slow
+def test_the_process_answers_a_stroke(stroke: State) -> None:
+    request = request_of(sketch_of(stroke), search=True)
+    assert request is not None
+    beside = following.Following()
+    try:
+        beside.ask(request)
+        first, whole = beside.wait(), beside.wait()
+    finally:
+        beside.close()
+    assert first is not None
+    assert whole is not None
+    assert (first.whole, whole.whole, whole.error) == (False, True, None)
+    assert whole.numbers[0] < 1.0
+    assert len(whole.numbers) % (4 + len(FOUR_BAR.parameters)) == 0
+    assert whole.numbers[0] <= first.numbers[0]
