@@ -23,20 +23,15 @@ settings.load_profile("linkanim")
 
 SAMPLE = {
     "crank-rocker",
-    "rocker-driven",
     "kite",
     "double-rocker",
-    "triple-rocker",
-    "grashof-limit-six-bar",
     "driven-piston",
     "inverted-slider-crank",
     "scotch-yoke",
-    "elliptic-trammel",
     "oscillating-cylinder",
     "press",
     "excavator",
     "epicyclic-hypocycloid",
-    "andrews",
 }
 """Scenes of every drive, dyad and kind of limit: what tests marked `sampled` look at."""
 

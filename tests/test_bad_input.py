@@ -295,7 +295,15 @@ HEAVY = {
     ),
 }
 
-MUCH_ALIKE = {"comments", "lines of one text", "a number a line", "unknown tables"}
+MUCH_ALIKE = {
+    "comments",
+    "lines of one text",
+    "a number a line",
+    "unknown tables",
+    "empty lines",
+    "escaped letters",
+    "unknown keys",
+}
 """Those that another is much like."""
 
 

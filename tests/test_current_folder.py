@@ -71,7 +71,7 @@ COMMANDS = {
     [
         ("gif", "a script"),
         ("mp4", "-m"),
-        ("report", "a script"),
+        pytest.param("report", "a script", marks=pytest.mark.long),
         pytest.param("gif", "-m", marks=pytest.mark.long),
         pytest.param("mp4", "a script", marks=pytest.mark.long),
         pytest.param("report", "-m", marks=pytest.mark.long),
@@ -89,7 +89,9 @@ def test_no_command_executes_what_lies_in_the_current_folder(here: Path, command
 
 
 # An empty entry of PYTHONPATH is the current folder, and so is what -c begins with.
-@pytest.mark.parametrize("path", [os.pathsep, pytest.param(".", marks=pytest.mark.long), "HERE"])
+@pytest.mark.parametrize(
+    "path", [os.pathsep, *(pytest.param(path, marks=pytest.mark.long) for path in (".", "HERE"))]
+)
 @pytest.mark.slow
 def test_no_encoder_executes_it_however_python_was_started(here: Path, path: str) -> None:
     words = [*["record", "my.toml", "--size", "64x36", "--seconds", "0.1"], "-o", "a.gif"]

@@ -41,6 +41,7 @@ def test_a_picture_is_what_its_command_writes(line: str, tmp_path: Path) -> None
     assert psnr(levels(kept), levels(made)) > ALIKE, f"make it anew: linkanim {line}"
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_the_printed_page_is_the_report_s(tmp_path: Path) -> None:
     """Its words were read off the page when it was printed, and are kept in the picture's file."""

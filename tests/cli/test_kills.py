@@ -163,7 +163,7 @@ def kill_at_random(what: str, moments: int, here: Path) -> None:
 
 
 @pytest.mark.withstands("faults survived", 2)
-@pytest.mark.parametrize("what", ["gallery", "Ctrl+S"])
+@pytest.mark.parametrize("what", ["Ctrl+S", pytest.param("gallery", marks=pytest.mark.long)])
 @pytest.mark.slow
 def test_a_killed_command_takes_nothing_away_and_leaves_nothing_half(what: str, tmp_path: Path) -> None:
     kill_at_random(what, 2, tmp_path)

@@ -31,7 +31,7 @@ LOOKS = {
     "zoomed": replace(FULL, zoom=2.0, pan=(0.1, 0.2)),
     "far": replace(FULL, zoom=0.6, pan=(-0.2, 0.1), background=False),
 }
-SAMPLE = [("press", "full"), ("press", "zoomed"), ("slider-crank", "far"), ("hoecken", "dark")]
+SAMPLE = [("six-bar", "full"), ("slider-crank", "far"), ("hoecken", "dark")]
 
 
 def _look(name: str, look: str) -> Look:

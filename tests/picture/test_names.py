@@ -38,7 +38,7 @@ def _gap(one: Rect, other: Rect) -> float:
 @pytest.mark.parametrize(
     ("name", "size"),
     [(name, SIZES[1]) for name in names()]
-    + [(name, size) for name in ("crank-rocker", "press", "kite", "jansen") for size in SIZES[::2]],
+    + [(name, size) for name in ("press", "kite") for size in SIZES[::2]],
 )
 @pytest.mark.sampled
 def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size: tuple[int, int]) -> None:

@@ -219,8 +219,8 @@ def test_a_label_keeps_off_the_solids_that_it_shuns(corners: tuple[complex, ...]
     assert _one(heedful._replace(beside=frozenset([0])), clutter).which == which
 
 
-@pytest.mark.parametrize("turn", [1, 1j, np.exp(0.5j), np.exp(2.2j)])
-@pytest.mark.parametrize("corners", [1, 2, 3, 5])
+@pytest.mark.parametrize("turn", [1, np.exp(2.2j)])
+@pytest.mark.parametrize("corners", [1, 2, 5])
 def test_boxes_touch_what_reaches_into_them(corners: int, turn: complex) -> None:
     """As points all over each tell; a bar's ends count as square, so that no touch is missed."""
     shape = 30 * turn * np.exp(2j * np.pi * np.arange(corners) / corners)

@@ -36,7 +36,7 @@ def words(group: Group) -> list[str]:
     return [caption.text for caption in group.captions]
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (720, 1280), (480, 270)])
+@pytest.mark.parametrize("size", [(720, 1280), (480, 270)])
 @pytest.mark.parametrize("name", FEW)
 def test_all_of_it_stays_in_its_place_whichever_way_it_runs(name: str, size: tuple[int, int]) -> None:
     for panel in panels(name, layout(size, polygons=True)):

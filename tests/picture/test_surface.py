@@ -87,12 +87,12 @@ def test_what_is_kept_of_a_picture_has_a_bound() -> None:
     scene, size, printer = load("press"), SMALL, SurfacePrinter()
     picture, surface = Picture(scene, size, replace(FULL, names=2)), offscreen(size)
     taken = []
-    for step in range(24):
+    for step in range(12):
         printer.paint(surface, picture, scene.pose(0.0685 * step))
         taken.append(sum(cover.nbytes for _, cover in printer._covers.values()))
     assert 0 < max(taken) <= 8 * surface.get_buffer().length
     before, look = picture, replace(FULL, names=2)
-    for step in range(12):
+    for step in range(8):
         before = Picture(scene, (320 + 10 * step, 180), look, before)
         printer.paint(offscreen(before.size), before, scene.pose(0.5))
     assert len(printer._labels._kept) < 120
@@ -104,7 +104,7 @@ def test_a_frame_is_the_mean_of_sixty_four_samples_of_the_same_drawing(name: str
     assert 44 <= frame_decibels(load(name), (1.0,)) < 80
 
 
-@pytest.mark.parametrize("look", [FULL, replace(FULL, theme="dark"), replace(FULL, chart=None)])
+@pytest.mark.parametrize("look", [FULL, replace(FULL, theme="dark", chart=None)])
 @pytest.mark.parametrize("size", [(640, 360), (320, 180)])
 def test_a_painter_that_takes_over_paints_as_one_that_begins(look: Look, size: tuple[int, int]) -> None:
     scene, overlay = load("press"), Overlay(help=(("look", (("H", "help"),)),), toast="told")
@@ -426,7 +426,9 @@ def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPat
     Picture(load("press"), (640, 360), Look(), listed=True)
 
 
-@pytest.mark.parametrize("name", ["press", "epicyclic-hypocycloid", "six-bar"])
+@pytest.mark.parametrize(
+    "name", ["epicyclic-hypocycloid", "six-bar", pytest.param("press", marks=pytest.mark.long)]
+)
 @pytest.mark.slow
 def test_frames_in_any_order_are_those_that_a_fresh_printer_prints(name: str) -> None:
     """Nothing of a frame is left in what a printer keeps for the next."""

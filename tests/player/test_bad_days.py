@@ -138,7 +138,14 @@ def test_a_window_may_have_a_thousand_sizes(here: Path) -> None:
 
 
 @fault
-@pytest.mark.parametrize("size", [(1, 1), (2000, 1), (33, 400)])
+@pytest.mark.parametrize(
+    "size",
+    [
+        (1, 1),
+        pytest.param((2000, 1), marks=pytest.mark.long),
+        pytest.param((33, 400), marks=pytest.mark.long),
+    ],
+)
 @pytest.mark.slow
 def test_a_window_too_small_to_show_anything_takes_keys_and_mouse(here: Path, size: tuple[int, int]) -> None:
     with display.opened(SIZE):
@@ -151,6 +158,7 @@ def test_a_window_too_small_to_show_anything_takes_keys_and_mouse(here: Path, si
         assert player.tick(30)
 
 
+@pytest.mark.long
 @fault
 def test_a_window_as_large_as_an_8k_screen_is_painted(here: Path) -> None:
     with display.opened((7680, 4320)):
@@ -336,6 +344,7 @@ def played(step: int) -> tuple[State, bytes]:
         return player.state, player.pixels
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_state_and_picture_are_the_same_whatever_the_rate_of_frames() -> None:
     state, pixels = played(1)

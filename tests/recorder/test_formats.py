@@ -165,6 +165,7 @@ def test_a_path_is_only_a_path(tmp_path: Path, form: Format) -> None:
     assert [path.name for path in tmp_path.iterdir()] == [folder.name]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_memory_does_not_grow_with_the_number_of_frames(tmp_path: Path) -> None:
     def peak(periods: int) -> int:

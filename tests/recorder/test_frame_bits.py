@@ -22,6 +22,7 @@ def test_frames_and_palettes_are_the_bytes_that_are_kept(found: dict[str, str]) 
     assert without_words(found) == kept()
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_no_vector_unit_changes_a_byte(found: dict[str, str]) -> None:
     units = np.show_config(mode="dicts")["SIMD Extensions"].get("found", [])

@@ -275,6 +275,7 @@ def test_the_sheet_keeps_flat_areas_as_they_are_and_the_rest_near() -> None:
     assert np.abs(found[120:].astype(int) - shades).mean() < 8
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -287,6 +288,7 @@ def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
     assert smaller.file_bytes < largest.file_bytes
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_gallery_recording_that_is_too_large_at_any_rate_is_smaller(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -337,6 +339,7 @@ def test_a_gallery_leaves_files_that_are_not_its_own_and_draws_nothing_then(
     assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [(name, b"mine")]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_gallery_that_fails_on_the_way_keeps_what_it_finished_and_goes_on_the_next_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -40,6 +40,7 @@ def no_process(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rendering, "_start", start_nothing)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_few_good_scenes_are_made_into_everything(tmp_path: Path) -> None:
     numbers = [next(good_scenes(SEED, turn, len(ROTATION))) for turn in map(ROTATION.index, SHARES)]

@@ -12,7 +12,7 @@ from typed_linkages import Document, linkages
 
 SEED = 20
 LONG_SEED = 8
-COUNT, PARTS = 240, 3
+COUNT, PARTS = 120, 2
 """Linkages in the default run, and the tests they are shared among, so that they run side by side."""
 COSTLY = {"geared five-bar": 0.3, "six-bar": 0.3}
 """Kinds that take the longest to put together, and how often the default run has them."""
