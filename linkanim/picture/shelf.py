@@ -21,121 +21,114 @@ from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.text import Type, hyphened
 from linkanim.picture.theme import ORANGE, theme_of
 from linkanim.picture.view import Rect
-from linkanim.scenes import chapter_of, load
+from linkanim.scenes import chapter_of, load, titles
 from linkanim.scenes.scene import Scene
 
 _SHAPE = 1.6
 """How much wider than high a picture is."""
-_NAMED = 74
-"""The least width of a place that has a title below its picture, in pixels."""
-_LEAST = 10
-"""The least size of a title in pixels, below which it is cut rather than set smaller."""
+_WIDE = (185.0, 100.0)
+"""The least width of a picture, in units and in pixels."""
+_LEAST = 8
+"""The least size of a title in pixels, at which what has no room is cut."""
+_LINES = 2
+"""The most lines of a title, and of the sentence at the foot."""
 _HEADING = 1.2
 """The size of a heading, in that of a title."""
 _CHOSEN_TURNS = 2
 _AT_ONCE = 5
 """The chosen picture moves at every second frame; of the others so many at each, in turns."""
 _PER_SECOND = 60
+_NONE = "none has that in its title or chapter"
+_TITLE = "Mechanisms"
 
 
 class Grid(NamedTuple):
-    """Where the pictures stand: a rectangle for each, the height of its title, headings, their size."""
+    """Where what is in sight of a shelf stands: places by the numbers of their mechanisms, headings, words.
 
-    cells: tuple[Rect, ...]
+    `rows` are all rows of numbers, from top to bottom; the first in sight is that numbered `top`. What
+    reaches below the `room` is cut off there.
+    """
+
+    cells: dict[int, Rect]
+    headings: tuple[tuple[str, Rect], ...]
+    rows: tuple[tuple[int, ...], ...]
+    top: int
+    room: Rect
     line: float
-    headings: tuple[Rect, ...]
     text: int
 
     def at(self, x: float, y: float) -> int | None:
-        """Return the place under a pixel; None between the pictures."""
-        return next((n for n, cell in enumerate(self.cells) if cell.holds(x, y)), None)
+        """Return the mechanism under a pixel; None between the pictures."""
+        inside = self.room.holds(x, y)
+        return next((n for n, cell in self.cells.items() if inside and cell.holds(x, y)), None)
 
     def beside(self, place: int, rows: int) -> int:
-        """Return the place nearest to one, so many rows further down; the first row follows the last."""
-        tops = sorted({cell.y for cell in self.cells})
-        here = self.cells[place]
-        top = tops[(tops.index(here.y) + rows) % len(tops)]
-        row = [n for n, cell in enumerate(self.cells) if cell.y == top]
-        return min(row, key=lambda n: abs(self.cells[n].x - here.x))
+        """Return the mechanism nearest to one, so many rows further down; the first row follows the last."""
+        here = next((n for n, row in enumerate(self.rows) if place in row), 0)
+        row = self.rows[(here + rows) % len(self.rows)]
+        return row[min(self.rows[here].index(place), len(row) - 1)] if place in self.rows[here] else row[0]
+
+    def whole(self, place: int) -> bool:
+        """Whether a mechanism's place is in sight from top to bottom."""
+        return place in self.cells and self.cells[place].bottom <= self.room.bottom + 1
 
 
-def grid(size: tuple[int, int], counts: Sequence[int]) -> Grid:
-    """Return the grid in which pictures are largest, so many in each chapter, which begins a row.
-
-    Where they would be too small for titles, they stand without, and without headings.
-    """
-    parts = layout(size)
-    text = max(round(12.5 * parts.unit), 11)
-    heading = 1.4 * _HEADING * text if len(counts) > 1 else 0.0
-    named = _Shelves(Rect(0, 0, *size).inset(8 * parts.unit), tuple(counts), 2.45 * text, heading)
-    if named.width(named.columns) >= _NAMED:
-        return named.grid(text)
-    foot = Rect(0, 0, size[0], size[1] - 1.6 * text)
-    return _Shelves(foot.inset(6 * parts.unit), (sum(counts),), 0.0, 0.0).grid(text)
-
-
-class _Shelves(NamedTuple):
-    """Rows of places in a room; those of a chapter begin below its heading."""
-
-    room: Rect
-    counts: tuple[int, ...]
-    line: float
-    heading: float
-
-    @property
-    def gap(self) -> float:
-        return max(0.005 * self.room.width, 3.0)
-
-    @property
-    def columns(self) -> int:
-        """As many columns as make the places largest."""
-        return max(range(1, max(self.counts, default=1) + 1), key=self.width)
-
-    def width(self, columns: int) -> float:
-        rows = sum(ceil(count / columns) for count in self.counts)
-        spent = (rows - 1) * self.gap + len(self.counts) * self.heading
-        high = (self.room.height - spent) / max(rows, 1) - self.line
-        return min((self.room.width - (columns - 1) * self.gap) / columns, high * _SHAPE)
-
-    def grid(self, text: int) -> Grid:
-        wide = max(self.width(self.columns), 8.0)
-        cells, headings = zip(*self._laid(wide), strict=True)
-        low = max(cell.bottom for row in cells for cell in row)
-        right = max(cell.right for row in cells for cell in row)
-        x, y = (self.room.right - right) / 2, max(self.room.bottom - low, 0.0) / 2
-        moved = [cell._replace(x=cell.x + x, y=cell.y + y) for row in cells for cell in row]
-        heads = tuple(head._replace(x=head.x + x, y=head.y + y) for head in headings if self.heading)
-        return Grid(tuple(moved), self.line, heads, text)
-
-    def _laid(self, wide: float) -> Iterator[tuple[list[Rect], Rect]]:
-        """Yield each chapter's places and its heading."""
-        high, top, left, columns = wide / _SHAPE + self.line, self.room.y, self.room.x, self.columns
-        for count in self.counts:
-            heading = Rect(left, top, self.room.width, 0.9 * self.heading)
-            top += self.heading
-            yield (
-                [
-                    Rect(
-                        left + n % columns * (wide + self.gap),
-                        top + n // columns * (high + self.gap),
-                        wide,
-                        high,
-                    )
-                    for n in range(count)
-                ],
-                heading,
-            )
-            top += ceil(count / columns) * (high + self.gap)
+def grid(size: tuple[int, int], shelf: Shelf) -> Grid:
+    """Return where a shelf's mechanisms stand, scrolled no further than the chosen one is in sight."""
+    shape = _Shape(size, shelf)
+    last = len(shape.rows) - 1
+    chosen = next((n for n, row in enumerate(shape.rows) if shelf.chosen in row), 0)
+    top = min(max(shelf.top, 0), chosen, max(last, 0))
+    while top < chosen and not shape.grid(top).whole(shelf.chosen):
+        top += 1
+    # no further than that the last row stands at the foot
+    while top > 0 and shape.grid(top - 1).whole(shape.rows[last][0]):
+        top -= 1
+    return shape.grid(top)
 
 
-def by_chapter(entries: Sequence[Scene | str]) -> tuple[tuple[str, int], ...]:
-    """Return the chapters of the shelf's mechanisms, in their order, and how many each has."""
-    found = (_chapter(entry) for entry in entries)
-    return tuple((chapter, len(list(members))) for chapter, members in groupby(found))
+class _Shape:
+    """How large things are on a shelf, and which mechanisms are in a row."""
+
+    def __init__(self, size: tuple[int, int], shelf: Shelf) -> None:
+        unit = layout(size).unit
+        self.text = max(round(15.0 * unit), 11)
+        edge = max(14.0 * unit, 4.0)
+        self._room = Rect(edge, 2.4 * self.text, size[0] - 2 * edge, size[1] - 5.4 * self.text)
+        self._gap, least = max(12.0 * unit, 4.0), max(_WIDE[0] * unit, _WIDE[1])
+        columns = max(int((self._room.width + self._gap) / (least + self._gap)), 1)
+        self._wide = (self._room.width - (columns - 1) * self._gap) / columns
+        self.line = (1.2 * _LINES + 0.3) * self.text
+        groups = [(name, [*members]) for name, members in groupby(shelf.found, lambda n: _chapter(shelf, n))]
+        self._heads = [name for name, members in groups for _ in range(ceil(len(members) / columns))]
+        self.rows = tuple(
+            tuple(members[n : n + columns]) for _, members in groups for n in range(0, len(members), columns)
+        )
+
+    def grid(self, top: int) -> Grid:
+        """Return the grid with a row at its top, below the name of its chapter."""
+        cells: dict[int, Rect] = {}
+        heads = []
+        y, high, head = self._room.y, self._wide / _SHAPE + self.line, 1.5 * _HEADING * self.text
+        for n in range(top, len(self.rows)):
+            if n == top or self._heads[n] != self._heads[n - 1]:
+                heads.append((self._heads[n], Rect(self._room.x, y, self._room.width, head)))
+                y += head
+            if y >= self._room.bottom:
+                break
+            for column, place in enumerate(self.rows[n]):
+                x = self._room.x + column * (self._wide + self._gap)
+                cells[place] = Rect(x, y, self._wide, high)
+            y += high + self._gap
+        seen = tuple(one for one in heads if one[1].bottom <= self._room.bottom)
+        return Grid(cells, seen, self.rows, top, self._room, self.line, self.text)
 
 
-def _chapter(entry: Scene | str) -> str:
-    return (chapter_of(entry) or "") if isinstance(entry, str) else entry.chapter
+def _chapter(shelf: Shelf, place: int) -> str:
+    """Return what stands over a mechanism: its chapter, in capitals where it begins."""
+    entry = shelf.entries[place]
+    name = (chapter_of(entry) or "") if isinstance(entry, str) else entry.chapter or "opened"
+    return name[:1].upper() + name[1:]
 
 
 @dataclass
@@ -154,128 +147,150 @@ class Live:
         self.printer.paint(self.printed, self.picture, self.picture.scene.pose(phase))
 
 
-@dataclass
-class _Sheet:
-    """What of an open shelf is kept: its places, what stands still, the mechanisms that are there."""
-
-    board: Board
-    grid: Grid
-    still: pygame.Surface
-    live: list[Live] = field(default_factory=list)
-
-
 class ShelfPrinter:
-    """Paints the open shelf; one mechanism is read and drawn a frame, and kept while the shelf is open."""
+    """Paints the open shelf: frames and titles at once, then a mechanism in sight a frame, which are kept."""
 
     def __init__(self) -> None:
         self._made_for: object = None
-        self._sheet: _Sheet | None = None
+        self._still: tuple[object, pygame.Surface] | None = None
+        self._live: dict[int, Live] = {}
         self._type: Type | None = None
 
     def close(self) -> None:
         """Forget what was drawn for a shelf that is no longer open."""
-        self._made_for = self._sheet = self._type = None
+        self._made_for = self._still = self._type = None
+        self._live = {}
 
     def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
         """Draw the shelf instead of the picture, with one mechanism more than before."""
-        made_for = (surface.get_size(), shelf.theme, shelf.entries)
-        if self._sheet is None or self._made_for != made_for:
-            self._type = self._type or Type()
-            self._made_for, self._sheet = made_for, _sheet(surface.get_size(), shelf, self._type)
-        sheet = self._sheet
-        if len(sheet.live) < len(shelf.entries):
-            _joined(sheet, shelf)
-        surface.blit(sheet.still, (0, 0))
-        _marked(surface, sheet, shelf.chosen)
-        for n in _due(sheet, shelf):
-            sheet.live[n].go(_turn(shelf, n))
-        for live, cell in zip(sheet.live, sheet.grid.cells, strict=False):
-            if live.printed:
+        size = surface.get_size()
+        if self._made_for != (size, shelf.theme, shelf.entries):
+            self.close()
+            self._made_for = size, shelf.theme, shelf.entries
+        self._type = self._type or Type()
+        board, found = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf)
+        shown = (found.top, shelf.found, shelf.sieve)
+        if self._still is None or self._still[0] != shown:
+            self._still = shown, _still(size, board, found, shelf)
+        surface.blit(self._still[1], (0, 0))
+        self._join(found, shelf)
+        for n in _due(self._live, found, shelf):
+            self._live[n].go(_turn(shelf, n, len(found.cells)))
+        surface.set_clip(pygame.Rect(0, 0, size[0], int(found.room.bottom)))
+        for n, cell in found.cells.items():
+            live = self._live.get(n)
+            if live and live.printed:
                 surface.blit(live.printed, (round(cell.x), round(cell.y)))
-        for cell in (sheet.grid.cells[n] for n in shelf.edited):
-            reach = 6 * sheet.board.layout.unit
-            middle = complex(cell.right - 2.2 * reach, cell.y + 2.2 * reach)
-            paint(surface, [Layer(ORANGE, [middle + disc(reach)])])
+            _mark(surface, board, cell, chosen=n == shelf.chosen, edited=n in shelf.edited)
+        surface.set_clip(None)
+        _foot(surface, board, found, shelf, self._live.get(shelf.chosen))
+
+    def _join(self, found: Grid, shelf: Shelf) -> None:
+        """Read the next mechanism in sight, the chosen one first."""
+        order = sorted(found.cells, key=lambda n: n != shelf.chosen)
+        n = next((n for n in order if n not in self._live), None)
+        if n is not None:
+            entry, cell = shelf.entries[n], found.cells[n]
+            scene = load(entry) if isinstance(entry, str) else entry
+            size = round(cell.width), round(cell.height - found.line)
+            look = Look(theme=shelf.theme, hud=False, background=False)
+            self._live[n] = Live(Picture(scene, size, look))
 
 
-def _due(sheet: _Sheet, shelf: Shelf) -> list[int]:
+def _due(live: dict[int, Live], found: Grid, shelf: Shelf) -> list[int]:
     """Return the places to be painted at this frame: the chosen one, new ones, and some whose turn it is."""
-    count = len(sheet.live)
-    order = [(shelf.frame * _AT_ONCE + n) % count for n in range(count)]
-    stale = [n for n in order if sheet.live[n].turn != _turn(shelf, n)]
-    at_once = [n for n in stale if n == shelf.chosen or sheet.live[n].printed is None]
+    seen = [n for n in found.cells if n in live]
+    first = shelf.frame * _AT_ONCE % max(len(seen), 1)
+    order = seen[first:] + seen[:first]
+    stale = [n for n in order if live[n].turn != _turn(shelf, n, len(found.cells))]
+    at_once = [n for n in stale if n == shelf.chosen or live[n].printed is None]
     return at_once + [n for n in stale if n not in at_once][:_AT_ONCE]
 
 
-def _turn(shelf: Shelf, n: int) -> int:
-    """Return the frame that a place's picture shows: the places take turns in moving on."""
-    turns = _CHOSEN_TURNS if n == shelf.chosen else ceil(len(shelf.entries) / _AT_ONCE)
+def _turn(shelf: Shelf, n: int, count: int) -> int:
+    """Return the frame that a place's picture shows: the places in sight take turns in moving on."""
+    turns = _CHOSEN_TURNS if n == shelf.chosen else ceil(count / _AT_ONCE)
     return 0 if shelf.still else max((shelf.frame - n) // turns * turns, 0)
 
 
-def _sheet(size: tuple[int, int], shelf: Shelf, type_: Type) -> _Sheet:
-    """Return an empty shelf: its frames and headings."""
-    chapters = by_chapter(shelf.entries)
-    board, found = Board(layout(size), type_, theme_of(shelf.theme)), grid(size, [n for _, n in chapters])
+def _still(size: tuple[int, int], board: Board, found: Grid, shelf: Shelf) -> pygame.Surface:
+    """Return what of a shelf keeps still: frames, titles, headings, and what has been typed."""
     still = pygame.Surface(size, 0, 32)
     still.fill(board.theme.background)
+    words, colour = (f"{shelf.sieve}_", board.theme.velocity) if shelf.sieve else (_TITLE, board.theme.ink)
+    text, x, y = found.text, found.room.x, 0.7 * found.text
+    board.write(still, words, (x, y), size=text, colour=colour, strong=True)
+    count = f"{len(shelf.found)} of {len(shelf.entries)}" if shelf.sieve else f"{len(shelf.entries)}"
+    hint = count if shelf.sieve else f"type to filter   {count}"
+    board.write(still, hint, (found.room.right, y), size=text, colour=board.theme.dim, anchor="right")
+    if not shelf.found:
+        board.write(still, _NONE, (x, found.room.y), size=text, colour=board.theme.warning)
+    for name, at in found.headings:
+        board.write(still, name, (at.x, at.y), size=round(_HEADING * text), strong=True)
     width = max(1.5 * board.layout.unit, 1.0)
-    outer, inner = ([frame_of(cell, board, by) for cell in found.cells] for by in (width, 0.0))
+    outer, inner = ([frame_of(cell, board, by) for cell in found.cells.values()] for by in (width, 0.0))
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
-    for (chapter, _), at in zip(chapters, found.headings, strict=False):
-        words = chapter[:1].upper() + chapter[1:]
-        board.write(still, words, (at.x, at.y), size=round(_HEADING * found.text), strong=True)
-    return _Sheet(board, found, still)
+    named = titles()
+    for n, cell in found.cells.items():
+        entry = shelf.entries[n]
+        _title(still, board, named[entry] if isinstance(entry, str) else entry.title, cell, found)
+    still.fill(board.theme.background, pygame.Rect(0, int(found.room.bottom), *size))
+    return still
 
 
-def _joined(sheet: _Sheet, shelf: Shelf) -> None:
-    """Put the next mechanism on the shelf, and its title below its place."""
-    entry, cell = shelf.entries[len(sheet.live)], sheet.grid.cells[len(sheet.live)]
-    scene = load(entry) if isinstance(entry, str) else entry
-    size = round(cell.width), round(cell.height - sheet.grid.line)
-    look = Look(theme=shelf.theme, hud=False, background=False)
-    sheet.live.append(Live(Picture(scene, size, look)))
-    if sheet.grid.line:
-        _title(sheet, scene, cell)
-
-
-def _title(sheet: _Sheet, scene: Scene, cell: Rect) -> None:
-    """Write a scene's title in two lines below its picture, or its name, or as much of that as has room."""
-    board, text = sheet.board, sheet.grid.text
-    lines, size = titled(board, (scene.title, scene.name), text, cell.width - 0.5 * text)
-    top = cell.bottom - sheet.grid.line + (0.1 + 0.6 * (2 - len(lines))) * text
+def _title(surface: pygame.Surface, board: Board, title: str, cell: Rect, found: Grid) -> None:
+    """Write a title in two lines below its picture, as large as fits."""
+    lines, size = titled(board, title, found.text, cell.width - 0.5 * found.text)
+    top = cell.bottom - found.line + (0.1 + 0.6 * (_LINES - len(lines))) * found.text
     for n, line in enumerate(lines):
-        at = (cell.x + cell.width / 2, top + 1.15 * text * n + (text - size) / 2)
-        board.write(sheet.still, line, at, size=size, anchor="centre")
+        at = (cell.x + cell.width / 2, top + 1.15 * found.text * n + (found.text - size) / 2)
+        board.write(surface, line, at, size=size, anchor="centre")
 
 
-def titled(board: Board, names: Sequence[str], text: int, room: float) -> tuple[list[str], int]:
-    """Return the first of some names that has room in two lines, and the size at which it has.
+def titled(board: Board, title: str, text: int, room: float) -> tuple[list[str], int]:
+    """Return a title in two lines at the most, and the size at which it has room so.
 
-    A line ends at a space or a hyphen. A name that would have to be broken inside is set smaller, and where
-    that does not help either, as much of the last one's two ends as has room.
+    A line ends at a space or a hyphen. Where no size that reads has room, the second ends in an ellipsis.
     """
     for size in range(text, _LEAST - 1, -1):
-        for name in names:
-            lines = board.type.wrapped(name, size, room)
-            parts = (part for word in name.split() for part in hyphened(word))
-            if len(lines) <= 2 and board.widest(parts, size) <= room:
-                return lines, size
-    return [board.fitting(names, text, room)], text
+        lines = board.type.wrapped(title, size, room)
+        parts = (part for word in title.split() for part in hyphened(word))
+        if len(lines) <= _LINES and board.widest(parts, size) <= room:
+            return lines, size
+    first, *rest = board.type.wrapped(title, _LEAST, room)
+    return [first, *([_cut(board, " ".join(rest), room)] if rest else [])], _LEAST
 
 
-def _marked(surface: pygame.Surface, sheet: _Sheet, chosen: int) -> None:
-    """Frame the chosen place; where there are no titles, write its own at the foot."""
-    board, cell = sheet.board, sheet.grid.cells[chosen]
-    width = max(3.0 * board.layout.unit, 1.5)
-    paint(
-        surface,
-        [Layer(board.theme.velocity, [frame_of(cell, board, width), frame_of(cell, board, 0.0)[::-1]])],
-    )
-    if not sheet.grid.line and chosen < len(sheet.live):
-        size, text = surface.get_size(), sheet.grid.text
-        words = board.fitting((sheet.live[chosen].picture.scene.title,), text, size[0] - text)
-        board.write(surface, words, (size[0] / 2, size[1] - 1.5 * text), size=text, anchor="centre")
+def _cut(board: Board, words: str, room: float) -> str:
+    """Return as much of the beginning of some words as has room, with an ellipsis where they are cut."""
+    ways = (words, *(f"{words[:n].rstrip()}…" for n in range(len(words) - 1, 0, -1)))
+    return next((way for way in ways if board.type.width(way, _LEAST) <= room), "")
+
+
+def _mark(surface: pygame.Surface, board: Board, cell: Rect, *, chosen: bool, edited: bool) -> None:
+    """Frame the chosen place; put a dot on one that is edited."""
+    if chosen:
+        width = max(3.0 * board.layout.unit, 1.5)
+        ring = [frame_of(cell, board, width), frame_of(cell, board, 0.0)[::-1]]
+        paint(surface, [Layer(board.theme.velocity, ring)])
+    if edited:
+        reach = 6 * board.layout.unit
+        middle = complex(cell.right - 2.2 * reach, cell.y + 2.2 * reach)
+        paint(surface, [Layer(ORANGE, [middle + disc(reach)])])
+
+
+def _foot(surface: pygame.Surface, board: Board, found: Grid, shelf: Shelf, live: Live | None) -> None:
+    """Write what to watch for of the chosen mechanism at the foot, in two lines at the most."""
+    if live is None or shelf.chosen not in shelf.found:
+        return
+    text, room = found.text, found.room
+    for size in range(text, _LEAST - 1, -1):
+        lines = board.type.wrapped(live.picture.scene.look_at, size, room.width)
+        if len(lines) <= _LINES:
+            break
+    for n, line in enumerate(lines[:_LINES]):
+        at = (room.x + room.width / 2, room.bottom + (0.35 + 1.2 * n) * text)
+        board.write(surface, line, at, size=size, colour=board.theme.dim, anchor="centre")
 
 
 def frame_of(cell: Rect, board: Board, by: float) -> Loop:
@@ -284,3 +299,18 @@ def frame_of(cell: Rect, board: Board, by: float) -> Loop:
     corner = 7 * board.layout.unit
     outline: Loop = middle + box(cell.width + 2 * by, cell.height + 2 * by, corner + by)
     return outline
+
+
+def found_among(entries: Sequence[Scene | str], sieve: str) -> tuple[int, ...]:
+    """Return the places of the mechanisms that have all the sieve's words in name, title or chapter."""
+    words = sieve.casefold().split()
+    return tuple(n for n, text in enumerate(_searched(entries)) if all(word in text for word in words))
+
+
+def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:
+    named = titles()
+    for entry in entries:
+        if isinstance(entry, str):
+            yield f"{entry} {named[entry]} {chapter_of(entry)}".casefold()
+        else:
+            yield f"{entry.name} {entry.title} {entry.chapter}".casefold()

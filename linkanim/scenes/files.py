@@ -45,6 +45,11 @@ def names() -> tuple[str, ...]:
 
 def titles() -> dict[str, str]:
     """Return each catalogue scene's title by its name, without checking the linkage in it."""
+    return dict(_titles())
+
+
+@cache
+def _titles() -> Mapping[str, str]:
     return {name: str(parse(_catalogue_text(name), name)["title"]) for name in names()}
 
 

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from itertools import combinations
 from pathlib import Path
 
 import pygame
 import pytest
-from playing import SIZE, Player, fake_start
+from playing import Player, fake_start
 
 from linkanim.picture.diagrams.quantities import quantities, quantity, telling
-from linkanim.picture.shelf import Grid, grid
+from linkanim.picture.shelf import Grid
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.browsing import listed
 from linkanim.player.state.state import State, begin
 from linkanim.player.tape.tape_file import read
 from linkanim.player.window.show import overlay
-from linkanim.scenes import Scene, chapters, load, names
+from linkanim.scenes import Scene, load, names
 
 
 def after(state: State, *actions_: Action | str) -> State:
@@ -174,45 +173,6 @@ def test_a_place_off_the_shelf_is_not_gone_to(press: State, place: int) -> None:
     assert (state.browsing.chosen, state.scene) == (press.place, press.scene)
 
 
-@pytest.mark.parametrize("size", [(320, 180), (1280, 720), (720, 1280), (3840, 2160), (1000, 300)])
-@pytest.mark.parametrize("counts", [(1,), (2,), (14,), (12, 11, 3, 18, 11), (40, 1)])
-def test_the_grid_fills_any_window_and_overlaps_nothing(
-    size: tuple[int, int], counts: tuple[int, ...]
-) -> None:
-    found = grid(size, counts)
-    assert len(found.cells) == sum(counts)
-    assert len(found.headings) in (0, len(counts))
-    for heading in found.headings:
-        assert not any(heading.meets(cell) for cell in found.cells)
-    for one, other in combinations(found.cells, 2):
-        assert not one.inset(0.5).meets(other.inset(0.5))
-    right, low = (max(getattr(cell, side) for cell in found.cells) for side in ("right", "bottom"))
-    assert right > 0.9 * size[0] or low > 0.9 * size[1]
-    for n, cell in enumerate(found.cells):
-        assert cell.x >= 0
-        assert cell.right <= size[0]
-        assert cell.y >= 0
-        assert cell.bottom <= size[1] + 1
-        assert found.at(cell.x + cell.width / 2, cell.y + cell.height / 2) == n
-    assert found.at(-5.0, -5.0) is None
-
-
-def test_each_chapter_begins_a_row_and_the_rows_are_gone_through_whatever_their_length() -> None:
-    found = grid((1280, 720), (3, 5, 2))
-    tops = [cell.y for cell in found.cells]
-    assert tops[0] == tops[2] < tops[3] == tops[7] < tops[8] == tops[9]
-    assert [found.beside(2, 1), found.beside(7, 1), found.beside(9, 1), found.beside(0, -1)] == [5, 9, 1, 8]
-
-
-def test_a_shelf_too_small_for_titles_has_the_chosen_one_s_at_its_foot() -> None:
-    small, large = (grid(size, [12, 11, 3, 18, 10]) for size in ((320, 180), (1280, 720)))
-    assert (small.line, small.headings) == (0.0, ())
-    assert large.line > 2 * large.text
-    assert len(large.headings) == 5
-    assert grid((1280, 720), [12]).headings == ()
-    assert max(cell.bottom for cell in small.cells) < 180 - 11
-
-
 def test_the_shelf_opens_at_once_and_reads_a_mechanism_a_frame(
     player: Player, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -227,7 +187,8 @@ def test_the_shelf_opens_at_once_and_reads_a_mechanism_a_frame(
     for frame in range(1, 4):
         assert len(read) == frame
         player.tick()
-    assert read == list(names()[:4])
+    assert len({*read}) == 4
+    assert read[0] == player.state.scene.name
 
 
 @pytest.mark.parametrize(
@@ -257,13 +218,14 @@ def test_nothing_is_charted_where_nothing_is_found(player: Player) -> None:
     assert (player.state.look.chart, player.state.listing is not None) == (None, True)
 
 
-def _grid() -> Grid:
-    return grid(SIZE, [len(members) for members in chapters().values()])
+def _grid(player: Player) -> Grid:
+    assert player.state.browsing
+    return player.window.screen.shelf_grid(player.state.browsing)
 
 
 def test_the_shelf_is_browsed_with_arrows_and_enter(player: Player) -> None:
     player.type("o")
-    below = _grid().beside(1, 1)
+    below = _grid(player).beside(1, 1)
     player.press(pygame.K_RIGHT)
     player.press(pygame.K_DOWN)
     player.press(pygame.K_RETURN)
@@ -280,14 +242,78 @@ def test_the_shelf_opened_and_browsed_within_one_frame_goes_a_row_down(player: P
 
 def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
     player.type("o")
-    cell = _grid().cells[6]
+    cell = _grid(player).cells[2]
     middle = (cell.x + cell.width / 2, cell.y + cell.height / 2)
     player.mouse(pygame.MOUSEMOTION, middle, rel=(0, 0), buttons=(0, 0, 0))
     assert player.state.browsing is not None
-    assert player.state.browsing.chosen == 6
+    assert player.state.browsing.chosen == 2
     player.mouse(pygame.MOUSEBUTTONDOWN, middle, button=1)
-    assert player.state.scene.name == names()[6]
+    assert player.state.scene.name == names()[2]
     assert not player.state.is_covered
+
+
+# What is typed is looked for in title, chapter and name; the chosen one stays where it is found.
+SIFTED = {
+    "a title": ("press", "double-rocker", "double-rocker"),
+    "a chapter": ("press", "exact and", "peaucellier"),
+    "a name": ("crank-rocker", "hoecken", "hoecken"),
+    "one that is on": ("press", "PUNCH press", "press"),
+}
+
+
+@pytest.mark.parametrize(("on", "typed", "first"), SIFTED.values(), ids=SIFTED)
+def test_letters_sift_the_shelf(on: str, typed: str, first: str) -> None:
+    state = after(begin(load(on)), "shelf", *(Action("sift", letter) for letter in typed))
+    assert state.browsing
+    found = [state.browsing.entries[n] for n in state.browsing.found]
+    assert state.browsing.entries[state.browsing.chosen] == first
+    assert first in found
+    assert len(found) < len(names()) / 2
+    moved = after(state, Action("move", len(found)))
+    assert moved.browsing
+    assert moved.browsing.chosen == state.browsing.chosen
+    back = after(state, *["unsift"] * len(typed))
+    assert back.browsing
+    assert (back.browsing.sieve, len(back.browsing.found)) == ("", len(names()))
+
+
+def test_the_shelf_is_sifted_with_keys_and_nothing_is_put_on_where_nothing_is_found(player: Player) -> None:
+    player.type("o")
+    player.type("peau")
+    player.press(pygame.K_RETURN)
+    assert (player.state.scene.name, player.state.browsing) == ("peaucellier", None)
+    player.type("o")
+    player.type("xyzzy")
+    player.press(pygame.K_RETURN)
+    assert player.state.browsing
+    assert player.state.scene.name == "peaucellier"
+    player.press(pygame.K_ESCAPE)
+    assert player.state.browsing is None
+
+
+def test_the_wheel_scrolls_the_shelf_and_what_is_chosen_stays_in_sight(player: Player) -> None:
+    player.type("o")
+    for notches in (-1, -1, -40, 3, 40):
+        before = _grid(player)
+        pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
+        player.tick()
+        assert player.state.browsing
+        found = _grid(player)
+        assert found.whole(player.state.browsing.chosen)
+        assert (found.top > before.top) == (notches < 0)
+    assert found.top == 0
+
+
+def test_arrows_scroll_no_more_than_they_need(player: Player) -> None:
+    player.type("o")
+    tops = []
+    for _ in range(len(_grid(player).rows)):
+        tops.append(_grid(player).top)
+        player.press(pygame.K_DOWN)
+    assert tops == sorted(tops)
+    player.press(pygame.K_UP)
+    assert player.state.browsing
+    assert _grid(player).whole(player.state.browsing.chosen)
 
 
 def test_a_click_beside_the_pictures_closes_the_shelf(player: Player) -> None:

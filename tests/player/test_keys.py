@@ -158,14 +158,16 @@ def test_a_key_while_the_quantities_are_open(press: Press, typing: bool, action:
     assert action_of(press, "list", typing=typing) == action
 
 
-# With the shelf open the arrows and Enter are its own, all else keeps its meaning.
+# With the shelf open the arrows and Enter are its own, and letters sift it.
 BROWSING = {
     "left": (Press("left"), Action("move", -1)),
     "down": (Press("down"), Action("row", 1)),
     "enter": (Press("return", "\r"), Action("pick")),
     "o closes": (Press("o", "o"), Action("shelf")),
     "escape": (Press("escape", "\x1b"), Action("back")),
-    "l": (Press("l", "l"), Action("theme")),
+    "l": (Press("l", "l"), Action("sift", "l")),
+    "page down": (Press("pagedown"), Action("scroll", 2)),
+    "f11": (Press("f11"), Action("fullscreen")),
 }
 
 
@@ -183,7 +185,7 @@ def test_keys_that_hold_are_those_that_move() -> None:
     held = {bind.action.name for bind in BINDS if bind.repeats}
     assert held == {
         *("step", "speed", "zoom", "choose", "nudge", "erase", "undo", "redo"),
-        *("move", "row", "unsift"),
+        *("move", "row", "unsift", "scroll"),
     }
 
 

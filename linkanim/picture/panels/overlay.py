@@ -62,6 +62,8 @@ class Quantities:
 class Shelf:
     """All mechanisms, those of the catalogue by their names, the chosen one's place, and how many frames it
     has been open; `still` while paused. The places of `edited` are not as their files have them.
+
+    `found` are the places that have the `sieve` in them; the row numbered `top` is the first where it can be.
     """
 
     entries: tuple[Scene | str, ...]
@@ -70,6 +72,9 @@ class Shelf:
     theme: ThemeName
     still: bool = False
     edited: frozenset[int] = frozenset()
+    found: tuple[int, ...] = ()
+    sieve: str = ""
+    top: int = 0
 
 
 @dataclass(frozen=True)

@@ -174,6 +174,8 @@ SHELF_KEYS: tuple[KeyRow, ...] = (
         "choose a mechanism",
         _both("left", "right", "move") + _both("up", "down", "row"),
     ),
+    KeyRow("in O", "type", "filter by title or chapter", _on("backspace", "unsift", held=True)),
+    KeyRow("in O", "PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
     KeyRow("in O", "Enter, click", "put it on", _on("return kp_enter", "pick")),
 )
 """What the keys do while the shelf is open."""
@@ -210,6 +212,7 @@ _OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),
     "list": ("sift", frozenset({"space", "h", "k"})),
+    "shelf": ("sift", frozenset({"space", "h", "o"})),
     "paused": ("type_place", frozenset()),
 }
 """Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""

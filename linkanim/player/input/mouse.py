@@ -174,6 +174,8 @@ class Mouse:
     def _on_the_shelf(self, event: Event, target: MouseTarget) -> tuple[Action, ...]:
         """Choose the mechanism under the mouse; a click puts it on, and one beside closes the shelf."""
         self._drag = None
+        if event.type == pygame.MOUSEWHEEL:
+            return (Action("scroll", -event.y),) if event.y else ()
         if event.type not in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN):
             return ()
         self._at = event.pos

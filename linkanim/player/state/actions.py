@@ -202,6 +202,7 @@ ACTIONS: Mapping[str, Rule] = {
     "shelf": Rule(_nothing, shelf.open_shelf, taped=False),
     "move": Rule(_whole, shelf.move, taped=False),  # rows of the list, or places on the shelf
     "point": Rule(_whole, shelf.point, taped=False),  # the place on the shelf
+    "top": Rule(_whole, shelf.top, taped=False),  # the shelf's row that is the first in sight
     "sift": Rule(_text, shelf.sift, taped=False),
     "unsift": Rule(_nothing, shelf.unsift, taped=False),
     "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),

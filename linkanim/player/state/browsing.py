@@ -6,12 +6,14 @@ its own ("plot", "put"), and that a tape does keep.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from linkanim.picture.diagrams.quantities import quantities, quantity, telling
+from linkanim.picture.shelf import found_among
 from linkanim.scenes.scene import Scene
 
-RESOLVED = frozenset({"pick", "row"})
+RESOLVED = frozenset({"pick", "row", "scroll"})
 """What a key asks for in an open list or shelf; the window asks for what it means there instead."""
 
 
@@ -25,11 +27,26 @@ class Listing:
 
 @dataclass(frozen=True)
 class Browsing:
-    """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening."""
+    """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening.
+
+    Letters sift it; it is scrolled to the row numbered `top`.
+    """
 
     entries: tuple[Scene | str, ...]
     chosen: int
     since: int
+    sieve: str = ""
+    top: int = 0
+
+    @cached_property
+    def found(self) -> tuple[int, ...]:
+        """The places of those that have all the sieve's words."""
+        return found_among(self.entries, self.sieve)
+
+    def sifted(self, sieve: str) -> Browsing:
+        """Return it with other letters, at the first that is found where the chosen one is not."""
+        other = replace(self, sieve=sieve, top=0)
+        return other if self.chosen in other.found else replace(other, chosen=(*other.found, self.chosen)[0])
 
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:

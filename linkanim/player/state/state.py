@@ -139,7 +139,8 @@ class State:
         """Whether something has been begun in the open list."""
         if self.editing.open:
             return self.editing.typed != ""
-        return bool(self.listing.sieve if self.listing else self.place_typed)
+        browsed = self.browsing.sieve if self.browsing else self.place_typed
+        return bool(self.listing.sieve if self.listing else browsed)
 
     @property
     def phase(self) -> float:

@@ -9,7 +9,7 @@ import pygame
 from linkanim.picture.answer_row import RowPrinter, row_cells
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.shelf import Grid, ShelfPrinter, by_chapter, grid
+from linkanim.picture.shelf import Grid, ShelfPrinter, grid
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.view import Rect
 from linkanim.player.state.action import Action, Mode
@@ -19,6 +19,7 @@ from linkanim.player.state.state import State
 from linkanim.player.window import display
 from linkanim.player.window.approach import Framing
 from linkanim.player.window.fade import Fade
+from linkanim.player.window.show import shelf_of
 from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.scene import Scene
 
@@ -140,22 +141,19 @@ class Screen:
         """Return where a point of the scene is in the window."""
         return self._framing.last.view.to_pixel(x, y)
 
-    def shelf_beside(self, browsing: Browsing, rows: int) -> int:
-        """Return the place on a shelf so many rows below the chosen one; it need not be painted yet."""
-        return self._grid(browsing).beside(browsing.chosen, rows)
+    def shelf_grid(self, browsing: Browsing) -> Grid:
+        """Return where the mechanisms of a shelf stand; it need not be painted yet."""
+        return grid(self.size, shelf_of(self._state, browsing))
 
     def shelf_at(self, x: float, y: float) -> int | None:
         """Return the place on the open shelf under a pixel; None between its pictures."""
         assert self._state.browsing is not None
-        return self._grid(self._state.browsing).at(x, y)
+        return self.shelf_grid(self._state.browsing).at(x, y)
 
     @property
     def is_shelf_open(self) -> bool:
         """Whether the shelf lies over the picture."""
         return self._state.browsing is not None
-
-    def _grid(self, browsing: Browsing) -> Grid:
-        return grid(self.size, [count for _, count in by_chapter(browsing.entries)])
 
     @property
     def mode(self) -> Mode:

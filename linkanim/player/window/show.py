@@ -89,7 +89,7 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
         help=help_groups(state.mode) if state.help else None,
         panel=_panel(state, items) if state.editing.open else None,
         quantities=_quantities(state, state.listing) if state.listing else None,
-        shelf=_shelf(state, state.browsing) if state.browsing else None,
+        shelf=shelf_of(state, state.browsing) if state.browsing else None,
         path=_path(state.sketch) if state.sketch else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
     )
@@ -140,9 +140,19 @@ def _percent(share: float) -> str:
     return f"{significant(share, 2)} %" if share >= 1e-5 else "0 %"
 
 
-def _shelf(state: State, browsing: Browsing) -> Shelf:
-    frame, still = state.frame - browsing.since, state.clock.paused
-    return Shelf(browsing.entries, browsing.chosen, frame, state.look.theme, still, state.edited)
+def shelf_of(state: State, browsing: Browsing) -> Shelf:
+    """Return the open shelf as it is shown."""
+    return Shelf(
+        browsing.entries,
+        browsing.chosen,
+        state.frame - browsing.since,
+        state.look.theme,
+        state.clock.paused,
+        state.edited,
+        browsing.found,
+        browsing.sieve,
+        browsing.top,
+    )
 
 
 def _chip(state: State) -> Fading | None:

@@ -16,7 +16,7 @@ from linkanim.player.input.keys import bind_of
 from linkanim.player.input.mouse import Mouse, latest
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import aged, carried, settled
-from linkanim.player.state.browsing import RESOLVED, listed
+from linkanim.player.state.browsing import RESOLVED, Browsing, listed
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import recovered, report
 from linkanim.player.state.handlers.shelf import renewed
@@ -113,9 +113,15 @@ class Window:
         """Yield an action; what depends on an open list or shelf, as what it means there."""
         browsing, listing = self.state.browsing, self.state.listing
         if action.name == "row" and browsing and isinstance(action.value, int):
-            yield Action("point", self.screen.shelf_beside(browsing, action.value))
+            yield Action("point", self.screen.shelf_grid(browsing).beside(browsing.chosen, action.value))
+            yield from self._in_sight()
+        elif action.name == "scroll" and browsing and isinstance(action.value, int):
+            yield from self._scrolled(browsing, action.value)
+        elif action.name == "move" and browsing:
+            yield action
+            yield from self._in_sight()
         elif action.name == "pick" and browsing:
-            yield Action("put", browsing.chosen)
+            yield from [Action("put", browsing.chosen)] * (browsing.chosen in browsing.found)
         elif action.name == "pick" and listing:
             tokens = listed(self.state.scene, listing.sieve)
             row = action.value if isinstance(action.value, int) else listing.chosen
@@ -148,6 +154,24 @@ class Window:
         request = request_of(self.state.sketch, search=name == "search") if self.state.sketch else None
         if request:
             self._following.ask(request)
+
+    def _in_sight(self) -> Iterator[Action]:
+        """Yield what keeps the shelf where it is scrolled to by what is chosen."""
+        if self.state.browsing:
+            yield Action("top", self.screen.shelf_grid(self.state.browsing).top)
+
+    def _scrolled(self, browsing: Browsing, rows: int) -> Iterator[Action]:
+        """Yield what scrolls the shelf by so many rows; one that goes out of sight is chosen no more."""
+        before = self.screen.shelf_grid(browsing)
+        if not before.rows:
+            return
+        row = min(max(before.top + rows, 0), len(before.rows) - 1)
+        free = self.screen.shelf_grid(replace(browsing, top=row, chosen=before.rows[row][0]))
+        yield Action("top", free.top)
+        if not free.whole(browsing.chosen):
+            seen = [n for n in free.cells if free.whole(n)]
+            near = [n for row in free.rows for n in row if n in seen]
+            yield Action("point", near[0] if rows > 0 else near[-1])
 
     def _rewound(self) -> State:
         """Return the state to go on from: a tape that has ended goes on from its start."""

@@ -112,9 +112,12 @@ def open_shelf(state: State, _: None) -> State:
 
 
 def move(state: State, further: int) -> State:
-    """Choose so many further; the list has ends, the shelf goes round."""
+    """Choose so many further of what is found; the list has ends, the shelf goes round."""
     if state.browsing:
-        chosen = (state.browsing.chosen + further) % len(state.browsing.entries)
+        found = state.browsing.found
+        if state.browsing.chosen not in found:
+            return state
+        chosen = found[(found.index(state.browsing.chosen) + further) % len(found)]
         return replace(state, browsing=replace(state.browsing, chosen=chosen))
     if state.listing is None:
         return state
@@ -125,18 +128,28 @@ def move(state: State, further: int) -> State:
 
 def point(state: State, place: int) -> State:
     """Choose a place on the shelf."""
-    if state.browsing is None or not 0 <= place < len(state.browsing.entries):
+    if state.browsing is None or place not in state.browsing.found:
         return state
     return replace(state, browsing=replace(state.browsing, chosen=place))
 
 
+def top(state: State, row: int) -> State:
+    """Scroll the shelf to a row."""
+    return replace(state, browsing=state.browsing and replace(state.browsing, top=row))
+
+
 def sift(state: State, text: str) -> State:
-    """Add letters to the list's sieve, and go to its top."""
+    """Add letters to the sieve of the list, and go to its top, or to that of the shelf."""
+    if state.browsing:
+        longer = (state.browsing.sieve + text)[:_LONGEST]
+        return replace(state, browsing=state.browsing.sifted(longer))
     return replace(state, listing=state.listing and Listing(0, (state.listing.sieve + text)[:_LONGEST]))
 
 
 def unsift(state: State, _: None) -> State:
-    """Take the last letter off the list's sieve, and go to its top."""
+    """Take the last letter off the sieve of the list, and go to its top, or off that of the shelf."""
+    if state.browsing:
+        return replace(state, browsing=state.browsing.sifted(state.browsing.sieve[:-1]))
     return replace(state, listing=state.listing and Listing(0, state.listing.sieve[:-1]))
 
 
