@@ -5,12 +5,29 @@ from __future__ import annotations
 from math import degrees as to_degrees
 from math import floor, isfinite, isinf, log10, pi
 
+_SMALLEST, _LARGEST = -4, 7
+"""Powers of ten from which and up to which a number is written without one."""
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 
 def significant(value: float, digits: int) -> str:
     """Return at most so many significant digits in ASCII: "unbounded" for an infinity, "-" for NaN."""
     if not isfinite(value):
         return "unbounded" if isinf(value) else "-"
     return f"{value + 0.0:.{digits}g}"  # -0.0 + 0.0 is 0.0
+
+
+def rounded(value: float, digits: int) -> str:
+    """Return so many significant digits, set, with the noughts that they end in: 1.200, 24560, 3.456×10⁸.
+
+    "∞" or "−∞" for an infinity, "–" for NaN, "0" for nothing.
+    """
+    if not isfinite(value) or not value:
+        return stepped(value, 1.0)
+    mantissa, _, power = f"{value:.{digits - 1}e}".partition("e")
+    if not _SMALLEST <= int(power) < max(_LARGEST, digits):
+        return f"{typeset(mantissa)}×10{str(int(power)).translate(_RAISED)}"
+    return typeset(f"{float(f'{mantissa}e{power}'):.{max(digits - 1 - int(power), 0)}f}")
 
 
 def short(value: float) -> str:

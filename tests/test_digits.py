@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from linkanim.digits import degrees, rpm, short, significant, stepped, three_digits, typeset
+from linkanim.digits import degrees, rounded, rpm, short, significant, stepped, three_digits, typeset
 
 
 @pytest.mark.parametrize(
@@ -23,6 +23,27 @@ from linkanim.digits import degrees, rpm, short, significant, stepped, three_dig
 )
 def test_significant_digits(value: float, digits: int, words: str) -> None:
     assert significant(value, digits) == words
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "words"),
+    [
+        (1.2, 4, "1.200"),  # noughts are digits
+        (-54.0, 4, "−54.00"),
+        (24563.7, 4, "24560"),
+        (9999.6, 4, "10000"),
+        (0.0123456, 4, "0.01235"),
+        (1.23456e-5, 4, "1.235×10⁻⁵"),
+        (84_100_000.0, 3, "8.41×10⁷"),
+        (123456789.123, 12, "123456789.123"),
+        (-0.0, 4, "0"),
+        (math.inf, 4, "∞"),
+        (-math.inf, 4, "−∞"),
+        (math.nan, 4, "–"),
+    ],
+)
+def test_a_rounded_number_has_all_its_digits(value: float, digits: int, words: str) -> None:
+    assert rounded(value, digits) == words
 
 
 @pytest.mark.parametrize(

@@ -258,6 +258,9 @@ def report(parser: Parser) -> None:
         help='where to tell every quantity, such as "87 deg,306 deg" (default: the start and the extremes)',
     )
     _speeds(parser, "for tables and charts")
+    text = "of the tables' numbers (default: 4)"
+    parser.add_argument("--digits", type=values.digits, default=4, metavar="N", help=text)
+    parser.add_argument("--all", action="store_true", help="every quantity, and a chart of each, as well")
 
 
 def path(parser: Parser) -> None:

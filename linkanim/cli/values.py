@@ -14,6 +14,7 @@ from linkanim.errors import BadInput
 from linkanim.picture.look import TOGGLES
 
 MOST_ROWS = 1_000_000
+_MOST_DIGITS = 15
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,14 @@ def count(text: str) -> int:
     if not re.fullmatch(r"\d{1,6}", text) or int(text) == 0:
         raise BadInput(f"{text!r} is not a whole number from 1 to 999999")
     return int(text)
+
+
+def digits(text: str) -> int:
+    """Read how many significant digits a number is written with."""
+    found = count(text)
+    if found > _MOST_DIGITS:
+        raise BadInput(f"{text!r} digits are too many; a number has {_MOST_DIGITS} at the most")
+    return found
 
 
 def speeds(text: str) -> dict[str, float]:

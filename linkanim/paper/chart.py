@@ -53,8 +53,10 @@ _EVERY = 4
 """So many of a curve's points make a straight line that words keep off."""
 _DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0), (4.0, 2.0), (12.0, 4.0))
 """The dashes and gaps of curves that share a plot, in widths of a line; the first is whole."""
-_LINE = 1.5
-"""From line to line, in heights of their text."""
+_THINNEST = 0.9
+"""A line of a small chart, in pixels."""
+_LINE, _LIFT = 1.5, 0.2
+"""From line to line, and from a line's top to its words, in heights of their text."""
 
 
 @dataclass(frozen=True)
@@ -65,11 +67,14 @@ class Page:
     size: tuple[int, int]
     theme: ThemeName = "light"
     measured: MeasuredCurve | None = None
+    brief: bool = False
+    """Small, beside words that say the rest: no title, symbols for words, extremes of one curve alone."""
 
     @cached_property
     def pen(self) -> Pen:
         """What it is drawn with."""
-        return pen_for(layout(self.size), Type(), theme_of(self.theme))
+        pen = pen_for(layout(self.size), Type(), theme_of(self.theme))
+        return replace(pen, line=max(pen.line, _THINNEST)) if self.brief else pen
 
     @property
     def background(self) -> Colour:
@@ -95,18 +100,24 @@ class Page:
     def items(self) -> Iterator[Item]:
         """Yield everything on the page, back to front."""
         pen, whole = self.pen, Rect(0, 0, *self.size).inset(20 * self.pen.line / 1.8)
-        title = self.curves.scene.title
-        yield Caption(title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
+        if not self.brief:
+            title = self.curves.scene.title
+            yield Caption(title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
         entries = self._legend()
         rows = list(_rows(entries, whole.width, pen)) if len(entries) > 1 else []
-        top = whole.y + _LINE * pen.text
+        top = whole.y + (0 if self.brief else _LINE * pen.text)
+        if self.brief and len(rows) == 1 and len(_by_unit(self.curves)) == 1:
+            # beside the axis' title
+            left = whole.right - sum(_wide(entry, pen) for entry in entries)
+            yield from _legend_row(rows.pop(), left, top + _LIFT * pen.small, pen)
         for n, row in enumerate(rows):
             yield from _legend_row(row, whole.x, top + n * _LINE * pen.small, pen)
         below = top + len(rows) * _LINE * pen.small
         yield from self._plots(whole._replace(y=below, height=whole.bottom - below))
 
     def _legend(self) -> list[_Entry]:
-        entries = [_Entry(self.curves.words(curve), self.colour(curve)) for curve in self.curves.curves]
+        words = self.curves.symbols if self.brief else self.curves.words
+        entries = [_Entry(words(curve), self.colour(curve)) for curve in self.curves.curves]
         return entries + (
             [_Entry(self.measured.label, self.pen.theme.ink, dotted=True)] if self.measured else []
         )
@@ -178,7 +189,7 @@ class Page:
         yield from self._peaks(plots, sides)
 
     def _y_titles(self, area: Rect, sides: list[list[Curve]]) -> Iterator[Item]:
-        pen, top = self.pen, area.y - 1.3 * self.pen.small
+        pen, top = self.pen, area.y - (_LINE - _LIFT) * self.pen.small
         ends = (("left", area.x), ("right", area.right))
         for side, (anchor, x) in zip(sides, ends, strict=False):
             words = self._y_title(side)
@@ -188,9 +199,11 @@ class Page:
         """Return what a vertical axis is titled: in words where it has one quantity, else in symbols."""
         known = list(dict.fromkeys(curve.quantity for curve in side))
         unit = self.curves.scene.length_unit
-        if len(known) == 1:
+        if len(known) == 1 and not self.brief:
             return known[0].title(unit)
         shown = known[0].shown_unit(unit)
+        if self.brief and len(known) > 1 and shown:
+            return f"({shown})"
         return ", ".join(one.symbol for one in known) + (f" ({shown})" if shown else "")
 
     def _peaks(self, plots: list[Plot], sides: list[list[Curve]]) -> Iterator[Item]:
@@ -237,9 +250,16 @@ class Page:
     ) -> Iterator[tuple[Plot, Curve, Peak, bool]]:
         """Yield each curve's greatest and least value, and whether it is the greatest."""
         for plot, side in zip(plots, sides, strict=True):
-            for curve in side:
+            for curve in self._marked(side):
                 for n, peak in enumerate(extremes(self.curves.scene, curve)):
                     yield plot, curve, peak, n == 0
+
+    def _marked(self, side: list[Curve]) -> list[Curve]:
+        """Return the curves whose extremes are told: in brief the one that goes farthest, of one quantity."""
+        if not self.brief:
+            return side
+        one = len({curve.quantity.token for curve in self.curves.curves}) == 1
+        return [max(side, key=lambda curve: float(np.ptp(curve.values)))] if one else []
 
 
 def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:

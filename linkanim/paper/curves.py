@@ -94,6 +94,11 @@ class Curves:
         words = curve.quantity.words + " " + curve.quantity.symbol if several or not paces else ""
         return ", ".join(part for part in (words, curve.label, curve.pace.words if paces else "") if part)
 
+    def symbols(self, curve: Curve) -> str:
+        """Return the same in symbols: of several speeds that of the curve."""
+        paces = len({other.pace for other in self.curves}) > 1
+        return curve.pace.words if paces else curve.quantity.symbol
+
 
 def curves_of(scene: Scene, request: ChartRequest) -> Curves:
     """Return the curves requested; BadInput where the scene has no such quantity, or none is named."""

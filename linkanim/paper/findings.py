@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import degrees, isfinite, tau
-from typing import NamedTuple
+from functools import cached_property
+from math import copysign, degrees, inf, tau
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from linkanim.digits import significant, typeset
+from linkanim.digits import rounded
 from linkanim.errors import OutOfRange
+from linkanim.mechanics.closing.search import sign_changes
 from linkanim.mechanics.facts.register import Quantity, input_symbol
 from linkanim.mechanics.motion.measures import output_body, output_slider
 from linkanim.mechanics.motion.motion import Motion
@@ -19,6 +21,13 @@ from linkanim.scenes.scene import Scene
 
 _LEVEL = 1e-9
 """Of a quantity's greatest size; what changes less over the cycle has no chart."""
+_NOTHING = 1e-9
+"""Of the size that a quantity has half of the time: what is less is nothing, as much more unbounded."""
+_SAMPLES = 180
+_BESIDE = 1e-4
+"""How far from an extreme as it is read off a curve its rate changes its sign, in radians at the most."""
+
+Found = TypeVar("Found")
 
 
 class Instant(NamedTuple):
@@ -63,41 +72,105 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
     """Return the start, and where the output is furthest either way, if it turns back at all."""
     found = [Instant(0.0, "start")]
     slider, output = output_slider(scene.linkage), output_body(scene.linkage)
-    token = f"{slider.name}.travel" if slider else f"{output.name}.angle" if output else None
-    if token is not None and (slider or output is None or output.name not in scene.info.turning_links):
+    place = f"{slider.name}.travel" if slider else f"{output.name}.angle" if output else None
+    if place is not None and (slider or output is None or output.name not in scene.info.turning_links):
+        rate = place + "_velocity" if slider else place.replace(".angle", ".angular_velocity")
         pace = Pace(abs(scene.linkage.drive.speed), "")
-        curve = curves_of(scene, ChartRequest((token,), (pace,), "phase")).curves[0]
+        curve = curves_of(scene, ChartRequest((place,), (pace,), "phase")).curves[0]
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
-            found.append(Instant(np.radians(peak.x), f"{words} {curve.quantity.words.lower()}"))
+            phase = _at_rest(scene, rate, float(np.radians(peak.x)))
+            found.append(Instant(phase, f"{words} {curve.quantity.words.lower()}"))
     return tuple(found)
 
 
-def sheet(scene: Scene, instant: Instant, paces: tuple[Pace, ...]) -> Sheet:
-    """Return every quantity of a scene at one instant, at each speed."""
-    motions = [scene.solve(phase=instant.phase, speed=pace.speed) for pace in paces]
-    place = f"{input_symbol(scene.linkage)} = {_input_words(scene, float(motions[0].coordinate))}"
+def _at_rest(scene: Scene, rate: str, near: float) -> float:
+    """Return the phase next to an extreme at which what is extreme rests; that of the extreme without one."""
+
+    def speed(phases: np.ndarray) -> np.ndarray:
+        return np.asarray(scene.quantities[rate].read(scene.solve(phase=phases)), float)
+
+    found = sign_changes(speed, near + _BESIDE * np.array([-1.0, 1.0]))
+    return float(found[0]) if len(found) else near
+
+
+@dataclass(frozen=True)
+class Values:
+    """Quantities at an instant: 0 for what is rounding errors, infinite for what is unbounded there.
+
+    What is so small, or so large, beside what it is over the cycle: a slider's speed at its dead centre, and
+    the mechanical advantage there.
+    """
+
+    scene: Scene
+
+    def of(self, quantity: Quantity, instant: Instant, pace: Pace) -> float:
+        """Return the value of one number as people read it, NaN where it has none."""
+        value = float(quantity.shown(self._motion(instant.phase, pace.speed)))
+        usual, nothing = self._usual(quantity.token, pace.speed)
+        if abs(value) <= max(_NOTHING * usual, nothing):
+            return 0.0
+        return copysign(inf, value) if usual and abs(value) > usual / _NOTHING else value
+
+    def changes(self, quantity: Quantity) -> bool:
+        """Whether a quantity has more than one value over the cycle, rounding errors aside."""
+        cycle = self._cycle(self.scene.linkage.drive.speed)
+        values = np.asarray(quantity.read(cycle), float)
+        known = values[np.isfinite(values)]
+        return bool(
+            known.size and np.ptp(known) > max(_LEVEL * np.abs(known).max(), quantity.rounding(cycle))
+        )
+
+    @cached_property
+    def _known(self) -> dict[tuple[object, ...], Any]:
+        return {}
+
+    def _motion(self, phase: float, speed: float) -> Motion:
+        return self._kept(("motion", phase, speed), lambda: self.scene.solve(phase=phase, speed=speed))
+
+    def _cycle(self, speed: float) -> Motion:
+        cycle = self._kept(("cycle",), lambda: self.scene.cycle(_SAMPLES))
+        return self._kept(("cycle", speed), lambda: cycle.paced(speed / self.scene.linkage.drive.speed))
+
+    def _usual(self, token: str, speed: float) -> tuple[float, float]:
+        """Return what size a quantity has half of the time, and how large its rounding errors are."""
+
+        def usual() -> tuple[float, float]:
+            quantity, cycle = self.scene.quantities[token], self._cycle(speed)
+            sizes = np.abs(np.asarray(quantity.shown(cycle), float))
+            known = sizes[np.isfinite(sizes)]
+            return float(np.median(known)) if known.size else 0.0, quantity.rounding(cycle)
+
+        return self._kept((token, speed), usual)
+
+    def _kept(self, key: tuple[object, ...], work: Callable[[], Found]) -> Found:
+        if key not in self._known:
+            self._known[key] = work()
+        found: Found = self._known[key]
+        return found
+
+
+def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int) -> Sheet:
+    """Return every quantity of a scene at one instant, at each speed.
+
+    A vector is told by its components, which have tokens of their own.
+    """
     sections: dict[str, list[Finding]] = {}
-    for quantity in scene.quantities.values():
+    for quantity in values.scene.quantities.values():
         rows = sections.setdefault(_section(quantity), [])
-        rows += _rows(scene, quantity, motions)
-    found = tuple((title, tuple(rows)) for title, rows in sections.items())
-    return Sheet(f"{place} ({instant.words})" if instant.words else place, found)
+        if len(quantity.columns) == 1:
+            found = tuple(rounded(values.of(quantity, instant, pace), digits) for pace in paces)
+            rows.append(Finding(quantity, quantity.shown_unit(values.scene.length_unit), found))
+    return Sheet(
+        place_of(values.scene, instant), tuple((title, tuple(rows)) for title, rows in sections.items())
+    )
 
 
-def _input_words(scene: Scene, angle: float) -> str:
+def place_of(scene: Scene, instant: Instant) -> str:
+    """Return where the input is at an instant, and why that is looked at: θ₂ = 0.00° (start)."""
+    symbol, angle = input_symbol(scene.linkage), scene.pose(instant.phase, 0).coordinate
     turned = angle % tau if scene.info.full_turn else angle
-    return scene.linkage.drive.coordinate.text(turned, scene.length_unit, 0.01)
-
-
-def _rows(scene: Scene, quantity: Quantity, motions: list[Motion]) -> Iterator[Finding]:
-    """Yield the row of a number; a vector is told by its components, which have tokens of their own."""
-    if len(quantity.columns) == 1:
-        values = tuple(_digits(float(quantity.shown(motion))) for motion in motions)
-        yield Finding(quantity, quantity.shown_unit(scene.length_unit), values)
-
-
-def _digits(value: float) -> str:
-    return typeset(significant(value, 7)) if isfinite(value) else "∞" if value > 0 else "–"
+    place = f"{symbol} = {scene.linkage.drive.coordinate.text(turned, scene.length_unit, 0.01)}"
+    return f"{place} ({instant.words})" if instant.words else place
 
 
 def _section(quantity: Quantity) -> str:
@@ -105,26 +178,20 @@ def _section(quantity: Quantity) -> str:
     return quantity.words.partition(":")[0] if ":" in quantity.words else "Whole mechanism"
 
 
-def charted(scene: Scene) -> Iterator[tuple[str, str]]:
+def charted(values: Values) -> Iterator[tuple[str, str]]:
     """Yield (heading, token) of each chart: all that changes over the motion of bodies, springs and dampers,
     centres of mass, traced joints and the whole; of the other joints the tables tell.
 
     A vector is charted by its components, and a velocity and an acceleration by its size, too.
     """
-    cycle = scene.cycle(180)
+    scene = values.scene
     joints = {joint.name for joint in scene.linkage.joints} - set(scene.trace)
     bodies = {body.name for body in scene.linkage.bodies}
     for token, quantity in scene.quantities.items():
         owner, _, rest = token.partition(".")
         in_tables = owner in joints - bodies or rest.startswith("pole")
-        if not in_tables and rest not in ("position", "com_position") and _changes(quantity, cycle):
+        if not in_tables and rest not in ("position", "com_position") and values.changes(quantity):
             yield _section(quantity), token
-
-
-def _changes(quantity: Quantity, cycle: Motion) -> bool:
-    values = np.asarray(quantity.read(cycle), float)
-    known = values[np.isfinite(values)]
-    return bool(known.size and np.ptp(known) > max(_LEVEL * np.abs(known).max(), quantity.rounding(cycle)))
 
 
 def paces_of(scene: Scene, token: str, paces: tuple[Pace, ...]) -> tuple[Pace, ...]:

@@ -1,76 +1,260 @@
-"""A report as one page of HTML: everything in it, no script, fit to be printed on A4."""
+"""A report as one page of HTML: everything in it, no script, fit to be printed on A4.
+
+What it is made of is numbered here: chapters, figures and tables, each in its order. Markup is made by the
+functions of this module alone; all else is text.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from html import escape
+from itertools import count
+from typing import Literal
 
 from linkanim.paper.findings import Sheet
+from linkanim.paper.tables import Column, ValueTable, speed_words
 
 _STYLE = """
 :root { color-scheme: light; }
 body { font: 15px/1.45 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
        color: #1b1f23; margin: 2rem auto; max-width: 60rem; padding: 0 1rem; }
-h1 { font-size: 1.9rem; margin: 0 0 .2rem; } h2 { font-size: 1.35rem; margin: 2.2rem 0 .6rem;
-     border-bottom: 2px solid #d0d7de; } h3 { font-size: 1.05rem; margin: 1.4rem 0 .3rem; }
-p.source { color: #57606a; margin-top: 0; }
-table { border-collapse: collapse; margin: .3rem 0 1rem; font-variant-numeric: tabular-nums; }
+h1, h2, h3 { break-after: avoid; } h1 { font-size: 1.9rem; line-height: 1.2; margin: 0 0 .2rem; }
+h2 { font-size: 1.35rem; margin: 2rem 0 .6rem; border-bottom: 2px solid #d0d7de; }
+h3 { font-size: 1.05rem; margin: 1.2rem 0 .3rem; }
+p { margin: .4rem 0; } p.source { color: #57606a; margin-top: 0; }
+nav ul { columns: 2; margin: .4rem 0 0; padding: 0; list-style: none; } nav a { color: inherit; }
+table { border-collapse: collapse; margin: .3rem 0 .2rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .12rem .9rem .12rem 0; text-align: left; vertical-align: top; font-weight: 400; }
-thead th { border-bottom: 1px solid #8c959f; font-weight: 600; } td.n, th.n { text-align: right; }
+thead th { font-weight: 600; vertical-align: bottom; }
+thead tr:last-child > * { border-bottom: 1px solid #8c959f; }
+th[scope=colgroup] { text-align: center; } .n { text-align: right; white-space: nowrap; }
+table.values .n { padding-left: .9rem; padding-right: 0; }
+table.values { width: 100%; } tbody th[scope=rowgroup] { font-weight: 600; padding-top: .4rem; }
+caption, figcaption { text-align: left; color: #424a53; font-size: .92em; padding: .1rem 0 .25rem; }
 sub { font-size: .75em; line-height: 0; }
-figure { margin: .6rem 0 1.2rem; break-inside: avoid; } figure svg { width: 100%; height: auto; }
-section { break-inside: auto; } tr { break-inside: avoid; } h2, h3 { break-after: avoid; }
-.two { columns: 2; column-gap: 2rem; }
-@page { size: A4; margin: 16mm 14mm; }
-@media print { body { margin: 0; max-width: none; font-size: 10.5pt; } .two { columns: 2; } }
+p.note { color: #57606a; font-size: .92em; margin-top: 0; }
+p.equation { margin: .2rem 0 .2rem 1.4rem; }
+figure { margin: .5rem 0 .9rem; break-inside: avoid; }
+figure svg { width: 100%; height: auto; display: block; }
+.beside { display: grid; gap: 0 1.4rem; align-items: start; }
+.keep, .beside, .long tbody, caption, thead, tr { break-inside: avoid; } caption { break-after: avoid; }
+tbody tr:nth-child(-n+2):not(:last-child), tbody tr:nth-last-child(2) { break-after: avoid; }
+@page { size: A4; margin: 15mm 14mm 16mm; FOOT }
+@media print { body { margin: 0; padding: 0; max-width: none; font-size: 9.5pt; line-height: 1.35; }
+  h1 { font-size: 17pt; } h2 { font-size: 12.5pt; margin: .8rem 0 .3rem; }
+  table { font-size: 8.5pt; line-height: 1.25; } th, td { padding-top: .08rem; padding-bottom: .08rem; }
+  figure { margin: .2rem 0 .4rem; } }
 """
+_FOOT = (
+    "@bottom-left { content: %s; font: 8pt sans-serif; color: #57606a; } "
+    "@bottom-right { content: counter(page) ' / ' counter(pages); font: 8pt sans-serif; color: #57606a; }"
+)
+"""What stands at the foot of every page as it is printed."""
 _LOWERED = re.compile(r"_\{([^}]*)\}")
+_HYPHEN = re.compile(r"(?<![\w-])-(?=\d)")
+_IDS = re.compile(r' id="[^"]*"')
+_KEPT, _LONG = "<div class='keep'>", "<div class='long'>"
+_ROWS_KEPT = 24
+"""A table of so many rows at the most stands on one page."""
 
 
-def page(title: str, body: Iterable[str]) -> str:
-    """Return the whole document; `title` is text, the body's parts are markup."""
-    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}</style>"
-    parts = "\n".join(body)
-    return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{parts}\n</body></html>\n"
+@dataclass(frozen=True)
+class Markup:
+    """What is written as it is."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class FigurePart:
+    """A picture as SVG, with what it shows; its number comes before that."""
+
+    picture: str
+    caption: str
+
+
+@dataclass(frozen=True)
+class TablePart:
+    """Rows of a table under their head, as markup, with its caption, class and the notes below."""
+
+    caption: str
+    rows: str
+    count: int
+    kind: str = ""
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Parts side by side, so many in a row, each one part or several below each other."""
+
+    parts: tuple[Part | tuple[Part, ...], ...]
+    across: int = 2
+
+
+Part = Markup | FigurePart | TablePart | Beside
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A chapter: its title, and what is in it."""
+
+    title: str
+    parts: tuple[Part, ...]
+
+
+def page(title: str, head: Iterable[str], chapters: Sequence[Chapter]) -> str:
+    """Return the whole document: what stands under its title, its contents, and its chapters.
+
+    `head` is markup.
+    """
+    style = _STYLE.replace("FOOT", _FOOT % _css_text(title))
+    meta = "<meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
+    start = f"{meta}<title>{escape(title)}</title><style>{style}</style>"
+    numbered = list(enumerate(chapters, start=1))
+    entries = "".join(f"<li><a href='#chapter-{n}'>{n} {symbol(one.title)}</a></li>" for n, one in numbered)
+    contents = f"<nav aria-label='Contents'><ul>{entries}</ul></nav>"
+    body = "\n".join([heading(1, title), *head, contents])
+    figures, tables = count(1), count(1)
+    sections = "\n".join(
+        f"<section id='chapter-{n}'>\n{_sectioned(heading(2, f'{n} {one.title}'), written)}\n</section>"
+        for n, one in numbered
+        if (written := [_written(part, figures, tables) for part in one.parts])
+    )
+    return (
+        f"<!doctype html>\n<html lang='en'><head>{start}</head><body>\n"
+        f"<header>\n{body}\n</header>\n<main>\n{sections}\n</main>\n</body></html>\n"
+    )
+
+
+def _sectioned(title: str, parts: list[str]) -> str:
+    """Return a chapter whose heading stands on one page with its first part, or with its first rows."""
+    first, *others = parts
+    if first.startswith(_LONG):
+        return "\n".join([title, *parts])
+    return "\n".join([f"<div class='keep'>\n{title}\n{first}\n</div>", *others])
+
+
+def _css_text(text: str) -> str:
+    """Return text in quotes as a style sheet has it."""
+    return "'" + re.sub(r"[^\w .,-]", lambda found: f"\\{ord(found[0]):x} ", text) + "'"
+
+
+def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
+    match part:
+        case Markup(text):
+            return text
+        case FigurePart(picture, caption):
+            title = f"Figure {next(figures)}. {caption}"
+            drawn = _IDS.sub("", picture).replace(
+                "<svg ", f"<svg role='img' aria-label='{escape(title)}' ", 1
+            )
+            return f"<figure>{drawn}<figcaption>{symbol(title)}</figcaption></figure>"
+        case TablePart():
+            title = f"Table {next(tables)}. {part.caption}"
+            table = f"<table class='{part.kind}'><caption>{symbol(title)}</caption>{part.rows}</table>"
+            notes = "".join(paragraph(note, "note") for note in part.notes)
+            return f"{_KEPT if part.count <= _ROWS_KEPT else _LONG}{table}{notes}</div>"
+        case Beside(parts, across):
+            columns = (one if isinstance(one, tuple) else (one,) for one in parts)
+            inside = ("\n".join(_written(one, figures, tables) for one in column) for column in columns)
+            grid = f"<div class='beside' style='grid-template-columns: repeat({across}, 1fr)'>"
+            return "\n".join([grid, *(f"<div>{one}</div>" for one in inside), "</div>"])
 
 
 def heading(level: int, text: str) -> str:
     """Return a heading."""
-    return f"<h{level}>{escape(text)}</h{level}>"
+    return f"<h{level}>{symbol(text)}</h{level}>"
 
 
 def paragraph(text: str, kind: str = "") -> str:
     """Return a paragraph, of a class of the style where one is named."""
-    return f"<p class='{kind}'>{escape(text)}</p>" if kind else f"<p>{escape(text)}</p>"
+    return f"<p class='{kind}'>{symbol(text)}</p>" if kind else f"<p>{symbol(text)}</p>"
 
 
-def facts(lines: Sequence[tuple[str, str]]) -> str:
-    """Return labels and values as a table of two columns."""
-    rows = "".join(f"<tr><th>{escape(label)}</th><td>{escape(value)}</td></tr>" for label, value in lines)
-    return f"<table>{rows}</table>"
+def facts(caption: str, lines: Sequence[tuple[str, str]], columns: Literal[1, 2, 3]) -> TablePart:
+    """Return labels and values as a table, so many of them side by side."""
+    high = -(-len(lines) // columns)
+    cells = [
+        f"<th scope='row'>{symbol(label)}</th><td>{symbol(_minus(value))}</td>" for label, value in lines
+    ]
+    rows = "".join(f"<tr>{''.join(cells[n::high])}</tr>" for n in range(high))
+    return TablePart(caption, f"<tbody>{rows}</tbody>", high)
 
 
-def figure(picture: str) -> str:
-    """Return an SVG in the page."""
-    return f"<figure>{picture}</figure>"
+def _minus(text: str) -> str:
+    """Return text with true minus signs before its numbers."""
+    return _HYPHEN.sub("−", text)
 
 
-def sheet_tables(sheet: Sheet, speeds: Sequence[str]) -> Iterator[str]:
-    """Yield the tables of one instant, a heading over each."""
-    columns = "".join(f"<th class='n'>{escape(speed)}</th>" for speed in speeds)
+def sheet_parts(sheet: Sheet, speeds: Sequence[str]) -> Iterator[TablePart]:
+    """Yield the tables of every quantity at one instant."""
+    heads = "".join(f"<th class='n' scope='col'>{escape(speed)}</th>" for speed in speeds)
+    first, last = "<th scope='col'>quantity</th><th scope='col'>symbol</th>", "<th scope='col'>unit</th>"
+    head = f"<thead><tr>{first}{heads}{last}</tr></thead>"
     for title, rows in sheet.sections:
         if rows:
-            yield heading(3, title)
-            lines = (
-                f"<tr><th>{escape(row.quantity.words.partition(': ')[2] or row.quantity.words)}</th>"
+            lines = "".join(
+                f"<tr><th scope='row'>{escape(_said_under(row.quantity.words))}</th>"
                 f"<td>{symbol(row.quantity.symbol)}</td>"
                 + "".join(f"<td class='n'>{escape(value)}</td>" for value in row.values)
                 + f"<td>{escape(row.unit)}</td></tr>"
                 for row in rows
             )
-            head = f"<thead><tr><th></th><th></th>{columns}<th></th></tr></thead>"
-            yield f"<table>{head}{''.join(lines)}</table>"
+            yield TablePart(f"{title}, {sheet.title}", f"{head}<tbody>{lines}</tbody>", len(rows))
+
+
+def _said_under(words: str) -> str:
+    """Return a quantity's words without what its heading says."""
+    return words.partition(": ")[2] or words
+
+
+def values_part(table: ValueTable) -> TablePart:
+    """Return a table of the hand-out."""
+    columns, width = table.columns, len(table.columns) + 1
+    groups = "".join(
+        f"<tbody>{_group_head(title, width)}"
+        + "".join(
+            f"<tr><th scope='row'>{symbol(label)}</th>"
+            + "".join(f"<td class='n'>{escape(value)}</td>" for value in row)
+            + "</tr>"
+            for label, row in rows
+        )
+        + "</tbody>"
+        for title, rows in table.groups
+    )
+    lines = sum(len(rows) + 1 for _, rows in table.groups)
+    return TablePart(table.title, _head(table.head, columns) + groups, lines, "values", table.notes)
+
+
+def _spanning(columns: int) -> str:
+    return f"scope='colgroup' colspan='{columns}'" if columns > 1 else "class='n' scope='col'"
+
+
+def _group_head(title: str, width: int) -> str:
+    return f"<tr><th colspan='{width}' scope='rowgroup'>{symbol(title)}</th></tr>" if title else ""
+
+
+def _head(first: str, columns: tuple[Column, ...]) -> str:
+    """Return the head of a table: symbols with their units, and the speeds below them."""
+    paced = any(one.pace for one in columns)
+    across: dict[str, list[Column]] = {}
+    for one in columns:
+        across.setdefault(one.measure, []).append(one)
+    cells = "".join(
+        f"<th {_spanning(len(some))}>"
+        f"{symbol(some[0].symbol)}{f' ({escape(some[0].unit)})' if some[0].unit else ''}</th>"
+        for some in across.values()
+    )
+    below = "".join(
+        f"<th class='n' scope='col'>{escape(speed_words(one.pace))}</th>" if one.pace else "<td></td>"
+        for one in columns
+    )
+    title = f"<th scope='col'>{escape(first)}</th>" if first else "<td></td>"
+    second = f"<tr><td></td>{below}</tr>" if paced else ""
+    return f"<thead><tr>{title}{cells}</tr>{second}</thead>"
 
 
 def symbol(text: str) -> str:

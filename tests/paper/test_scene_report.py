@@ -6,18 +6,30 @@ import csv
 import html
 import math
 import re
+import subprocess
 from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from browser import PROGRAM
 
 from linkanim.cli import main
-from linkanim.digits import significant, typeset
+from linkanim.digits import rounded, significant, typeset
 from linkanim.mechanics.facts.register import register
 from linkanim.paper.curves import Pace
-from linkanim.paper.findings import Instant, charted, instants_at, paces_of, sheet, usual_instants
+from linkanim.paper.findings import (
+    Instant,
+    Values,
+    charted,
+    instants_at,
+    paces_of,
+    place_of,
+    sheet,
+    usual_instants,
+)
+from linkanim.paper.tables import value_tables
 from linkanim.scenes import load, names
 
 PACES = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (5.0, 10.0, 20.0))
@@ -25,17 +37,34 @@ PRESS = ("report", "press", "--angles", "87 deg,306 deg", "--speeds", "5 rad/s,1
 
 
 class Parts(HTMLParser):
-    """What a page is made of: its tags, and the address of everything that it loads."""
+    """What a page is made of: its elements with their attributes, what it loads, and what is not closed."""
+
+    EMPTY = frozenset({"meta", "br", "col"})
 
     def __init__(self, text: str) -> None:
         super().__init__()
-        self.tags: list[str] = []
-        self.loaded: list[str] = []
+        self.elements: list[tuple[str, dict[str, str]]] = []
+        self.open: list[str] = []
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.tags.append(tag)
-        self.loaded += [value or "" for name, value in attrs if name in ("src", "href", "srcset", "data")]
+        self.elements.append((tag, {name: value or "" for name, value in attrs}))
+        if tag not in self.EMPTY:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def all(self, tag: str) -> list[dict[str, str]]:
+        return [known for name, known in self.elements if name == tag]
+
+    @property
+    def loaded(self) -> list[str]:
+        """What lies outside of the page."""
+        found = [
+            known.get(name, "") for _, known in self.elements for name in ("src", "href", "srcset", "data")
+        ]
+        return [address for address in found if address and not address.startswith("#")]
 
 
 @pytest.fixture(scope="module")
@@ -50,47 +79,80 @@ def test_the_page_s_path_is_printed(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert capsys.readouterr().out == f"{tmp_path / 'out' / 'report.html'}\n"
 
 
-@pytest.mark.slow
+@pytest.fixture(scope="module")
+def every(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("reports") / "press"
+    assert main([*PRESS, "--all", "-o", str(folder)]) == 0
+    return folder
+
+
 def test_the_page_holds_everything_and_loads_nothing(press: Path) -> None:
     text = (press / "report.html").read_text(encoding="utf-8")
     page = Parts(text)
     assert page.loaded == []
-    assert "script" not in page.tags
-    # the figure, and that with the polygons
-    assert page.tags.count("svg") == 2 + len(list(press.glob("chart-*.svg")))
-    assert "@page" in text
-    assert "size: A4" in text
+    assert not page.all("script")
+    # the figure, the loops, and the polygons at two angles
+    assert len(page.all("svg")) == 2 + 2 + len(list(press.glob("chart-*.svg")))
+    assert "@page { size: A4;" in text
     assert not re.search(r"url\(|@import|https?://(?!www\.w3\.org)", text)
 
 
-def test_the_page_s_headings_outline_it(press: Path) -> None:
+def test_the_page_is_valid_and_can_be_read_aloud(press: Path) -> None:
+    page = Parts((press / "report.html").read_text(encoding="utf-8"))
+    assert page.open == []
+    assert page.all("html") == [{"lang": "en"}]
+    ids = [known["id"] for _, known in page.elements if "id" in known]
+    assert len(ids) == len(set(ids))
+    assert {link["href"][1:] for link in page.all("a")} == set(ids)
+    assert {picture["role"] for picture in page.all("svg")} == {"img"}
+    assert all(picture["aria-label"].startswith("Figure ") for picture in page.all("svg"))
+    assert len(page.all("caption")) == len(page.all("table"))
+    assert {head["scope"] for head in page.all("th")} == {"row", "col", "colgroup", "rowgroup"}
+
+
+def test_figures_and_tables_are_numbered_in_their_order(press: Path) -> None:
+    text = (press / "report.html").read_text(encoding="utf-8")
+    for what, tag in (("Figure", "figcaption"), ("Table", "caption")):
+        numbers = [int(number) for number in re.findall(rf"<{tag}>{what} (\d+)\. \S", text)]
+        assert numbers == list(range(1, text.count(f"<{tag}>") + 1))
+        assert len(numbers) > 4
+
+
+def test_its_chapters_go_as_a_report_on_a_mechanism_does(press: Path) -> None:
     text, scene = (press / "report.html").read_text(encoding="utf-8"), load("press")
     headings = re.findall(r"<h(\d)>(.*?)</h", text)
-    outline = [words for level, words in headings if level == "2"]
     assert headings[0] == ("1", html.escape(scene.title))
-    assert {level for level, _ in headings} == {"1", "2", "3"}
-    assert outline[:2] == ["Facts", "Dimensions"]
-    assert [words.partition(" =")[0] for words in outline[2:]] == [
-        *["At θ₂"] * (len(outline) - 4),
-        "Velocities and accelerations as polygons",
-        "Over one period, at 5 rad/s, 10 rad/s, 20 rad/s",
+    chapters = [words for _, words in headings[1:]]
+    assert chapters == [
+        "1 The mechanism",
+        "2 Vector loops",
+        "3 Values",
+        "4 Positions",
+        "5 Velocities",
+        "6 Accelerations",
+        "7 Centres of mass",
+        "8 Springs, dampers and input",
+        "9 Velocity and acceleration polygons",
     ]
-    last = max(n for n, (level, _) in enumerate(headings) if level == "2")
-    over = dict.fromkeys(html.escape(heading) for heading, _ in charted(scene))
-    assert list(over) == [words for _, words in headings[last + 1 :]]
-    parts = [words for level, words in headings if level == "3"]
-    assert {"Link 3", "Slider 5", "C", "Link 3, centre of mass", "Damper cushion", "Whole mechanism"} <= set(
-        parts
-    )
+    assert [words for _, words in re.findall(r"<li><a href='#chapter-(\d)'>(.*?)</a>", text)] == chapters
     assert f"<p class='source'>{html.escape(scene.source)}</p>" in text
     assert f"<p>{html.escape(scene.look_at)}</p>" in text
-    assert min(path.name.split("-")[1] for path in press.glob("chart-*.svg")).lstrip("0") == "1"
 
 
-def test_rows_are_named_without_what_their_heading_says(press: Path) -> None:
-    text = (press / "report.html").read_text(encoding="utf-8")
-    named = re.findall(r"<tr><th>([^<]*)</th><td>ω₃</td>|<th>([^<]*)</th><td>μ</td>", text)
-    assert set(named) == {("angular velocity", ""), ("", "Transmission angle")}
+@pytest.mark.slow
+def test_all_has_every_quantity_behind_the_hand_out(every: Path, press: Path) -> None:
+    text = (every / "report.html").read_text(encoding="utf-8")
+    chapters = re.findall(r"<h2>\d+ (.*?)</h2>", text)
+    assert chapters[9:] == [
+        "Every quantity at θ₂ = 87.00°",
+        "Every quantity at θ₂ = 306.00°",
+        "Every quantity over one period, at 5 rad/s, 10 rad/s, 20 rad/s",
+    ]
+    rows = set(re.findall(r"<tr><th scope='row'>([^<]*)</th><td>(?:ω₃|μ)</td>", text))
+    assert rows == {"angular velocity", "Transmission angle"}
+    tokens = {path.stem.split("-", 2)[2] for path in every.glob("chart-*.svg")}
+    assert tokens >= {token for _, token in charted(Values(load("press")))}
+    assert {path.name for path in press.iterdir()} <= {path.name for path in every.iterdir()}
 
 
 def test_its_pictures_are_well_formed_and_as_large_as_each_other(press: Path) -> None:
@@ -99,7 +161,7 @@ def test_its_pictures_are_well_formed_and_as_large_as_each_other(press: Path) ->
         root = ElementTree.parse(path).getroot()
         assert root.tag == "{http://www.w3.org/2000/svg}svg"
         sizes.setdefault(path.stem.partition("-")[0], set()).add((root.get("width"), root.get("height")))
-    assert sizes == {"figure": {("900", "560")}, "chart": {("900", "360")}}
+    assert sizes == {"figure": {("440", "700")}, "loops": {("440", "420")}, "chart": {("400", "170")}}
 
 
 def test_its_figure_names_the_dimensions_and_has_no_other_words(press: Path) -> None:
@@ -128,8 +190,9 @@ PRINTED = [
 ]
 
 
-def test_the_press_has_a_chart_of_all_that_the_printed_report_plots(press: Path) -> None:
-    shown = {path.stem.split("-", 2)[2] for path in press.glob("chart-*.svg")}
+@pytest.mark.slow
+def test_the_press_has_a_chart_of_all_that_the_printed_report_plots(every: Path) -> None:
+    shown = {path.stem.split("-", 2)[2] for path in every.glob("chart-*.svg")}
     assert set(PRINTED) <= shown
 
 
@@ -141,20 +204,69 @@ def test_the_press_notes_where_the_printed_report_errs(press: Path) -> None:
     assert scene.notes[0] in (press / "report.html").read_text(encoding="utf-8")
 
 
+# What the printed report's tables have of ω and α at 87° and 10 rad/s, to four digits.
+AT_87 = {"Link 3": ("3.327", "12.74"), "Link 4": ("−1.201", "−11.38"), "Link 6": ("−5.414", "−14.24")}
+
+
+def test_the_tables_of_the_press_say_what_the_printed_report_does() -> None:
+    values, (low, high) = Values(load("press")), (math.radians(87), math.radians(306))
+    found = {
+        one.title: one for one in value_tables(values, instants_at(load("press"), (low, high)), PACES, 4)
+    }
+    assert list(found) == [
+        "Links", "Slider 5", "Joints", "Centres of mass", "Springs and dampers", "The whole mechanism",
+    ]  # fmt: skip
+    links = found["Links"]
+    assert [title for title, _ in links.groups] == ["θ₂ = 87.00°", "θ₂ = 306.00°"]
+    at = [
+        next(
+            n for n, column in enumerate(links.columns) if (column.symbol, column.pace) == (symbol, PACES[1])
+        )
+        for symbol in ("ω", "α")
+    ]
+    rows = dict(links.groups[0][1])
+    assert {name: tuple(rows[name][n] for n in at) for name in AT_87} == AT_87
+    assert "−18.46" in dict(links.groups[1][1])["Link 3"]
+    assert dict(found["Slider 5"].groups[0][1])["θ₂ = 87.00°"][4:8:3] == ("−132.8", "−2771")
+
+
+def test_more_speeds_than_fit_go_on_in_a_further_table() -> None:
+    paces = tuple(Pace(float(n), f"{n} rad/s") for n in range(1, 7))
+    tables = list(value_tables(Values(load("crank-rocker")), (Instant(0.0, ""),), paces, 4))
+    links = [one for one in tables if one.title == "Links"]
+    assert [len(one.columns) for one in links] == [3 + 2 * 4, 2 * 2]
+
+
+def test_what_is_nothing_by_geometry_is_0_and_what_is_unbounded_says_where() -> None:
+    scene = load("slider-crank")
+    tables = {one.title: one for one in value_tables(Values(scene), usual_instants(scene), PACES[:1], 4)}
+    slider = dict(tables["Slider"].groups[0][1])
+    velocity = next(n for n, column in enumerate(tables["Slider"].columns) if column.symbol == "v")
+    assert [row[velocity] for row in slider.values()][1:] == ["0", "0"]
+    whole = tables["The whole mechanism"]
+    advantage = next(n for n, column in enumerate(whole.columns) if column.symbol == "MA")
+    assert [row[advantage] for row in dict(whole.groups[0][1]).values()][1:] == ["∞", "∞"]
+    assert whole.notes == ("∞: unbounded at θ₂ = 7.18°, θ₂ = 194.48°.",)
+
+
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_tables_say_what_is_solved_at_every_speed(name: str) -> None:
     scene = load(name)
+    values, digits = Values(scene), re.compile(r"^[−\d.×⁻⁰¹²³⁴⁵⁶⁷⁸⁹∞–]+$")
+    numbers = {token: one for token, one in register(scene.linkage).items() if len(one.columns) == 1}
     for instant in usual_instants(scene):
-        rows = {row.quantity.token: row for _, part in sheet(scene, instant, PACES).sections for row in part}
-        numbers = {token: one for token, one in register(scene.linkage).items() if len(one.columns) == 1}
+        sections = sheet(values, instant, PACES, 7).sections
+        rows = {row.quantity.token: row for _, part in sections for row in part}
         assert rows.keys() == numbers.keys()
         for pace, n in zip(PACES, range(3), strict=True):
             motion = scene.solve(phase=instant.phase, speed=pace.speed)
             for token, row in rows.items():
                 value = float(numbers[token].shown(motion))
-                said = typeset(significant(value, 7)) if math.isfinite(value) else row.values[n]
-                assert row.values[n] == said, token
+                assert digits.match(row.values[n])
+                assert row.values[n] in (rounded(value, 7), "0", "∞", "−∞"), token
+                # nothing is so small, or so large, that it is a rounding error
+                assert abs(value) < 1e-5 or row.values[n] != "0", token
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
@@ -177,18 +289,18 @@ def test_a_slider_s_extremes_are_told_by_themselves() -> None:
     scene = load("press")
     start, high, low = usual_instants(scene)
     assert start.phase == 0.0
-    assert [sheet(scene, instant, PACES).title for instant in (start, Instant(1.5, ""))] == [
+    assert [place_of(scene, instant) for instant in (start, Instant(1.5, ""))] == [
         "θ₂ = 0.00° (start)",
         "θ₂ = 85.94°",
     ]
     second_turn = Instant(math.radians(447), "")
-    assert sheet(load("kite"), second_turn, PACES).title == "θ₂ = 147.00°"
+    assert place_of(load("kite"), second_turn) == "θ₂ = 147.00°"
     piston = load("driven-piston")
     travel = float(piston.solve(phase=1.0).coordinate)
-    assert sheet(piston, Instant(1.0, "then"), PACES).title == f"s = {travel:.2f} mm (then)"
+    assert place_of(piston, Instant(1.0, "then")) == f"s = {travel:.2f} mm (then)"
     for instant, degrees in ((high, 71.0), (low, 316.5)):
         assert math.degrees(instant.phase) == pytest.approx(degrees, abs=1.0)
-        assert scene.pose(instant.phase).travel_velocity["5"] == pytest.approx(0.0, abs=1e-4)
+        assert scene.pose(instant.phase).travel_velocity["5"] == pytest.approx(0.0, abs=1e-12)
 
 
 def test_what_no_speed_changes_has_one_curve() -> None:
@@ -200,17 +312,17 @@ def test_what_no_speed_changes_has_one_curve() -> None:
 
 
 def test_what_stands_still_has_no_chart() -> None:
-    tokens = [token for _, token in charted(load("parallelogram"))]
+    tokens = [token for _, token in charted(Values(load("parallelogram")))]
     assert "coupler.angular_velocity" not in tokens
     assert "crank.angle" in tokens
 
 
 def test_of_joints_that_are_not_traced_and_of_poles_the_tables_tell() -> None:
     press = load("press")
-    told = {token.partition(".")[0]: heading for heading, token in charted(press)}
+    told = {token.partition(".")[0]: heading for heading, token in charted(Values(press))}
     joints = {joint.name for joint in press.linkage.joints} - {body.name for body in press.linkage.bodies}
     assert joints & told.keys() == set(press.trace)
-    assert not any(".pole" in token for _, token in charted(press))
+    assert not any(".pole" in token for _, token in charted(Values(press)))
 
 
 def test_angles_choose_the_phase_also_of_a_swing() -> None:
@@ -227,6 +339,8 @@ def test_angles_choose_the_phase_also_of_a_swing() -> None:
         pytest.param(("--angles", "87"), "no unit", id="an angle without a unit"),
         pytest.param(("--speeds", "0 rad/s"), "other than zero", id="a speed that moves nothing"),
         pytest.param(("--angles", ","), "give angles", id="no angle"),
+        pytest.param(("--digits", "16"), "15 at the most", id="more digits than a number has"),
+        pytest.param(("--digits", "0"), "not a whole number", id="no digits"),
     ],
 )
 def test_what_cannot_be_reported_is_refused(
@@ -281,3 +395,21 @@ def test_a_page_that_is_not_ours_alone_is_never_written_over(
     assert "report.html" in err
     assert "move it away, or choose another name" in err
     assert {path.name: path.read_bytes() for path in target.iterdir()} == before
+
+
+@pytest.mark.window
+@pytest.mark.skipif(not PROGRAM, reason="needs Chromium")
+def test_the_press_is_printed_on_six_pages_at_most(press: Path, tmp_path: Path) -> None:
+    assert PROGRAM
+    target = tmp_path / "press.pdf"
+    switches = ("--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer")
+    address = (press / "report.html").as_uri()
+    command = [
+        PROGRAM,
+        *switches,
+        f"--user-data-dir={tmp_path / 'profile'}",
+        f"--print-to-pdf={target}",
+        address,
+    ]
+    subprocess.run(command, check=True, capture_output=True)
+    assert 4 <= len(re.findall(rb"/Type\s*/Page\b", target.read_bytes())) <= 6

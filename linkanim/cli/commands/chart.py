@@ -6,7 +6,7 @@ import sys
 from argparse import Namespace
 
 from linkanim.cli.picture_options import scene_size_target
-from linkanim.digits import stepped
+from linkanim.digits import rpm, stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of
@@ -29,7 +29,7 @@ def run(options: Namespace) -> None:
 
 def paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:
     """Return the speeds of the options, the scene's own where there are none."""
-    speeds = options.speeds or {"the scene's speed": scene.linkage.drive.speed}
+    speeds = options.speeds or {rpm(scene.linkage.drive.speed): scene.linkage.drive.speed}
     return tuple(Pace(speed, label) for label, speed in speeds.items())
 
 

@@ -12,7 +12,7 @@ from linkanim.paper.report import Report
 from linkanim.scenes import load
 
 _ALWAYS = ("report.html", "figure.svg")
-_OURS = r"report\.html|figure\.svg|chart-\d{3,}-[\w.-]+\.svg|quantities-\d+\.csv"
+_OURS = r"report\.html|figure\.svg|loops\.svg|chart-\d{3,}-[\w.-]+\.svg|quantities-\d+\.csv"
 
 
 def run(options: Namespace) -> None:
@@ -27,6 +27,7 @@ def run(options: Namespace) -> None:
     with replacing(files, _ALWAYS) as folder:
         scene = load(options.scene)
         instants = instants_at(scene, options.angles) if options.angles else usual_instants(scene)
-        for name, text in Report(scene, instants, paces(scene, options)).files():
+        report = Report(scene, instants, paces(scene, options), options.digits, options.all)
+        for name, text in report.files():
             (folder / name).write_text(text, encoding="utf-8")
     print(target / "report.html")

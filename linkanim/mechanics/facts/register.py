@@ -381,7 +381,7 @@ def _candidates(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
         yield f"{strut.name}.{'force' if strut.forceful else 'length'}"
     if output and not sliders:
         yield from (f"{output.name}.{measure.name}" for measure in TURNING)
-    for body in _in_chain(linkage):
+    for body in bodies_in_chain(linkage):
         if not linkage.crank_of(body) and not (output and not sliders and _rigid(linkage, body, output)):
             yield f"{body.name}.angular_velocity"
     yield effort_token(linkage)
@@ -391,7 +391,7 @@ def _candidates(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
     yield from ("transmission_angle", "mechanical_advantage")
 
 
-def _in_chain(linkage: Linkage) -> tuple[Body, ...]:
+def bodies_in_chain(linkage: Linkage) -> tuple[Body, ...]:
     """Return the bodies that turn, in the order in which the joints that move them are solved.
 
     Of those that cannot move against each other it is the first.
