@@ -98,14 +98,14 @@ Part = Markup | FigurePart | TablePart | Beside
 
 
 @dataclass(frozen=True)
-class Chapter:
+class Section:
     """A chapter: its title, and what is in it."""
 
     title: str
     parts: tuple[Part, ...]
 
 
-def page(title: str, head: Iterable[str], chapters: Sequence[Chapter]) -> str:
+def page(title: str, head: Iterable[str], chapters: Sequence[Section]) -> str:
     """Return the whole document: what stands under its title, its contents, and its chapters.
 
     `head` is markup.

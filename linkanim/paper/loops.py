@@ -12,7 +12,7 @@ import numpy as np
 
 from linkanim.digits import short, typeset
 from linkanim.mechanics.facts.register import indexed, link_labels
-from linkanim.mechanics.facts.vector_loops import LoopVector, ClosedLoop, vector_loops
+from linkanim.mechanics.facts.vector_loops import ClosedLoop, LoopVector, vector_loops
 from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.paper.figure import Figured
 from linkanim.paper.svg import svg
