@@ -98,14 +98,14 @@ Part = Markup | FigurePart | TablePart | Beside
 
 
 @dataclass(frozen=True)
-class Section:
+class ReportChapter:
     """A chapter: its title, and what is in it."""
 
     title: str
     parts: tuple[Part, ...]
 
 
-def page(title: str, head: Iterable[str], chapters: Sequence[Section]) -> str:
+def page(title: str, head: Iterable[str], chapters: Sequence[ReportChapter]) -> str:
     """Return the whole document: what stands under its title, its contents, and its chapters.
 
     `head` is markup.

@@ -14,7 +14,7 @@ from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Pace, curves_of
 from linkanim.paper.figure import Figured
 from linkanim.paper.findings import Instant, Values, charted, paces_of, place_of, sheet, table
-from linkanim.paper.html import Beside, FigurePart, Markup, Part, Section
+from linkanim.paper.html import Beside, FigurePart, Markup, Part, ReportChapter
 from linkanim.paper.loops import LoopEquations, Loops
 from linkanim.paper.svg import svg
 from linkanim.paper.tables import speed_words, value_tables
@@ -118,24 +118,24 @@ class Report:
         if self.scene.look_at:
             yield html.paragraph(self.scene.look_at)
 
-    def _chapters(self) -> Iterator[Section]:
-        yield Section("The mechanism", tuple(self._mechanism()))
+    def _chapters(self) -> Iterator[ReportChapter]:
+        yield ReportChapter("The mechanism", tuple(self._mechanism()))
         if self._loops.loops:
-            yield Section("Vector loops", tuple(self._vector_loops()))
-        yield Section("Values", tuple(self._tables()))
+            yield ReportChapter("Vector loops", tuple(self._vector_loops()))
+        yield ReportChapter("Values", tuple(self._tables()))
         period = f"over one period, at {', '.join(map(speed_words, self.paces))}"
         charts = self._by_topic
         every = charts.get("Every quantity over one period")
         for title, some in charts.items():
             if some is not every:
-                yield Section(title, tuple(_in_rows(map(_figure_of, some))))
-        yield Section("Velocity and acceleration polygons", tuple(self._polygons()))
+                yield ReportChapter(title, tuple(_in_rows(map(_figure_of, some))))
+        yield ReportChapter("Velocity and acceleration polygons", tuple(self._polygons()))
         if every is not None:
             for instant in self.instants:
                 found = sheet(self._values, instant, self.paces, self.digits)
                 tables = html.sheet_parts(found, [speed_words(pace) for pace in self.paces])
-                yield Section(f"Every quantity at {found.title}", tuple(tables))
-            yield Section(f"Every quantity {period}", tuple(_in_rows(map(_figure_of, every))))
+                yield ReportChapter(f"Every quantity at {found.title}", tuple(tables))
+            yield ReportChapter(f"Every quantity {period}", tuple(_in_rows(map(_figure_of, every))))
 
     def _mechanism(self) -> Iterator[Part]:
         scene, shown = self.scene, self._figure
