@@ -150,6 +150,11 @@ class Picture:
         yield from self._handled(pose, overlay)
 
     @property
+    def _overrun(self) -> bool:
+        """Whether something may lie where the words stand."""
+        return self.look.overrun or self.fitted != self.fit.view_of(self.figure)
+
+    @property
     def edge(self) -> Rect | None:
         """What the scene is kept within; None where that is the whole picture."""
         reach = self.layout.reach
@@ -186,7 +191,7 @@ class Picture:
         if self._chart:
             self._chart = self._chart.at(speed)
             yield grouped("chart", self._chart.still(), still=True)
-        if self._legend and not self.look.overrun:
+        if self._legend and not self._overrun:
             yield self._legend.group(speed)
         if self.layout.caption:
             yield Group("caption", (), tuple(self._caption(self.layout.caption)), still=True)
@@ -241,7 +246,7 @@ class Picture:
         """Yield the words about the scene, on a backing where something may lie under them."""
         if self._hud is None:
             return
-        if self.look.overrun:
+        if self._overrun:
             yield self._backing
             yield from (legend.group(pose.input_speed) for legend in [self._legend] if legend)
         values = self._hud.values(pose)

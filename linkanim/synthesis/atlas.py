@@ -38,6 +38,13 @@ class Atlas(NamedTuple):
     centre: Complex
     scale: Real
 
+    def first(self, count: int) -> Atlas:
+        """Return the first so many of its curves."""
+        if count >= len(self.rows):
+            return self
+        curves = self.shape[:count], self.spectrum[:count], self.centre[:count], self.scale[:count]
+        return Atlas(self.kind, self.rows[:count], self.angles[:count], *curves)
+
 
 @lru_cache(maxsize=4)
 def atlas(kind: LinkageKind, count: int = CURVES) -> Atlas:

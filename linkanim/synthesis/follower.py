@@ -10,20 +10,26 @@ import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from itertools import chain
 from queue import SimpleQueue
 from threading import Thread
 from typing import NamedTuple, TextIO
 
+import numpy as np
+
 from linkanim.errors import LinkanimError
 from linkanim.synthesis.answer import NAME, answer_of
 from linkanim.synthesis.atlas import atlas
+from linkanim.synthesis.cognates import cognates_of
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import FOUR_BAR
 from linkanim.synthesis.request import task_of
-from linkanim.synthesis.search import found, glimpsed, is_same, refitted
+from linkanim.synthesis.search import found, glimpsed, refitted
 
 COUNT = 6
 """Answers for a stroke."""
+_ALIKE = 0.05
+"""Of the stroke's size: answers whose parameters differ by no more look the same."""
 _KEPT = 64
 """Fits that are known."""
 
@@ -68,10 +74,8 @@ class Follower:
                 answers = [answer_of(fit) for fit in fits]
                 self._known |= {answer.numbers: fit for answer, fit in zip(answers, fits, strict=True)}
                 self._known = dict(list(self._known.items())[-_KEPT:])
-                whole = chosen is not None
-                yield Reply(
-                    request.stroke, whole, tuple(n for one in answers for n in one.numbers), chosen or 0
-                )
+                numbers = tuple(number for one in answers for number in one.numbers)
+                yield Reply(request.stroke, chosen is not None, numbers, chosen or 0)
         except LinkanimError as error:
             yield Reply(request.stroke, whole=True, error=str(error))
 
@@ -86,13 +90,31 @@ class Follower:
             yield (near,), None
         if not request.search:
             return
-        fits = found(task, COUNT, lambda *_: pulse())
-        if not (before and near):
-            yield fits, 0
-            return
-        others = tuple(fit for fit in fits if not is_same(fit, near))
-        whole = tuple(sorted((near, *others[: COUNT - 1]), key=lambda fit: fit.error))
-        yield whole, whole.index(near)
+        fits = found(task, 2 * COUNT, lambda *_: pulse(), widely=False)
+        shown = near if before and near else fits[0]
+        like = next((fit for fit in fits if _is_like(fit, shown)), shown)
+        row = _row(like, fits)
+        yield row, row.index(like)
+
+
+def _row(shown: Fit, fits: tuple[Fit, ...]) -> tuple[Fit, ...]:
+    """Return answers that differ visibly, that which is shown among them, and cognates where they are few."""
+    kept = [shown]
+    # a cognate has pivots of its own
+    parents = () if shown.task.requirements.given else (shown, *fits)
+    for fit in chain(fits, *map(cognates_of, parents)):
+        if len(kept) == COUNT:
+            break
+        turns = fit.scene.info.full_turn or not shown.scene.info.full_turn
+        if turns and not any(_is_like(fit, one) for one in kept):
+            kept.append(fit)
+    return tuple(sorted(kept, key=lambda fit: fit.error))
+
+
+def _is_like(one: Fit, other: Fit) -> bool:
+    """Return whether two answers are hardly to be told apart."""
+    apart = np.abs(one.row - other.row).max()
+    return one.closure == other.closure and bool(apart <= _ALIKE * one.task.curve.size)
 
 
 def lines_of(stream: TextIO) -> SimpleQueue[str | None]:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.synthesis.atlas import atlas
+from linkanim.synthesis.atlas import CURVES, atlas
 from linkanim.synthesis.check import checked
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import Indices, Real
@@ -32,6 +32,8 @@ _FEW_STAGES = (_Stage(300, FEW, 25), _Stage(80, FEW, 60), _Stage(12, FEW, 200))
 _STAGES = (_Stage(80, 32, 12), _Stage(24, 64, 40), _Stage(8, 200, 150))
 _WIDER_STAGES = (_Stage(2000, 32, 8), _Stage(300, 64, 40), _Stage(40, 64, 200))
 _REFIT_STEPS = 30
+_GLIMPSED, _GLIMPSED_OPEN = CURVES, CURVES // 5
+"""Curves of the atlas among which the first answer is: of each an open curve may be one of several shares."""
 _GOOD = 1e-3
 """Of the curve's size: where an open curve is followed no better by a crank that turns, it may swing."""
 _FOLLOWED, _FOREIGN = 1e-4, 1e-2
@@ -45,11 +47,16 @@ _FITTED = 1e-6
 """Of the curve's size: answers better than this are equally good, and the one that turns best comes first."""
 
 
-def found(task: PathTask, count: int, progress: Progress | None = None) -> tuple[Fit, ...]:
-    """Return the best few answers that differ, the best first; BadInput where there is none."""
-    fits = _searched(task, count, progress)
+def found(
+    task: PathTask, count: int, progress: Progress | None = None, *, widely: bool = True
+) -> tuple[Fit, ...]:
+    """Return the best few answers that differ, the best first; BadInput where there is none.
+
+    Where the first candidates do not follow the curve, more are tried, which takes longer, if `widely`.
+    """
+    fits = _searched(task, count, progress, widely=widely)
     if not task.curve.closed and (not fits or fits[0].error > _GOOD * task.curve.size):
-        fits = _best([*fits, *_searched(task.swinging(), count, progress)], count)
+        fits = _best([*fits, *_searched(task.swinging(), count, progress, widely=widely)], count)
     if not fits:
         raise BadInput(_none_fits(task))
     return fits
@@ -75,7 +82,7 @@ def _none_fits(task: PathTask) -> str:
 
 def glimpsed(task: PathTask) -> Fit | None:
     """Return the atlas's best as it is, in a tenth of a second, once the atlas is made."""
-    start = started(task, _STAGES[0].candidates)
+    start = started(task, _STAGES[0].candidates, _GLIMPSED if task.curve.closed else _GLIMPSED_OPEN)
     everything, points = task.scaled(start), task.normal.points
     off = np.abs(task.kind.points(start.rows, start.closure, start.angles) - points).max(axis=1)
     for n in np.argsort(off):
@@ -88,9 +95,9 @@ def _stages(task: PathTask) -> tuple[_Stage, ...]:
     return _FEW_STAGES if len(task.curve.points) <= FEW else _STAGES
 
 
-def started(task: PathTask, count: int) -> Candidates:
-    """Return the best candidates of the atlas, at size 1."""
-    known, points = atlas(task.kind), task.normal
+def started(task: PathTask, count: int, among: int = CURVES) -> Candidates:
+    """Return the best candidates of the atlas, or of its first curves, at size 1."""
+    known, points = atlas(task.kind).first(among), task.normal
     if task.timing is None and len(points.points) <= FEW:
         return joined([matched(known, points, count // 4), matched_few(known, points, count)])
     if task.timing is None:
@@ -98,10 +105,10 @@ def started(task: PathTask, count: int) -> Candidates:
     return matched_in_time(known, points.points, task.timing, count, free_start=task.free_start)
 
 
-def _searched(task: PathTask, count: int, progress: Progress | None) -> tuple[Fit, ...]:
+def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: bool) -> tuple[Fit, ...]:
     fits = _through(task, _stages(task), count, progress)
     off = fits[0].error / task.curve.size if fits else _FOLLOWED
-    if len(task.curve.points) <= FEW or not _FOLLOWED <= off <= _FOREIGN:
+    if not widely or len(task.curve.points) <= FEW or not _FOLLOWED <= off <= _FOREIGN:
         return fits
     return _best([*fits, *_through(task, _WIDER_STAGES, count, progress)], count)
 
@@ -118,7 +125,7 @@ def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
     seen: list[Fit] = []
     for fit in fits:
         yield fit
-        seen += [] if any(is_same(fit, other) for other in seen) else [fit]
+        seen += [] if any(_same(fit, other) for other in seen) else [fit]
         if len(seen) > count:
             return
 
@@ -183,7 +190,7 @@ def _best(fits: list[Fit] | Iterator[Fit], count: int) -> tuple[Fit, ...]:
     """Return the best of those that differ by more than rounding."""
     kept: list[Fit] = []
     for fit in sorted(fits, key=_rank):
-        if not any(is_same(fit, other) for other in kept):
+        if not any(_same(fit, other) for other in kept):
             kept.append(fit)
     return tuple(kept[:count])
 
@@ -192,8 +199,7 @@ def _rank(fit: Fit) -> tuple[float, float]:
     return max(fit.error, _FITTED * fit.task.curve.size), -fit.transmission_angle
 
 
-def is_same(one: Fit, other: Fit) -> bool:
-    """Return whether two answers differ by no more than rounding."""
+def _same(one: Fit, other: Fit) -> bool:
     return one.closure == other.closure and bool(
         (np.abs(one.row - other.row) <= _SAME * one.task.curve.size).all()
     )

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
+from typing import Any
 
 import numpy as np
 import pytest
 from random_curves import curves
 
+from linkanim.errors import BadInput
+from linkanim.synthesis.answer import NUMBERS, answer_from
 from linkanim.synthesis.curves.drawn import DrawnCurve
+from linkanim.synthesis.curves.stroke import bent, stroke_of, trace_of
+from linkanim.synthesis.follower import COUNT, Follow, Follower, Reply
 from linkanim.synthesis.request import task_of
 from linkanim.synthesis.search import answers, refitted
 
@@ -39,3 +45,84 @@ def test_a_pivot_that_is_dragged_is_held_where_it_is_put() -> None:
     assert again is not None
     assert (again.parameters["x4"], again.parameters["y4"]) == pytest.approx((x, y))
     assert again.rms < 0.02 * again.task.curve.size
+
+
+ROUND = np.exp(2j * np.pi * np.arange(80) / 80)
+
+
+def test_a_stroke_that_ends_near_its_start_is_closed_and_one_that_does_not_is_open() -> None:
+    assert stroke_of(100 * ROUND[:78]).closed
+    arc = stroke_of(100 * ROUND[:50])
+    assert not arc.closed
+    assert (arc.points[0], arc.points[-1]) == pytest.approx((100 * ROUND[0], 100 * ROUND[49]))
+
+
+def test_an_unsteady_hand_is_smoothed_and_a_bend_keeps_its_radius() -> None:
+    shake = np.random.default_rng(3).normal(0, 1.5, (2, 80))
+    off = np.abs(stroke_of(100 * ROUND + shake[0] + 1j * shake[1]).points) - 100
+    assert abs(off.mean()) < 0.3
+    assert off.std() < 0.7 * 1.5
+
+
+@pytest.mark.parametrize("start", [0, 13])
+def test_sharp_corners_are_kept(start: int) -> None:
+    corners = np.array([0, 100, 100 + 60j, 60j])
+    outline = DrawnCurve(corners, closed=True).at(np.arange(97) / 97)
+    points = stroke_of(np.roll(outline, -start)).points
+    assert all(np.abs(points - corner).min() < 2.0 for corner in corners)
+    level = points.imag[(points.real > 20) & (points.real < 80)]
+    assert np.minimum(np.abs(level), np.abs(level - 60)).max() < 0.05
+
+
+def test_what_a_joint_goes_back_on_is_open() -> None:
+    there = np.linspace(-1, 1, 361) + 0.2j * np.linspace(-1, 1, 361) ** 2
+    assert not trace_of(np.concatenate([there, there[-2:0:-1]])).closed
+    assert trace_of(ROUND).closed
+    with pytest.raises(BadInput, match="no extent"):
+        trace_of(np.full(80, 3 + 4j))
+
+
+def followed(points: DrawnCurve, **more: Any) -> tuple[Follower, list[Reply]]:
+    follower = Follower()
+    pairs = [(float(point.real), float(point.imag)) for point in points.points]
+    return follower, list(follower.replies(Follow(1, pairs, points.closed, **more)))
+
+
+def test_replies_to_a_stroke_are_one_answer_and_then_several_that_differ() -> None:
+    _, (first, whole) = followed(stroke_of(curves("four-bar", 1, seed=54)[0]))
+    assert (first.whole, len(first.numbers), whole.whole, whole.chosen) == (False, NUMBERS, True, 0)
+    answers = [answer_from(tuple(whole.numbers[n:][:NUMBERS])) for n in range(0, len(whole.numbers), NUMBERS)]
+    assert 1 < len(answers) <= COUNT
+    assert [one.off for one in answers] == sorted(one.off for one in answers)
+    assert answers[0].off <= first.numbers[0]
+    for one, other in combinations(answers, 2):
+        assert one.closure != other.closure or np.abs(np.subtract(one.row, other.row)).max() > 0.01
+
+
+def test_what_is_dragged_is_followed_and_stays_shown_among_the_others() -> None:
+    curve = stroke_of(curves("four-bar", 1, seed=55)[0])
+    follower, (_, whole) = followed(curve)
+    near = tuple(whole.numbers[:NUMBERS])
+    moved = bent(curve, 9, curve.points[9] + 0.01 * curve.size)
+    pairs = [(float(point.real), float(point.imag)) for point in moved.points]
+    (led,) = follower.replies(Follow(1, pairs, moved.closed, near=near, search=False))
+    assert not led.whole
+    assert np.abs(np.subtract(led.numbers, near)).max() > 0
+    again, all_ = follower.replies(Follow(1, pairs, moved.closed, near=tuple(led.numbers)))
+    shown = all_.numbers[all_.chosen * NUMBERS :][:NUMBERS]
+    assert np.abs(np.subtract(shown, again.numbers))[4:].max() < 0.05 * moved.size
+
+
+def test_a_search_ends_when_it_is_interrupted_and_what_cannot_be_is_said() -> None:
+    class Stop(Exception):
+        pass
+
+    def stop() -> None:
+        raise Stop
+
+    curve = stroke_of(100 * ROUND)
+    pairs = [(float(point.real), float(point.imag)) for point in curve.points]
+    with pytest.raises(Stop):
+        list(Follower().replies(Follow(1, pairs, closed=True), stop))
+    (reply,) = Follower().replies(Follow(1, pairs[:2], closed=True))
+    assert reply.error is not None

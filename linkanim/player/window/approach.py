@@ -10,7 +10,8 @@ from functools import partial
 
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.view import View, eased
+from linkanim.picture.view import Box, View, eased, joined
+from linkanim.player.state.sketch import Sketch
 from linkanim.player.state.state import State
 
 APPROACH_FRAMES = 14
@@ -77,11 +78,11 @@ class Framing:
         if before and before.fits(state.shown, size, look, listed=state.listed, held=held, row=row):
             return before
         make = partial(Picture, state.shown, size, look, before, listed=state.listed, held=held, row=row)
-        stays = before is not None and sketch is not None and before.size == size
-        made = make(kept=before.fitted if before and stays else None)
-        if stays and not held and not _is_in_sight(made):
-            made = make(kept=made.fit.arrangement.view)
-        if before and (_has_moved(before, made) or (stays and before.fitted != made.fitted)):
+        stays = before is not None and before.size == size
+        made = make(kept=before.fitted if before and sketch and stays else None)
+        if sketch and stays and not held and not _is_in_sight(made, sketch):
+            made = make(kept=_seen_whole(made, sketch))
+        if before and (_has_moved(before, made) or (sketch and stays and before.fitted != made.fitted)):
             self._approach = Approach((self._passing or before).view, state.frame)
         elif before and not _is_framed_alike(before, made):
             self._approach = None
@@ -105,11 +106,32 @@ class Framing:
         return self._passing
 
 
-def _is_in_sight(picture: Picture) -> bool:
-    """Return whether all that a linkage will sweep lies in its room; where it is zoomed it need not."""
-    view, box, stage = picture.view, picture.fit.subject.figure.box, picture.layout.stage
+def _is_in_sight(picture: Picture, sketch: Sketch) -> bool:
+    """Return whether linkage and stroke lie in their room; where it is zoomed they need not."""
+    view, box, stage = picture.view, _box(picture, sketch), picture.layout.stage
     (left, bottom), (right, top) = view.to_pixel(box.left, box.low), view.to_pixel(box.right, box.high)
     return picture.look.framed or (stage.holds(left, top) and stage.holds(right, bottom))
+
+
+def _seen_whole(picture: Picture, sketch: Sketch) -> View:
+    """Return the view that fits a linkage, further away where its stroke would not be seen whole."""
+    view, box, stage = picture.fit.arrangement.view, _box(picture, sketch), picture.layout.stage
+    (left, bottom), (right, top) = view.to_pixel(box.left, box.low), view.to_pixel(box.right, box.high)
+    if stage.holds(left, top) and stage.holds(right, bottom):
+        return view
+    room = stage.inset(2 * picture.layout.margin)
+    scale = min(room.width / (box.right - box.left), room.height / (box.high - box.low))
+    (x, y), middle = box.middle, (room.x + room.width / 2, room.y + room.height / 2)
+    return View(scale, middle[0] - scale * x, middle[1] + scale * y)
+
+
+def _box(picture: Picture, sketch: Sketch) -> Box:
+    """Return the rectangle of the plane that holds a linkage as it will be, and the stroke."""
+    swept = picture.fit.subject.figure.box
+    if sketch.curve is None:
+        return swept
+    x, y = sketch.curve.points.real, sketch.curve.points.imag
+    return joined(swept, Box(float(x.min()), float(y.min()), float(x.max()), float(y.max())))
 
 
 def _has_moved(one: Picture, other: Picture) -> bool:

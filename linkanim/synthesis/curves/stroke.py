@@ -17,10 +17,10 @@ _SAMPLES = 288
 _NEAR = 0.15
 """Of its size: a stroke whose ends are no further apart is closed."""
 _GAP = 0.15
-"""Of a closed stroke's length, over whose end the gap is taken up."""
+"""Of a stroke's length: its last part, which is led to its start where it is closed."""
 _ARM, _SHARP = 0.025, math.radians(50)
 """Of the length, before and after a point; where the two ways differ by that angle, it is a corner."""
-_WIDTH = 0.012
+_WIDTH = 0.016
 """Of the length, by how much it is smoothed."""
 _SAME = 1e-6
 """Of the size: a way back that differs by less is the same."""
@@ -37,10 +37,17 @@ def stroke_of(points: Complex) -> DrawnCurve:
     raw = drawn(points, closed=False)
     even = raw.at(np.linspace(0.0, 1.0, _SAMPLES + 1))
     closed = bool(abs(even[-1] - even[0]) <= _NEAR * raw.size)
-    if closed:
-        last = np.clip(np.linspace(0.0, 1.0, _SAMPLES + 1) / _GAP - (1.0 - _GAP) / _GAP, 0.0, 1.0)
-        even = drawn(even + last * (even[0] - even[-1]), closed=False).at(np.linspace(0.0, 1.0, _SAMPLES + 1))
-    return DrawnCurve(_smoothed(even, closed=closed), closed)
+    return DrawnCurve(_smoothed(_joined(even) if closed else even, closed=closed), closed)
+
+
+def _joined(even: Complex) -> Complex:
+    """Return a stroke's samples with its ends joined: what runs on past the start is cut, or led to it."""
+    tail = round(_GAP * _SAMPLES)
+    even = even[: len(even) - tail + int(np.abs(even[-tail:] - even[0]).argmin()) + 1]
+    way, gap = even[-1] - even[-1 - tail // 4], even[0] - even[-1]
+    ahead = (np.conj(way) * gap).real > abs((np.conj(way) * gap).imag)
+    even = even if ahead else even + gap * np.linspace(-len(even) / tail, 1.0, len(even)).clip(0.0)
+    return DrawnCurve(even, closed=True).at(np.linspace(0.0, 1.0, _SAMPLES + 1))
 
 
 def trace_of(way: Complex) -> DrawnCurve:
