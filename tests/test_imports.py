@@ -76,7 +76,7 @@ THIRD_PARTIES = {
     "scenes": {"numpy", "tomli_w"},
     "synthesis": {"numpy"},
     "picture": {"numpy", "pygame"},
-    "explain": set(),
+    "explain": {"numpy"},
     "paper": {"numpy", "pygame", "fpdf"},
     "share": {"numpy"},
     "player": {"numpy", "pygame"},

@@ -196,7 +196,7 @@ COMMANDS = {
         (
             'linkanim explain press --angle "87 deg"',
             'linkanim explain crank-rocker --angle "60 deg" --speed "10 rad/s" -o solution.html',
-            'linkanim explain scotch-yoke --phase "40 deg" -o solution.tex',
+            'linkanim explain slider-crank --angle "40 deg" --exercise --seed 3 -o sheet.tex',
         ),
     ),
     "share": Command(

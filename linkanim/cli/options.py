@@ -243,6 +243,10 @@ def explain(parser: Parser) -> None:
     _output(parser, "OUT.html, OUT.tex or OUT.md (default: Markdown on stdout)")
     _pose(parser)
     _speed(parser)
+    text = "leave the numbers open, with a key on a page of its own"
+    parser.add_argument("--exercise", action="store_true", help=text)
+    text = "other round lengths, the same kind of motion; a number gives the same ones always"
+    parser.add_argument("--seed", type=int, metavar="N", help=text)
 
 
 def report(parser: Parser) -> None:

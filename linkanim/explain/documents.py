@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from html import escape
+from itertools import groupby
+from math import floor, log10
 
 from linkanim.explain.drawing import svg, tikz
-from linkanim.explain.lines import Item, Unknown, Words
-from linkanim.explain.notation import LATEX, MATHML, plain_latex, typeset
-from linkanim.explain.rows import rows
+from linkanim.explain.expression import Formula
+from linkanim.explain.lines import Given, Item, System, Unknown, ValueLine, Words
+from linkanim.explain.notation import LATEX, MATHML, Notation, plain_latex, typeset
+from linkanim.explain.rows import EquationRow, rows
 from linkanim.explain.solution import Solution
+from linkanim.explain.work import rounded
 
 _STYLE = """
 body { font: 16px/1.5 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
@@ -19,98 +24,155 @@ h1 { font-size: 1.8rem; margin: 0; } p { margin: .3rem 0; }
 h2 { font-size: 1.35rem; margin: 2rem 0 .5rem; border-bottom: 2px solid #d0d7de; }
 h3 { font-size: 1.05rem; margin: 1.2rem 0 .2rem; } h2, h3 { break-after: avoid; }
 .key { break-before: page; } @page { size: A4; margin: 16mm 14mm; }
-@media print { body { margin: 0; max-width: none; font-size: 10.5pt; } }
+@media print { body { margin: 0; max-width: none; font-size: 10.5pt; }
+               math[display=block] { font-size: 9pt; overflow: visible; } }
 """
 MATH_STYLE = """
-math[display=block] { text-align: left; margin: .35rem 0 .35rem 1.5rem; overflow: auto hidden;
-                      break-inside: avoid; }
-math .rows > mtr > mtd { padding: .12em 0; text-align: left; }
+math[display=block] { width: fit-content; max-width: 100%; margin: .35rem 0 .35rem 1rem;
+                      overflow: auto hidden; }
+math .rows > mtr > mtd { padding: .22em 0; text-align: left; } math .rows > mtr { break-inside: avoid; }
 math .rows > mtr > mtd:first-child { text-align: right; }
 math .v { font-weight: bold; font-style: normal; } math .u { padding: 0; margin: 0; }
 math .blank { border-bottom: 1px solid #57606a; }
+ul.given { columns: 2; list-style: none; padding: 0 0 0 1rem; margin: .35rem 0; }
+ul.given li { break-inside: avoid; }
 figure.vectors { margin: .6rem 0; break-inside: avoid; } figure.vectors svg { max-width: 100%; height: auto; }
 """
 _NAME = re.compile(r"\{([^{}]*)\}")
 _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
+_KEY_DIGITS = 5
 
 
-def html(found: Solution, *, blank: bool = False) -> str:
-    """Return the solution as a page that needs nothing else; where `blank` its numbers are left open."""
-    title = escape(found.title)
-    head = f"<meta charset='utf-8'><title>{title}</title><style>{_STYLE}{MATH_STYLE}</style>"
-    body = "\n".join(
-        (f"<h1>{title}</h1>", f"<p>{_html_words(found.where)}</p>", *html_chapters(found, blank=blank))
-    )
+@dataclass(frozen=True)
+class DocumentForm:
+    """How one kind of document is written; names of joints stand in braces in headings and in text.
+
+    `listed` sets what is given: formulas, and what each is. `new_page` begins one.
+    """
+
+    how: Notation
+    page: Callable[[str, str], str]
+    heading: Callable[[int, str], str]
+    text: Callable[[str], str]
+    paragraph: Callable[[str], str]
+    inline: Callable[[str], str]
+    aligned: Callable[[list[EquationRow]], str]
+    listed: Callable[[list[tuple[str, str]]], str]
+    figure: Callable[[Solution], str]
+    new_page: str = ""
+
+
+def document(found: Solution, form: DocumentForm, *, exercise: bool = False) -> str:
+    """Return the whole document; of an exercise with its numbers left open, and then the key."""
+    parts = [form.heading(1, found.title), _where(found, form), *chapters(found, form, blank=exercise)]
+    if exercise:
+        parts += [form.new_page, form.heading(1, f"Key: {found.title}"), _where(found, form)]
+        parts += _key(found, form)
+    return form.page(found.title, "\n\n".join(part for part in parts if part))
+
+
+def _where(found: Solution, form: DocumentForm) -> str:
+    return form.paragraph(form.text(found.where))
+
+
+def chapters(found: Solution, form: DocumentForm, *, level: int = 2, blank: bool = False) -> Iterator[str]:
+    """Yield the parts of a solution, headings from `level` on; where `blank` its numbers are left open."""
+    for chapter in found.chapters:
+        yield form.heading(level, chapter.title)
+        if chapter is found.loop_chapter:
+            yield form.figure(found)
+        for step in chapter.steps:
+            if step.title:
+                yield form.heading(level + 1, step.title)
+            for sort, items in groupby(step.items, _sort):
+                yield from _set(sort, items, form, blank)
+
+
+def _sort(item: Item) -> type[Item] | None:
+    """Return what kind an item is where only its like is set with it; None of lines and equations."""
+    return type(item) if isinstance(item, Given | Words | Unknown | System) else None
+
+
+def _set(sort: type[Item] | None, items: Iterable[Item], form: DocumentForm, blank: bool) -> Iterator[str]:
+    """Yield neighbours of one sort: equations and what is given in one block, sentences one by one."""
+    if sort is Given:
+        given = (item for item in items if isinstance(item, Given))
+        yield form.listed([_listed(item.value, item.unit, item.words, form) for item in given])
+    elif sort in (None, System):
+        found = (rows(item, form.how, blank=blank) for item in items if not isinstance(item, Words | Unknown))
+        yield form.aligned([row for item in found for row in item])
+    for item in items:
+        if isinstance(item, Words):
+            yield form.paragraph(form.text(item.text))
+        elif isinstance(item, Unknown):
+            symbols = (form.inline(typeset(e, form.how)) for e in item.symbols)
+            yield form.paragraph(f"Unknown: {', '.join(symbols)}")
+
+
+def _listed(value: Formula, unit: str, words: str, form: DocumentForm) -> tuple[str, str]:
+    number = form.how.number(value.shown, False) + form.how.unit(unit)
+    return form.inline(form.how.infix("=", typeset(value, form.how), number)), words
+
+
+def _key(found: Solution, form: DocumentForm) -> Iterator[str]:
+    """Yield all that is worked out, chapter by chapter."""
+    for chapter in found.chapters:
+        lines = [item for item in chapter.items if isinstance(item, ValueLine)]
+        if lines:
+            yield form.heading(2, chapter.title)
+            yield form.listed([_listed(_short(line.value), line.unit, "", form) for line in lines])
+
+
+def _short(value: Formula) -> Formula:
+    """Return a value in as many digits as a key needs."""
+    size = abs(value.value)
+    decimals = max(_KEY_DIGITS - 1 - floor(log10(size)), 0) if size else 0
+    return replace(value, shown=rounded(value.value, decimals))
+
+
+def _html_page(title: str, body: str) -> str:
+    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}{MATH_STYLE}</style>"
     return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
 
 
-def html_chapters(found: Solution, *, level: int = 2, blank: bool = False) -> Iterator[str]:
-    """Yield the solution's chapters as HTML, headings from `level` on; the page needs `MATH_STYLE`."""
-    for chapter in found.chapters:
-        yield f"<h{level}>{escape(chapter.title)}</h{level}>"
-        if chapter.title == "Vector loops":
-            yield f"<figure class='vectors'>{svg(found)}</figure>"
-        for step in chapter.steps:
-            if step.title:
-                yield f"<h{level + 1}>{_html_words(step.title)}</h{level + 1}>"
-            yield from (_html_item(item, blank) for item in step.items)
+def _html_words(text: str) -> str:
+    return _NAME.sub(lambda found: _INDEXED.sub(r"<sub>\1</sub>", found[1]), escape(text))
 
 
-def _html_item(item: Item, blank: bool) -> str:
-    if isinstance(item, Words):
-        return f"<p>{_html_words(item.text)}</p>"
-    if isinstance(item, Unknown):
-        return "<p>Unknown: " + ", ".join(f"<math>{typeset(e, MATHML)}</math>" for e in item.symbols) + "</p>"
-    cells = "".join(
-        f"<mtr><mtd>{row.left}</mtd><mtd><mo>=</mo>{row.right}</mtd></mtr>"
-        for row in rows(item, MATHML, blank=blank)
-    )
+def _html_aligned(found: list[EquationRow]) -> str:
+    cells = "".join(f"<mtr><mtd>{row.left}</mtd><mtd><mo>=</mo>{row.right}</mtd></mtr>" for row in found)
     return f"<math display='block'><mtable class='rows' displaystyle='true'>{cells}</mtable></math>"
 
 
-def _html_words(text: str) -> str:
-    def name(found: re.Match[str]) -> str:
-        return _INDEXED.sub(r"<sub>\1</sub>", found[1])
-
-    return _NAME.sub(name, escape(text))
+def _html_listed(found: list[tuple[str, str]]) -> str:
+    items = "".join(f"<li>{formula} {_html_words(words)}</li>" for formula, words in found)
+    return f"<ul class='given'>{items}</ul>"
 
 
-def latex(found: Solution, *, blank: bool = False) -> str:
-    """Return the solution as a document that pdflatex sets without any other file."""
-    head = "\n".join((r"\documentclass[10pt,a4paper]{article}", *_PACKAGES, r"\begin{document}"))
-    title = rf"\section*{{{plain_latex(found.title)}}}"
-    body = "\n".join((title, _latex_words(found.where), *_latex_chapters(found, blank)))
-    return f"{head}\n{body}\n\\end{{document}}\n"
-
-
-_PACKAGES = (
-    r"\usepackage[utf8]{inputenc}",
-    r"\usepackage[T1]{fontenc}",
-    r"\usepackage{lmodern,textcomp,amsmath,tikz}",
-    r"\usepackage[margin=18mm]{geometry}",
-    r"\setlength{\parindent}{0pt}",
-    r"\allowdisplaybreaks",
+HTML = DocumentForm(
+    how=MATHML,
+    page=_html_page,
+    heading=lambda level, text: f"<h{level}>{_html_words(text)}</h{level}>",
+    text=_html_words,
+    paragraph=lambda markup: f"<p>{markup}</p>",
+    inline=lambda formula: f"<math>{formula}</math>",
+    aligned=_html_aligned,
+    listed=_html_listed,
+    figure=lambda found: f"<figure class='vectors'>{svg(found)}</figure>",
+    new_page="<div class='key'></div>",
 )
 
-
-def _latex_chapters(found: Solution, blank: bool) -> Iterator[str]:
-    for chapter in found.chapters:
-        yield rf"\section*{{{plain_latex(chapter.title)}}}"
-        if chapter.title == "Vector loops":
-            yield tikz(found)
-        for step in chapter.steps:
-            if step.title:
-                yield rf"\subsection*{{{_latex_words(step.title)}}}"
-            yield from (_latex_item(item, blank) for item in step.items)
-
-
-def _latex_item(item: Item, blank: bool) -> str:
-    if isinstance(item, Words):
-        return _latex_words(item.text) + "\n"
-    if isinstance(item, Unknown):
-        return _unknown(item) + "\n"
-    lines = " \\\\\n".join(f"{row.left} &= {row.right}" for row in rows(item, LATEX, blank=blank))
-    return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}"
+_PREAMBLE = r"""\documentclass[10pt,a4paper,fleqn]{article}
+\usepackage[utf8]{inputenc}
+\usepackage[T1]{fontenc}
+\usepackage{lmodern,textcomp,amsmath,tikz}
+\usepackage[margin=18mm]{geometry}
+\setlength{\parindent}{0pt}\setlength{\mathindent}{5mm}
+\allowdisplaybreaks
+\begin{document}
+\setlength{\abovedisplayskip}{3pt}\setlength{\belowdisplayskip}{3pt}
+"""
+_BEFORE = "\n\n\\begin{align*}"
 
 
 def _latex_words(text: str) -> str:
@@ -118,37 +180,62 @@ def _latex_words(text: str) -> str:
     return "".join(LATEX.name(part) if n % 2 else plain_latex(part) for n, part in enumerate(parts))
 
 
-def markdown(found: Solution, *, blank: bool = False) -> str:
-    """Return the solution as Markdown, each line one formula between $ signs."""
-    return "\n\n".join((f"# {found.title}", _plain(found.where), *_markdown_chapters(found, blank))) + "\n"
+def _latex_listed(found: list[tuple[str, str]]) -> str:
+    items = (formula + (f" ({_latex_words(words)})" if words else "") for formula, words in found)
+    return r"\begin{flushleft}" + ",\\quad\n".join(f"\\mbox{{{item}}}" for item in items) + r"\end{flushleft}"
 
 
-def _markdown_chapters(found: Solution, blank: bool) -> Iterator[str]:
-    for chapter in found.chapters:
-        yield f"## {chapter.title}"
-        for step in chapter.steps:
-            if step.title:
-                yield f"### {_plain(step.title)}"
-            yield from (_markdown_item(item, blank) for item in step.items)
+def _latex_aligned(found: list[EquationRow]) -> str:
+    lines = " \\\\\n".join(f"{row.left} &= {row.right}" for row in found)
+    return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}"
 
 
-def _markdown_item(item: Item, blank: bool) -> str:
-    if isinstance(item, Words):
-        return _plain(item.text)
-    if isinstance(item, Unknown):
-        return _unknown(item)
-    found: list[str] = []
-    for row in rows(item, LATEX, blank=blank):
-        if row.left:
-            found.append(f"{row.left} = {row.right}")
-        else:
-            found[-1] += f" = {row.right}"
-    return "\n\n".join(f"${line}$" for line in found)
+def _latex_page(_: str, body: str) -> str:
+    # a paragraph that ends before an equation would leave a line's room
+    return f"{_PREAMBLE}{body.replace(_BEFORE, _BEFORE[1:])}\n\\end{{document}}\n"
 
 
-def _unknown(item: Unknown) -> str:
-    return "Unknown: " + ", ".join(f"${typeset(e, LATEX)}$" for e in item.symbols)
+TEX = DocumentForm(
+    how=LATEX,
+    page=_latex_page,
+    heading=lambda level, text: f"\\{'sub' * (level - 1)}section*{{{_latex_words(text)}}}",
+    text=_latex_words,
+    paragraph=str,
+    inline=lambda formula: f"${formula}$",
+    aligned=_latex_aligned,
+    listed=_latex_listed,
+    figure=tikz,
+    new_page=r"\newpage",
+)
 
 
-def _plain(text: str) -> str:
+def _markdown_words(text: str) -> str:
     return _NAME.sub(r"\1", text)
+
+
+def _markdown_aligned(found: list[EquationRow]) -> str:
+    """Return each equation between $ signs, its rows one behind the other."""
+    lines: list[str] = []
+    for row in found:
+        if row.left:
+            lines.append(f"{row.left} = {row.right}")
+        else:
+            lines[-1] += f" = {row.right}"
+    return "\n\n".join(f"${line}$" for line in lines)
+
+
+def _markdown_listed(found: list[tuple[str, str]]) -> str:
+    return "\n".join(f"- {formula} {_markdown_words(words)}".rstrip() for formula, words in found)
+
+
+MARKDOWN = DocumentForm(
+    how=LATEX,
+    page=lambda _, body: f"{body}\n",
+    heading=lambda level, text: f"{'#' * level} {_markdown_words(text)}",
+    text=_markdown_words,
+    paragraph=str,
+    inline=lambda formula: f"${formula}$",
+    aligned=_markdown_aligned,
+    listed=_markdown_listed,
+    figure=lambda _: "",
+)

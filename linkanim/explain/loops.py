@@ -8,7 +8,7 @@ from itertools import takewhile
 from typing import NamedTuple
 
 from linkanim.explain.chains import LoopSide, Route
-from linkanim.explain.expression import ZERO, Formula, Symbol
+from linkanim.explain.expression import ZERO, Formula, Symbol, along
 from linkanim.explain.kinds import KINDS
 from linkanim.explain.lines import Chapter, Equation, Step, Unknown, ValueLine
 from linkanim.explain.work import Work
@@ -68,8 +68,12 @@ def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:
 
 
 def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
-    way = work.points[end] - work.points[start]
-    return LoopSide(Symbol("R", work.names.length(start, end), bold=True), way), work.place(start)
+    """Return the way between two fixed pins, by length and angle where it is stated so."""
+    index, way = work.names.length(start, end), work.points[end] - work.points[start]
+    length, angle = (work.given.get(Symbol(letter, index)) for letter in "rθ")
+    if length and angle:
+        way = along(angle.value).times(length.value)
+    return LoopSide(Symbol("R", index, bold=True), way), work.place(start)
 
 
 def _from_ground(route: Route, work: Work) -> _Chain:

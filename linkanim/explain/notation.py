@@ -223,13 +223,22 @@ def _mathml_number(shown: str, degrees: bool) -> str:
     return f"{minus}<mn>{digits}</mn>" + ("<mo class='u'>°</mo>" if degrees else "")
 
 
+_THIN = "<mspace width='.12em'></mspace>"
+
+
 def _mathml_call(name: str, parts: Sequence[str]) -> str:
     if name == "atan2":
         parts = [f"<mo>(</mo>{'<mo>,</mo>'.join(parts)}<mo>)</mo>"]
-    return f"<mrow><mi>{name}</mi><mo>&#x2061;</mo><mrow>{parts[0]}</mrow></mrow>"
+    return f"<mrow><mi>{name}</mi><mo>&#x2061;</mo>{_THIN}<mrow>{parts[0]}</mrow></mrow>"
 
 
-_MATHML_SIGNS = {"·": "<mo>·</mo>", "": "<mo>&#x2062;</mo>", "+": "<mo>+</mo>", "-": "<mo>−</mo>"}
+_MATHML_SIGNS = {
+    "": f"<mo>&#x2062;</mo>{_THIN}",
+    "·": "<mo>·</mo>",
+    "+": "<mo>+</mo>",
+    "-": "<mo>−</mo>",
+    "=": "<mo>=</mo>",
+}
 
 MATHML = Notation(
     symbol=_mathml_symbol,

@@ -46,6 +46,10 @@ class SlideUnknown(NamedTuple):
     letter: str = ""
 
 
+_SHORT = 3
+"""So many symbols a right side has that stands in the equations themselves."""
+
+
 @dataclass
 class Rates:
     """The rates known so far, of the first order and then of the second."""
@@ -123,6 +127,7 @@ class Rates:
         left, beside = (LENGTH if isinstance(unknown, TurnUnknown) else RATIO for unknown in unknowns)
         names = self._symbol(unknowns[0], order), self._symbol(unknowns[1], order)
         measures = left, beside, Powers(1, order)
+        right = self._right(right, measures[2])
         formulas = (one.x, other.x, right.x), (one.y, other.y, right.y)
         values = self._row(formulas[0], measures, 1), self._row(formulas[1], measures, 2)
         (a, b, c), (d, e, f) = values
@@ -135,6 +140,15 @@ class Rates:
             else:
                 found = self.let(name, formula / det, Powers(1, order))
                 self.sliding.setdefault(unknown.letter + unknown.way, []).append(found)
+
+    def _right(self, right: Components, measure: Powers) -> Components:
+        """Return the right sides; long ones have lines of their own before the equations."""
+        if max(len(list(side.leaves)) for side in right) <= _SHORT:
+            return right
+        first, second = (
+            self.let(Symbol("b", str(n)), side, measure) for n, side in enumerate(right, start=1)
+        )
+        return Components(first, second)
 
     def _row(self, formulas: Row, measures: tuple[Powers, Powers, Powers], row: int) -> Row:
         """Return the entries of a row, a₁₁ a₁₂ b₁, in the digits that they show."""
@@ -149,6 +163,6 @@ class Rates:
         return self.slide_symbol(unknown, order)
 
     def _entry(self, formula: Formula, measure: Powers, symbol: Symbol) -> Formula:
-        if formula.constant is not None:
+        if formula.constant is not None or (formula.symbol and formula.symbol.letter == "b"):
             return formula
         return Formula("leaf", symbol=symbol, shown=rounded(formula.value, self.scale.decimals(measure)))

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import reduce
+from itertools import pairwise
 from typing import NamedTuple
 
 from linkanim.explain.expression import Formula
 from linkanim.explain.lines import Equation, Given, System, ValueLine
 from linkanim.explain.notation import Notation, typeset
+
+_SHORT, _MIDDLING = 2, 6
+"""So many symbols a formula has that stands in one row with its numbers and value, or with its value."""
 
 
 class EquationRow(NamedTuple):
@@ -33,17 +38,20 @@ def rows(
 
 
 def _line(line: ValueLine, how: Notation, blank: bool) -> Iterator[EquationRow]:
-    left, value = typeset(line.value, how), _value(line.value, line.unit, how)
-    if line.formula.symbolic:
-        yield EquationRow(left, typeset(line.formula, how))
+    """Yield a line's sides, as many of them in a row as a reader takes in."""
+    sides = [typeset(line.formula, how)] if line.formula.symbolic else []
+    if not blank and line.formula.operation != "leaf":
+        sides.append(typeset(line.formula, how, numbers=True))
+    sides.append(how.blank + how.unit(line.unit) if blank else _value(line.value, line.unit, how))
+    leaves = len(list(line.formula.leaves))
+    together = 3 if leaves <= _SHORT else 2 if leaves <= _MIDDLING else 1
+    left = typeset(line.value, how)
+    # the last row is the fullest one: it is the numbers and what they come to that belong together
+    for begin, end in pairwise(
+        [0, *range(len(sides) % together or together, len(sides), together), len(sides)]
+    ):
+        yield EquationRow(left, reduce(lambda a, b: how.infix("=", a, b), sides[begin:end]))
         left = ""
-    if blank:
-        yield EquationRow(left, how.blank + how.unit(line.unit))
-        return
-    if line.formula.operation != "leaf":
-        yield EquationRow(left, typeset(line.formula, how, numbers=True))
-        left = ""
-    yield EquationRow(left, value)
 
 
 def _system(system: System, how: Notation, blank: bool) -> Iterator[EquationRow]:

@@ -28,6 +28,16 @@ _FEWEST, _MOST = 6, 13
 _AGREES, _NOTHING = 5e-6, 5e-7
 """A result agrees to that share of itself, or to that share of what it is at a typical length and rate."""
 _TITLES = {1: "Velocities", 2: "Accelerations"}
+_ORDER_WORDS = {1: "first", 2: "second"}
+_BY_INPUT = (
+    "Primes are derivatives by the input: h of angles, f of ways. Each loop differentiated gives two linear "
+    "equations; a are the entries of their matrix, b the right sides, D the determinant, and both unknowns "
+    "follow by Cramer's rule."
+)
+_IN_TIME: dict[Order, str] = {
+    1: "The loops differentiated in time: the same equations, the input running at its own speed.",
+    2: "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
+}
 _SINGULAR = (
     "The two linear equations of a dyad are one here, at a limit or a change point: no rates follow. "
     "Take a pose beside it."
@@ -47,6 +57,11 @@ class Solution:
     singular: bool
 
     @property
+    def loop_chapter(self) -> Chapter:
+        """The chapter of the loops, which has the figure."""
+        return self.chapters[1]
+
+    @property
     def title(self) -> str:
         """What it is a solution of."""
         return self.asked.scene.title
@@ -57,7 +72,7 @@ class Solution:
         scene = self.asked.scene
         place = float(self.asked.motion().coordinate)
         words = scene.linkage.drive.coordinate.text(place, scene.length_unit, 0.01)
-        return f"Worked out at {input_symbol(scene.linkage)} = {words}."
+        return f"At {input_symbol(scene.linkage)} = {words}."
 
 
 def solution(asked: Asked) -> Solution:
@@ -163,8 +178,9 @@ class _Draft:
     def _by_input(self) -> Iterator[Chapter]:
         """Yield the chapter of kinematic coefficients."""
         start_rates(self.slopes, Driven(ONE, ZERO))
+        self._step("", partial(self.work.say, _BY_INPUT))
         for order in ORDERS:
-            self._moved(self.slopes, order)
+            self._moved(self.slopes, order, f", {_ORDER_WORDS[order]} coefficients")
             self._tell_links(
                 self.slopes,
                 order,
@@ -177,6 +193,7 @@ class _Draft:
         """Yield the chapters of velocities and accelerations."""
         start_rates(self.rates, driven)
         for order, word in zip(ORDERS, ("velocity", "acceleration"), strict=True):
+            self._step("", partial(self.work.say, _IN_TIME[order]))
             self._moved(self.rates, order)
             for joint in self.linkage.joints:
                 self._tell(
@@ -192,10 +209,11 @@ class _Draft:
             self._tell_links(self.rates, order, turning, sliding)
             yield from self._chapter(_TITLES[order])
 
-    def _moved(self, rates: Rates, order: Order) -> None:
+    def _moved(self, rates: Rates, order: Order, words: str = "") -> None:
         """Add a step for each joint that moves."""
         for joint in self.linkage.joints:
-            self._step(f"Joint {{{joint.name}}}", partial(KINDS[type(joint)].move, joint, rates, order))
+            title = f"Joint {{{joint.name}}}{words}"
+            self._step(title, partial(KINDS[type(joint)].move, joint, rates, order))
 
     def _tell_links(
         self, rates: Rates, order: Order, turning: tuple[str, str], sliding: tuple[str, str]

@@ -158,9 +158,8 @@ def of_latex(text: str) -> list[list[str]]:
         for row in block.split(" \\\\\n"):
             left, _, right = row.partition("&= ")
             if left.strip():
-                found.append([left.strip(), right])
-            else:
-                found[-1].append(right)
+                found.append([left.strip()])
+            found[-1] += right.split(" = ")
     return found
 
 
@@ -171,9 +170,8 @@ def of_html(text: str) -> list[list[str]]:
         for row in fromstring(math_element)[0]:
             left, right = ("".join(map(_tex, cell)) for cell in row)
             if left:
-                found.append([left, right.removeprefix("=")])
-            else:
-                found[-1].append(right.removeprefix("="))
+                found.append([left])
+            found[-1] += right.removeprefix("=").split("=")
     return found
 
 

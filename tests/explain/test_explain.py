@@ -6,6 +6,7 @@ import math
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,11 +15,14 @@ import pytest
 from printed import checks_of, of_html, of_latex, of_markdown
 
 from linkanim.cli import main
-from linkanim.explain.documents import html, latex, markdown
+from linkanim.digits import significant
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, document
 from linkanim.explain.inputs import Asked
 from linkanim.explain.lines import System, ValueLine
 from linkanim.explain.solution import Solution, solution
+from linkanim.explain.variant import variant
 from linkanim.scenes import load, names
+from linkanim.scenes.editing.edit import dimensions
 
 DIGITS = 5.1e-5
 """Four significant digits, and what is in the last place of a float."""
@@ -45,8 +49,8 @@ def _disagreeing(found: Solution) -> list[tuple[str, float, float]]:
 def _failing(found: Solution) -> list[str]:
     """Return the printed lines, of three documents, that do not give the next one."""
     wrong = []
-    for written, read in ((markdown, of_markdown), (latex, of_latex), (html, of_html)):
-        checks = list(checks_of(read(written(found))))
+    for form, read in ((MARKDOWN, of_markdown), (TEX, of_latex), (HTML, of_html)):
+        checks = list(checks_of(read(document(found, form))))
         items = [item for chapter in found.chapters for item in chapter.items]
         formulas = sum(isinstance(item, ValueLine) and item.formula.operation != "leaf" for item in items)
         systems = sum(isinstance(item, System) and item.worked_out for item in items)
@@ -104,8 +108,43 @@ def test_the_press_has_the_values_of_the_report(degrees: int, capsys: pytest.Cap
 def test_at_a_limit_it_says_that_no_rates_follow() -> None:
     found = solution(_asked("double-rocker", 0.0))
     assert found.singular
-    assert "no rates follow" in markdown(found)
+    assert "no rates follow" in document(found, MARKDOWN)
     assert np.isfinite([result.value.value for result in found.results]).all()
+
+
+@pytest.mark.parametrize("form", [MARKDOWN, TEX, HTML], ids=["Markdown", "LaTeX", "HTML"])
+def test_an_exercise_leaves_its_numbers_open_and_has_a_key_on_a_page_of_its_own(form: DocumentForm) -> None:
+    found = solution(_asked("slider-crank", 50.0))
+    sheet, _, key = document(found, form, exercise=True).partition(f"Key: {found.title}")
+    lines = [item for chapter in found.chapters for item in chapter.items if isinstance(item, ValueLine)]
+    assert sheet.count(form.how.blank) == len(lines)
+    assert form.new_page in sheet
+    for line in lines:
+        assert line.formula.operation == "leaf" or line.value.shown.lstrip("-") not in sheet
+        assert significant(abs(line.value.value), 5) in key
+
+
+# a four-bar, what turns back, what depends on equal lengths, a cylinder, gears
+@pytest.mark.parametrize("name", ["crank-rocker", "double-rocker", "parallelogram", "excavator", "press"])
+def test_a_seed_gives_other_round_lengths_of_the_same_class(name: str) -> None:
+    scene = load(name)
+    found = [variant(scene, seed, lambda _: True) for seed in (1, 1, 2)]
+    lengths = [[item.value for item in dimensions(one) if item.kind == "length"] for one in (scene, *found)]
+    assert lengths[1] == lengths[2]
+    assert len({tuple(some) for some in lengths}) == 3
+    assert {one.info.class_name for one in found} == {scene.info.class_name}
+    assert {one.info.full_turn for one in found} == {scene.info.full_turn}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", names())
+def test_variants_of_all_scenes_are_worked_out(name: str) -> None:
+    asked = _asked(name, 50.0)
+    changed = replace(asked, scene=variant(asked.scene, 5, lambda _: True))
+    assert changed.scene != asked.scene
+    found = solution(changed)
+    assert _failing(found) == []
+    assert _disagreeing(found) == []
 
 
 @pytest.mark.parametrize("suffix", [".html", ".tex", ".md"])
@@ -149,7 +188,7 @@ def test_bad_input_is_refused_in_one_line(
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["press"])
 def test_the_latex_compiles(name: str, tmp_path: Path) -> None:
-    (tmp_path / "solution.tex").write_text(latex(solution(_asked(name, 87.0))), encoding="utf-8")
+    (tmp_path / "solution.tex").write_text(document(solution(_asked(name, 87.0)), TEX), encoding="utf-8")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "solution.tex"]
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, check=False)
     assert ran.returncode == 0, ran.stdout[-2000:]

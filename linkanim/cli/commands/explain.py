@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from dataclasses import replace
 from math import isnan
 
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.cli.commands.solve import out_of_range
-from linkanim.explain.documents import html, latex, markdown
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.inputs import Asked
 from linkanim.explain.solution import solution
+from linkanim.explain.variant import variant
 from linkanim.picture.figure import figure
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
-WRITERS = {".html": html, ".htm": html, ".tex": latex, ".md": markdown}
+FORMS = {".html": HTML, ".htm": HTML, ".tex": TEX, ".md": MARKDOWN}
 
 
 def run(options: Namespace) -> None:
@@ -23,19 +25,34 @@ def run(options: Namespace) -> None:
     `BadInput` for an output that cannot be, before anything is worked out; `OutOfRange` for an angle that the
     input does not come to.
     """
-    target = None if options.output is None else checked_target(options.output, tuple(WRITERS))
-    asked = _asked(load(options.scene), options)
+    target = None if options.output is None else checked_target(options.output, tuple(FORMS))
+    found = solution(_asked(load(options.scene), options))
+    form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
+    text = document(found, form, exercise=options.exercise)
     if target is None:
-        print(markdown(solution(asked)), end="")
+        print(text, end="")
         return
-    text = WRITERS[target.suffix.lower()](solution(asked))
     with replacing(target) as part:
         part.write_text(text, encoding="utf-8")
     print(target)
 
 
 def _asked(scene: Scene, options: Namespace) -> Asked:
-    """Return the pose that is asked for; that at which joints are farthest apart where none is."""
+    """Return the pose that is asked for, of other lengths with a seed.
+
+    Without a pose it is that at which the scene's own joints are farthest apart.
+    """
+    asked = _pose(scene, options)
+    if options.seed is None:
+        return asked
+
+    def reached(changed: Scene) -> bool:
+        return not isnan(replace(asked, scene=changed).motion().phase)
+
+    return replace(asked, scene=variant(scene, options.seed, reached))
+
+
+def _pose(scene: Scene, options: Namespace) -> Asked:
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     if options.angle is None:
         phase = figure(scene).clearest if options.phase is None else options.phase

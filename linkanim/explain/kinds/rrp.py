@@ -68,7 +68,10 @@ def move(joint: RRP, rates: Rates, order: Order) -> None:
     if order == 2:
         right = right - rates.centripetal(frame, bar)
     rates.solve(name, (SlideUnknown(name, u), TurnUnknown(frame, -bar.left())), right, order)
-    rates.let_moving(name, rates.of(end, order) + rates.carried(frame, bar, order), order)
+    if joint.line.on is None:
+        rates.let_moving(name, u.times(rates.sliding[name][order - 1]), order)
+    else:
+        rates.let_moving(name, rates.of(end, order) + rates.carried(frame, bar, order), order)
 
 
 def route(joint: RRP, work: Work) -> Route:
