@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from base64 import b64decode
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
@@ -16,6 +17,7 @@ from linkanim.notebook import register
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.reading.read import scene_from
+from linkanim.share.page import Shared, document
 
 SVG = "{http://www.w3.org/2000/svg}"
 Shown = dict[tuple[str, str], Callable[[Any], str]]
@@ -44,12 +46,29 @@ def texts(page: ElementTree.Element, tag: str) -> list[str]:
 
 
 @pytest.mark.parametrize("name", ["press", "double-rocker", "scotch-yoke"])
-def test_a_scene_shows_its_figure_beside_its_facts(name: str, shown: Shown) -> None:
+def test_a_scene_shows_the_page_that_moves_beside_its_facts(name: str, shown: Shown) -> None:
+    """Where the notebook is not trusted the frame and the style are left out, and the figure shows."""
     scene = load(name)
     page = parsed(scene, shown)
-    groups = {group.get("id") for group in page.iter(f"{SVG}g")}
+    (frame,) = page.iter("iframe")
+    # as XML, an attribute has blanks for its line breaks
+    assert frame.get("srcdoc") == document(Shared(scene, names=1)).replace("\n", " ")
+    assert frame.get("sandbox") == "allow-scripts"
+    assert [style.text for style in page.iter("style")] == ["iframe.linkanim + img { display: none; }"]
+    (picture,) = page.iter("img")
+    assert picture.get("alt") == scene.title
+    kind, _, data = (picture.get("src") or "").partition(",")
+    assert kind == "data:image/svg+xml;base64"
+    groups = {group.get("id") for group in ElementTree.fromstring(b64decode(data)).iter(f"{SVG}g")}
     assert {f"body-{body.name}" for body in scene.linkage.bodies if len(body.joints) > 1} <= groups
     assert scene.info.class_name in texts(page, "td")
+
+
+def test_a_scene_without_such_a_page_shows_its_figure(shown: Shown, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("linkanim.share.page.LARGEST", 1000)
+    page = parsed(load("crank-rocker"), shown)
+    assert [*page.iter("iframe"), *page.iter("style")] == []
+    assert len([*page.iter("img")]) == 1
 
 
 def test_a_motion_shows_its_table_and_a_chart(shown: Shown) -> None:

@@ -1,7 +1,8 @@
-"""What a notebook shows: of a scene its figure beside its facts, of a motion its table and a chart."""
+"""What a notebook shows: of a scene the page that moves and its facts, of a motion its table and a chart."""
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from linkanim.digits import significant, typeset
+from linkanim.errors import BadInput
 from linkanim.mechanics.facts.naming import link_names, turning_links
 from linkanim.mechanics.facts.register import Quantity, register
 from linkanim.mechanics.motion.measures import output_body
@@ -26,17 +28,35 @@ from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
+from linkanim.share.page import Shared, document
 
-_FIGURE, _CHART = (560, 360), (640, 260)
+_FIGURE, _CHART, _FRAME = (560, 360), (640, 260), (720, 560)
 _ENDS = 5
 """So many rows of a motion's table at either end; what lies between is left out."""
 _DIGITS = 6
 
 
 def scene_html(scene: Scene) -> str:
-    """Return a scene's figure at its start, and what is known of it."""
-    figure = Figured(scene, _FIGURE, Look(names=1, hud=False)).document()
-    return _beside(figure, scene._repr_html_())
+    """Return the page on which a scene moves, and what is known of it.
+
+    A notebook that is not trusted leaves frames out, and shows the figure that stands behind it.
+    """
+    svg = b64encode(Figured(scene, _FIGURE, Look(names=1, hud=False)).document().encode()).decode()
+    size, source = f"width='{_FIGURE[0]}' height='{_FIGURE[1]}'", f"data:image/svg+xml;base64,{svg}"
+    figure = f"<img alt='{escape(scene.title)}' {size} src='{source}'/>"
+    return _beside(f"<div>{_moving(scene)}{figure}</div>", scene._repr_html_())
+
+
+def _moving(scene: Scene) -> str:
+    """Return the page in a frame, which hides the figure behind it; nothing where there is no such page."""
+    try:
+        page = document(Shared(scene, names=1))
+    except BadInput:
+        return ""
+    style = f"width:{_FRAME[0]}px;height:{_FRAME[1]}px;max-width:100%;border:0"
+    frame = f"class='linkanim' title='{escape(scene.title)}' sandbox='allow-scripts' style='{style}'"
+    hidden = "<style>iframe.linkanim + img { display: none; }</style>"
+    return f"{hidden}<iframe {frame} srcdoc='{escape(page)}'></iframe>"
 
 
 def motion_html(motion: Motion) -> str:
