@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
-from math import radians
 from typing import NamedTuple
 
 import numpy as np
 import pygame
 
-from linkanim.digits import short, stepped, typeset
-from linkanim.paper.curves import Curve, Curves, Peak, extremes
+from linkanim.paper.annotations import Annotations, finer, named_at_ends, room_for_names
+from linkanim.paper.curves import Curve, Curves
 from linkanim.paper.measured import MeasuredCurve
 from linkanim.picture.diagrams.axis import Axis, linear, range_around, zeros_level
 from linkanim.picture.diagrams.chart import (
@@ -21,6 +19,7 @@ from linkanim.picture.diagrams.chart import (
     Plot,
     axes,
     curve_layer,
+    line_layer,
     marked,
     pen_for,
     point_layers,
@@ -30,11 +29,8 @@ from linkanim.picture.diagrams.chart import (
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
-from linkanim.picture.parts.driven import driven_words
-from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.raster.shapes import box as rounded_box
 from linkanim.picture.raster.shapes import disc, segments
 from linkanim.picture.surface import printed
 from linkanim.picture.text.text import Type
@@ -47,14 +43,12 @@ _ROOM = 0.13
 """Of a curve's span, above and below it, where its extremes are written."""
 _BELOW = 0.8
 """Below each plot, in heights of tick labels."""
-_CLOSE = 0.7
-"""Words about a dot that are farther from it, in their heights, have a line to it."""
-_EVERY = 4
-"""So many of a curve's points make a straight line that words keep off."""
 _DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0), (4.0, 2.0), (12.0, 4.0))
 """The dashes and gaps of curves that share a plot, in widths of a line; the first is whole."""
 _THINNEST = 0.9
 """A line of a small chart, in pixels."""
+_WIDTH = 1.2
+"""How wide a curve is, in thin lines."""
 _LINE, _LIFT = 1.5, 0.2
 """From line to line, and from a line's top to its words, in heights of their text."""
 
@@ -116,8 +110,10 @@ class Page:
         yield from self._plots(whole._replace(y=below, height=whole.bottom - below))
 
     def _legend(self) -> list[_Entry]:
-        words = self.curves.symbols if self.brief else self.curves.words
-        entries = [_Entry(words(curve), self.colour(curve)) for curve in self.curves.curves]
+        words = self.curves.name if self.brief else self.curves.words
+        entries = [
+            _Entry(words(curve), self.colour(curve), self.dashes(curve)) for curve in self.curves.curves
+        ]
         return entries + (
             [_Entry(self.measured.label, self.pen.theme.ink, dotted=True)] if self.measured else []
         )
@@ -130,10 +126,15 @@ class Page:
         )
         return palette[self.curves.curves.index(curve) % len(palette)]
 
+    def dashes(self, curve: Curve) -> tuple[float, ...]:
+        """Return the dashes of a curve; they repeat as well."""
+        return _DASHES[self.curves.curves.index(curve) % len(_DASHES)]
+
     def _plots(self, rect: Rect) -> Iterator[Item]:
         """Yield the plots one below the other over one common axis."""
         pen, groups = self.pen, _by_unit(self.curves)
-        columns = [groups] if len(groups) <= _TOGETHER else [[group] for group in groups]
+        many = len(groups) > _TOGETHER or named_at_ends(self.curves)
+        columns = [[group] for group in groups] if many else [groups]
         foot = (2 * _LINE - _BELOW) * pen.small
         high = (rect.height - foot) / len(columns)
         tall = max(high - (_LINE + _BELOW) * pen.small, 1)
@@ -154,7 +155,8 @@ class Page:
             max((pen.type.width(label, pen.small) for _, label in axis.ticks), default=0)
             for axis in self._axes(sides, high)
         ]
-        return wide[0] + 0.6 * pen.small, (wide[1] if len(wide) > 1 else 0) + 1.4 * pen.small
+        right = (wide[1] if len(wide) > 1 else 0) + 1.4 * pen.small
+        return wide[0] + 0.6 * pen.small, max(right, room_for_names(self.curves, pen))
 
     def _axes(self, sides: list[list[Curve]], high: float) -> list[Axis]:
         """Return the vertical axes of a plot, a unit each; two about zero have it at one height."""
@@ -181,12 +183,12 @@ class Page:
         yield from marked(plots[0], self.curves.marks, heights, pen)
         for plot, side in zip(plots, sides, strict=True):
             for curve in side:
-                width, number = 1.2 * pen.line, self.curves.curves.index(curve)
-                dashes = _DASHES[number % len(_DASHES)]
-                yield curve_layer(plot, curve.x, curve.values, self.colour(curve), width, dashes)
+                width = _WIDTH * pen.line
+                yield curve_layer(plot, curve.x, curve.values, self.colour(curve), width, self.dashes(curve))
         if self.measured and self.measured.curve in sides[0]:
-            yield from point_layers(plots[0], self.measured.points, pen.theme.ink, _finer(pen))
-        yield from self._peaks(plots, sides)
+            yield from point_layers(plots[0], self.measured.points, pen.theme.ink, finer(pen))
+        told = [self._marked(side) for side in sides]
+        yield from Annotations(self.curves, pen, self.colour).items(plots, sides, told)
 
     def _y_titles(self, area: Rect, sides: list[list[Curve]]) -> Iterator[Item]:
         pen, top = self.pen, area.y - (_LINE - _LIFT) * self.pen.small
@@ -206,54 +208,6 @@ class Page:
             return f"({shown})"
         return ", ".join(one.symbol for one in known) + (f" ({shown})" if shown else "")
 
-    def _peaks(self, plots: list[Plot], sides: list[list[Curve]]) -> Iterator[Item]:
-        """Yield a dot at each extreme, and its value and angle where there is room to say them."""
-        pen, found = self.pen, list(self._extremes(plots, sides))
-        words = [_peak_words(plot, peak, self.curves, curve) for plot, curve, peak, _ in found]
-        to_place = [
-            _about(plot, peak, pen.type.width(text, pen.small), pen, high=high)
-            for (plot, _, peak, high), text in zip(found, words, strict=True)
-        ]
-        lines = [
-            (curve, line)
-            for plot, side in zip(plots, sides, strict=True)
-            for curve in side
-            for line in _tracks(plot, curve, 0.6 * pen.line)
-        ]
-        owners = [curve for curve, _ in lines]
-        for n, (_, curve, _, _) in enumerate(found):
-            mine = frozenset(m for m, owner in enumerate(owners) if owner is curve)
-            to_place[n] = to_place[n]._replace(beside=mine)
-        placed = place(to_place, Clutter(plots[0].area, solids=tuple(line for _, line in lines)))
-        for (plot, curve, peak, _), text, label, spot in zip(found, words, to_place, placed, strict=True):
-            (wide, tall), middle = label.size, complex(label.places[0, spot.which])
-            if spot.shown[0]:
-                yield from self._leader(complex(plot.place(peak.x, peak.value)), middle, label.size, curve)
-            yield from point_layers(plot, [(peak.x, peak.value)], self.colour(curve), _finer(pen))
-            if spot.shown[0]:
-                yield Layer(pen.theme.background, [middle + rounded_box(wide + 4, tall, 3)], 0.7)
-                at = (middle.real - wide / 2, middle.imag - tall / 2)
-                yield Caption(text, at, pen.small, pen.theme.ink)
-
-    def _leader(
-        self, dot: complex, middle: complex, size: tuple[float, float], curve: Curve
-    ) -> Iterator[Layer]:
-        """Yield the line from a dot to the words about it, where they are not close by."""
-        away = dot - middle
-        off = complex(max(abs(away.real) - size[0] / 2, 0), max(abs(away.imag) - size[1] / 2, 0))
-        if abs(off) > _CLOSE * self.pen.small:
-            nearest = dot - complex(np.copysign(off.real, away.real), np.copysign(off.imag, away.imag))
-            yield Layer(self.colour(curve), segments(dot, nearest, 0.6 * self.pen.line))
-
-    def _extremes(
-        self, plots: list[Plot], sides: list[list[Curve]]
-    ) -> Iterator[tuple[Plot, Curve, Peak, bool]]:
-        """Yield each curve's greatest and least value, and whether it is the greatest."""
-        for plot, side in zip(plots, sides, strict=True):
-            for curve in self._marked(side):
-                for n, peak in enumerate(extremes(self.curves.scene, curve)):
-                    yield plot, curve, peak, n == 0
-
     def _marked(self, side: list[Curve]) -> list[Curve]:
         """Return the curves whose extremes are told: in brief the one that goes farthest, of one quantity."""
         if not self.brief:
@@ -262,43 +216,11 @@ class Page:
         return [max(side, key=lambda curve: float(np.ptp(curve.values)))] if one else []
 
 
-def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
-    scene = curves.scene
-    unit = "°" if curve.quantity.shown_unit(scene.length_unit) == "°" else ""
-    value = stepped(peak.value, (plot.y.high - plot.y.low) / 500)
-    if curves.over == "time":
-        return f"{value}{unit} at {typeset(short(float(f'{peak.x:.4g}')))} s"
-    angle = radians(peak.angle) if scene.linkage.drive.coordinate.is_angle else peak.angle
-    return f"{value}{unit} at {driven_words(scene, angle)}"
-
-
-def _about(plot: Plot, peak: Peak, wide: float, pen: Pen, *, high: bool) -> LabelPlaces:
-    """Return places for an extreme in words by its dot; a `high` one has them above it where it can."""
-    place, tall = complex(plot.place(peak.x, peak.value)), 1.15 * pen.small
-    rows = (tall / 2 - 1.6 * pen.small, tall / 2 + 0.5 * pen.small)
-    columns = (0.0, wide / 2 + 0.6 * pen.small, -wide / 2 - 0.6 * pen.small)
-    near = [place + complex(x, y) for y in rows[:: 1 if high else -1] for x in columns]
-    levels = [sign * n * tall for n in (1.6, 2.8, 4.0, 5.2) for sign in ((-1, 1) if high else (1, -1))]
-    far = [place + complex(x, y) for y in levels for x in columns]
-    return LabelPlaces((wide, tall), np.array([[*near, *far]]), 0.2 * np.arange(30.0))
-
-
-def _tracks(plot: Plot, curve: Curve, half: float) -> Iterator[Solid]:
-    """Yield a curve in short straight lines."""
-    points = plot.place(curve.x, np.where(np.isfinite(curve.values), curve.values, np.nan))[::_EVERY]
-    for begin, end in pairwise(points[np.isfinite(points)]):
-        yield Solid(np.array([[begin, end]]), half)
-
-
 def _zero(plot: Plot, pen: Pen) -> Iterator[Layer]:
     """Yield the line of zero where it lies in the plot."""
     if plot.y.low < 0 < plot.y.high:
         foot = complex(plot.place(plot.x.low, 0.0))
         yield Layer(pen.theme.dim, segments(foot, foot + plot.area.width, 0.6 * pen.line))
-
-
-def _finer(pen: Pen) -> Pen:
-    return replace(pen, line=0.6 * pen.line)
 
 
 def _unlabelled(axis: Axis) -> Axis:
@@ -318,11 +240,12 @@ class _Entry(NamedTuple):
 
     words: str
     colour: Colour
+    dashes: tuple[float, ...] = ()
     dotted: bool = False
 
 
 def _swatch(pen: Pen) -> float:
-    return 1.4 * pen.small
+    return 2.6 * pen.small
 
 
 def _wide(entry: _Entry, pen: Pen) -> float:
@@ -343,7 +266,10 @@ def _rows(entries: list[_Entry], width: float, pen: Pen) -> Iterator[list[_Entry
 def _legend_row(row: list[_Entry], x: float, y: float, pen: Pen) -> Iterator[Item]:
     for entry in row:
         start = complex(x, y + 0.5 * pen.small)
-        line = segments(start, start + _swatch(pen), 1.4 * pen.line)
-        yield Layer(entry.colour, [start + _swatch(pen) / 2 + disc(1.8 * pen.line)] if entry.dotted else line)
+        line = line_layer(
+            [start + np.array([0, _swatch(pen)])], entry.colour, _WIDTH * pen.line, entry.dashes
+        )
+        dot = Layer(entry.colour, [start + _swatch(pen) / 2 + disc(1.8 * pen.line)])
+        yield dot if entry.dotted else line
         yield Caption(entry.words, (x + _swatch(pen) + 0.5 * pen.small, y), pen.small, pen.theme.ink)
         x += _wide(entry, pen)

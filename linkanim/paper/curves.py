@@ -89,15 +89,17 @@ class Curves:
 
     def words(self, curve: Curve) -> str:
         """Return what sets a curve off from the others: quantity, component, speed, as far as they differ."""
+        return self._told_apart(curve, curve.quantity.words + " " + curve.quantity.symbol)
+
+    def name(self, curve: Curve) -> str:
+        """Return the same with the quantity's symbol alone."""
+        return self._told_apart(curve, curve.quantity.symbol)
+
+    def _told_apart(self, curve: Curve, called: str) -> str:
         several = len({other.quantity.token for other in self.curves}) > 1
         paces = len({other.pace for other in self.curves}) > 1
-        words = curve.quantity.words + " " + curve.quantity.symbol if several or not paces else ""
+        words = called if several or not paces else ""
         return ", ".join(part for part in (words, curve.label, curve.pace.words if paces else "") if part)
-
-    def symbols(self, curve: Curve) -> str:
-        """Return the same in symbols: of several speeds that of the curve."""
-        paces = len({other.pace for other in self.curves}) > 1
-        return curve.pace.words if paces else curve.quantity.symbol
 
 
 def curves_of(scene: Scene, request: ChartRequest) -> Curves:

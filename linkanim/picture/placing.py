@@ -184,17 +184,24 @@ class Placer:
                 cost += _BESIDE * touched
             else:
                 forbidden |= touched
-        for number, lines in enumerate(label.lines):
-            mine = np.isin(np.asarray(label.drawn), number)
-            if mine.any():
-                crossed: _Bools = ~_within(lines, (2.0, 2.0), clutter.inside)
-                crossed = np.asarray(crossed.any(axis=2))
-                crossed |= _cut(taken, self._sizes, lines, _THICK).any(axis=1, keepdims=True)
-                for rect in clutter.rects:
-                    crossed |= _cut(rect.middle, (rect.width, rect.height), lines, _THICK)
-                forbidden[:, mine] |= crossed.any(axis=1, keepdims=True)
-                cost[:, mine] += _CROSSING * _crossings(lines[:, 0], clutter)[:, None]
+        lined = np.flatnonzero(label.drawn >= 0) if label.drawn is not None else ()
+        if label.drawn is not None and len(lined):
+            used, which = np.unique(label.drawn[lined], return_inverse=True)
+            groups = [label.lines[n] for n in used]
+            forbidden[:, lined] |= self._barred(groups, taken, clutter)[:, which]
+            firsts = np.stack([lines[:, 0] for lines in groups], axis=1)
+            cost[:, lined] += _CROSSING * _crossings(firsts, clutter)[:, which]
         return cost + _FORBIDDEN * forbidden
+
+    def _barred(self, groups: Sequence[Loop], taken: Loop, clutter: Clutter) -> _Bools:
+        """Return whether groups of lines, each (n, lines, 2), touch what lines must not (n, groups)."""
+        lines = np.concatenate(groups, axis=1)
+        barred = np.asarray(np.logical_not(_within(lines, (2.0, 2.0), clutter.inside)).any(axis=2))
+        barred |= _hits(taken, self._sizes, lines, _THICK).any(axis=1)
+        for rect in clutter.rects:
+            barred |= _hits(rect.middle, (rect.width, rect.height), lines, _THICK).any(axis=1)
+        starts = np.cumsum([0, *(group.shape[1] for group in groups[:-1])])
+        return np.asarray(np.logical_or.reduceat(barred, starts, axis=1))
 
 
 def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
@@ -229,6 +236,11 @@ def touching(places: Loop, size: tuple[float, float], solid: Solid) -> _Bools:
 
 def _cut(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float) -> _Bools:
     """Return whether boxes of sizes about places (n, k) touch lines (n, m, 2) that are `half` thick."""
+    return np.asarray(_hits(places, size, lines, half).any(axis=2))
+
+
+def _hits(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float) -> _Bools:
+    """Return which boxes touch which of the lines (n, k, m)."""
     wide, high = (np.atleast_1d(side)[:, None] / 2 for side in size)
     middle, reach = lines.mean(axis=2)[:, None], (lines[..., 1] - lines[..., 0])[:, None] / 2
     away = np.atleast_2d(places)[:, :, None] - middle
@@ -236,7 +248,7 @@ def _cut(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, ha
     hit = (np.abs(away.real) < wide + half + long) & (np.abs(away.imag) < high + half + deep)
     across = np.abs(away.real * reach.imag - away.imag * reach.real)
     hit &= across < long * high + deep * wide + half * np.hypot(long, deep)
-    return np.asarray(hit.any(axis=2))
+    return np.asarray(hit)
 
 
 def _joined(one: Loop, other: Loop) -> Loop:
@@ -246,12 +258,12 @@ def _joined(one: Loop, other: Loop) -> Loop:
     return np.concatenate([*wide], axis=1)
 
 
-def _crossings(line: Loop, clutter: Clutter) -> _Floats:
-    """Return how many solids a line (n, 2) crosses at each moment."""
-    points = line[:, :1] + _ALONG * (line[:, 1:] - line[:, :1])
-    found = np.zeros(len(points))
+def _crossings(lines: Loop, clutter: Clutter) -> _Floats:
+    """Return how many solids each of some lines (n, m, 2) crosses at each moment (n, m)."""
+    places = lines[..., :1] + _ALONG * (lines[..., 1:] - lines[..., :1])
+    found, points = np.zeros(lines.shape[:2]), places.reshape(len(places), -1)
     for n in _near(points, (0.0, 0.0), clutter):
-        found += touching(points, (0.0, 0.0), clutter.solids[n]).any(axis=1)
+        found += touching(points, (0.0, 0.0), clutter.solids[n]).reshape(places.shape).any(axis=2)
     return found
 
 

@@ -22,7 +22,6 @@ from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Layer
 from linkanim.picture.surface import printed
 from linkanim.picture.text.text import typesetting
-from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 
 SIZE = (800, 450)
@@ -328,42 +327,6 @@ def test_a_table_of_rates_is_compared_at_the_charts_speed_also_of_a_swing() -> N
     assert beside(page.curves, table, "t").differences == pytest.approx(0.0, abs=1e-9)
 
 
-def test_words_about_an_extreme_lie_on_no_other_curve_and_have_a_line_to_their_dot() -> None:
-    """At three speeds the least values crowd; over time the instants are told."""
-    scene = load("press")
-    paces = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (10.0, 20.0, 40.0))
-    page = Page(curves_of(scene, ChartRequest(("6.angular_acceleration",), paces, "time")), (960, 540))
-    items = list(page.items())
-    told = [
-        (n, item) for n, item in enumerate(items) if isinstance(item, Caption) and item.text.endswith(" s")
-    ]
-    assert len(told) == 6
-    curves = {page.colour(curve): curve for curve in page.curves.curves}
-    for n, words in told:
-        dot = items[n - 2]
-        assert isinstance(dot, Layer)
-        curve = curves[dot.colour]
-        value = float(words.text.split()[0].replace("−", "-"))
-        assert min(abs(value - curve.values.max()), abs(value - curve.values.min())) < 4.0
-        wide = page.pen.type.width(words.text, words.size)
-        box = Rect(words.at[0], words.at[1], wide, words.size)
-        for other in items[: told[0][0]]:
-            if isinstance(other, Layer) and other.colour in curves and other.colour != dot.colour:
-                for loop in (loop for loop in other.loops if len(loop) > 20):
-                    assert not any(box.holds(point.real, point.imag) for point in loop)
-        middle = (dot.loops[0].real.mean(), dot.loops[0].imag.mean())
-        off = np.hypot(
-            *(
-                max(near - at, at - far, 0.0)
-                for near, at, far in zip(box[:2], middle, (box.right, box.bottom), strict=True)
-            )
-        )
-        leads = [
-            item for item in items[n - 4 : n - 2] if isinstance(item, Layer) and item.colour == dot.colour
-        ]
-        assert off < 12 or leads
-
-
 def test_curves_that_share_a_plot_differ_by_their_dashes() -> None:
     page = _page("crank-rocker", "rocker.angular_velocity", "coupler.angular_velocity")
     layers = [item for item in page.items() if isinstance(item, Layer)]
@@ -372,3 +335,20 @@ def test_curves_that_share_a_plot_differ_by_their_dashes() -> None:
     }
     first, second = (page.colour(curve) for curve in page.curves.curves)
     assert counts[first] <= 2 < counts[second]
+
+
+def test_a_legend_s_lines_are_dashed_as_their_curves_are() -> None:
+    page = _page("crank-rocker", "rocker.angular_velocity", "coupler.angular_velocity")
+    items = list(page.items())
+    for curve in page.curves.curves:
+        (n,) = (n for n, item in enumerate(items) if getattr(item, "text", "") == page.curves.words(curve))
+        swatch, drawn = (
+            items[n - 1],
+            next(item for item in items[n:] if isinstance(item, Layer) and item.colour == page.colour(curve)),
+        )
+        assert isinstance(swatch, Layer)
+        assert swatch.colour == drawn.colour
+        assert (len(swatch.loops) > 1) == bool(page.dashes(curve))
+        assert _extent(Layer((0, 0, 0), swatch.loops[:1])).width == pytest.approx(
+            page.dashes(curve)[0] * 1.2 * page.pen.line if page.dashes(curve) else 2.6 * page.pen.small, abs=4
+        )

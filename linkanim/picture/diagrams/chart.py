@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -149,7 +149,11 @@ def curve_layer(
 ) -> Layer:
     """Return a curve, dashed in widths of its line; it is broken where a value is not finite."""
     pixels = plot.place(x, np.where(np.isfinite(y), y, np.nan))
-    runs = _runs(pixels)
+    return line_layer(_runs(pixels), colour, width, dashes)
+
+
+def line_layer(runs: Iterable[Loop], colour: Colour, width: float, dashes: Sequence[float] = ()) -> Layer:
+    """Return lines along paths in pixels, dashed in widths of the line."""
     parts = (part for run in runs for part in _dashed(run, width * np.array(dashes))) if dashes else runs
     return Layer(colour, [loop for part in parts for loop in stroke(part, width)])
 
