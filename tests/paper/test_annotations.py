@@ -61,7 +61,7 @@ def faults(page: Page) -> Iterator[str]:
             if gap(box, line[1]) > 3:
                 yield f"{words.text} is not where its line ends"
             along = dot + (line[1] - dot) * np.linspace(0, 1, 50)
-            others = [other for other, _ in found if abs(other - dot) > 1]
+            others = [other for other, _ in found if abs(other - dot) > 2 * page.pen.line]
             if any(np.abs(along - other).min() < 2 * page.pen.line for other in others):
                 yield f"the line of {words.text} leads through another dot"
             if any(gap(other, point) == 0 for other in boxes if other != box for point in along):
