@@ -10,7 +10,7 @@ import pytest
 
 from linkanim.paper.annotations import _apart
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import ChartRequest, Curve, Pace, curves_of
+from linkanim.paper.curves import ChartRequest, Curve, Pace, curves_of, extremes
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.look import Over
 from linkanim.picture.raster.raster import Layer
@@ -77,7 +77,7 @@ def _tied(page: Page, items: list[Item], n: int) -> tuple[complex, np.ndarray | 
     assert match
     middle, value = complex(np.mean(dot.loops[0])), float(match[1].replace("−", "-"))
     mine = [curve for curve in page.curves.curves if page.colour(curve) == dot.colour]
-    assert any(_has(curve, value) for curve in mine), words.text
+    assert any(_has(page, curve, value) for curve in mine), words.text
     if (
         isinstance(lead, Layer)
         and lead.colour == dot.colour
@@ -91,11 +91,10 @@ def _tied(page: Page, items: list[Item], n: int) -> tuple[complex, np.ndarray | 
     return middle, None
 
 
-def _has(curve: Curve, value: float) -> bool:
+def _has(page: Page, curve: Curve, value: float) -> bool:
     """Whether a value is a curve's greatest or least, as it is rounded on the chart."""
-    span = np.ptp(curve.values) or 1.0
-    ends = np.array([curve.values.max(), curve.values.min()])
-    return bool(np.abs(ends - value).min() <= 0.02 * max(span, abs(value)))
+    ends = np.array([peak.value for peak in extremes(page.curves.scene, curve)])
+    return bool(ends.size and np.abs(ends - value).min() <= 0.01 * max(np.ptp(curve.values), abs(value)))
 
 
 # a crank that turns, an input that swings
