@@ -56,7 +56,7 @@ def _tables(scene: Scene, pose: Tree) -> Iterator[list[list[str]]]:
         yield [[title, *_titles(measures, unit)], *found]
     struts = ((linkage.springs, SPRING, pose["springs"]), (linkage.dampers, DAMPER, pose["dampers"]))
     elements = [
-        [f"{linkage.strut_word(item)} {item.name}", *_cells(measures, found[item.name])]
+        [linkage.strut_words(item), *_cells(measures, found[item.name])]
         for items, measures, found in struts
         for item in items
     ]

@@ -96,7 +96,7 @@ def _table(motion: Motion) -> str:
     """Return the input's angle, phase, joints and bodies, a row for each instant."""
     unit, shown = _unit(motion), list(_shown(motion))
     titles = [_input_title(motion), "phase (°)"]
-    titles += [f"{one.symbol} ({one.shown_unit(unit)})" for one in shown]
+    titles += [one.headed(unit) for one in shown]
     inputs = _input(motion), np.degrees(motion.phase)
     columns = (np.ravel(column) for column in (*inputs, *(one.shown(motion) for one in shown)))
     rows = np.stack(list(columns), axis=1)

@@ -38,7 +38,7 @@ _CHOSEN_TURNS = 2
 _AT_ONCE = 5
 """The chosen picture moves at every second frame; of the others so many at each, in turns."""
 _PER_SECOND = 60
-_NONE = "none has that in its title or chapter"
+_NONE = "no mechanism has that in its title or chapter"
 _TITLE = "Mechanisms"
 
 

@@ -299,7 +299,7 @@ def test_the_words_of_a_pose_name_everything(solve: Solve) -> None:
     words = solve("press", "--angle", "87 deg", "--speed", "10 rad/s")
     assert "crank angle 87 deg" in words
     firsts = [line.split("  ")[0] for line in words.splitlines()]
-    for name in ("O2", "A", "B", "com of 3", "2", "7", "5", "spring return", "damper cushion"):
+    for name in ("O2", "A", "B", "com of 3", "2", "7", "5", "return spring", "cushion damper"):
         assert name in firsts
     assert "3.327055" in words
 
@@ -336,10 +336,10 @@ def test_each_column_of_the_words_holds_what_its_title_says(solve: Solve, solved
         ("com of 3", "y mm"): com["position"][1],
         ("com of 3", "vx mm/s"): com["velocity"][0],
         ("com of 3", "ay mm/s^2"): com["acceleration"][1],
-        ("spring return", "length mm"): spring["length"],
-        ("spring return", "force N"): spring["force"],
-        ("damper cushion", "rate mm/s"): damper["rate"],
-        ("damper cushion", "force N"): damper["force"],
+        ("return spring", "length mm"): spring["length"],
+        ("return spring", "force N"): spring["force"],
+        ("cushion damper", "rate mm/s"): damper["rate"],
+        ("cushion damper", "force N"): damper["force"],
     }
     assert {place: words[place[0]][place[1]] for place in meant} == pytest.approx(meant, rel=1e-6)
 

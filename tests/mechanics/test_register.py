@@ -37,9 +37,9 @@ TOLD = [
     ("press", "B.velocity", "v_{B}", "B: velocity", "{}/s"),
     ("press", "B.velocity.y", "v_{By}", "B: velocity, y", "{}/s"),
     ("press", "3.com_acceleration.x", "a_{G3x}", "Link 3, centre of mass: acceleration, x", "{}/s²"),
-    ("press", "return.length", "L_{return}", "Spring return: length", "{}"),
-    ("press", "return.force", "F_{return}", "Spring return: force", "N"),
-    ("press", "cushion.rate", "v_{cushion}", "Damper cushion: rate of length", "{}/s"),
+    ("press", "return.length", "L_{return}", "Return spring: length", "{}"),
+    ("press", "return.force", "F_{return}", "Return spring: force", "N"),
+    ("press", "cushion.rate", "v_{cushion}", "Cushion damper: rate of length", "{}/s"),
 ]
 
 

@@ -327,7 +327,9 @@ def test_a_long_help_fits_any_window(size: tuple[int, int]) -> None:
     assert all(tuple(surface.get_at((size[0] // 2, y))) == background for y in (0, size[1] - 1))
 
 
-LONG = "s + l = 180 > p + q = 130: the crank cannot turn fully; it swings −115.6°…115.6° (Enter takes it all)"
+LONG = (
+    "s + l = 180 > p + q = 130: the crank cannot turn fully; it swings −115.6°…115.6° (Enter again takes it)"
+)
 
 
 HINT = "↑ ↓ choose   ← → nudge   digits type   Enter takes   Ctrl+Z undo   Ctrl+S save   Esc closes"

@@ -66,7 +66,7 @@ ANSWERS: dict[str, tuple[tuple[Action | str, ...], str | None]] = {
     "theme": (("theme",), "dark"),
     "zoom": ((Action("zoom", (2.0, 0.0, 0.0)),), "156 %"),
     "fit": ((Action("zoom", (2.0, 0.0, 0.0)), "fit"), "100 %"),
-    "nothing to undo": (("undo",), "nothing there"),
+    "nothing to undo": (("undo",), "nothing to undo"),
     "pause": (("pause",), None),
     "the start": (("start",), None),
     "a step": ((Action("step", 1),), None),

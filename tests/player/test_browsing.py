@@ -58,7 +58,7 @@ def test_the_list_shows_words_symbol_and_unit(press: State) -> None:
     assert shown is not None
     known = quantity(press.scene, "cushion.force")
     ((words, value),) = shown.rows
-    assert (words, value.partition(" = ")[0]) == ("Damper cushion: force", known.symbol)
+    assert (words, value.partition(" = ")[0]) == ("Cushion damper: force", known.symbol)
     force = float(value.partition(" = ")[2].removesuffix(" N").replace("−", "-"))
     assert force == pytest.approx(press.scene.pose(0.0).damper["cushion"].force, rel=1e-3)
     assert (shown.chosen, shown.sieve) == (0, "cushion.f")

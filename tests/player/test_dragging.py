@@ -140,7 +140,7 @@ def test_a_value_refused_before_a_drag_is_warned_of_after_it_too() -> None:
     state = after(crank, Action("type", "70"), Action("pass_on", 1))
     moved = after(drag(state, "P", (3.0, 0.0)), "drop", "take")
     assert values(moved)["Crank 2"] == 50.0
-    assert str(moved.editing.refusal).endswith("(Enter takes it all the same)")
+    assert str(moved.editing.refusal).endswith("(Enter again takes it)")
 
 
 def test_the_picture_stands_still_while_a_joint_is_held_and_runs_on_after() -> None:

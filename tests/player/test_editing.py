@@ -329,10 +329,10 @@ def test_a_length_is_followed_smoothly(crank: State) -> None:
 
 def test_an_angle_in_another_unit_comes_at_once() -> None:
     line = after(begin(load("engine")), "edit", Action("choose", 2))
-    assert value(line, "Direction of the line") == 90.0
+    assert value(line, "Direction of the guide") == 90.0
     assert typed(line, "80").glide is not None
     state = typed(line, "1.5 rad")
-    assert (value(state, "Direction of the line"), state.glide) == (1.5, None)
+    assert (value(state, "Direction of the guide"), state.glide) == (1.5, None)
 
 
 def test_a_change_begins_and_ends_gently(crank: State) -> None:

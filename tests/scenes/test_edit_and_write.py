@@ -69,8 +69,8 @@ def test_the_long_forms_dimensions_are_called_by_their_links_and_joints() -> Non
     assert found["Bar 6, D–B"] == (165.0, "mm", "length")
     assert found["D, gear ratio"] == (-1.0, "", "ratio")
     assert found["D, gear offset"] == (-72.55, "deg", "angle")
-    assert found["C, direction of its line"] == (90.0, "deg", "angle")
-    assert found["C, offset of its line"] == (0.0, "mm", "offset")
+    assert found["C, direction of its guide"] == (90.0, "deg", "angle")
+    assert found["C, offset of its guide"] == (0.0, "mm", "offset")
     assert found["H on A–B, to the left"] == (45.0, "mm", "offset")
     assert found["Pin O7, distance"] == (330.0, "mm", "length")
     assert found["Pin G, y"] == (-800.0, "mm", "offset")
@@ -81,17 +81,17 @@ def test_what_a_scene_states_of_masses_springs_and_dampers_can_be_edited() -> No
     press = load("press")
     found = {item.label: (item.value, item.unit, item.kind) for item in dimensions(press)}
     assert found["Link 3 centre of mass, to the left"] == (15.0, "mm", "offset")
-    assert found["Return, stiffness"] == (4000.0, "N/m", "stiffness")
-    assert found["Return, free length"] == (280.0, "mm", "length")
-    assert found["Cushion, damping"] == (200.0, "N s/m", "damping")
+    assert found["Return spring, stiffness"] == (4000.0, "N/m", "stiffness")
+    assert found["Return spring, free length"] == (280.0, "mm", "length")
+    assert found["Cushion damper, damping coefficient"] == (200.0, "N s/m", "damping")
     keys = {item.label: item.key for item in dimensions(press)}
     other = with_dimensions(
         press,
         {
             keys["Link 3 centre of mass, to the left"]: "2 cm",
-            keys["Return, stiffness"]: "5 N/mm",
-            keys["Return, free length"]: 300,
-            keys["Cushion, damping"]: 150,
+            keys["Return spring, stiffness"]: "5 N/mm",
+            keys["Return spring, free length"]: 300,
+            keys["Cushion damper, damping coefficient"]: 150,
         },
     ).linkage
     assert next(body.com for body in other.bodies if body.name == "3") == (141.5, 20.0)

@@ -309,7 +309,8 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     if info.mechanism.retraced:
         yield "returns", "on the same closure; velocities change sign at the limits"
     if info.turning_links:
-        yield "turns fully", ", ".join(info.link_names[name] for name in info.turning_links)
+        called = (info.link_names[name] for name in info.turning_links)
+        yield "turns fully", ", ".join(f"link {name}" if name.isdecimal() else name for name in called)
     if info.toggles:
         yield "toggles at", _places(info, info.toggles)
     if info.change_points:

@@ -149,8 +149,12 @@ class Quantity:
 
     def title(self, length_unit: str) -> str:
         """Return what an axis is titled: "Rocker: angular velocity ω₄ (rad/s)"."""
+        return f"{self.words} {self.headed(length_unit)}"
+
+    def headed(self, length_unit: str) -> str:
+        """Return what a column is headed: "ω₄ (rad/s)", without a unit the symbol alone."""
         unit = self.shown_unit(length_unit)
-        return f"{self.words} {self.symbol}" + (f" ({unit})" if unit else "")
+        return f"{self.symbol} ({unit})" if unit else self.symbol
 
 
 def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> Mapping[str, Quantity]:
@@ -208,8 +212,9 @@ def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> I
                 symbol = indexed(measure.symbol, label)
                 yield _bound(measure, body.name, symbol, words, (*centre, measure.key))
     for strut in linkage.springs + linkage.dampers:
-        shared = strut.name in labels
-        yield from _of_strut(strut, linkage.strut_word(strut), shared=shared, every=still)
+        words = linkage.strut_words(strut)
+        called_ = words if strut.name in labels else strut.name
+        yield from _of_strut(strut, called_, words[:1].upper() + words[1:], every=still)
     for body in linkage.bodies:
         if body.slider is None:
             yield from _of_pole(body, labels[body.name], called(body, names))
@@ -330,17 +335,17 @@ def _size(vector: Any) -> Any:
     return math.hypot(x, y) if isinstance(vector, tuple) else np.hypot(x, y)
 
 
-def _of_strut(strut: Spring | Damper, word: str, *, shared: bool, every: bool) -> Iterator[Quantity]:
+def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) -> Iterator[Quantity]:
     """Yield a strut's quantities, a force that is not known where `every` is meant.
 
-    In symbols `word` tells it from a body of the same name.
+    `index` is what it is called in symbols.
     """
     kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
     for measure in (*measures, *DIRECTIONS[kind]):
         if measure.name != "force" or strut.forceful or every:
-            symbol = indexed(measure.symbol, f"{word} {strut.name}" if shared else strut.name)
+            symbol = indexed(measure.symbol, index)
             path = (f"{kind}s", strut.name, measure.key)
-            yield _bound(measure, strut.name, symbol, f"{word.capitalize()} {strut.name}", path)
+            yield _bound(measure, strut.name, symbol, words, path)
 
 
 _LEAST, _MOST = 6, 10

@@ -107,6 +107,11 @@ class Linkage:
             return "spring"
         return "damper" if strut.forceful else "cylinder"
 
+    def strut_words(self, strut: Spring | Damper) -> str:
+        """Return what a strut is called with its name: "return spring"; a name that says it stands alone."""
+        word = self.strut_word(strut)
+        return strut.name if word in strut.name.lower().split() else f"{strut.name} {word}"
+
     def joint(self, name: str) -> Joint:
         """Return the joint of that name; KeyError where there is none."""
         return self.by_name[name]

@@ -122,7 +122,9 @@ def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
         word = linkage.strut_word(item)
         kind = "spring" if word == "spring" else "damper"
         part = "rate" if word == "damper" else "length"
-        yield MeasuredRow(4, f"{item.name} {word}, {part}", known[f"{item.name}.{part}"], scene.length_step)
+        yield MeasuredRow(
+            4, f"{linkage.strut_words(item)}, {part}", known[f"{item.name}.{part}"], scene.length_step
+        )
         if item.forceful:
             yield MeasuredRow(2, f"{kind} force", known[f"{item.name}.force"], 0.1)
     if linkage.drive.actuator.along is not None:

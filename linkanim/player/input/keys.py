@@ -139,13 +139,13 @@ EDIT_KEYS: tuple[KeyRow, ...] = (
     KeyRow(
         "in E",
         "Tab, Shift+Tab",
-        "on with the value typed, to be judged with the others",
+        "the next row; what is typed here waits",
         _on("tab", "pass_on", 1) + _on("shift+tab", "pass_on", -1),
     ),
     KeyRow(
         "in E",
         "digits, Enter",
-        "type a value, with or without a unit; take all that is typed",
+        "type a value, with or without a unit; take all values typed",
         _on("return kp_enter", "take") + _on("backspace", "erase", held=True),
     ),
     KeyRow("in E", "Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),

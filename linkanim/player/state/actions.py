@@ -120,9 +120,9 @@ def _zoom(_: State, after: State) -> str:
     return f"{after.look.zoom:.0%}".replace("%", " %")
 
 
-def _undo(before: State, after: State) -> str | None:
-    """Say that there was nothing to undo or redo; else the picture says it."""
-    return "nothing there" if before.editing == after.editing else None
+def _idle(words: str) -> Callable[[State, State], str | None]:
+    """Return what says so where there was nothing to do; else the picture says it."""
+    return lambda before, after: words if before.editing == after.editing else None
 
 
 def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any], State]:
@@ -178,10 +178,10 @@ ACTIONS: Mapping[str, Rule] = {
     "grab_row": Rule(_whole, edits.grab_row),  # a row of the list of dimensions
     "pull": Rule(_whole, edits.pull),  # steps from the value that was taken hold of
     "drop": Rule(_nothing, edits.drop),
-    "undo": Rule(_nothing, edits.undo, answer=_undo),
+    "undo": Rule(_nothing, edits.undo, answer=_idle("nothing to undo")),
     "reset": Rule(_nothing, edits.reset),
     "returns": Rule(_nothing, edits.returns, answer=_returns),
-    "redo": Rule(_nothing, edits.redo, answer=_undo),
+    "redo": Rule(_nothing, edits.redo, answer=_idle("nothing to redo")),
     "pencil": Rule(_nothing, pencil.pencil),
     "own_trace": Rule(_nothing, pencil.own),
     "pen_down": Rule(_numbers(2), pencil.down),  # (x, y) in the scene's unit

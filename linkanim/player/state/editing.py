@@ -182,7 +182,7 @@ def _tried(
         reason = str(error).removeprefix(f"{scene.name}: ")
         return replace(editing, typed=typed, refusal=_reason(reason, values, scene), warned=False), scene
     if loss:
-        refusal = f"{loss} (Enter takes it all the same)"
+        refusal = f"{loss} (Enter again takes it)"
         return replace(editing, typed=typed, refusal=refusal, warned=True), scene
     drafts = tuple(pair for pair in editing.drafts if pair[0] not in values)
     return changed(replace(editing, drafts=drafts), scene), after

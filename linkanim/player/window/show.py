@@ -35,8 +35,8 @@ from linkanim.scenes.editing.stretches import stretches
 from linkanim.scenes.scene import Scene
 
 _HINT = (
-    "↑ ↓ choose   ← → nudge   type, Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   Ctrl+S save   "
-    "Esc closes"
+    "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
+    "Ctrl+S save   Esc closes"
 )
 _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
 _BAR = "Space pause · Tab next · drag the crank pin · H keys"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -12,6 +13,10 @@ from linkanim.scenes.fields.shorthands import SHORTHANDS
 from linkanim.scenes.fields.types import ValueType
 from linkanim.scenes.scene import Scene
 
+_COUNTED = re.compile(r"([a-z]{2})(\d+)$")
+_SHORT = 2
+"""A name of so many letters stands for nothing by itself."""
+_ADJECTIVES = frozenset({"left", "right", "upper", "lower", "large", "small", "short", "long"})
 _SPEED = {one.key: one.usual for one in DRIVE.fields if one.key == "speed"}
 
 
@@ -52,7 +57,9 @@ class Number(NamedTuple):
         if section == "bodies":
             return {"name": _named(name, names)}
         if section in ("springs", "dampers"):
-            return {"name": name.capitalize()}
+            strut = next(item for item in scene.linkage.springs + scene.linkage.dampers if item.name == name)
+            words = scene.linkage.strut_words(strut)
+            return {"name": words[:1].upper() + words[1:]}
         return {
             "name": name,
             "bar": _bar(*self.ends(scene), scene) if "{bar}" in text else "",
@@ -79,7 +86,9 @@ def _bar(start: str | None, end: str, scene: Scene) -> str:
     word = "Crank" if end in {crank.name for crank in scene.linkage.cranks} else "Bar"
     if body and body.name.isdigit():
         return f"Crank {body.name}" if word == "Crank" else f"Bar {body.name}, {start}–{end}"
-    return f"{_named(body.name, scene.info.link_names) if body else word} {start}–{end}"
+    own = body and body.name not in (f"{start}{end}", f"{end}{start}")
+    called = _named(body.name, scene.info.link_names) if body and own else word
+    return f"{called}{',' * (called.startswith('Bar ') or called[-1].isdigit())} {start}–{end}"
 
 
 def _body(joints: set[str | None], scene: Scene) -> Body | None:
@@ -87,4 +96,10 @@ def _body(joints: set[str | None], scene: Scene) -> Body | None:
 
 
 def _named(body: str, names: Mapping[str, str]) -> str:
-    return f"Link {body}" if body.isdigit() else names[body].capitalize()
+    """Return what a body is called: by its number, "Bar b", "Upper bar", "Rod 2", or by its name alone."""
+    if body.isdigit():
+        return f"Link {body}"
+    words = _COUNTED.sub(r"\1 \2", names[body])
+    if len(words) <= _SHORT:
+        return f"Bar {words}"
+    return f"{words} bar".capitalize() if words in _ADJECTIVES else words[:1].upper() + words[1:]

@@ -58,8 +58,8 @@ _PIN_ON_LINE = Field(
 )
 _LINE_FIELDS = (
     _PIN_ON_LINE,
-    Field("angle", ANGLE, "the line's direction", "0 deg", label="direction of its line"),
-    Field("offset", OFFSET, "how far to the left of that joint it runs", 0, label="offset of its line"),
+    Field("angle", ANGLE, "the line's direction", "0 deg", label="direction of its guide"),
+    Field("offset", OFFSET, "how far to the left of that joint it runs", 0, label="offset of its guide"),
 )
 _FREE = never("a slider without a bar is driven along a fixed line; leave it out, or give the slider its bar")
 _ONE_CLOSURE = never("a slider without a bar has no second closure; leave it out")

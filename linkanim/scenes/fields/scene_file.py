@@ -125,7 +125,7 @@ SPRING = form(
     refuse=_refuse_half,
     together={"stiffness": "free_length", "free_length": "stiffness"},
 )
-_COEFFICIENT = Field("coefficient", DAMPING, "its force by its rate", None, label="damping")
+_COEFFICIENT = Field("coefficient", DAMPING, "its force by its rate", None, label="damping coefficient")
 DAMPER = form("a damper", Damper, _BETWEEN, _COEFFICIENT)
 
 CYLINDER = form(

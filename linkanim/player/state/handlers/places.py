@@ -44,7 +44,8 @@ def go(state: State, _: None) -> State:
         return with_toast(state, f"{text} is no number")
     place = radians(value) if scene.linkage.drive.coordinate.is_angle else value
     if not isfinite(place) or not path.holds(place):
+        unit = scene.linkage.drive.coordinate.shown_unit(f" {scene.length_unit}")
         ends = "…".join(driven_words(scene, end) for end in scene.info.input_range)
-        return with_toast(state, f"the {scene.info.input_name} does not come to {text}; it goes {ends}")
+        return with_toast(state, f"the {scene.info.input_name} does not reach {text}{unit}; it goes {ends}")
     phase = path.phase_of(place, state.phase)
     return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
