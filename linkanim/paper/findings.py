@@ -16,16 +16,18 @@ from linkanim.mechanics.closing.search import sign_changes
 from linkanim.mechanics.facts.register import Quantity, input_symbol
 from linkanim.mechanics.motion.measures import output_body, output_slider
 from linkanim.mechanics.motion.motion import Motion
-from linkanim.paper.curves import ChartRequest, Pace, curves_of, extremes
+from linkanim.paper.curves import SAMPLES, ChartRequest, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
 
 _LEVEL = 1e-9
 """Of a quantity's greatest size; what changes less over the cycle has no chart."""
-_NOTHING = 1e-9
+_NOTHING = 1e-7
 """Of the size that a quantity has half of the time: what is less is nothing, as much more unbounded."""
 _SAMPLES = 180
-_BESIDE = 1e-4
+_BESIDE = tau / SAMPLES
 """How far from an extreme as it is read off a curve its rate changes its sign, in radians at the most."""
+_SAME = 1e-9
+"""Instants are one that are nearer in phase."""
 
 Found = TypeVar("Found")
 
@@ -80,7 +82,15 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
             phase = _at_rest(scene, rate, float(np.radians(peak.x)))
             found.append(Instant(phase, f"{words} {curve.quantity.words.lower()}"))
-    return tuple(found)
+    return tuple(_together(found, scene.period))
+
+
+def _together(found: list[Instant], period: float) -> Iterator[Instant]:
+    """Yield instants, those after the first that are at its phase along with it."""
+    start, *others = found
+    same = [one for one in others if min(one.phase % period, -one.phase % period) < _SAME]
+    yield start._replace(words=", ".join(one.words for one in (start, *same)))
+    yield from (one for one in others if one not in same)
 
 
 def _at_rest(scene: Scene, rate: str, near: float) -> float:

@@ -13,6 +13,7 @@ from html import escape
 from itertools import count
 from typing import Literal
 
+from linkanim.explain.documents import MATH_STYLE
 from linkanim.paper.findings import Sheet
 from linkanim.paper.tables import Column, ValueTable, speed_words
 
@@ -37,7 +38,7 @@ sub { font-size: .75em; line-height: 0; }
 p.note { color: #57606a; font-size: .92em; margin-top: 0; }
 p.equation { margin: .2rem 0 .2rem 1.4rem; }
 figure { margin: .5rem 0 .9rem; break-inside: avoid; }
-figure svg { width: 100%; height: auto; display: block; }
+figure svg { width: 100%; height: auto; max-height: 125mm; display: block; }
 .beside { display: grid; gap: 0 1.4rem; align-items: start; }
 .keep, .beside, .long tbody, caption, thead, tr { break-inside: avoid; } caption { break-after: avoid; }
 tbody tr:nth-child(-n+2):not(:last-child), tbody tr:nth-last-child(2) { break-after: avoid; }
@@ -54,7 +55,8 @@ _FOOT = (
 """What stands at the foot of every page as it is printed."""
 _LOWERED = re.compile(r"_\{([^}]*)\}")
 _HYPHEN = re.compile(r"(?<![\w-])-(?=\d)")
-_IDS = re.compile(r' id="[^"]*"')
+_ATTRIBUTES = re.compile(r""" (?:id="[^"]*"|role='[^']*'|aria-label='[^']*')""")
+"""Of a picture, which would be twice on the page."""
 _KEPT, _LONG = "<div class='keep'>", "<div class='long'>"
 _ROWS_KEPT = 24
 """A table of so many rows at the most stands on one page."""
@@ -110,7 +112,7 @@ def page(title: str, head: Iterable[str], chapters: Sequence[ReportChapter]) -> 
 
     `head` is markup.
     """
-    style = _STYLE.replace("FOOT", _FOOT % _css_text(title))
+    style = _STYLE.replace("FOOT", _FOOT % _css_text(title)) + MATH_STYLE
     meta = "<meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
     start = f"{meta}<title>{escape(title)}</title><style>{style}</style>"
     numbered = list(enumerate(chapters, start=1))
@@ -148,7 +150,7 @@ def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
             return text
         case FigurePart(picture, caption):
             title = f"Figure {next(figures)}. {caption}"
-            drawn = _IDS.sub("", picture).replace(
+            drawn = _ATTRIBUTES.sub("", picture).replace(
                 "<svg ", f"<svg role='img' aria-label='{escape(title)}' ", 1
             )
             return f"<figure>{drawn}<figcaption>{symbol(title)}</figcaption></figure>"

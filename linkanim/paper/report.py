@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
+from linkanim.explain.documents import HTML, chapters
+from linkanim.explain.drawing import svg as vectors_svg
+from linkanim.explain.inputs import Asked
+from linkanim.explain.solution import Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.paper import html
 from linkanim.paper.chart import Page
@@ -15,7 +19,6 @@ from linkanim.paper.curves import ChartRequest, Pace, curves_of
 from linkanim.paper.figure import Figured
 from linkanim.paper.findings import Instant, Values, charted, paces_of, place_of, sheet, table
 from linkanim.paper.html import Beside, FigurePart, Markup, Part, ReportChapter
-from linkanim.paper.loops import LoopEquations, Loops
 from linkanim.paper.svg import svg
 from linkanim.paper.tables import speed_words, value_tables
 from linkanim.paper.topics import topics
@@ -29,7 +32,6 @@ _WIDE, _TALL = (820, 440), (440, 700)
 """The figure's size in pixels: as wide as the page, or beside the facts."""
 _HIGH = 1.1
 """How high for its width a scene is whose figure stands so."""
-_LOOPS = (440, 420)
 _POLYGONS = {2: (440, 380), 3: (310, 400)}
 """By how many stand in a row."""
 _UNSAFE = re.compile(r"[^\w.-]+")
@@ -60,11 +62,11 @@ class Report:
 
     def files(self) -> Iterator[tuple[str, str]]:
         """Yield the report's files, the page first: (name, text)."""
-        chapters = tuple(self._chapters())
-        yield "report.html", html.page(self.scene.title, self._head(), chapters)
+        parts = tuple(self._chapters())
+        yield "report.html", html.page(self.scene.title, self._head(), parts)
         yield "figure.svg", self._figure.document()
-        if self._loops.loops:
-            yield "loops.svg", self._loops.document(_LOOPS)
+        if self._worked.loops:
+            yield "loops.svg", vectors_svg(self._worked)
         for number, chart in enumerate(self._charts, start=1):
             name = _UNSAFE.sub("-", "-".join(chart.tokens))[:_LONGEST].rstrip("-.")
             yield f"chart-{number:03}-{name}.svg", chart.picture
@@ -85,8 +87,8 @@ class Report:
         return box.high - box.low > _HIGH * (box.right - box.left)
 
     @cached_property
-    def _loops(self) -> Loops:
-        return Loops(self.scene, self._figure.shown_phase)
+    def _worked(self) -> Solution:
+        return solution(Asked(self.scene, "phase", self._figure.shown_phase, self.paces[0].speed))
 
     @cached_property
     def _charts(self) -> tuple[DrawnChart, ...]:
@@ -120,7 +122,7 @@ class Report:
 
     def _chapters(self) -> Iterator[ReportChapter]:
         yield ReportChapter("The mechanism", tuple(self._mechanism()))
-        if self._loops.loops:
+        if self._worked.loops:
             yield ReportChapter("Vector loops", tuple(self._vector_loops()))
         yield ReportChapter("Values", tuple(self._tables()))
         period = f"over one period, at {', '.join(map(speed_words, self.paces))}"
@@ -149,9 +151,11 @@ class Report:
 
     def _vector_loops(self) -> Iterator[Part]:
         caption = f"Vector loops at {self._figure.caption}"
-        picture = FigurePart(self._loops.document(_LOOPS), caption)
-        equations = tuple(Markup(text) for one in self._loops.equations() for text in _equations(one))
-        yield Beside((picture, equations))
+        given, loops, *_ = self._worked.chapters
+        alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
+        # behind the headings of both and the figure
+        _, _, _, *equations = chapters(alone, HTML)
+        yield Beside((FigurePart(vectors_svg(alone), caption), tuple(map(Markup, equations))))
 
     def _tables(self) -> Iterator[Part]:
         for one in value_tables(self._values, self.instants, self.paces, self.digits):
@@ -178,12 +182,6 @@ def _in_rows(parts: Iterable[FigurePart], across: int = 2) -> Iterator[Beside]:
 
 def _figure_of(chart: DrawnChart) -> FigurePart:
     return FigurePart(chart.picture, chart.caption)
-
-
-def _equations(loop: LoopEquations) -> Iterator[str]:
-    yield html.paragraph(f"Closed at {loop.joint}; found from it: {', '.join(loop.unknowns)}")
-    for line in (loop.vectors, *loop.components):
-        yield html.paragraph(line, "equation")
 
 
 def _csv(scene: Scene, pace: Pace) -> str:

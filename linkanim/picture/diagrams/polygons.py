@@ -163,9 +163,7 @@ class Polygon:
         long = [arrow for arrow in found if abs(arrow.reach) >= _LABELLED * pen.small]
         arrows_ = sorted(long, key=lambda arrow: arrow.side.sort not in _ABSOLUTE)
         to_place = [
-            beside_vector(
-                arrow.foot, arrow.reach, middle, (pen.type.width(arrow.side.symbol, pen.small), pen.small)
-            )
+            _beside(arrow, middle, pen.type.width(arrow.side.symbol, pen.small), pen.small)
             for arrow in arrows_
         ]
         ends = [np.array([[arrow.foot, arrow.foot + arrow.reach]]) for arrow in found]
@@ -204,19 +202,19 @@ def _round(value: float) -> str:
     return f"{value:g}" if 1e-3 <= value < 1e6 else three_digits(value)
 
 
-def beside_vector(foot: complex, reach: complex, middle: complex, size: tuple[float, float]) -> LabelPlaces:
-    """Return places for a symbol of that size beside a vector, away from the middle of all first."""
-    (wide, high), across = size, 1j * unit(reach)
-    if ((foot + reach / 2 - middle) * across.conjugate()).real < 0:
+def _beside(arrow: Arrow, middle: complex, wide: float, high: float) -> LabelPlaces:
+    """Return places for a symbol beside an arrow, away from the middle of all first."""
+    across = 1j * unit(arrow.reach)
+    if ((arrow.middle - middle) * across.conjugate()).real < 0:
         across = -across
     away = 0.5 * (abs(across.real) * wide + abs(across.imag) * high) + 0.175 * high
     places = [
-        foot + share * reach + side * (away + further) * across
+        arrow.foot + share * arrow.reach + side * (away + further) * across
         for further in (0, 0.3 * high)
         for share in (0.5, 0.35, 0.65)
         for side in (1, -1)
     ]
-    return LabelPlaces(size, np.array([places]), np.arange(12.0))
+    return LabelPlaces((wide, high), np.array([places]), np.arange(12.0))
 
 
 def polygons_of(figure: Figure, rect: Rect, pen: Pen, moment: float | None = None) -> tuple[Polygon, Polygon]:
