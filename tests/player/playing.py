@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pygame
@@ -11,6 +11,7 @@ from linkanim.player.state.state import CHIP_FRAMES, State
 from linkanim.player.window import display
 from linkanim.player.window.files import SceneFile
 from linkanim.player.window.window import Window
+from linkanim.synthesis.follower import Follow, Reply
 
 SIZE = (320, 180)
 SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL
@@ -58,6 +59,24 @@ class Player:
         for place in places[1:]:
             self.mouse(pygame.MOUSEMOTION, place, rel=(0, 0), buttons=(1, 0, 0))
         self.mouse(pygame.MOUSEBUTTONUP, places[-1], button=1)
+
+
+class NoSearch:
+    """Stands where the process that looks for linkages would, and finds none."""
+
+    is_over = False
+
+    def __init__(self) -> None:
+        self.asked: list[Follow] = []
+
+    def ask(self, request: Follow) -> None:
+        self.asked.append(request)
+
+    def replies(self) -> Iterator[Reply]:
+        yield from ()
+
+    def close(self) -> None:
+        self.is_over = True
 
 
 def fake_start(started: list[list[str]]) -> Callable[[list[str], int], object]:

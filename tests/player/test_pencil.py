@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pygame
 import pytest
-from playing import CTRL, SHIFT, Player
+from playing import CTRL, SHIFT, NoSearch, Player
 
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
@@ -23,11 +23,11 @@ from linkanim.player.window import following
 from linkanim.player.window.following import action_of, request_of
 from linkanim.scenes import load
 from linkanim.synthesis.answer import PathAnswer
-from linkanim.synthesis.follower import Follow, Reply
+from linkanim.synthesis.follower import Reply
 from linkanim.synthesis.kinds import FOUR_BAR
 
-ROW = (0.0, 0.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
-WIDER = (0.0, 0.0, 32.0, 95.0, 45.0, 30.0, 105.0, 5.0, 85.0)
+ROW = (9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
+WIDER = (8.0, 9.0, 32.0, 95.0, 45.0, 30.0, 105.0, 5.0, 85.0)
 FIRST, BETTER, OTHER = (
     PathAnswer(off, 1.0, 0.3, 1.0, row).numbers for off, row in ((1.5, ROW), (0.12, WIDER), (0.4, ROW))
 )
@@ -202,6 +202,13 @@ def test_a_scene_s_own_trace_is_the_stroke_and_the_scene_is_among_the_answers(pl
     assert len(sketch_of(bent).answers) == 2
 
 
+def test_the_scene_itself_is_no_second_answer_to_its_own_trace(plain: State) -> None:
+    pins = [plain.scene.linkage.pin(name).position for name in ("O2", "O4")]
+    same = PathAnswer(0.0, 1.0, 0.3, 1.0, (*pins[0], *ROW[2:6], *pins[1], ROW[8])).numbers
+    whole = after(plain, "own_trace", Action("answers", (0.0, *same, *BETTER)))
+    assert [one.off for one in sketch_of(whole).answers[1:]] == [0.12]  # type: ignore[union-attr]
+
+
 def test_a_scene_without_a_trace_has_none_to_take(plain: State) -> None:
     bare = replace(plain, scene=replace(plain.scene, trace=()))
     state = after(bare, "own_trace")
@@ -258,27 +265,15 @@ def test_a_tape_has_what_was_found_and_searches_for_nothing(plain: State) -> Non
     assert sketch_of(last).off == 0.12
 
 
-class InStep:
+class InStep(NoSearch):
     """Replies in the place of the process: at once, and always the same."""
 
-    asked: list[Follow]
-
-    def __init__(self) -> None:
-        self.asked, self.waiting, self.is_over = [], list[Reply](), False
-
-    def ask(self, request: Follow) -> None:
-        self.asked.append(request)
-        near = tuple(request.near or FIRST)
-        self.waiting.append(Reply(request.stroke, whole=False, numbers=near))
-        if request.search:
-            self.waiting.append(Reply(request.stroke, whole=True, numbers=(*BETTER, *OTHER)))
-
     def replies(self) -> Iterator[Reply]:
-        found, self.waiting = self.waiting, []
-        yield from found
-
-    def close(self) -> None:
-        pass
+        asked, self.asked = self.asked, []
+        for request in asked:
+            yield Reply(request.stroke, whole=False, numbers=tuple(request.near or FIRST))
+            if request.search:
+                yield Reply(request.stroke, whole=True, numbers=(*BETTER, *OTHER))
 
 
 @pytest.fixture

@@ -19,13 +19,13 @@ from pathlib import Path
 
 import pygame
 import pytest
-from playing import SIZE, Player, fake_start
+from playing import SIZE, NoSearch, Player, fake_start
 
 from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import State, begin
-from linkanim.player.window import display, rendering
+from linkanim.player.window import display, following, rendering
 from linkanim.scenes import load, names
 
 SEED = 20261121
@@ -34,11 +34,17 @@ SOME = names()[::4]
 needs_proc = pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read through /proc")
 
 KEYS = [
-    *(ord(letter) for letter in "abcdehiklnoprtv0123456789+-=.?gm"),
+    *(ord(letter) for letter in "abcdehiklnoprtvw0123456789+-=.?gm"),
     *(pygame.K_SPACE, pygame.K_TAB, pygame.K_RETURN, pygame.K_BACKSPACE, pygame.K_ESCAPE, pygame.K_HOME),
     *(pygame.K_LEFT, pygame.K_RIGHT, pygame.K_UP, pygame.K_DOWN, pygame.K_F1),
 ]
 MODS = [0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL]
+
+
+def answer(chance: random.Random) -> tuple[float, ...]:
+    """Return the numbers of a crank-rocker that may follow a path."""
+    links = (30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
+    return (0.1, 1.0, 0.0, 1.0, 0.0, 0.0, *(length + chance.uniform(-2, 2) for length in links))
 
 
 def random_action(chance: random.Random) -> Action:
@@ -63,6 +69,14 @@ def random_action(chance: random.Random) -> Action:
             Action("pan", (chance.uniform(-1, 1), chance.uniform(-1, 1))),
             Action("grab", chance.choice(["A", "B", "P"])),
             Action("carry", (far, chance.uniform(-200, 200), 1.0)),
+            *map(Action, ("pencil", "own_trace", "pen_up", "let_go", "keep")),
+            *(Action(name, (chance.uniform(-90, 90), far)) for name in ("pen_down", "pen_to", "lead")),
+            Action("stroke", (1.0, *(chance.uniform(-90, 90) for _ in range(24)))),
+            Action("answers", (0.0, *answer(chance), *answer(chance))),
+            Action("follow", answer(chance)),
+            Action("answer", chance.randrange(3)),
+            Action("take_point", chance.randrange(12)),
+            Action("take_pivot", chance.choice(["O2", "O4"])),
         ]
     )
 
@@ -148,6 +162,7 @@ def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, ob
 @pytest.mark.slow
 def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rendering, "_start", fake_start([]))
+    monkeypatch.setattr(following, "Following", NoSearch)
     with display.opened(SIZE):
         painted(60, here, scenes=SOME)
 
@@ -187,6 +202,7 @@ def test_twenty_thousand_painted_frames_take_no_more_memory(
     here: Path, monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
 ) -> None:
     monkeypatch.setattr(rendering, "_start", fake_start([]))
+    monkeypatch.setattr(following, "Following", NoSearch)
     with display.opened(SIZE):
         painted(6_000, here, 0.2)
         before = resident_mb()

@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from math import ceil, floor, log10
 
 import numpy as np
+import pygame
 
 from linkanim.picture.items import Caption, Group
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.panels.overlay import PathShown
-from linkanim.picture.raster.raster import Layer, Loop
+from linkanim.picture.raster.raster import Layer, Loop, paint
 from linkanim.picture.raster.shapes import disc, segments, stroke
-from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.view import View
 
 HINT = "draw a path in one stroke"
@@ -31,6 +32,22 @@ def sheet(view: View, layout: Layout, theme: Theme) -> Group:
     x, y = (np.arange(start % step, end, step) for start, end in ((view.x, width), (view.y, height)))
     lines = [*segments(x, x + 1j * height, 1.0), *segments(1j * y, width + 1j * y, 1.0)]
     return Group("sheet", [Layer(mixed(theme.rule, theme.background, 0.4), lines)], still=True)
+
+
+def pencil(layout: Layout, theme: Theme) -> pygame.Surface:
+    """Return a pencil to point with, its tip in the lower left corner."""
+    size = round(max(30 * layout.unit, 20.0))
+    sheet = pygame.Surface((size, size), pygame.SRCALPHA, 32)
+    along, wide = (size - 4) * (1 - 1j) / 1.414, 0.13 * size * (1 + 1j) / 1.414
+    tip, neck, end = complex(1.5, size - 1.5), 0.3 * along, 0.9 * along
+    rim = np.array([0, neck + wide, end + wide, end - wide, neck - wide])
+    layers = [
+        Layer(theme.background, stroke(tip + rim, 3.0, closed=True)),
+        Layer(theme.ink, [tip + rim]),
+        Layer(ORANGE, [tip + np.array([neck, end]).repeat(2) + 0.6 * wide * np.array([1, -1, -1, 1])]),
+    ]
+    paint(sheet, layers)
+    return sheet
 
 
 def _round_step(least: float) -> float:

@@ -87,6 +87,16 @@ def name(title: str) -> None:
     pygame.display.set_caption(f"{shown} – linkanim")
 
 
+def point_with(pointer: pygame.Surface | None) -> None:
+    """Let the mouse's pointer be a picture, its lower left corner the place; None for the usual one."""
+    # a system without pointers of its own colour keeps what it has
+    with suppress(pygame.error):
+        if pointer is None:
+            pygame.mouse.set_cursor(pygame.SYSTEM_CURSOR_ARROW)
+        else:
+            pygame.mouse.set_cursor(pygame.Cursor((0, pointer.get_height() - 1), pointer))
+
+
 def is_full() -> bool:
     """Tell whether the window fills the screen."""
     return bool(surface().get_flags() & pygame.FULLSCREEN)

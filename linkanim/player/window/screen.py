@@ -7,10 +7,13 @@ from math import hypot
 import pygame
 
 from linkanim.picture.answer_row import RowPrinter, row_cells
+from linkanim.picture.layout import layout
 from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.panels.path import pencil
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, ShelfPrinter, grid
 from linkanim.picture.surface import SurfacePrinter
+from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.browsing import Browsing
@@ -40,11 +43,13 @@ class Screen:
         self._printer = SurfacePrinter()
         self._over = Overlay()
         self._row = RowPrinter()
+        self._pointer: object = None
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
         surface = display.surface()
         self._state, self._over = state, over
+        self._point(state)
         self._name(f"{state.scene.title}{' • edited' * (state.place in state.edited)}")
         picture, veiled = self._framing.at(state, surface.get_size()), self._fade.strength(state, surface)
         shown = (picture, state.phase, state.clock.speed, over, veiled)
@@ -61,6 +66,14 @@ class Screen:
             self._shelf.close()
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
             self._row.draw(surface, picture.layout, over.row)
+
+    def _point(self, state: State) -> None:
+        """Let the mouse point with a pencil while that is taken."""
+        pointer = (state.look.theme, self.size) if state.mode == "pencil" else None
+        if pointer != self._pointer:
+            self._pointer = pointer
+            drawn = pencil(layout(self.size), theme_of(state.look.theme)) if pointer else None
+            display.point_with(drawn)
 
     def _name(self, title: str) -> None:
         """Let the window bear the scene's title; the system is told only what is new to it."""

@@ -13,13 +13,17 @@ from linkanim.player.state.handlers.edits import drop
 from linkanim.player.state.handlers.shelf import exchanged
 from linkanim.player.state.sketch import PIVOTS, Sketch
 from linkanim.player.state.state import State, with_effect, with_toast
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
+    from linkanim.synthesis.answer import PathAnswer
     from linkanim.synthesis.curves.drawn import DrawnCurve
 
 # The rest of the search is imported when the pencil is taken: the first frame does not wait for it.
 
+_SAME = 0.02
+"""Of the stroke's size: pins nearer to each other are one."""
 MOST_POINTS = 5_000
 """Of a stroke under way; further ones are left out."""
 
@@ -163,13 +167,23 @@ def answers(state: State, numbers: tuple[float, ...]) -> State:
     if not 0 <= first < len(found):
         return state
     if sketch.answers and isinstance(sketch.answers[0], Scene):
-        return _sketching(state, answers=(sketch.answers[0], *found))
+        own = in_unit(sketch.answers[0], sketch.unit)
+        others = tuple(one for one in found if not _stands_on(own, one, sketch.curve.size))
+        return _sketching(state, answers=(sketch.answers[0], *others))
     was_none = not sketch.answers
     state = _sketching(state, answers=found, chosen=first)
     scene = found[first].scene(sketch.unit)
     if was_none:
         return replace(exchanged(state, scene), glide=None, faded=state.frame)
     return _shown(state, scene)
+
+
+def _stands_on(scene: Scene, answer: PathAnswer, size: float) -> bool:
+    """Return whether an answer has the fixed pins of the scene whose trace it follows: it is that scene."""
+    pins = [complex(*pin.position) for pin in scene.linkage.pins]
+    x, y, *_, x4, y4, _ = answer.row
+    own = complex(x, y), complex(x4, y4)
+    return all(min((abs(pin - at) for at in pins), default=size) < _SAME * size for pin in own)
 
 
 def _shown(state: State, scene: Scene) -> State:
