@@ -82,6 +82,11 @@ def _output(parser: Parser, text: str) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=text)
 
 
+def _text(parser: Parser) -> None:
+    words = "leave a PDF's words to LaTeX, in FIG.pdf_tex beside it"
+    parser.add_argument("--text", choices=("latex",), help=words)
+
+
 def _angle(parser: _ActionsContainer) -> None:
     words = 'crank angle, such as "87 deg"'
     parser.add_argument("--angle", type=units.angle, metavar="ANGLE", help=words)
@@ -202,6 +207,7 @@ def chart(parser: Parser) -> None:
         help="such as rocker.angular_velocity or B.velocity.x; a wrong one is answered with the list",
     )
     _output(parser, "OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png here)")
+    _text(parser)
     _speeds(parser, "a curve for each")
     parser.add_argument(
         "--data", type=Path, metavar="OTHER.csv", help="lay a table over it: what --over says, value"
@@ -217,6 +223,7 @@ def draw(parser: Parser) -> None:
     """Add what a figure takes."""
     parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)
     _output(parser, "OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg here)")
+    _text(parser)
     _pose(parser)
     _speed(parser)
     _size(parser)

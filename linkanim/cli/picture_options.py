@@ -8,6 +8,7 @@ from pathlib import Path
 from linkanim.atomic_files import checked_target
 from linkanim.errors import BadInput
 from linkanim.mechanics.motion.measures import coupler_body
+from linkanim.paper.latex import refuse_latex
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
@@ -26,6 +27,8 @@ def scene_size_target(
     `BadInput` for a size or a file that cannot be.
     """
     target = checked_target(options.output or f"{Path(options.scene).stem}{usual}", suffixes)
+    if options.text:
+        refuse_latex(target)
     size = options.size or _SIZE
     refuse_size(size)
     return in_unit(load(options.scene), getattr(options, "unit", None)), size, target

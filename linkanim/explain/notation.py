@@ -126,6 +126,13 @@ _TEXT = {
     "²": r"$^{2}$",
     "·": r"$\cdot$",
     "’": "'",
+    "ⁿ": "$^{n}$",
+    "ᵗ": "$^{t}$",
+    "ᶜ": "$^{c}$",
+    "∞": r"$\infty$",
+    "≥": r"$\geq$",
+    "×": r"$\times$",
+    "…": r"\dots{}",
 }
 _SUB_DIGITS = {chr(0x2080 + n): f"$_{n}$" for n in range(10)}
 _TEXT |= _SUB_DIGITS

@@ -12,6 +12,7 @@ import pygame
 from linkanim.atomic_files import replacing
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.motion import Pose
+from linkanim.paper.latex import write_for_latex
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
 from linkanim.picture.figure import figure
@@ -81,24 +82,29 @@ class Figured:
 
     def document(self) -> str:
         """Return the figure as SVG."""
-        return svg(self.size, self._background, self.groups(), title=self.scene.title)
+        return svg(self.size, self.background, self.groups(), title=self.scene.title)
 
     def printed(self) -> bytes:
         """Return the figure as PDF."""
-        return pdf(self.size, self._background, self.groups(), title=self.scene.title)
+        return pdf(self.size, self.background, self.groups(), title=self.scene.title)
 
     @property
-    def _background(self) -> Colour | None:
+    def background(self) -> Colour | None:
+        """The colour under everything; None where it is left open."""
         return self.picture.theme.background if self.look.background else None
 
 
-def write(shown: Figured, target: Path) -> None:
+def write(shown: Figured, target: Path, *, latex: bool = False) -> None:
     """Write a figure as SVG, PNG or PDF, as the name ends; the file appears whole or not at all.
 
-    `WorkFailed` where disk or folder refuse; `BadInput` for a PDF without what writes it.
+    The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
+    `BadInput` for a PDF without what writes it.
     """
     if target.suffix.lower() == ".pdf":
         require_pdf()
+    if latex:
+        write_for_latex(target, shown.size, shown.background, shown.groups(), title=shown.scene.title)
+        return
     with replacing(target) as part:
         match target.suffix.lower():
             case ".png":

@@ -44,7 +44,7 @@ def pdf(
     if background is not None:
         page.set_fill_color(*background)
         page.rect(0, 0, *size, style="F")
-    for item in _flat(items):
+    for item in flat(items):
         if isinstance(item, Layer):
             _fill(page, item)
         else:
@@ -65,7 +65,8 @@ def _page(size: tuple[int, int], title: str) -> FPDF:
     return page
 
 
-def _flat(items: Iterable[Item | Group]) -> Iterator[Item]:
+def flat(items: Iterable[Item | Group]) -> Iterator[Item]:
+    """Yield what groups are made of, cut to what they are within."""
     for item in items:
         if isinstance(item, Group):
             yield from clipped(item)

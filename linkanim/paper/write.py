@@ -8,6 +8,7 @@ from linkanim.atomic_files import replacing
 from linkanim.export import csv_head, csv_rows
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import table
+from linkanim.paper.latex import write_for_latex
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
 from linkanim.picture.raster.offscreen import png_bytes
@@ -15,14 +16,18 @@ from linkanim.picture.raster.offscreen import png_bytes
 SUFFIXES = (".svg", ".png", ".pdf", ".csv")
 
 
-def write(page: Page, target: Path) -> None:
+def write(page: Page, target: Path, *, latex: bool = False) -> None:
     """Write a chart as SVG, PNG, PDF or CSV; the file appears whole or not at all.
 
-    `WorkFailed` where disk or folder refuse; `BadInput` for a PDF without what writes it.
+    The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
+    `BadInput` for a PDF without what writes it.
     """
     title = f"{page.curves.scene.title}: {page.about}"
     if target.suffix.lower() == ".pdf":
         require_pdf()
+    if latex:
+        write_for_latex(target, page.size, page.background, page.groups(), title=title)
+        return
     with replacing(target) as part:
         match target.suffix.lower():
             case ".csv":

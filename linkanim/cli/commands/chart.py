@@ -10,6 +10,7 @@ from linkanim.digits import rpm, stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of
+from linkanim.paper.latex import labels_path
 from linkanim.paper.measured import MeasuredCurve, beside, read_table, usual_over
 from linkanim.paper.write import SUFFIXES, write
 from linkanim.scenes.scene import Scene
@@ -21,10 +22,12 @@ def run(options: Namespace) -> None:
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, ChartRequest(tokens, paces(scene, options), options.over))
     measured = _measured(curves, options)
-    write(Page(curves, size, options.theme, measured), target)
+    write(Page(curves, size, options.theme, measured), target, latex=bool(options.text))
     if measured:
         print(_difference(curves, measured), file=sys.stderr)
     print(target)
+    if options.text:
+        print(labels_path(target))
 
 
 def paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:

@@ -8,6 +8,7 @@ from math import isnan
 from linkanim.cli.commands.solve import out_of_range
 from linkanim.cli.picture_options import look_of, scene_size_target
 from linkanim.paper.figure import SUFFIXES, Figured, write
+from linkanim.paper.latex import labels_path
 from linkanim.scenes.scene import Scene
 
 
@@ -16,8 +17,10 @@ def run(options: Namespace) -> None:
     scene, size, target = scene_size_target(options, SUFFIXES, ".svg")
     look = look_of(scene, options)
     shown = Figured(scene, size, look, _phase(scene, options), options.poses or 0, options.speed)
-    write(shown, target)
+    write(shown, target, latex=bool(options.text))
     print(target)
+    if options.text:
+        print(labels_path(target))
     if shown.phase is None:
         print(f"{shown.caption}: the joints farthest apart; --angle or --phase for another pose")
 
