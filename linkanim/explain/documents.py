@@ -9,7 +9,7 @@ from html import escape
 from itertools import groupby
 from math import floor, log10
 
-from linkanim.explain.drawing import svg, tikz
+from linkanim.explain.drawing import tikz
 from linkanim.explain.expression import Formula
 from linkanim.explain.lines import Given, Item, System, Unknown, ValueLine, Words
 from linkanim.explain.notation import LATEX, MATHML, Notation, plain_latex, typeset
@@ -47,7 +47,8 @@ _KEY_DIGITS = 5
 class DocumentForm:
     """How one kind of document is written; names of joints stand in braces in headings and in text.
 
-    `listed` sets what is given: formulas, and what each is. `new_page` begins one.
+    `listed` sets what is given: formulas, and what each is. `figure` draws the loops; on a page that is
+    left to who prints pictures. `new_page` begins one.
     """
 
     how: Notation
@@ -158,7 +159,7 @@ HTML = DocumentForm(
     inline=lambda formula: f"<math>{formula}</math>",
     aligned=_html_aligned,
     listed=_html_listed,
-    figure=lambda found: f"<figure class='vectors'>{svg(found)}</figure>",
+    figure=lambda _: "",
     new_page="<div class='key'></div>",
 )
 

@@ -62,6 +62,11 @@ class Solution:
         return self.chapters[1]
 
     @property
+    def phase(self) -> float:
+        """The phase of the pose."""
+        return float(self.asked.motion().phase)
+
+    @property
     def title(self) -> str:
         """What it is a solution of."""
         return self.asked.scene.title

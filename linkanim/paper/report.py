@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import NamedTuple
 
 from linkanim.explain.documents import HTML, chapters
-from linkanim.explain.drawing import svg as vectors_svg
 from linkanim.explain.inputs import Asked
 from linkanim.explain.solution import Solution, solution
 from linkanim.export import csv_head, csv_rows
@@ -22,6 +21,7 @@ from linkanim.paper.html import Beside, FigurePart, Markup, Part, ReportChapter
 from linkanim.paper.svg import svg
 from linkanim.paper.tables import speed_words, value_tables
 from linkanim.paper.topics import topics
+from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.scenes.editing.edit import dimensions

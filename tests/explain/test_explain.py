@@ -50,7 +50,7 @@ def _failing(found: Solution) -> list[str]:
     """Return the printed lines, of three documents, that do not give the next one."""
     wrong = []
     for form, read in ((MARKDOWN, of_markdown), (TEX, of_latex), (HTML, of_html)):
-        checks = list(checks_of(read(document(found, form))))
+        checks = list(checks_of(read(document(found, replace(form, figure=lambda _: "")))))
         items = [item for chapter in found.chapters for item in chapter.items]
         formulas = sum(isinstance(item, ValueLine) and item.formula.operation != "leaf" for item in items)
         systems = sum(isinstance(item, System) and item.worked_out for item in items)
@@ -89,11 +89,15 @@ def _values(text: str) -> dict[str, float]:
     }
 
 
-# Term report on a punch press, tables 3.1 to 3.4 at 10 rad/s: symbol, value, its last digit. α₃ at 306° is
-# not among them, which leaves the report's own loop open (the scene's note).
+# Term report on a punch press, tables 3.1 and 3.2, at 10 rad/s; lengths in mm. At 306° its α₃ leaves its own
+# loop open: this one closes it (the scene's note).
 PRESS = {
-    87: {r"\omega_{3}": 3.3271, r"\omega_{4}": -1.2005, r"\omega_{6}": -5.4143, r"\alpha_{3}": 12.7419,
-         r"\alpha_{4}": -11.3763, r"\alpha_{6}": -14.2372},
+    87: {
+        r"\omega_{3}": "3.3271", r"\omega_{4}": "-1.2005", r"\omega_{6}": "-5.4143",
+        r"\alpha_{3}": "12.7419", r"\alpha_{4}": "-11.3763", r"\alpha_{6}": "-14.2372",
+        r"\dot{s}_{5}": "-132.8", r"\ddot{s}_{5}": "-2770.8",
+    },
+    306: {r"\alpha_{3}": "-18.4617"},
 }  # fmt: skip
 
 
@@ -102,7 +106,8 @@ def test_the_press_has_the_values_of_the_report(degrees: int, capsys: pytest.Cap
     assert main(["explain", "press", "--angle", f"{degrees} deg", "--speed", "10 rad/s"]) == 0
     found = _values(capsys.readouterr().out)
     for symbol, value in PRESS[degrees].items():
-        assert found[symbol] == pytest.approx(value, abs=0.00006), symbol
+        half = 0.5 * 10.0 ** -len(value.partition(".")[2])
+        assert found[symbol] == pytest.approx(float(value), abs=1.01 * half), symbol
 
 
 def test_at_a_limit_it_says_that_no_rates_follow() -> None:
@@ -155,7 +160,10 @@ def test_each_form_is_written_whole_under_its_name(
     assert main(["explain", "crank-rocker", "--angle", "60 deg", "-o", str(target)]) == 0
     assert capsys.readouterr().out.strip() == str(target)
     assert list(tmp_path.iterdir()) == [target]
-    assert "Crank-rocker" in target.read_text(encoding="utf-8")
+    text = target.read_text(encoding="utf-8")
+    assert "Crank-rocker" in text
+    drawn = text.count(">R<tspan"), text.count(r"\draw[->")
+    assert drawn == {".html": (4, 0), ".tex": (0, 4), ".md": (0, 0)}[suffix]
 
 
 # what is asked for, and what the refusal names

@@ -10,8 +10,9 @@ from linkanim.atomic_files import checked_target, replacing
 from linkanim.cli.commands.solve import out_of_range
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.inputs import Asked
-from linkanim.explain.solution import solution
+from linkanim.explain.solution import Solution, solution
 from linkanim.explain.variant import variant
+from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
@@ -28,6 +29,7 @@ def run(options: Namespace) -> None:
     target = None if options.output is None else checked_target(options.output, tuple(FORMS))
     found = solution(_asked(load(options.scene), options))
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
+    form = replace(form, figure=_figure) if form is HTML else form
     text = document(found, form, exercise=options.exercise)
     if target is None:
         print(text, end="")
@@ -35,6 +37,10 @@ def run(options: Namespace) -> None:
     with replacing(target) as part:
         part.write_text(text, encoding="utf-8")
     print(target)
+
+
+def _figure(found: Solution) -> str:
+    return f"<figure class='vectors'>{vectors_svg(found)}</figure>" if found.loops else ""
 
 
 def _asked(scene: Scene, options: Namespace) -> Asked:

@@ -15,19 +15,10 @@ def place(joint: RPR, work: Work) -> None:
     way = work.points[pin] - work.points[pivot]
     offset = work.stated(Symbol("e", name), joint.offset, LENGTH, "the slot's offset to the left")
     work.say(f"The slotted bar turns about {{{pivot}}} and its slot passes through {{{pin}}}, s ahead of it:")
-    square_of_way = square(way.x) + square(way.y) - square(offset)
-    root = sqrt(square_of_way)
-    work.slides[name] = work.let(work.names.slide(name), root if _ahead(joint, work) else -root, LENGTH)
-    turned = atan2(way.y, way.x)
-    if not _ahead(joint, work):
-        turned = atan2(-way.y, -way.x)
-    if joint.offset:
-        ahead = work.let(Symbol("δ", name), turned, ANGLE)
-        turned = (
-            ahead - atan2(offset, work.slides[name])
-            if _ahead(joint, work)
-            else ahead + atan2(offset, -work.slides[name])
-        )
+    root = sqrt(square(way.x) + square(way.y) - square(offset))
+    slide = work.let(work.names.slide(name), root if _ahead(joint, work) else -root, LENGTH)
+    work.slides[name] = slide
+    turned = atan2(slide * way.y - offset * way.x, slide * way.x + offset * way.y)
     work.angles[pivot, name] = work.let(work.angle_symbol(pivot, name), turned, ANGLE)
     work.let_point(name, work.points[pivot] + work.bar(pivot, name, joint.length))
 

@@ -1,0 +1,119 @@
+"""The vectors of a worked solution's loops as a figure: over the links, which are faint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.explain.loops import LoopArrow
+from linkanim.explain.solution import Solution
+from linkanim.paper.figure import Figured
+from linkanim.paper.svg import svg
+from linkanim.picture.diagrams.chart import Pen, pen_for
+from linkanim.picture.items import Caption, Group, Halo, Item, grouped
+from linkanim.picture.look import Look
+from linkanim.picture.picture import Picture
+from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
+from linkanim.picture.raster.raster import Colour, Layer
+from linkanim.picture.raster.shapes import arrows
+from linkanim.picture.text.text import subscripted
+from linkanim.picture.view import Rect
+
+_FILLED = 0.8
+"""Of the picture's width or height the vectors take so much."""
+_SHORT = 1e-6
+"""Of the picture's width: what is shorter has no direction."""
+
+
+class _Named(NamedTuple):
+    """A text, and where its middle may stand, best first."""
+
+    text: str
+    places: list[complex]
+    colour: Colour
+
+
+def vectors_svg(found: Solution, size: tuple[int, int] = (760, 560)) -> str:
+    """Return the figure as SVG; each vector stands once, by its name, as do the joints it leads between."""
+    picture = _picture(found, size)
+    ground, *_ = picture.drawing.standing()
+    links = Group("links", picture.drawing.faint(found.asked.scene.pose(found.phase, 0)))
+    drawn = [ground, links, grouped("vectors", _drawn(found, picture))]
+    title = f"Vector loops of {found.title}"
+    return svg(size, picture.theme.background, drawn, title=title)
+
+
+def _vectors(found: Solution) -> tuple[LoopArrow, ...]:
+    return tuple({arrow.symbol: arrow for loop in found.loops for arrow in loop.arrows}.values())
+
+
+def _picture(found: Solution, size: tuple[int, int]) -> Picture:
+    """Return the links with all vectors in view, as large as there is room for."""
+    look = Look(trace=False, hud=False)
+    whole = Figured(found.asked.scene, size, look, found.phase).picture
+    ends = np.array([_pixel(whole, end) for one in _vectors(found) for end in (one.begin, one.end)])
+    spans = max(float(np.ptp(ends.real)), 1.0), max(float(np.ptp(ends.imag)), 1.0)
+    zoom = min(_FILLED * size[0] / spans[0], _FILLED * size[1] / spans[1])
+    off = (ends.real.max() + ends.real.min() - size[0]) / 2, (ends.imag.max() + ends.imag.min() - size[1]) / 2
+    pan = -zoom * float(off[0]) / size[1], -zoom * float(off[1]) / size[1]
+    return Figured(found.asked.scene, size, replace(look, zoom=zoom, pan=pan), found.phase).picture
+
+
+def _pixel(picture: Picture, at: complex) -> complex:
+    return picture.view.place((at.real, at.imag))
+
+
+def _drawn(found: Solution, picture: Picture) -> Iterator[Item]:
+    """Yield the vectors, and the names of vectors and joints where they lie on nothing."""
+    pen, theme = pen_for(picture.layout, picture.type, picture.theme), picture.theme
+    ways = [(one, _pixel(picture, one.begin), _pixel(picture, one.end)) for one in _vectors(found)]
+    long = [way for way in ways if abs(way[2] - way[1]) > _SHORT * picture.size[0]]
+    joints = {name: _pixel(picture, at) for name, at in found.places.items()}
+    ends = [end for _, *both in long for end in both]
+    touched = {name: at for name, at in joints.items() if any(abs(at - end) < 1 for end in ends)}
+    names = [_Named(subscripted(name), _around(at, pen.text), theme.ink) for name, at in touched.items()]
+    for one, begin, end in long:
+        colour = theme.velocity if one.symbol.letter == "R" else theme.acceleration
+        yield Layer(colour, arrows([begin], [end - begin], 1.7 * pen.line))
+        text = f"{one.symbol.letter}_{{{one.symbol.sub}}}"
+        names.append(_Named(text, _beside(begin, end, pen.text), colour))
+    solids = [Solid(np.array([[begin, end]]), 1.5 * pen.line) for _, begin, end in long]
+    solids += [Solid(np.array([[at]]), 4 * pen.line) for at in touched.values()]
+    yield from _captions(names, Clutter(Rect(0, 0, *picture.size), solids=tuple(solids)), pen)
+
+
+def _captions(names: list[_Named], clutter: Clutter, pen: Pen) -> Iterator[Caption]:
+    """Yield names where they lie on nothing."""
+    labels = [
+        LabelPlaces(
+            (pen.type.width(one.text, pen.text, strong=True), pen.text),
+            np.array([one.places]),
+            np.arange(float(len(one.places))),
+        )
+        for one in names
+    ]
+    halo = Halo(pen.theme.background, pen.line)
+    for one, spot in zip(names, place(labels, clutter), strict=True):
+        at = one.places[spot.which]
+        top = at.real, at.imag - pen.text / 2
+        yield Caption(one.text, top, pen.text, one.colour, "centre", strong=True, halo=halo)
+
+
+def _beside(begin: complex, end: complex, text: float) -> list[complex]:
+    """Return places for a vector's name: by its middle on either side, then along it and further off."""
+    across = 1j * (end - begin) / abs(end - begin)
+    return [
+        begin + share * (end - begin) + side * away * text * across
+        for away in (0.9, 1.4, 2.0)
+        for share in (0.5, 0.35, 0.65, 0.2, 0.8)
+        for side in (1, -1)
+    ]
+
+
+def _around(at: complex, text: float) -> list[complex]:
+    """Return places for a joint's name."""
+    turns = (-45, -135, 45, 135, 0, 180, -90, 90)
+    return [at + away * text * np.exp(1j * np.radians(turn)) for away in (1.1, 1.6) for turn in turns]
