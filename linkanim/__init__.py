@@ -27,6 +27,8 @@ asked for: `import linkanim` alone brings in neither a window nor an encoder.
 
 `explain`: a pose worked out by hand: `expression` and `lines` are what it consists of, `kinds/` the steps
 of each kind of joint, `solution` puts them in order, `documents` prints it.
+
+`play`: what is asked about linkages: a `question`, its `kinds`, a `round` of them, a printed `sheet`.
 """
 
 import os

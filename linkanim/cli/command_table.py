@@ -199,6 +199,15 @@ COMMANDS = {
             'linkanim explain slider-crank --angle "40 deg" --exercise --seed 3 -o sheet.tex',
         ),
     ),
+    "quiz": Command(
+        "ask about a scene or a chapter: which way, how fast, where; made from what is solved",
+        options.quiz,
+        (
+            "linkanim quiz crank-rocker",
+            "linkanim quiz press -n 10 --seed 7 -o sheet.html",
+            'linkanim quiz four-bars --json',
+        ),
+    ),
     "share": Command(
         "write one page that moves in any browser, without a network",
         options.share,

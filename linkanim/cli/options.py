@@ -256,6 +256,17 @@ def explain(parser: Parser) -> None:
     parser.add_argument("--seed", type=int, metavar="N", help=text)
 
 
+def quiz(parser: Parser) -> None:
+    """Add what a round of questions takes."""
+    parser.add_argument("scene", metavar="SCENE|CHAPTER", help=f"{IN_SCENE}; or a chapter, as sliders")
+    _output(parser, "SHEET.html (default: text on stdout)")
+    text = "how many questions (default: 10)"
+    parser.add_argument("-n", dest="count", type=int, default=10, metavar="N", help=text)
+    text = "a number gives the same questions always (default: 0)"
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help=text)
+    parser.add_argument("--json", action="store_true", help="as a list of objects")
+
+
 def report(parser: Parser) -> None:
     """Add what a report takes."""
     parser.add_argument("scene", metavar="SCENE", help=IN_SCENE)

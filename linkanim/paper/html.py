@@ -62,6 +62,12 @@ _ROWS_KEPT = 24
 """A table of so many rows at the most stands on one page."""
 
 
+def embedded(picture: str, title: str) -> str:
+    """Return an SVG as part of a page: its parts without names, the whole with words to be read aloud."""
+    drawn = picture[picture.index("<svg ") :]
+    return _ATTRIBUTES.sub("", drawn).replace("<svg ", f"<svg role='img' aria-label='{escape(title)}' ", 1)
+
+
 @dataclass(frozen=True)
 class Markup:
     """What is written as it is."""
@@ -150,10 +156,7 @@ def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
             return text
         case FigurePart(picture, caption):
             title = f"Figure {next(figures)}. {caption}"
-            drawn = _ATTRIBUTES.sub("", picture).replace(
-                "<svg ", f"<svg role='img' aria-label='{escape(title)}' ", 1
-            )
-            return f"<figure>{drawn}<figcaption>{symbol(title)}</figcaption></figure>"
+            return f"<figure>{embedded(picture, title)}<figcaption>{symbol(title)}</figcaption></figure>"
         case TablePart():
             title = f"Table {next(tables)}. {part.caption}"
             table = f"<table class='{part.kind}'><caption>{symbol(title)}</caption>{part.rows}</table>"

@@ -1,0 +1,53 @@
+"""`linkanim quiz`: questions about a scene or a chapter, made from what is solved, with their key."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from linkanim.atomic_files import checked_target, replacing
+from linkanim.errors import BadInput
+from linkanim.export import json_text
+from linkanim.play.question import Question
+from linkanim.play.round import questions
+from linkanim.play.sheet import as_html, as_text
+from linkanim.scenes import chapters, load
+from linkanim.scenes.scene import Scene
+
+SUFFIXES = (".html", ".htm")
+_MOST = 200
+
+
+def run(options: Namespace) -> None:
+    """Print the round, or write it as a sheet and print its path.
+
+    `BadInput` for an output that cannot be, and for no questions or too many, before any is made.
+    """
+    target = None if options.output is None else checked_target(options.output, SUFFIXES)
+    if not 1 <= options.count <= _MOST:
+        raise BadInput(f"-n {options.count}: give a number of questions from 1 to {_MOST}")
+    if target and options.json:
+        raise BadInput("-o writes a sheet, --json prints a list; leave one of them out")
+    scenes, title = _scenes(options.scene)
+    found = questions(scenes, options.count, options.seed)
+    if target is None:
+        print(json_text([_as_object(one) for one in found], indent=2) if options.json else as_text(found))
+        return
+    with replacing(target) as part:
+        part.write_text(as_html(found, f"{title}: {len(found)} questions"), encoding="utf-8")
+    print(target)
+
+
+def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:
+    """Return the scenes of a chapter, named as `linkanim scenes` does or with dashes, or one scene."""
+    by_name = {chapter.replace(" ", "-"): names for chapter, names in chapters().items()}
+    chosen = by_name.get(name.replace(" ", "-"))
+    if chosen is None:
+        scene = load(name)
+        return (scene,), scene.title
+    return tuple(map(load, chosen)), name.replace("-", " ").capitalize()
+
+
+def _as_object(question: Question) -> dict[str, object]:
+    fields = ("kind", "phase", "subject", "answers", "right", "why")
+    found: dict[str, object] = {name: getattr(question, name) for name in fields}
+    return {"scene": question.scene.name, **found, "question": question.text}

@@ -1,0 +1,1 @@
+"""What is played with linkages; it stands on all that shows them."""

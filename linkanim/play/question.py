@@ -1,0 +1,118 @@
+"""A question about a linkage at a pose, and what it is made from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from random import Random
+from typing import Any
+
+import numpy as np
+
+from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.motion.motion import Motion, Pose
+from linkanim.picture.figure import Figure, figure
+from linkanim.scenes.scene import Scene
+
+CLEAR = 0.02
+"""Two values that differ by less of their range look alike; below as much a value is as good as zero."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question with its answers, of which one is right, and why.
+
+    `subject` is the token of what it is about: a body, a joint, or the input.
+    """
+
+    kind: str
+    scene: Scene
+    phase: float
+    subject: str
+    text: str
+    answers: tuple[str, ...]
+    right: int
+    why: str
+
+
+@dataclass(frozen=True)
+class Puzzle:
+    """A scene at a phase that a question is made of, with the random choices that are made in it."""
+
+    scene: Scene
+    phase: float
+    random: Random
+
+    @cached_property
+    def pose(self) -> Pose:
+        """The pose at the phase."""
+        return self.scene.pose(self.phase)
+
+    @cached_property
+    def cycle(self) -> Motion:
+        """One true period, whose greatest values say what is clear."""
+        return self.figure.cycle
+
+    @cached_property
+    def figure(self) -> Figure:
+        """What is drawn of the scene."""
+        return figure(self.scene)
+
+    @property
+    def turning(self) -> tuple[Body, ...]:
+        """The bodies that turn other than by a crank, those of cranks where there are no others."""
+        bodies = [body for body in self.scene.linkage.bodies if body.slider is None]
+        driven = [body for body in bodies if not self.scene.linkage.crank_of(body)]
+        return tuple(driven or bodies)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The joints that are drawn and move."""
+        fixed = {pin.name for pin in self.scene.linkage.pins}
+        return tuple(name for name in self.figure.shown if name not in fixed)
+
+    def name(self, body: Body) -> str:
+        """Return what a body is called, with its number where the scene gives one."""
+        called = self.scene.info.link_names[body.name]
+        if called == body.name:
+            return f"link {called}" if called.isdecimal() else called
+        return f"{called} ({body.name})" if body.name.isdecimal() else called
+
+    def share(self, kind: str, name: str) -> float:
+        """Return a quantity at the pose over its greatest size in the period: -1 … 1; 0 where it is none.
+
+        A vector's is its length's.
+        """
+        greatest = float(np.max(_sizes(getattr(self.cycle, kind)[name]), initial=0.0))
+        value = getattr(self.pose, kind)[name]
+        at = float(np.hypot(*value)) if isinstance(value, tuple) else float(value)
+        return at / greatest if 0.0 < greatest < np.inf and np.isfinite(at) else 0.0
+
+    def question(
+        self,
+        kind: str,
+        subject: str,
+        text: str,
+        right: str,
+        wrong: Iterable[str],
+        why: str,
+        *,
+        kept: bool = False,
+    ) -> Question:
+        """Return the question; its answers are shuffled, or `kept` in the order of the alphabet."""
+        answers = [right, *wrong]
+        if kept:
+            answers.sort()
+        else:
+            self.random.shuffle(answers)
+        return Question(
+            kind, self.scene, self.phase, subject, text, tuple(answers), answers.index(right), why
+        )
+
+
+def _sizes(values: Any) -> Any:
+    """Return the sizes of numbers (N,), or of vectors (N, 2), those that are finite."""
+    found = np.asarray(values, np.float64)
+    sizes = np.hypot(found[..., 0], found[..., 1]) if found.ndim == 2 else np.abs(found)
+    return sizes[np.isfinite(sizes)]

@@ -1,0 +1,79 @@
+"""A round of questions as a sheet to be printed, with its key on a page of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from html import escape
+
+from linkanim.paper.figure import Figured
+from linkanim.paper.html import embedded
+from linkanim.picture.look import Look
+from linkanim.picture.parts.driven import driven_words, speed_words
+from linkanim.play.question import Question
+
+LETTERS = "abcd"
+_SIZE = (480, 300)
+_LOOK = Look(hud=False, names=1)
+_STYLE = """
+body { font: 15px/1.45 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
+       color: #1b1f23; margin: 2rem auto; max-width: 54rem; padding: 0 1rem; }
+h1 { font-size: 1.7rem; line-height: 1.2; } h2 { font-size: 1.1rem; margin: 0 0 .3rem; }
+section { display: grid; grid-template-columns: 1fr 1.1fr; gap: 0 1.5rem; break-inside: avoid;
+          margin: 1.2rem 0; }
+section > h2 { grid-column: 1 / -1; } figure { margin: 0; }
+figure svg { width: 100%; height: auto; display: block; }
+figcaption { color: #57606a; font-size: .92em; } ol.answers { list-style: lower-alpha; margin: .3rem 0; }
+.key { break-before: page; } @page { size: A4; margin: 16mm 14mm; }
+@media print { body { margin: 0; max-width: none; font-size: 10pt; } }
+"""
+
+
+def pose_words(question: Question) -> str:
+    """Return a question's scene, where its input is, and how fast and which way that runs."""
+    scene, pose = question.scene, question.scene.pose(question.phase)
+    drive = scene.linkage.drive
+    way = f", {speed_words(scene, drive.speed)}"
+    if drive.coordinate.is_angle:
+        way += " counterclockwise" if pose.coordinate_rate > 0 else " clockwise"
+    return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, pose.coordinate)}{way}"
+
+
+def as_text(round_: Sequence[Question]) -> str:
+    """Return a round in plain text, the key below."""
+    lines = []
+    for number, question in enumerate(round_, 1):
+        lines += [f"{number}. {question.text}", f"   {pose_words(question)} (phase {question.phase:g} rad)"]
+        lines += [f"   {letter}) {answer}" for letter, answer in zip(LETTERS, question.answers, strict=False)]
+        lines.append("")
+    lines.append("key")
+    lines += [f"{number}. {_key(question)}" for number, question in enumerate(round_, 1)]
+    return "\n".join(lines)
+
+
+def as_html(round_: Sequence[Question], title: str) -> str:
+    """Return a round as one page of HTML with a figure to each question, without a script."""
+    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}</style>"
+    body = "\n".join([f"<h1>{escape(title)}</h1>", *_sections(round_), *_key_page(round_, title)])
+    return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
+
+
+def _sections(round_: Sequence[Question]) -> Iterator[str]:
+    for number, question in enumerate(round_, 1):
+        drawn = Figured(question.scene, _SIZE, _LOOK, question.phase).document()
+        words = pose_words(question)
+        answers = "".join(f"<li>{escape(answer)}</li>" for answer in question.answers)
+        yield (
+            f"<section><h2>{number}. {escape(question.text)}</h2>"
+            f"<figure>{embedded(drawn, words)}<figcaption>{escape(words)}</figcaption></figure>"
+            f"<ol class='answers'>{answers}</ol></section>"
+        )
+
+
+def _key_page(round_: Sequence[Question], title: str) -> Iterator[str]:
+    yield f"<div class='key'><h1>Key: {escape(title)}</h1><ol>"
+    yield from (f"<li>{escape(_key(question))}</li>" for question in round_)
+    yield "</ol></div>"
+
+
+def _key(question: Question) -> str:
+    return f"{LETTERS[question.right]}) {question.answers[question.right]}. {question.why}"

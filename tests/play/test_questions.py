@@ -1,0 +1,173 @@
+"""Questions against the solver: the key is what is solved, one answer is right, none is a matter of taste."""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import pairwise
+from math import atan2, degrees, hypot, radians, tau
+from pathlib import Path
+from typing import Any
+
+import orjson
+import pytest
+
+from linkanim.cli import main
+from linkanim.play.kinds import KINDS
+from linkanim.play.question import Question
+from linkanim.play.round import questions
+from linkanim.scenes import chapters, load, names
+
+FEW, MANY = 3, 200
+
+
+def check(question: Question) -> None:
+    """Hold the key against what is solved at the question's phase, read by its own words."""
+    assert len(set(question.answers)) == len(question.answers) >= 2
+    assert 0 <= question.right < len(question.answers)
+    scene, answer = question.scene, question.answers[question.right]
+    pose, cycle = scene.pose(question.phase), scene.cycle(720)
+    match question.kind:
+        case "turning":
+            rate = pose.angular_velocity[question.subject]
+            assert answer == ("counterclockwise" if rate > 0 else "clockwise")
+            assert abs(rate) > 0.05 * abs(cycle.angular_velocity[question.subject]).max()
+        case "fastest":
+            speeds = {name: hypot(*pose.velocity[name]) for name in question.answers}
+            assert answer == max(speeds, key=lambda name: speeds[name])
+            order = sorted(speeds.values())
+            assert all(high - low > 0.02 * order[-1] for low, high in pairwise(order))
+            assert order[0] > 0.02 * order[-1]
+        case "heading":
+            x, y = pose.velocity[question.subject]
+            way = degrees(atan2(y, x)) % 360
+            towards = {"to the right": 0, "up": 90, "to the left": 180, "down": 270}[answer]
+            assert abs((way - towards + 180) % 360 - 180) < 31
+        case "speeding":
+            (vx, vy), (ax, ay) = pose.velocity[question.subject], pose.acceleration[question.subject]
+            assert answer == ("it speeds up" if vx * ax + vy * ay > 0 else "it slows down")
+        case "doubled":
+            joint, kind = question.subject.rsplit(".", 1)
+            twice = scene.pose(question.phase, speed=2 * scene.linkage.drive.speed)
+            ratio = hypot(*getattr(twice, kind)[joint]) / hypot(*getattr(pose, kind)[joint])
+            assert {"twice as large": 2, "four times as large": 4}[answer] == pytest.approx(ratio)
+        case "instant centre":
+            stands_still(question, answer)
+        case "dead centre":
+            turns_back(question, answer)
+        case "input range":
+            assert (answer == "it turns fully") == scene.info.full_turn
+        case "closure":
+            assert answer.endswith("same closure" if scene.info.mechanism.retraced else "other closure")
+        case "grashof":
+            s, p, q, longest = (float(word) for word in sums(question.why))
+            sign = (s + longest > p + q) - (s + longest < p + q)
+            assert ("<" in answer, ">" in answer) == (sign < 0, sign > 0)
+        case "coriolis":
+            slide = next(one for joint in scene.linkage.joints for one in joint.slides)
+            assert answer == ("yes" if slide.axis else "no") or len(scene.linkage.joints) > 4
+
+
+def sums(why: str) -> list[str]:
+    """Return s, p, q, l of "s + l = 1 + 4 and p + q = 2 + 3." """
+    words = why.rstrip(".").split()
+    return [words[4], words[12], words[14], words[6]]
+
+
+def stands_still(question: Question, answer: str) -> None:
+    """Check that the body's point there has no velocity."""
+    text = answer[1 : answer.index(")")].replace("−", "-")
+    x, y = map(float, text.split(","))
+    scene, pose = question.scene, question.scene.pose(question.phase)
+    body = next(body for body in scene.linkage.bodies if body.name == question.subject)
+    (px, py), (vx, vy) = (found[body.joints[0]] for found in (pose.position, pose.velocity))
+    rate = pose.angular_velocity[body.name]
+    left = hypot(vx - rate * (y - py), vy + rate * (x - px))
+    assert left < 0.01 * max(hypot(*pose.velocity[name]) for name in body.joints) + abs(rate) * 0.06
+
+
+def turns_back(question: Question, answer: str) -> None:
+    """Check that the output's velocity changes its sign there, and at no other answer."""
+    kind = "travel_velocity" if question.subject in question.scene.pose(0.0).travel else "angular_velocity"
+    for text in question.answers:
+        at = radians(float(text.rstrip("°")))
+        rates = [
+            getattr(question.scene.solve(angle=at + part), kind)[question.subject] for part in (-0.01, 0.01)
+        ]
+        assert (float(rates[0]) * float(rates[1]) < 0) == (text == answer)
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_the_key_is_what_is_solved(name: str) -> None:
+    for seed in range(FEW):
+        found = questions((load(name),), 10, seed)
+        assert len(found) == 10
+        for question in found:
+            check(question)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", names())
+def test_the_key_is_what_is_solved_for_two_hundred_seeds(name: str) -> None:
+    scene = load(name)
+    for seed in range(MANY):
+        for question in questions((scene,), 5, seed):
+            check(question)
+
+
+def test_every_kind_is_asked() -> None:
+    scenes = [
+        load(name) for name in ("crank-rocker", "double-rocker", "inverted-slider-crank", "slider-crank")
+    ]
+    found = Counter(question.kind for question in questions(scenes, 120, 1))
+    assert found.keys() == KINDS.keys()
+
+
+def test_right_answers_stand_in_every_place_and_no_question_comes_twice_in_a_row() -> None:
+    found = questions((load("press"),), 12, 5)
+    assert len({(question.kind, question.subject) for question in found}) == 12
+    assert len({question.right for question in found}) > 1
+    assert questions((load("press"),), 12, 5)[3].text == found[3].text
+    assert [question.text for question in questions((load("press"),), 12, 6)] != [one.text for one in found]
+
+
+def test_a_round_is_printed_as_a_list(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["quiz", "crank-rocker", "-n", "4", "--seed", "7", "--json"]) == 0
+    found: list[dict[str, Any]] = orjson.loads(capsys.readouterr().out)
+    assert len(found) == 4
+    assert {"kind", "scene", "phase", "subject", "answers", "right", "why"} <= found[0].keys()
+    assert all(0.0 <= one["phase"] < tau * 2 and one["scene"] == "crank-rocker" for one in found)
+
+
+def test_a_chapter_is_asked_scene_by_scene_on_a_sheet_with_its_key_apart(tmp_path: Path) -> None:
+    sheet = tmp_path / "sheet.html"
+    assert main(["quiz", "exact and scaling", "-n", "5", "-o", str(sheet)]) == 0
+    text = sheet.read_text(encoding="utf-8")
+    assert text.count("<section>") == text.count("<svg ") == 5
+    assert "<script" not in text
+    assert "http" not in text.replace("http://www.w3.org", "")
+    assert text.index("class='key'") > text.rindex("</section>")
+    for name in chapters()["exact and scaling"][:5]:
+        assert load(name).title in text
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["no-such"], "no-such"),
+        (["press", "-n", "0"], "from 1 to"),
+        (["press", "-o", "sheet.pdf"], ".html"),
+        (["press", "-o", "sheet.html", "--json"], "leave one"),
+    ],
+)
+def test_what_makes_no_round_is_refused_in_a_line(
+    words: list[str],
+    said: str,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["quiz", *words]) == 2
+    assert said in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
