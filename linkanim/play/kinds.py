@@ -11,7 +11,7 @@ import numpy as np
 from linkanim.digits import short, significant, typeset
 from linkanim.mechanics.facts.naming import four_bar_of
 from linkanim.mechanics.motion.measures import between, coupler_body, growth, output_body, pole
-from linkanim.play.question import CLEAR, Puzzle, Question
+from linkanim.play.question import CLEAR, Puzzle, QuizQuestion
 
 _PLAIN = 0.1
 """A share of a greatest value that is seen at once."""
@@ -26,10 +26,10 @@ _APART = 20.0
 _NEAR = 0.08
 """Places that are nearer to each other, in sizes of the linkage, could be taken for one."""
 
-Maker = Callable[[Puzzle], Question | None]
+Maker = Callable[[Puzzle], QuizQuestion | None]
 
 
-def turning(puzzle: Puzzle) -> Question | None:
+def turning(puzzle: Puzzle) -> QuizQuestion | None:
     """Return which way a link turns; taken wrongly, as the input does."""
     clear = [body for body in puzzle.turning if abs(puzzle.share("angular_velocity", body.name)) > _PLAIN]
     if not clear:
@@ -51,7 +51,7 @@ def turning(puzzle: Puzzle) -> Question | None:
     )
 
 
-def fastest(puzzle: Puzzle) -> Question | None:
+def fastest(puzzle: Puzzle) -> QuizQuestion | None:
     """Return which of some joints is fastest; taken wrongly, the one that is farthest from the input."""
     speeds = {name: hypot(*puzzle.pose.velocity[name]) for name in puzzle.joints}
     greatest = max((value for value in speeds.values() if isfinite(value)), default=0.0)
@@ -76,7 +76,7 @@ def fastest(puzzle: Puzzle) -> Question | None:
     )
 
 
-def heading(puzzle: Puzzle) -> Question | None:
+def heading(puzzle: Puzzle) -> QuizQuestion | None:
     """Return which way a joint moves; taken wrongly, along its link."""
     names = [name for name in puzzle.joints if puzzle.share("velocity", name) > _PLAIN]
     puzzle.random.shuffle(names)
@@ -93,7 +93,7 @@ def heading(puzzle: Puzzle) -> Question | None:
     return None
 
 
-def speeding(puzzle: Puzzle) -> Question | None:
+def speeding(puzzle: Puzzle) -> QuizQuestion | None:
     """Return whether a joint becomes faster; taken wrongly, whether it moves forward."""
     names = [name for name in puzzle.joints if puzzle.share("velocity", name) > _PLAIN]
     puzzle.random.shuffle(names)
@@ -119,7 +119,7 @@ _POWERS = MappingProxyType({"velocity": ("twice as large", 2), "acceleration": (
 _FACTORS = ("as large as before", "twice as large", "four times as large", "eight times as large")
 
 
-def doubled(puzzle: Puzzle) -> Question | None:
+def doubled(puzzle: Puzzle) -> QuizQuestion | None:
     """Return what becomes of a joint's velocity or acceleration as the speed doubles."""
     kind = puzzle.random.choice(tuple(_POWERS))
     names = [name for name in puzzle.joints if puzzle.share(kind, name) > _PLAIN]
@@ -139,7 +139,7 @@ def doubled(puzzle: Puzzle) -> Question | None:
     )
 
 
-def instant_centre(puzzle: Puzzle) -> Question | None:
+def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
     """Return where a coupler's instant centre is; taken wrongly, at the nearest joint or half-way."""
     body = coupler_body(puzzle.scene.linkage)
     if body is None or abs(puzzle.share("angular_velocity", body.name)) < _PLAIN:
@@ -165,7 +165,7 @@ def instant_centre(puzzle: Puzzle) -> Question | None:
     )
 
 
-def dead_centre(puzzle: Puzzle) -> Question | None:
+def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
     """Return at which crank angle the output turns back; taken wrongly, where it is fastest."""
     scene, info = puzzle.scene, puzzle.scene.info
     body, found = output_body(scene.linkage), info.dead_centres or (info.swing and info.swing.dead_centres)
@@ -193,7 +193,7 @@ def dead_centre(puzzle: Puzzle) -> Question | None:
     )
 
 
-def input_range(puzzle: Puzzle) -> Question | None:
+def input_range(puzzle: Puzzle) -> QuizQuestion | None:
     """Return whether the input turns fully, and else between which angles it swings."""
     drive, info = puzzle.scene.linkage.drive, puzzle.scene.info
     if not drive.coordinate.is_angle:
@@ -217,7 +217,7 @@ def input_range(puzzle: Puzzle) -> Question | None:
     return puzzle.question("input range", "input", text, right, wrong, why)
 
 
-def closure(puzzle: Puzzle) -> Question | None:
+def closure(puzzle: Puzzle) -> QuizQuestion | None:
     """Return on which closure an input that swings comes back."""
     info = puzzle.scene.info
     if info.full_turn or not puzzle.scene.linkage.drive.coordinate.is_angle or not info.toggles:
@@ -233,7 +233,7 @@ def closure(puzzle: Puzzle) -> Question | None:
     return puzzle.question("closure", "input", text, right, [wrong], why)
 
 
-def grashof(puzzle: Puzzle) -> Question | None:
+def grashof(puzzle: Puzzle) -> QuizQuestion | None:
     """Return what Grashof's sum says of the four-bar that the input drives."""
     bar = four_bar_of(puzzle.scene.mechanism)
     if bar is None:
@@ -261,7 +261,7 @@ def grashof(puzzle: Puzzle) -> Question | None:
     )
 
 
-def coriolis(puzzle: Puzzle) -> Question | None:
+def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
     """Return whether a slider's acceleration has a Coriolis term; only where the guide turns it has."""
     found = list(_sliding(puzzle))
     if not found:

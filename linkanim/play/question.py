@@ -20,7 +20,7 @@ CLEAR = 0.02
 
 
 @dataclass(frozen=True)
-class Question:
+class QuizQuestion:
     """A question with its answers, of which one is right, and why.
 
     `subject` is the token of what it is about: a body, a joint, or the input.
@@ -99,14 +99,14 @@ class Puzzle:
         why: str,
         *,
         kept: bool = False,
-    ) -> Question:
+    ) -> QuizQuestion:
         """Return the question; its answers are shuffled, or `kept` in the order of the alphabet."""
         answers = [right, *wrong]
         if kept:
             answers.sort()
         else:
             self.random.shuffle(answers)
-        return Question(
+        return QuizQuestion(
             kind, self.scene, self.phase, subject, text, tuple(answers), answers.index(right), why
         )
 

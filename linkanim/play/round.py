@@ -7,7 +7,7 @@ from random import Random
 
 from linkanim.errors import WorkFailed
 from linkanim.play.kinds import KINDS
-from linkanim.play.question import Puzzle, Question
+from linkanim.play.question import Puzzle, QuizQuestion
 from linkanim.scenes.scene import Scene
 
 _TRIES = 12
@@ -16,20 +16,20 @@ _DECIMALS = 4
 """Of a question's phase, in radians, so that it can be typed."""
 
 
-def questions(scenes: Sequence[Scene], count: int, seed: int) -> tuple[Question, ...]:
+def questions(scenes: Sequence[Scene], count: int, seed: int) -> tuple[QuizQuestion, ...]:
     """Return so many questions, the scenes one after the other, no two of a round alike.
 
     Kinds come in turn, as far as the scene has something to ask of each. WorkFailed where a scene has
     nothing that can be asked, because nothing of it moves clearly.
     """
-    found: list[Question] = []
+    found: list[QuizQuestion] = []
     for number in range(count):
         scene = scenes[number % len(scenes)]
         found.append(_question(scene, Random(f"{seed} {number} {scene.name}"), found))
     return tuple(found)
 
 
-def _question(scene: Scene, random: Random, before: Sequence[Question]) -> Question:
+def _question(scene: Scene, random: Random, before: Sequence[QuizQuestion]) -> QuizQuestion:
     """Return a question about a scene, of the kind that was least often, that was not there before."""
     kinds = random.sample(sorted(KINDS), len(KINDS))
     often = [question.kind for question in before]

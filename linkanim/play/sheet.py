@@ -9,7 +9,7 @@ from linkanim.paper.figure import Figured
 from linkanim.paper.html import embedded
 from linkanim.picture.look import Look
 from linkanim.picture.parts.driven import driven_words, speed_words
-from linkanim.play.question import Question
+from linkanim.play.question import QuizQuestion
 
 LETTERS = "abcd"
 _SIZE = (480, 300)
@@ -28,7 +28,7 @@ figcaption { color: #57606a; font-size: .92em; } ol.answers { list-style: lower-
 """
 
 
-def pose_words(question: Question) -> str:
+def pose_words(question: QuizQuestion) -> str:
     """Return a question's scene, where its input is, and how fast and which way that runs."""
     scene, pose = question.scene, question.scene.pose(question.phase)
     drive = scene.linkage.drive
@@ -38,7 +38,7 @@ def pose_words(question: Question) -> str:
     return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, pose.coordinate)}{way}"
 
 
-def as_text(round_: Sequence[Question]) -> str:
+def as_text(round_: Sequence[QuizQuestion]) -> str:
     """Return a round in plain text, the key below."""
     lines = []
     for number, question in enumerate(round_, 1):
@@ -50,14 +50,14 @@ def as_text(round_: Sequence[Question]) -> str:
     return "\n".join(lines)
 
 
-def as_html(round_: Sequence[Question], title: str) -> str:
+def as_html(round_: Sequence[QuizQuestion], title: str) -> str:
     """Return a round as one page of HTML with a figure to each question, without a script."""
     head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}</style>"
     body = "\n".join([f"<h1>{escape(title)}</h1>", *_sections(round_), *_key_page(round_, title)])
     return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
 
 
-def _sections(round_: Sequence[Question]) -> Iterator[str]:
+def _sections(round_: Sequence[QuizQuestion]) -> Iterator[str]:
     for number, question in enumerate(round_, 1):
         drawn = Figured(question.scene, _SIZE, _LOOK, question.phase).document()
         words = pose_words(question)
@@ -69,11 +69,11 @@ def _sections(round_: Sequence[Question]) -> Iterator[str]:
         )
 
 
-def _key_page(round_: Sequence[Question], title: str) -> Iterator[str]:
+def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
     yield f"<div class='key'><h1>Key: {escape(title)}</h1><ol>"
     yield from (f"<li>{escape(_key(question))}</li>" for question in round_)
     yield "</ol></div>"
 
 
-def _key(question: Question) -> str:
+def _key(question: QuizQuestion) -> str:
     return f"{LETTERS[question.right]}) {question.answers[question.right]}. {question.why}"

@@ -13,14 +13,14 @@ import pytest
 
 from linkanim.cli import main
 from linkanim.play.kinds import KINDS
-from linkanim.play.question import Question
+from linkanim.play.question import QuizQuestion
 from linkanim.play.round import questions
 from linkanim.scenes import chapters, load, names
 
 FEW, MANY = 3, 200
 
 
-def check(question: Question) -> None:
+def check(question: QuizQuestion) -> None:
     """Hold the key against what is solved at the question's phase, read by its own words."""
     assert len(set(question.answers)) == len(question.answers) >= 2
     assert 0 <= question.right < len(question.answers)
@@ -73,7 +73,7 @@ def sums(why: str) -> list[str]:
     return [words[4], words[12], words[14], words[6]]
 
 
-def stands_still(question: Question, answer: str) -> None:
+def stands_still(question: QuizQuestion, answer: str) -> None:
     """Check that the body's point there has no velocity."""
     text = answer[1 : answer.index(")")].replace("−", "-")
     x, y = map(float, text.split(","))
@@ -85,7 +85,7 @@ def stands_still(question: Question, answer: str) -> None:
     assert left < 0.01 * max(hypot(*pose.velocity[name]) for name in body.joints) + abs(rate) * 0.06
 
 
-def turns_back(question: Question, answer: str) -> None:
+def turns_back(question: QuizQuestion, answer: str) -> None:
     """Check that the output's velocity changes its sign there, and at no other answer."""
     kind = "travel_velocity" if question.subject in question.scene.pose(0.0).travel else "angular_velocity"
     for text in question.answers:

@@ -7,7 +7,7 @@ from argparse import Namespace
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.errors import BadInput
 from linkanim.export import json_text
-from linkanim.play.question import Question
+from linkanim.play.question import QuizQuestion
 from linkanim.play.round import questions
 from linkanim.play.sheet import as_html, as_text
 from linkanim.scenes import chapters, load
@@ -47,7 +47,7 @@ def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:
     return tuple(map(load, chosen)), name.replace("-", " ").capitalize()
 
 
-def _as_object(question: Question) -> dict[str, object]:
+def _as_object(question: QuizQuestion) -> dict[str, object]:
     fields = ("kind", "phase", "subject", "answers", "right", "why")
     found: dict[str, object] = {name: getattr(question, name) for name in fields}
     return {"scene": question.scene.name, **found, "question": question.text}
