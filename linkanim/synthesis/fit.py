@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.kinds import LinkageKind, Real
+from linkanim.synthesis.kinds import Complex, LinkageKind, Real
 from linkanim.synthesis.refine import FEW
 from linkanim.synthesis.task import PathTask
 
@@ -58,6 +59,19 @@ class Fit:
     def sense(self) -> float:
         """+1 where the crank's angle grows from point to point, else -1."""
         return 1.0 if self.angles[-1] > self.angles[0] else -1.0
+
+    @cached_property
+    def joints(self) -> Complex:
+        """Fixed pins, and all joints where the crank is at the first and at the middle point of the curve."""
+        kind, rows, angles = self.task.kind, self.row[None], self.angles[[0, len(self.angles) // 2]]
+        pins = complex(*self.row[:2]) + self.row[2] * np.exp(1j * angles)
+        way = kind.close(rows, np.array([[self.closure_sign]]), pins[None]).direction[0]
+        arm = complex(*self.row[4:6])
+        return np.concatenate([kind.pivots(rows)[0], pins, pins + self.row[3] * way, pins + arm * way])
+
+    def apart(self, other: Fit) -> float:
+        """Return how far two answers' joints are apart, in curve sizes, however their parameters are told."""
+        return float(np.abs(self.joints - other.joints).max() / self.task.curve.size)
 
     @property
     def error(self) -> float:

@@ -15,8 +15,6 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import NamedTuple, TextIO
 
-import numpy as np
-
 from linkanim.errors import LinkanimError
 from linkanim.synthesis.answer import NAME, answer_of
 from linkanim.synthesis.atlas import atlas
@@ -29,7 +27,7 @@ from linkanim.synthesis.search import found, glimpsed, refitted
 COUNT = 6
 """Answers for a stroke."""
 _ALIKE = 0.05
-"""Of the stroke's size: answers whose parameters differ by no more look the same."""
+"""Of the stroke's size: answers whose joints are apart by no more look the same."""
 _KEPT = 64
 """Fits that are known."""
 
@@ -92,7 +90,7 @@ class Follower:
             return
         fits = found(task, 2 * COUNT, lambda *_: pulse(), widely=False)
         shown = near if before and near else fits[0]
-        like = next((fit for fit in fits if _is_like(fit, shown)), shown)
+        like = next((fit for fit in fits if fit.apart(shown) <= _ALIKE), shown)
         row = _row(like, fits)
         yield row, row.index(like)
 
@@ -106,15 +104,9 @@ def _row(shown: Fit, fits: tuple[Fit, ...]) -> tuple[Fit, ...]:
         if len(kept) == COUNT:
             break
         turns = fit.scene.info.full_turn or not shown.scene.info.full_turn
-        if turns and not any(_is_like(fit, one) for one in kept):
+        if turns and not any(fit.apart(one) <= _ALIKE for one in kept):
             kept.append(fit)
     return tuple(sorted(kept, key=lambda fit: fit.error))
-
-
-def _is_like(one: Fit, other: Fit) -> bool:
-    """Return whether two answers are hardly to be told apart."""
-    apart = np.abs(one.row - other.row).max()
-    return one.closure == other.closure and bool(apart <= _ALIKE * one.task.curve.size)
 
 
 def lines_of(stream: TextIO) -> SimpleQueue[str | None]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from linkanim.errors import BadInput
 from linkanim.synthesis.fit import Fit
-from linkanim.synthesis.search import refitted
+from linkanim.synthesis.search import best_of, refitted
 from linkanim.synthesis.task import PathTask
 
 
@@ -22,7 +22,7 @@ def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
     found = [fit for fit in (_rounded(fit, step) for fit in fits) if fit is not None]
     if not found:
         raise BadInput(f"rounded to {step:g} no linkage is left that follows the curve; take a finer step")
-    return tuple(sorted(found, key=lambda fit: fit.error))
+    return best_of(found, len(found))
 
 
 def _rounded(fit: Fit, step: float) -> Fit | None:

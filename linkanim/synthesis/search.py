@@ -42,7 +42,7 @@ _FOLLOWED, _FOREIGN = 1e-4, 1e-2
 Below, the curve is followed; above, it is none of this kind's, and more candidates do not help.
 """
 _SAME = 1e-4
-"""Of the curve's size: parameters that differ by less are one answer."""
+"""Of the curve's size: answers whose joints are apart by less are one."""
 _FITTED = 1e-6
 """Of the curve's size: answers better than this are equally good, and the one that turns best comes first."""
 
@@ -56,7 +56,7 @@ def found(
     """
     fits = _searched(task, count, progress, widely=widely)
     if not task.curve.closed and (not fits or fits[0].error > _GOOD * task.curve.size):
-        fits = _best([*fits, *_searched(task.swinging(), count, progress, widely=widely)], count)
+        fits = best_of([*fits, *_searched(task.swinging(), count, progress, widely=widely)], count)
     if not fits:
         raise BadInput(_none_fits(task))
     return fits
@@ -110,14 +110,14 @@ def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: 
     off = fits[0].error / task.curve.size if fits else _FOLLOWED
     if not widely or len(task.curve.points) <= FEW or not _FOLLOWED <= off <= _FOREIGN:
         return fits
-    return _best([*fits, *_through(task, _WIDER_STAGES, count, progress)], count)
+    return best_of([*fits, *_through(task, _WIDER_STAGES, count, progress)], count)
 
 
 def _through(
     task: PathTask, stages: tuple[_Stage, ...], count: int, progress: Progress | None
 ) -> tuple[Fit, ...]:
     start = started(task, stages[0].candidates)
-    return _best(_enough(_checked(task, refined_through(task, start, stages, progress)), count), count)
+    return best_of(_enough(_checked(task, refined_through(task, start, stages, progress)), count), count)
 
 
 def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
@@ -186,7 +186,7 @@ def _checked(task: PathTask, normal: Candidates) -> Iterator[Fit]:
             yield fit
 
 
-def _best(fits: list[Fit] | Iterator[Fit], count: int) -> tuple[Fit, ...]:
+def best_of(fits: list[Fit] | Iterator[Fit], count: int) -> tuple[Fit, ...]:
     """Return the best of those that differ by more than rounding."""
     kept: list[Fit] = []
     for fit in sorted(fits, key=_rank):
@@ -200,6 +200,4 @@ def _rank(fit: Fit) -> tuple[float, float]:
 
 
 def _same(one: Fit, other: Fit) -> bool:
-    return one.closure == other.closure and bool(
-        (np.abs(one.row - other.row) <= _SAME * one.task.curve.size).all()
-    )
+    return one.apart(other) <= _SAME

@@ -73,6 +73,14 @@ REFUSED = {
     "does not begin with a move": ("c.svg", '<svg><path d="L 1 2"/></svg>'),
     "cannot be read at 'fish'": ("c.svg", '<svg><path d="M 1 2 fish"/></svg>'),
     "L has too few numbers": ("c.svg", '<svg><path d="M 1 2 L 3"/></svg>'),
+    "transform cannot be read at 'turn": (
+        "c.svg",
+        '<svg><path transform="turn(9)" d="M 1 2 h 3"/></svg>',
+    ),
+    "cannot be read at 'scale": (
+        "c.svg",
+        '<svg><path transform="scale(1 2 3)" d="M 1 2 h 3"/></svg>',
+    ),
     "declares entities": ("c.svg", '<!DOCTYPE svg [<!ENTITY a "b">]><svg><path d="M 1 2"/></svg>'),
 }
 
@@ -85,3 +93,52 @@ def test_what_is_no_curve_is_refused(words: str, name: str, text: str | None, tm
     with pytest.raises(BadInput, match=words) as error:
         read_curve(path)
     assert "\n" not in str(error.value)
+
+
+# Where the point (3, 4) of a path comes to lie, y up, in each form of a transform; the next is (5, 4).
+TRANSFORMS = {
+    "translate(10 20)": (13, -24),
+    "translate(10)": (13, -4),
+    "scale(2)": (6, -8),
+    "scale(2, -1)": (6, 4),
+    "rotate(90)": (-4, -3),
+    "rotate(180 3,0)": (3, 4),
+    "skewX(45)": (7, -4),
+    "skewY(45)": (3, -7),
+    "matrix(1 2 3 4 5 6)": (20, -28),
+    "translate(10,20) scale(2)": (16, -28),
+    "scale(2), translate(10,20)": (26, -48),
+    "translate(1e1 -.5e1)rotate(90)": (6, 2),
+}
+
+
+@pytest.mark.parametrize(("transform", "place"), TRANSFORMS.items(), ids=list(TRANSFORMS))
+@pytest.mark.parametrize(
+    "svg",
+    [
+        '<svg><g><path transform="{}" d="M 3 4 h 2"/></g></svg>',
+        '<svg viewBox="0 0 9 9"><g transform="{}"><g><path d="M 3 4 h 2"/></g></g></svg>',
+        '<svg><g transform="translate(100)"/><g transform="{}"><path d=""/><path d="M 3 4 h 2"/></g></svg>',
+        '<svg><defs><path d="M 9 9 h 1"/></defs><path transform="{}" d="M 3 4 h 2"/></svg>',
+    ],
+    ids=["on the path", "on a group", "beside another group", "beside what is not drawn"],
+)
+def test_a_transform_is_followed(
+    tmp_path: Path, svg: str, transform: str, place: tuple[float, float]
+) -> None:
+    path = tmp_path / "curve.svg"
+    path.write_text(svg.format(transform))
+    assert read_curve(path).points[0] == pytest.approx(complex(*place))
+
+
+def test_groups_within_groups_are_transformed_from_the_outside_in(tmp_path: Path) -> None:
+    path = tmp_path / "curve.svg"
+    inner = '<g transform="rotate(90)"><path transform="translate(1,0)" d="M 3 4 h 2"/></g>'
+    path.write_text(f'<svg><g transform="scale(2)">{inner}</g></svg>')
+    assert list(read_curve(path).points) == pytest.approx([-8 - 8j, -8 - 12j])
+
+
+def test_groups_nested_deeper_than_python_calls_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "curve.svg"
+    path.write_text(f'<svg>{"<g>" * 3000}<path d="M 3 4 h 2"/>{"</g>" * 3000}</svg>')
+    assert list(read_curve(path).points) == [3 - 4j, 5 - 4j]

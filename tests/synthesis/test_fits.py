@@ -11,8 +11,10 @@ import pytest
 from random_curves import curves
 
 import linkanim
+from linkanim.synthesis.check import checked
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import Complex, Real
+from linkanim.synthesis.search import best_of
 
 PERCENT = 0.01
 KUNJUR = [
@@ -174,6 +176,17 @@ def test_limits_are_kept(options: dict[str, Any], holds: Any) -> None:
     for fit in fits:
         assert holds(fit)
         verify(fit, np.array(SQUARE) @ np.array([1.0, 1j]))
+
+
+def test_one_linkage_whose_line_is_told_from_either_end_is_one_answer() -> None:
+    points = curves("slider-crank", 1, seed=61)[0]
+    best = linkanim.path(points, kind="slider-crank", count=1)[0]
+    turned = best.row + np.array([0, 0, 0, 0, 0, 0, math.pi, -2 * best.parameters["offset"]])
+    other = checked(best.task, turned, -best.closure_sign, best.angles)
+    assert other is not None
+    assert other.closure != best.closure
+    assert best.apart(other) < 1e-9
+    assert best_of([best, other], 2) in ((best,), (other,))
 
 
 def test_a_point_may_be_passed_exactly() -> None:

@@ -1,6 +1,7 @@
 """An SVG's first path as points: lines, cubic and quadratic curves, and arcs (SVG 1.1, 8.3 and F.6).
 
-Transformations are not followed: the points are those of the path itself.
+The `transform` of the path and of the groups about it is followed (7.6); a viewBox is not, whose unit says
+nothing of lengths.
 """
 
 from __future__ import annotations
@@ -24,6 +25,26 @@ _TOKEN = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])|([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][
 _FLAG = re.compile(r"[\s,]*([01])")
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 _MOST_PIECES = 5_000
+_NOT_DRAWN = frozenset({"defs", "clipPath", "mask", "marker", "pattern", "symbol"})
+_TRANSFORM = re.compile(r"[\s,]*(matrix|translate|scale|rotate|skewX|skewY)\s*\(([-+\deE.,\s]*)\)")
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_ARGUMENTS = {
+    "matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,),
+}  # fmt: skip
+"""How many numbers each transformation takes."""
+
+
+class _Affine(NamedTuple):
+    """Where the axes' units and the origin come to lie."""
+
+    x: complex = 1.0 + 0.0j
+    y: complex = 1.0j
+    origin: complex = 0.0j
+
+    def after(self, inner: _Affine) -> _Affine:
+        """Return what comes of a transformation within this one."""
+        x, y, origin = (self.x * way.real + self.y * way.imag for way in inner)
+        return _Affine(x, y, origin + self.origin)
 
 
 class _Pen(NamedTuple):
@@ -48,11 +69,56 @@ def first_path(text: str, where: str) -> Complex:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
         raise BadInput(f"{where}: is not SVG: {error}") from None
-    for element in root.iter():
+    for element, place in _drawn_elements(root, where):
         drawn = element.get("d", "").strip()
-        if str(element.tag).rpartition("}")[2] == "path" and drawn:
-            return _points(drawn, where)
+        if _name(element) == "path" and drawn:
+            points = _points(drawn, where)
+            return place.x * points.real + place.y * points.imag + place.origin
     raise BadInput(f"{where}: has no path; convert its shapes to paths first")
+
+
+def _drawn_elements(root: ElementTree.Element, where: str) -> Iterator[tuple[ElementTree.Element, _Affine]]:
+    """Yield an element and all within it that are drawn, in their order, with where each one lies."""
+    waiting = [(root, _Affine())]
+    while waiting:
+        element, place = waiting.pop()
+        for found in _matrices(element.get("transform", ""), where):
+            place = place.after(found)
+        yield element, place
+        waiting += [(child, place) for child in reversed(element) if _name(child) not in _NOT_DRAWN]
+
+
+def _name(element: ElementTree.Element) -> str:
+    return str(element.tag).rpartition("}")[2]
+
+
+def _matrices(text: str, where: str) -> Iterator[_Affine]:
+    """Yield the transformations of an attribute, the outermost first."""
+    place = 0
+    while place < len(text.rstrip()):
+        found = _TRANSFORM.match(text, place)
+        numbers = [float(one[0]) for one in _NUMBER.finditer(found[2])] if found else []
+        if found is None or len(numbers) not in _ARGUMENTS[found[1]]:
+            raise BadInput(f"{where}: the transform cannot be read at {text[place : place + 20].strip()!r}")
+        place = found.end()
+        yield _matrix(found[1], numbers)
+
+
+def _matrix(kind: str, numbers: list[float]) -> _Affine:
+    """Return one transformation by its name and numbers."""
+    first, second, *others = (*numbers, 0.0, 0.0)
+    if kind == "matrix":
+        a, b, c, d, e, f = numbers
+        return _Affine(complex(a, b), complex(c, d), complex(e, f))
+    if kind == "translate":
+        return _Affine(origin=complex(first, second))
+    if kind == "scale":
+        return _Affine(complex(first), 1j * (second if len(numbers) > 1 else first))
+    if kind == "rotate":
+        turn, about = cmath.rect(1.0, math.radians(first)), complex(second, others[0])
+        return _Affine(turn, 1j * turn, about - turn * about)
+    lean = math.tan(math.radians(first))
+    return _Affine(y=complex(lean, 1.0)) if kind == "skewX" else _Affine(complex(1.0, lean))
 
 
 def _points(drawn: str, where: str) -> Complex:
