@@ -159,10 +159,10 @@ COMMANDS = {
         ),
     ),
     "report": Command(
-        "write a page with a scene's figure, facts, tables and charts, and their SVG and CSV",
+        "write a hand-out of a few A4 pages: figure, loops, tables, charts; their SVG and CSV",
         options.report,
         (
-            "linkanim report press -o press-report",
+            "linkanim report press -o press-report --all",
             'linkanim report press -o press-report --angles "87 deg,306 deg" --speeds "5 rad/s,10 rad/s"',
         ),
     ),
@@ -205,7 +205,7 @@ COMMANDS = {
         (
             "linkanim quiz crank-rocker",
             "linkanim quiz press -n 10 --seed 7 -o sheet.html",
-            'linkanim quiz four-bars --json',
+            "linkanim quiz four-bars --json",
         ),
     ),
     "share": Command(

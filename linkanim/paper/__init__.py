@@ -1,1 +1,1 @@
-"""What goes onto a page: charts as PNG, SVG and CSV, from the same description as the window's strip."""
+"""What goes onto paper: figures, charts and reports, from the same description as the window's picture."""

@@ -49,6 +49,10 @@ _THINNEST = 0.9
 """A line of a small chart, in pixels."""
 _WIDTH = 1.2
 """How wide a curve is, in thin lines."""
+_LABELS = 5.0
+"""How wide an axis' labels may be, in heights of their text."""
+_APART = 1.6
+"""Between the entries of a legend, in heights of their text."""
 _LINE, _LIFT = 1.5, 0.2
 """From line to line, and from a line's top to its words, in heights of their text."""
 
@@ -101,9 +105,10 @@ class Page:
         rows = list(_rows(entries, whole.width, pen)) if len(entries) > 1 else []
         top = whole.y + (0 if self.brief else _LINE * pen.text)
         if self.brief and len(rows) == 1 and len(_by_unit(self.curves)) == 1:
-            # beside the axis' title
-            left = whole.right - sum(_wide(entry, pen) for entry in entries)
-            yield from _legend_row(rows.pop(), left, top + _LIFT * pen.small, pen)
+            left = whole.right + _APART * pen.small - sum(_wide(entry, pen) for entry in entries)
+            wide = pen.type.width(self._y_title(self.curves.curves), pen.small)
+            if left > whole.x + _LABELS * pen.small + wide:  # beside the axis' title
+                yield from _legend_row(rows.pop(), left, top + _LIFT * pen.small, pen)
         for n, row in enumerate(rows):
             yield from _legend_row(row, whole.x, top + n * _LINE * pen.small, pen)
         below = top + len(rows) * _LINE * pen.small
@@ -249,7 +254,7 @@ def _swatch(pen: Pen) -> float:
 
 
 def _wide(entry: _Entry, pen: Pen) -> float:
-    return _swatch(pen) + 0.5 * pen.small + pen.type.width(entry.words, pen.small) + 1.6 * pen.small
+    return _swatch(pen) + 0.5 * pen.small + pen.type.width(entry.words, pen.small) + _APART * pen.small
 
 
 def _rows(entries: list[_Entry], width: float, pen: Pen) -> Iterator[list[_Entry]]:

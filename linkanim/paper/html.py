@@ -38,7 +38,7 @@ sub { font-size: .75em; line-height: 0; }
 p.note { color: #57606a; font-size: .92em; margin-top: 0; }
 p.equation { margin: .2rem 0 .2rem 1.4rem; }
 figure { margin: .5rem 0 .9rem; break-inside: avoid; }
-figure svg { width: 100%; height: auto; max-height: 125mm; display: block; }
+figure svg { width: 100%; height: auto; display: block; }
 .beside { display: grid; gap: 0 1.4rem; align-items: start; }
 .keep, .beside, .long tbody, caption, thead, tr { break-inside: avoid; } caption { break-after: avoid; }
 tbody tr:nth-child(-n+2):not(:last-child), tbody tr:nth-last-child(2) { break-after: avoid; }
@@ -62,10 +62,11 @@ _ROWS_KEPT = 24
 """A table of so many rows at the most stands on one page."""
 
 
-def embedded(picture: str, title: str) -> str:
+def embedded(picture: str, title: str, style: str = "") -> str:
     """Return an SVG as part of a page: its parts without names, the whole with words to be read aloud."""
-    drawn = picture[picture.index("<svg ") :]
-    return _ATTRIBUTES.sub("", drawn).replace("<svg ", f"<svg role='img' aria-label='{escape(title)}' ", 1)
+    drawn = _ATTRIBUTES.sub("", picture[picture.index("<svg ") :])
+    spoken = f"<svg role='img' aria-label='{escape(title)}' " + (f"style='{style}' " if style else "")
+    return drawn.replace("<svg ", spoken, 1)
 
 
 @dataclass(frozen=True)
@@ -77,10 +78,11 @@ class Markup:
 
 @dataclass(frozen=True)
 class FigurePart:
-    """A picture as SVG, with what it shows; its number comes before that."""
+    """A picture as SVG, with what it shows, which its number comes before; how high it is at the most."""
 
     picture: str
     caption: str
+    highest: int = 140
 
 
 @dataclass(frozen=True)
@@ -154,9 +156,10 @@ def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
     match part:
         case Markup(text):
             return text
-        case FigurePart(picture, caption):
+        case FigurePart(picture, caption, highest):
             title = f"Figure {next(figures)}. {caption}"
-            return f"<figure>{embedded(picture, title)}<figcaption>{symbol(title)}</figcaption></figure>"
+            drawn = embedded(picture, title, f"max-height: {highest}mm")
+            return f"<figure>{drawn}<figcaption>{symbol(title)}</figcaption></figure>"
         case TablePart():
             title = f"Table {next(tables)}. {part.caption}"
             table = f"<table class='{part.kind}'><caption>{symbol(title)}</caption>{part.rows}</table>"
@@ -231,7 +234,9 @@ def values_part(table: ValueTable) -> TablePart:
         for title, rows in table.groups
     )
     lines = sum(len(rows) + 1 for _, rows in table.groups)
-    return TablePart(table.title, _head(table.head, columns) + groups, lines, "values", table.notes)
+    return TablePart(
+        f"{table.title}: {table.about}", _head(table.head, columns) + groups, lines, "values", table.notes
+    )
 
 
 def _spanning(columns: int) -> str:

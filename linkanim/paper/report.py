@@ -155,7 +155,7 @@ class Report:
         alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
         # behind the headings of both and the figure
         _, _, _, *equations = chapters(alone, HTML)
-        yield Beside((FigurePart(vectors_svg(alone), caption), tuple(map(Markup, equations))))
+        yield Beside((FigurePart(vectors_svg(alone), caption, 90), tuple(map(Markup, equations))))
 
     def _tables(self) -> Iterator[Part]:
         for one in value_tables(self._values, self.instants, self.paces, self.digits):

@@ -37,10 +37,17 @@ _CENTRE = {f"com_{name}": symbol for name, symbol in _POINT.items()}
 _STRUT = {"length": "L", "direction": "θ", "rate": "v", "force": "F"}
 
 
+_LINKS = "angle θ, kinematic coefficients h and h′, angular velocity ω and acceleration α"
+_SLIDERS = "travel s, kinematic coefficients f and f′, velocity v and acceleration a"
+_POINTS = "place x, y, sizes of velocity v and acceleration a"
+_STRUTS = "length L, direction θ, rate of length v and force F"
+
+
 class Family(NamedTuple):
-    """What one table is of: its title, what a row is called and the part's token, columns by measure."""
+    """What one table is of: its title, what it has, what a row is called, its parts, columns by measure."""
 
     title: str
+    about: str
     head: str
     parts: tuple[tuple[str, str], ...]
     measures: dict[str, str]
@@ -57,9 +64,10 @@ class Column(NamedTuple):
 
 @dataclass(frozen=True)
 class ValueTable:
-    """A table: its title, columns, and under each instant a row for each part."""
+    """A table: its title, what it has, its columns, and under each instant a row for each part."""
 
     title: str
+    about: str
     head: str
     columns: tuple[Column, ...]
     groups: tuple[tuple[str, tuple[tuple[str, tuple[str, ...]], ...]], ...]
@@ -95,14 +103,18 @@ def _families(values: Values) -> Iterator[Family]:
     in_order = tuple((joint.name, joint.name) for joint in linkage.joints if joint.name in kept)
     names_of = [*(spring.name for spring in linkage.springs), *(damper.name for damper in linkage.dampers)]
     struts = tuple((name, name) for name in names_of)
-    yield Family("Links", "link", turning, _TURNING)
-    yield Family("Sliders", "slider", sliding, _SLIDING)
-    yield Family("Joints", "joint", in_order, _POINT)
-    yield Family("Centres of mass", "of", massive, _CENTRE)
-    yield Family("Springs and dampers", "element", struts, _STRUT)
+    yield Family("Links", _LINKS, "link", turning, _TURNING)
+    yield Family("Sliders", _SLIDERS, "slider", sliding, _SLIDING)
+    yield Family("Joints", _POINTS, "joint", in_order, _POINT)
+    yield Family("Centres of mass", _POINTS, "link", massive, _CENTRE)
+    yield Family("Springs and dampers", _STRUTS, "element", struts, _STRUT)
     whole = {"transmission_angle": "μ", "mechanical_advantage": "MA", effort_token(linkage): "T"}
     symbols = {token: scene.quantities[token].symbol for token in whole if token in scene.quantities}
-    yield Family("The whole mechanism", "", (("", ""),) if symbols else (), symbols)
+    about = ", ".join(
+        scene.quantities[token].words.partition(": ")[2] or scene.quantities[token].words.lower()
+        for token in symbols
+    )
+    yield Family("The whole mechanism", about, "", (("", ""),) if symbols else (), symbols)
 
 
 def _quantity(values: Values, part: str, measure: str) -> Quantity | None:
@@ -137,10 +149,10 @@ def _table(
     notes = [f"∞: unbounded at {', '.join(unbounded)}."] if unbounded else []
     notes += ["–: has no value there, or is not given."] if unknown else []
     if len(family.parts) > 1:
-        return ValueTable(family.title, family.head, columns, tuple(groups), tuple(notes))
+        return ValueTable(family.title, family.about, family.head, columns, tuple(groups), tuple(notes))
     (title, _), *_ = family.parts
     alone = tuple((place, cells) for place, rows in groups for _, cells in rows)
-    return ValueTable(title or family.title, "at", columns, (("", alone),), tuple(notes))
+    return ValueTable(title or family.title, family.about, "at", columns, (("", alone),), tuple(notes))
 
 
 def _value(values: Values, part: str, column: Column, instant: Instant) -> float:
