@@ -9,6 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from linkanim.digits import short, significant, typeset
+from linkanim.mechanics.closing.search import sign_changes
 from linkanim.mechanics.facts.naming import four_bar_of
 from linkanim.mechanics.motion.measures import between, coupler_body, growth, output_body, pole
 from linkanim.play.question import CLEAR, Puzzle, QuizQuestion
@@ -167,14 +168,16 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
 
 def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
     """Return at which crank angle the output turns back; taken wrongly, where it is fastest."""
-    scene, info = puzzle.scene, puzzle.scene.info
-    body, found = output_body(scene.linkage), info.dead_centres or (info.swing and info.swing.dead_centres)
-    if body is None or not found or not info.full_turn or scene.period > tau * 1.001:
+    scene = puzzle.scene
+    body = output_body(scene.linkage)
+    if body is None or not scene.info.full_turn or scene.period > tau * 1.001:
         return None
-    rate = "travel_velocity" if body.slider else "angular_velocity"
-    values = getattr(puzzle.cycle, rate)[body.name]
-    quickest = float(puzzle.cycle.phase[int(abs(values).argmax())])
-    exact = [_crank_degrees(puzzle, phase) for phase in found]
+    kind, name = "travel_velocity" if body.slider else "angular_velocity", body.name
+    quickest = float(puzzle.cycle.phase[int(abs(getattr(puzzle.cycle, kind)[name]).argmax())])
+    found = sign_changes(lambda phases: getattr(scene.solve(phase=phases), kind)[name], puzzle.cycle.phase)
+    exact = [_crank_degrees(puzzle, float(phase)) for phase in found]
+    if not exact:
+        return None
     right = puzzle.random.choice(exact)
     others = [_crank_degrees(puzzle, quickest), *(puzzle.random.uniform(0, 360) for _ in range(20))]
     wrong: list[float] = []
