@@ -20,7 +20,7 @@ from linkanim.scenes import load, names
 NEAR = 12
 """Words so many pixels from their dot need no line to it."""
 SPEEDS = (5.0, 10.0, 20.0)
-TOLD = re.compile(r"([−\d.e]+)°? at ")
+TOLD = re.compile(r"([−\d.]+)°? at ")
 
 
 def page_of(name: str, *tokens: str, size: tuple[int, int] = (960, 540), over: Over | None = None) -> Page:
@@ -75,9 +75,9 @@ def _tied(page: Page, items: list[Item], n: int) -> tuple[complex, np.ndarray | 
     assert isinstance(words, Caption)
     match = TOLD.match(words.text)
     assert match
-    middle, value = complex(np.mean(dot.loops[0])), float(match[1].replace("−", "-"))
+    middle = complex(np.mean(dot.loops[0]))
     mine = [curve for curve in page.curves.curves if page.colour(curve) == dot.colour]
-    assert any(_has(page, curve, value) for curve in mine), words.text
+    assert any(_has(page, curve, match[1]) for curve in mine), words.text
     if (
         isinstance(lead, Layer)
         and lead.colour == dot.colour
@@ -91,10 +91,12 @@ def _tied(page: Page, items: list[Item], n: int) -> tuple[complex, np.ndarray | 
     return middle, None
 
 
-def _has(page: Page, curve: Curve, value: float) -> bool:
-    """Whether a value is a curve's greatest or least, as it is rounded on the chart."""
+def _has(page: Page, curve: Curve, told: str) -> bool:
+    """Whether a number is a curve's greatest or least value, to half of its last digit."""
+    number = told.replace("−", "-")
     ends = np.array([peak.value for peak in extremes(page.curves.scene, curve)])
-    return bool(ends.size and np.abs(ends - value).min() <= 0.01 * max(np.ptp(curve.values), abs(value)))
+    digits = len(number.partition(".")[2])
+    return bool(ends.size and np.abs(ends - float(number)).min() <= 0.501 * 10.0**-digits)
 
 
 # a crank that turns, an input that swings

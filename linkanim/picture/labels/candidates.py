@@ -17,7 +17,7 @@ from linkanim.picture.figure import SAMPLES, Figure
 from linkanim.picture.labels.dimensions import Measurement
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.parts.dimension_lines import AngleArc, MeasureLine
-from linkanim.picture.parts.fittings import Bench, fittings, rails_of
+from linkanim.picture.parts.fittings import Bench, fittings, rail_reach, rails_of
 from linkanim.picture.parts.ground import pedestal_corners
 from linkanim.picture.parts.turning import Sliding, Turning
 from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Solid
@@ -285,8 +285,13 @@ class Surroundings:
 
     def _radius(self, name: str) -> float:
         """Return how far what is drawn at a joint reaches."""
-        block = self.figure.linkage.joint(name).travels
-        return _BLOCK * self.gauge.bar if block else self.gauge.bar
+        if not self.figure.linkage.joint(name).travels:
+            return self.gauge.bar
+        return max(_BLOCK * self.gauge.bar, rail_reach(self._bench, name) + self.gauge.bar)
+
+    @cached_property
+    def _bench(self) -> Bench:
+        return Bench(self.figure, self.view, self.gauge, self.theme)
 
     def clutter(self) -> Clutter:
         """Return what is in the labels' way."""
@@ -316,7 +321,7 @@ class Surroundings:
 
     def _fittings(self) -> Iterator[Thing]:
         """Yield blocks, slotted bars, cylinders, and the guides on the ground."""
-        bench = Bench(self.figure, self.view, self.gauge, self.theme)
+        bench = self._bench
         for fitting in fittings(bench):
             for part in (*fitting.behind, *fitting.before):
                 corners = framed(np.concatenate(part.layers[0].loops))

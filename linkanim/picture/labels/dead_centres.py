@@ -26,6 +26,8 @@ _TICK = 1.6
 """How far a tick reaches beyond the rail, in half widths of a bar."""
 _VISIBLE = 1e-3
 """Pixels that a slider travels at the least for its ends to be marked."""
+_WIDE = 3.0
+"""Beside a guide whose rails lie further off, in half widths of a bar, ticks do not cross it."""
 _NEAR = 0.3
 """What passes the guide no further off its ends, in strokes, is in the way of the words."""
 _FEW = 1e-6
@@ -106,12 +108,15 @@ class DeadCentres:
         stage, high = self.layout.stage, (self._reach + 2.8 * self.layout.small_size) * out
         return all(stage.holds((end + high).real, (end + high).imag) for end in self._ends)
 
-    @cached_property
+    @property
     def _reach(self) -> float:
         """How far the ticks reach from the line of travel."""
+        return self._rail + _TICK * self.gauge.bar
+
+    @cached_property
+    def _rail(self) -> float:
         assert self._slider
-        bench = Bench(self.figure, self.view, self.gauge, self.theme)
-        return rail_reach(bench, self._slider) + _TICK * self.gauge.bar
+        return rail_reach(Bench(self.figure, self.view, self.gauge, self.theme), self._slider)
 
     @cached_property
     def _slider(self) -> str | None:
@@ -127,12 +132,13 @@ class DeadCentres:
 
     @cached_property
     def ticks(self) -> tuple[tuple[complex, complex], ...]:
-        """The lines across the guide, and with the stroke the one between them."""
+        """The lines across the guide, or beside a cylinder, and with the stroke the one between them."""
         if self._ends is None:
             return ()
         _, out = self._frame
         level = out * (self._reach - 0.4 * self.gauge.bar)
-        across = tuple((foot - out * self._reach, foot + out * self._reach) for foot in self._ends)
+        begin = -self._reach if self._rail < _WIDE * self.gauge.bar else self._rail
+        across = tuple((foot + out * begin, foot + out * self._reach) for foot in self._ends)
         return (*across, (self._ends[0] + level, self._ends[1] + level)) if self.sized else across
 
     @property

@@ -219,8 +219,9 @@ def rails_of(bench: Bench) -> Iterator[list[Loop]]:
 
 
 def rail_reach(bench: Bench, joint: str) -> float:
-    """Return how far the rails of a joint on the ground lie from its line of travel."""
-    return next(one.guide.aside for one in fittings(bench) if one.guide and one.guide.joint == joint)
+    """Return how far the rails of a joint lie from its line of travel; 0 where it has none on the ground."""
+    guides = (one.guide for one in fittings(bench) if one.guide)
+    return next((guide.aside for guide in guides if guide.joint == joint), 0.0)
 
 
 def _rails(name: str, along: complex, gauge: Gauge) -> GuideRails:
