@@ -53,7 +53,8 @@ def test_what_is_said_to_turn_fully_does_and_nothing_else(name: str) -> None:
     turning = [body for body in turning_bodies(scene) if turns_fully(scene, body)]
     assert list(scene.info.turning_links) == turning
     told = dict(scene.info.lines).get("turns fully", "")
-    assert told == ", ".join(scene.info.link_names[body] for body in turning)
+    called = [scene.info.link_names[body] for body in turning]
+    assert told == ", ".join(f"link {words}" if words.isdecimal() else words for words in called)
     for body in set(turning_bodies(scene)) - set(turning):
         assert np.ptp(angle_of(scene, body)) < 2 * math.pi
 
