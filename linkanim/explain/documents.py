@@ -186,9 +186,16 @@ def _latex_listed(found: list[tuple[str, str]]) -> str:
     return r"\begin{flushleft}" + ",\\quad\n".join(f"\\mbox{{{item}}}" for item in items) + r"\end{flushleft}"
 
 
+_COMMAND = re.compile(r"\\[a-zA-Z]+|[{}^_ ]")
+_LONG = 84
+"""A formula of more letters than this is set smaller, to stay on its page."""
+
+
 def _latex_aligned(found: list[EquationRow]) -> str:
     lines = " \\\\\n".join(f"{row.left} &= {row.right}" for row in found)
-    return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}"
+    block = f"\\begin{{align*}}\n{lines}\n\\end{{align*}}"
+    longest = max(len(_COMMAND.sub("", row.right)) for row in found)
+    return f"{{\\footnotesize\n{block}}}" if "bmatrix" not in lines and longest > _LONG else block
 
 
 def _latex_page(_: str, body: str) -> str:

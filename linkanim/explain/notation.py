@@ -150,8 +150,10 @@ def _latex_index(text: str) -> str:
 def _letters(word: str) -> str:
     if word in _GREEK:
         return f"\\{_GREEK[word]} "
-    plain = "".join(char if ord(char) < 128 else "?" for char in word)
-    safe = re.sub(r"([#$%&_{}])", r"\\\1", plain).replace("\\\\", "").replace("^", "").replace("~", "")
+    safe = re.sub(r"([#$%&_{}])", r"\\\1", re.sub(r"[\\~^]", "", word))
+    if not safe.isascii():
+        # the standard fonts have no more letters than these
+        return f"\\text{{{''.join(c if ord(c) < 0x180 else f'U{ord(c):X}' for c in safe)}}}"
     return safe if len(safe) == 1 else f"\\mathrm{{{safe}}}"
 
 

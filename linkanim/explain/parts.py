@@ -91,6 +91,10 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Found]:
     `known` are the quantities worked out so far, by their tokens.
     """
     work, linkage = rates.work, rates.work.linkage
+    rated = (f"{item.name}.rate" in known for item in _forceful(rates))
+    if not all(rated):
+        work.say("The rate of a spring or damper does not follow, so that what the input delivers does not.")
+        return
     work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
     powers = [*_strut_powers(rates, known), *_body_powers(rates, known)]
     total = work.let_plain(Symbol("P"), reduce(add, powers, ZERO), "W")
@@ -119,12 +123,15 @@ def _pace(rates: Rates) -> Formula:
     return rates.sliding[joint.name][0] * _metre(rates)
 
 
-def _strut_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula]:
+def _forceful(rates: Rates) -> list[Spring | Damper]:
     struts: tuple[Spring | Damper, ...] = (*rates.work.linkage.springs, *rates.work.linkage.dampers)
-    for item in struts:
-        if item.forceful:
-            power = known[f"{item.name}.force"] * known[f"{item.name}.rate"] * _metre(rates)
-            yield rates.work.let_plain(Symbol("P", item.name), power, "W")
+    return [item for item in struts if item.forceful]
+
+
+def _strut_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula]:
+    for item in _forceful(rates):
+        power = known[f"{item.name}.force"] * known[f"{item.name}.rate"] * _metre(rates)
+        yield rates.work.let_plain(Symbol("P", item.name), power, "W")
 
 
 def _body_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula]:

@@ -24,7 +24,7 @@ from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.picture.figure import figure
 
-_FEWEST, _MOST = 6, 13
+_FEWEST, _MOST = 6, 12
 _AGREES, _NOTHING = 5e-6, 5e-7
 """A result agrees to that share of itself, or to that share of what it is at a typical length and rate."""
 _TITLES = {1: "Velocities", 2: "Accelerations"}
@@ -39,8 +39,8 @@ _IN_TIME: dict[Order, str] = {
     2: "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
 }
 _SINGULAR = (
-    "The two linear equations of a dyad are one here, at a limit or a change point: no rates follow. "
-    "Take a pose beside it."
+    "No rates follow here in as many digits as a page can show: at a limit or a change point the two linear "
+    "equations of a dyad are one. Take a pose beside it."
 )
 
 

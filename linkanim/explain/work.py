@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from decimal import Decimal
 from typing import NamedTuple
 
 from linkanim.explain.expression import Components, Formula, Symbol, along, atan2, number
@@ -121,8 +122,8 @@ class Work:
         return self.quoted(symbol, text, self.scale.unit_of(measure), words)
 
     def quoted(self, symbol: Symbol, text: str, unit: str, words: str = "") -> Formula:
-        """Return a number that is given as a symbol's value in these digits."""
-        found = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
+        """Return a number that is given as a symbol's value in these digits, an exponent written out."""
+        found = Formula("leaf", symbol=symbol, shown=f"{Decimal(text):f}", in_degrees=unit == "°")
         self.given.setdefault(symbol, Given(found, unit, words))
         return found
 
@@ -198,6 +199,11 @@ class GuideLine(NamedTuple):
 
 
 def rounded(value: float, decimals: int) -> str:
-    """Return a number in so many decimals, without the sign of a zero."""
+    """Return a number in so many decimals, as far as a float has them, without the sign of a zero."""
+    if value:
+        decimals = max(min(decimals, _FLOAT_DIGITS - 1 - math.floor(math.log10(abs(value)))), 0)
     text = f"{value:.{decimals}f}"
     return text if float(text) else text.lstrip("-")
+
+
+_FLOAT_DIGITS = 13

@@ -143,7 +143,7 @@ def _numbers_of(matrices: list[str]) -> list[str]:
 
 def _symbols(tex: str) -> bool:
     plain = re.sub(r"\\(cos|sin|arccos|operatorname\{atan2\}|left|right|frac|sqrt|cdot|circ)", "", tex)
-    return re.search(r"[a-zA-Z]", plain) is not None
+    return re.search(r"[^\W\d_]", plain) is not None
 
 
 def of_markdown(text: str) -> list[list[str]]:

@@ -113,7 +113,7 @@ def test_the_press_has_the_values_of_the_report(degrees: int, capsys: pytest.Cap
 def test_at_a_limit_it_says_that_no_rates_follow() -> None:
     found = solution(_asked("double-rocker", 0.0))
     assert found.singular
-    assert "no rates follow" in document(found, MARKDOWN)
+    assert "No rates follow" in document(found, MARKDOWN)
     assert np.isfinite([result.value.value for result in found.results]).all()
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkanim.explain.chains import LoopSide, Route, bar_side
-from linkanim.explain.expression import Components, Symbol, along, atan2, sqrt, square
+from linkanim.explain.expression import TWO, Components, Symbol, along, atan2, sqrt, square
 from linkanim.explain.rates import Order, Rates, SlideUnknown, TurnUnknown
 from linkanim.explain.work import ANGLE, LENGTH, Work
 from linkanim.mechanics.linkage.dyads import RPR
@@ -36,8 +36,8 @@ def move(joint: RPR, rates: Rates, order: Order) -> None:
     arm = work.points[joint.through] - work.points[pivot]
     right = rates.of(joint.through, order) - rates.of(pivot, order)
     if order == 2:
-        across = u.left().times(rates.turn(frame, 1) * rates.sliding[name][0])
-        right = right + rates.centripetal(frame, arm) - across - across
+        across = u.left().times(TWO * rates.turn(frame, 1) * rates.sliding[name][0])
+        right = right + rates.centripetal(frame, arm) - across
     rates.solve(name, (TurnUnknown(frame, arm.left()), SlideUnknown(name, u)), right, order)
     bar = work.bar(pivot, name, joint.length)
     rates.let_moving(name, rates.of(pivot, order) + rates.carried(frame, bar, order), order)

@@ -154,6 +154,8 @@ def _with_angle(
 ) -> Iterator[Measurement]:
     """Yield the length from joint to joint, and the angle there from another of its body, if it has one."""
     yield _bar(figure, number, at, name, bare=bare)
+    if figure.start(side) == figure.start(at):
+        return
     turn = (figure.start(name) - figure.start(at)) / (figure.start(side) - figure.start(at))
     if abs(turn.imag) > _NONE * abs(turn) and not isinstance(figure.linkage.joint(name), Brace):
         value, own = abs(degrees(float(np.angle(turn)))), frozenset() if bare else frozenset((at, side, name))
