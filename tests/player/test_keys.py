@@ -16,6 +16,7 @@ from linkanim.player.input.keys import (
     EDIT_KEYS,
     KEYS,
     LIST_KEYS,
+    PENCIL_KEYS,
     SHELF_KEYS,
     Bind,
     KeyRow,
@@ -30,7 +31,13 @@ from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.actions import is_known
 from linkanim.player.state.browsing import RESOLVED
 
-TABLES = {"playing": KEYS, "editing": EDIT_KEYS, "listing": LIST_KEYS, "browsing": SHELF_KEYS}
+TABLES = {
+    "playing": KEYS,
+    "editing": EDIT_KEYS,
+    "listing": LIST_KEYS,
+    "browsing": SHELF_KEYS,
+    "drawing": PENCIL_KEYS,
+}
 BINDS = [bind for table in TABLES.values() for row in table for bind in row.binds]
 
 
@@ -185,7 +192,7 @@ def test_keys_that_hold_are_those_that_move() -> None:
     held = {bind.action.name for bind in BINDS if bind.repeats}
     assert held == {
         *("step", "speed", "zoom", "choose", "nudge", "erase", "undo", "redo"),
-        *("move", "row", "unsift", "scroll"),
+        *("move", "row", "unsift", "scroll", "take_back"),
     }
 
 

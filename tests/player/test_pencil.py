@@ -40,11 +40,11 @@ def after(state: State, *actions: Action | str) -> State:
     return state
 
 
-def drawn(state: State, *, name: str = "pen_up") -> State:
+def drawn(state: State, *, start: tuple[str, ...] = ("pencil",)) -> State:
     """Return the state after a loop was drawn with the pencil."""
     first, *others = LOOP
     moves = (Action("pen_to", place) for place in others)
-    return after(state, "pencil", Action("pen_down", first), *moves, name)
+    return after(state, *start, Action("pen_down", first), *moves, "pen_up")
 
 
 def sketch_of(state: State) -> Sketch:
@@ -140,7 +140,7 @@ def test_a_kept_answer_is_the_scene_and_undo_brings_the_last_one_back(plain: Sta
     assert (opened.sketch, opened.mode, opened.scene) == (None, "edit", answered.scene)
 
 
-@pytest.mark.parametrize("name", ["mechanism", "put", "closure", "undo"])
+@pytest.mark.parametrize("name", ["mechanism", "put", "closure"])
 def test_what_puts_another_scene_on_lays_the_pencil_down(answered: State, name: str) -> None:
     state = after(answered, Action(name, 1) if name in ("mechanism", "put") else name)
     assert state.sketch is None
@@ -173,6 +173,24 @@ def test_a_pivot_that_is_dragged_is_held_where_it_was_put(answered: State) -> No
     assert request is not None
     assert (list(request.pivots), request.near) == ([None, (110.0, 12.0)], BETTER)
     assert sketch_of(drawn(replace(state, sketch=None))).pivots == ()
+
+
+def test_strokes_and_drags_are_taken_back_one_by_one(answered: State) -> None:
+    held = after(answered, Action("take_point", 10), Action("lead", (9.0, 9.0)), Action("follow", OTHER))
+    pinned = after(held, "let_go", Action("take_pivot", "O2"), Action("lead", (1.0, 2.0)), "let_go")
+    drawn_again = drawn(replace(pinned, frame=pinned.frame), start=())
+    found = after(drawn_again, Action("follow", FIRST))
+    assert sketch_of(found).off == 1.5
+    again = after(found, "take_back")
+    assert sketch_of(again).pivots == (("O2", (1.0, 2.0)),)
+    bent = after(again, "take_back")
+    assert (sketch_of(bent).pivots, sketch_of(bent).off) == ((), 0.4)
+    whole = after(bent, "take_back")
+    assert sketch_of(whole).curve is sketch_of(answered).curve
+    assert whole.scene == answered.scene
+    blank = after(whole, "take_back")
+    assert sketch_of(blank).is_blank
+    assert after(blank, "take_back", "undo").sketch == blank.sketch
 
 
 def test_answers_that_come_while_something_is_dragged_wait_for_the_next(answered: State) -> None:

@@ -44,7 +44,8 @@ def verify(fit: Fit, points: Complex, *, closed: bool = True) -> None:
     assert fit.rms == pytest.approx(math.sqrt(np.mean(off**2)), abs=1e-15 * size)
     assert fit.largest == pytest.approx(off.max(), abs=1e-15 * size)
     steps = np.diff(fit.angles) * fit.sense
-    assert (steps > 0).all()
+    # where the curve all but turns on the spot two points may be nearest to one place of it
+    assert (steps >= 0).all()
     assert fit.scene.trace == ("P",)
     if closed:
         assert steps.sum() < 2 * math.pi

@@ -198,6 +198,7 @@ PENCIL_KEYS: tuple[KeyRow, ...] = (
         "take another answer",
         tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", "answer", n)),
     ),
+    KeyRow("in W", "Ctrl+Z", "take the last stroke or drag back", _on("ctrl+z", "take_back", held=True)),
     KeyRow("in W", "Enter", "keep the linkage as the scene; Esc goes back", _on("return kp_enter", "keep")),
 )
 """What the keys do while a path is drawn."""

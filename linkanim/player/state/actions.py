@@ -197,6 +197,7 @@ ACTIONS: Mapping[str, Rule] = {
     "lead": Rule(_numbers(2), pencil.lead),  # to (x, y) in the scene's unit
     "let_go": Rule(_nothing, pencil.let_go),
     "keep": Rule(_nothing, pencil.keep),
+    "take_back": Rule(_nothing, pencil.take_back),
     "back": Rule(_nothing, outside.back),
     "list": Rule(_nothing, shelf.list_, taped=False),
     "shelf": Rule(_nothing, shelf.open_shelf, taped=False),

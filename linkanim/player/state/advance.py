@@ -17,10 +17,10 @@ from linkanim.player.state.glide import followed
 from linkanim.player.state.handlers.pencil import come, keep, left
 from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, with_chip
 
-_WITHOUT_PENCIL = frozenset({"unit"})
-"""What is not done while a path is drawn, whose points are in the unit of then."""
+_WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
+"""What is not done while a path is drawn: its points are in the unit of then, and edits are the scene's."""
 _KEEPS = frozenset({"edit"})
-_LEAVES = frozenset({"mechanism", "select", "put", "closure", "undo", "redo", "reset", "returns"})
+_LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
 """What keeps the answer that the pencil has, and what goes back to the scene before."""
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND

@@ -26,7 +26,7 @@ class Sketch:
     way, `curve` what the last stroke meant; `strokes` counts them. Of the `answers` the `chosen` one is the
     state's scene; the first may be the scene whose own trace was taken. `pivots` are held where they were
     put. `held` is the number of the curve's point, or the pivot, that is being dragged, `base` the scene when
-    that was taken, and `coming` the one for the next frame.
+    that was taken, `coming` the one for the next frame. `earlier` was there before the last stroke or drag.
     """
 
     before: Scene
@@ -42,6 +42,7 @@ class Sketch:
     held: int | str | None = None
     base: Scene | None = None
     coming: Scene | None = None
+    earlier: Sketch | None = None
 
     @property
     def answer(self) -> PathAnswer | Scene | None:

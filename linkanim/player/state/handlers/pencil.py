@@ -118,7 +118,8 @@ def stroke(state: State, numbers: tuple[float, ...]) -> State:
 def _searched(state: State, curve: DrawnCurve) -> State:
     """Return the state with another stroke, linkages for which are asked for."""
     assert state.sketch
-    bare = replace(state.sketch, pen=(), answers=(), chosen=0, pivots=(), held=None)
+    earlier = replace(state.sketch, pen=())
+    bare = replace(earlier, answers=(), chosen=0, pivots=(), held=None, earlier=earlier)
     sketch = replace(bare, curve=curve, strokes=bare.strokes + 1)
     return with_effect(replace(state, sketch=sketch, toast=None), "search")
 
@@ -202,8 +203,7 @@ def choose(state: State, place: int) -> State:
         or place == sketch.chosen
     ):
         return state
-    chosen = sketch.answers[place]
-    scene = chosen if isinstance(chosen, Scene) else chosen.scene(sketch.unit)
+    scene = _scene_of(sketch.answers[place], sketch.unit)
     state = replace(exchanged(state, scene), glide=None, faded=state.frame)
     return _sketching(state, chosen=place)
 
@@ -213,7 +213,7 @@ def take_point(state: State, point: int) -> State:
     sketch = state.sketch
     if sketch is None or sketch.curve is None or not 0 <= point < len(sketch.curve.points):
         return state
-    return _sketching(replace(state, glide=None), held=point, base=state.scene, pen=())
+    return _sketching(replace(state, glide=None), held=point, base=state.scene, earlier=sketch)
 
 
 def take_pivot(state: State, pivot: str) -> State:
@@ -221,7 +221,7 @@ def take_pivot(state: State, pivot: str) -> State:
     sketch = state.sketch
     if sketch is None or pivot not in PIVOTS or sketch.answer is None or isinstance(sketch.answer, Scene):
         return state
-    return _sketching(replace(state, glide=None), held=pivot, base=state.scene, pen=())
+    return _sketching(replace(state, glide=None), held=pivot, base=state.scene, earlier=sketch)
 
 
 def lead(state: State, to: tuple[float, float]) -> State:
@@ -240,6 +240,22 @@ def lead(state: State, to: tuple[float, float]) -> State:
         curve = bent(sketch.curve, sketch.held, complex(*to))
         state = with_effect(_sketching(state, curve=curve, **_without_own(sketch)), "follow")
     return state
+
+
+def take_back(state: State, _: None) -> State:
+    """Go back to the stroke and the answers before the last stroke or drag."""
+    sketch = state.sketch
+    if sketch is None or sketch.earlier is None or sketch.held is not None:
+        return state
+    back = replace(sketch.earlier, pen=(), strokes=sketch.strokes + 1)
+    state = replace(state, sketch=back)
+    if back.answer is None:
+        return with_effect(state, "search") if back.curve else state
+    return _shown(state, _scene_of(back.answer, back.unit))
+
+
+def _scene_of(answer: PathAnswer | Scene, unit: str) -> Scene:
+    return answer if isinstance(answer, Scene) else answer.scene(unit)
 
 
 def _without_own(sketch: Sketch) -> dict[str, object]:
