@@ -30,7 +30,7 @@ def _lines(found: Solution) -> Iterator[str]:
         yield rf"\draw[->,thick] {begin} -- node[auto,blue] {{${name}$}} {end};"
     for name, at in found.places.items():
         if np.abs(ends - at).min() * scale < _NEAR:
-            fill = "black" if found.asked.scene.linkage.joint(name).fixed else "white"
+            fill = "black" if found.request.scene.linkage.joint(name).fixed else "white"
             label = f"node[below right] {{{LATEX.name(name)}}}"
             yield rf"\draw[fill={fill}] {_at(scale * at)} circle[radius=2pt] {label};"
     yield r"\end{tikzpicture}\end{center}"

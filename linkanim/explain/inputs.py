@@ -18,7 +18,7 @@ _ONCE, _TWICE = Powers(rate=1), Powers(rate=2)
 
 
 @dataclass(frozen=True)
-class Asked:
+class PoseRequest:
     """Which pose of a scene is worked out: `by` its "angle" or "phase", in rad, with its rates."""
 
     scene: Scene
@@ -46,15 +46,15 @@ class Driven:
     second: Formula
 
 
-def place_input(asked: Asked, work: Work) -> Driven:
+def place_input(request: PoseRequest, work: Work) -> Driven:
     """Add the lines of the input's place, and return its rates."""
     joint = work.linkage.joint(work.linkage.drive.joint)
     ends = (joint.pivot, joint.name) if isinstance(joint, Crank) else None
     symbol = work.angle_symbol(*ends) if ends else work.names.slide(joint.name)
-    if asked.swings:
-        found, driven = _swinging(asked, work, symbol)
+    if request.swings:
+        found, driven = _swinging(request, work, symbol)
     else:
-        found, driven = _stated(asked, work, symbol)
+        found, driven = _stated(request, work, symbol)
     if ends:
         work.angles[ends] = found
     else:
@@ -71,26 +71,26 @@ def _rate_symbols(work: Work) -> tuple[Symbol, Symbol]:
     return Symbol("ω", index), Symbol("α", index)
 
 
-def _stated(asked: Asked, work: Work, symbol: Symbol) -> tuple[Formula, Driven]:
+def _stated(request: PoseRequest, work: Work, symbol: Symbol) -> tuple[Formula, Driven]:
     """Take the angle as it is asked for, or from the start and the phase."""
     rate, second = _rate_symbols(work)
     driven = Driven(
-        work.known(rate, asked.speed, _ONCE, "the input"),
-        work.stated(second, asked.acceleration, _TWICE, "the input"),
+        work.known(rate, request.speed, _ONCE, "the input"),
+        work.stated(second, request.acceleration, _TWICE, "the input"),
     )
-    if asked.by == "angle":
-        return work.known(symbol, asked.value, ANGLE, "the input"), driven
-    phase = work.known(Symbol("φ"), asked.value, ANGLE, "phase")
-    start = work.stated(Symbol("θ", "0"), asked.scene.linkage.drive.start, ANGLE, "start")
+    if request.by == "angle":
+        return work.known(symbol, request.value, ANGLE, "the input"), driven
+    phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
+    start = work.stated(Symbol("θ", "0"), request.scene.linkage.drive.start, ANGLE, "start")
     return work.let(symbol, start + phase, ANGLE), driven
 
 
-def _swinging(asked: Asked, work: Work, symbol: Symbol) -> tuple[Formula, Driven]:
+def _swinging(request: PoseRequest, work: Work, symbol: Symbol) -> tuple[Formula, Driven]:
     """Add the law of an input that runs there and back: mid - amp cos φ."""
-    phase = work.known(Symbol("φ"), asked.value, ANGLE, "phase")
-    pace = work.known(Symbol("φ", mark="˙"), asked.speed, _ONCE, "rate of the phase")
-    growth = work.stated(Symbol("φ", mark="¨"), asked.acceleration, _TWICE, "and its rate")
-    path = asked.scene.mechanism.assembly.path
+    phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
+    pace = work.known(Symbol("φ", mark="˙"), request.speed, _ONCE, "rate of the phase")
+    growth = work.stated(Symbol("φ", mark="¨"), request.acceleration, _TWICE, "and its rate")
+    path = request.scene.mechanism.assembly.path
     if isinstance(path, Stroke):
         return _stroke(path, work, (phase, pace, growth), symbol)
     low, high = path.input_range

@@ -91,12 +91,11 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Found]:
     `known` are the quantities worked out so far, by their tokens.
     """
     work, linkage = rates.work, rates.work.linkage
-    rated = (f"{item.name}.rate" in known for item in _forceful(rates))
-    if not all(rated):
+    if not rates.struts.keys() >= set(_forceful(rates)):
         work.say("The rate of a spring or damper does not follow, so that what the input delivers does not.")
         return
     work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
-    powers = [*_strut_powers(rates, known), *_body_powers(rates, known)]
+    powers = [*_strut_powers(rates), *_body_powers(rates, known)]
     total = work.let_plain(Symbol("P"), reduce(add, powers, ZERO), "W")
     name, unit = linkage.drive.actuator.effort
     pace = _pace(rates)
@@ -128,9 +127,10 @@ def _forceful(rates: Rates) -> list[Spring | Damper]:
     return [item for item in struts if item.forceful]
 
 
-def _strut_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula]:
+def _strut_powers(rates: Rates) -> Iterator[Formula]:
     for item in _forceful(rates):
-        power = known[f"{item.name}.force"] * known[f"{item.name}.rate"] * _metre(rates)
+        force, rate = rates.struts[item]
+        power = force * rate * _metre(rates)
         yield rates.work.let_plain(Symbol("P", item.name), power, "W")
 
 

@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 from linkanim.explain.expression import TWO, ZERO, Components, Formula, Symbol, square
 from linkanim.explain.lines import System
 from linkanim.explain.work import LENGTH, RATIO, GuideLine, Powers, Scale, Work, rounded
+from linkanim.mechanics.linkage.linkage import Damper, Spring
 
 Order = Literal[1, 2]
 ORDERS: tuple[Order, Order] = (1, 2)
@@ -52,7 +53,7 @@ _SHORT = 3
 
 @dataclass
 class Rates:
-    """The rates known so far, of the first order and then of the second."""
+    """The rates known so far, of the first order and then of the second; each strut's force and rate."""
 
     work: Work
     letters: Letters
@@ -60,6 +61,7 @@ class Rates:
     turning: dict[int, list[Formula]] = field(default_factory=lambda: {0: [ZERO, ZERO]})
     sliding: dict[str, list[Formula]] = field(default_factory=dict)
     moving: dict[str, list[Components]] = field(default_factory=dict)
+    struts: dict[Spring | Damper, tuple[Formula, Formula]] = field(default_factory=dict)
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers) -> Formula:
         """Add the line that gives a symbol its value, and return it."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from linkanim.explain.expression import ONE, ZERO, Components, Formula
-from linkanim.explain.inputs import Asked, Driven, place_input, start_rates
+from linkanim.explain.inputs import Driven, PoseRequest, place_input, start_rates
 from linkanim.explain.kinds import KINDS
 from linkanim.explain.lines import Chapter, Outcome, Step, Words
 from linkanim.explain.loops import VectorLoop, loops_of
@@ -48,7 +48,7 @@ _SINGULAR = (
 class Solution:
     """A pose worked out: chapters as they are read, loops to draw, results, and where joints lie (x + yi)."""
 
-    asked: Asked
+    request: PoseRequest
     chapters: tuple[Chapter, ...]
     loops: tuple[VectorLoop, ...]
     results: tuple[Outcome, ...]
@@ -64,40 +64,40 @@ class Solution:
     @property
     def phase(self) -> float:
         """The phase of the pose."""
-        return float(self.asked.motion().phase)
+        return float(self.request.motion().phase)
 
     @property
     def title(self) -> str:
         """What it is a solution of."""
-        return self.asked.scene.title
+        return self.request.scene.title
 
     @property
     def where(self) -> str:
         """Where the input is, in a sentence."""
-        scene = self.asked.scene
-        place = float(self.asked.motion().coordinate)
+        scene = self.request.scene
+        place = float(self.request.motion().coordinate)
         words = scene.linkage.drive.coordinate.text(place, scene.length_unit, 0.01)
         return f"At {input_symbol(scene.linkage)} = {words}."
 
 
-def solution(asked: Asked) -> Solution:
+def solution(request: PoseRequest) -> Solution:
     """Return the worked solution of a pose, which its input must reach.
 
     It ends with positions where no rates follow, or none of five digits: at a limit and at a change point.
     """
-    names = names_of(figure(asked.scene))
+    names = names_of(figure(request.scene))
     ways = [(digits, rates) for rates in (True, False) for digits in range(_FEWEST, _MOST + 1)]
     for digits, rates in ways:
         # a root or a quotient of rounded digits is none near a limit: more of them are taken
         with suppress(ZeroDivisionError, ValueError):
-            found = _Draft(asked, names, digits).solution(rates)
+            found = _Draft(request, names, digits).solution(rates)
             if _agrees(found):
                 break
     return found
 
 
 def _agrees(found: Solution) -> bool:
-    motion, quantities = found.asked.motion(), found.asked.scene.quantities
+    motion, quantities = found.request.motion(), found.request.scene.quantities
     for result in found.results:
         quantity = quantities[result.token]
         true = float(quantity.shown(motion))
@@ -112,16 +112,16 @@ def _agrees(found: Solution) -> bool:
 class _Draft:
     """A solution in so many digits while it is written."""
 
-    def __init__(self, asked: Asked, names: SymbolNames, digits: int) -> None:
-        self.asked, self.motion = asked, asked.motion()
-        self.linkage = asked.scene.linkage
+    def __init__(self, request: PoseRequest, names: SymbolNames, digits: int) -> None:
+        self.request, self.motion = request, request.motion()
+        self.linkage = request.scene.linkage
         length = max([abs(value) for joint in self.linkage.joints for _, value in joint.bars] or [1.0])
         angular = self.linkage.drive.coordinate.is_angle
         pace = max(
             abs(float(self.motion.coordinate_rate)), math.sqrt(abs(float(self.motion.coordinate_second)))
         )
         rate = pace if angular else pace / length
-        scale = Scale(digits, asked.scene.length_unit, length, rate if 0 < rate < math.inf else 1.0)
+        scale = Scale(digits, request.scene.length_unit, length, rate if 0 < rate < math.inf else 1.0)
         self.work = Work(self.linkage, names, self.motion, scale)
         by = Scale(
             digits, scale.unit, length, 1.0 if angular else 1.0 / length, "" if angular else scale.unit
@@ -141,10 +141,11 @@ class _Draft:
             rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
         given = Chapter("Given", (Step("", tuple(self.work.given.values())),))
         chapters = (given, Chapter("Vector loops", tuple(loop.step for loop in loops)), places, *rest)
-        known = self.asked.scene.quantities
-        results = tuple(result for result in self.results if result.token in known)
+        known = self.request.scene.quantities
+        # of parts with one name the last has the token, as it has among the quantities
+        results = tuple({one.token: one for one in self.results if one.token in known}.values())
         at = {name: self.work.place(name) for name in self.work.points}
-        return Solution(self.asked, chapters, loops, results, at, self.work.scale.digits, not rates)
+        return Solution(self.request, chapters, loops, results, at, self.work.scale.digits, not rates)
 
     def _step(self, title: str, write: Callable[[], object]) -> None:
         """Add a step with the lines that are written meanwhile; none where there are none."""
@@ -161,7 +162,7 @@ class _Draft:
     def _placed(self) -> tuple[Chapter, Driven]:
         """Return the chapter of positions, and the input's rates."""
         found: list[Driven] = []
-        self._step("The input", lambda: found.append(place_input(self.asked, self.work)))
+        self._step("The input", lambda: found.append(place_input(self.request, self.work)))
         for joint in self.linkage.joints:
             self._step(f"Joint {{{joint.name}}}", partial(KINDS[type(joint)].place, joint, self.work))
             point = self.work.points[joint.name]

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from linkanim.explain.documents import HTML, chapters
-from linkanim.explain.inputs import Asked
+from linkanim.explain.inputs import PoseRequest
 from linkanim.explain.solution import Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.paper import html
@@ -88,7 +88,7 @@ class Report:
 
     @cached_property
     def _worked(self) -> Solution:
-        return solution(Asked(self.scene, "phase", self._figure.shown_phase, self.paces[0].speed))
+        return solution(PoseRequest(self.scene, "phase", self._figure.shown_phase, self.paces[0].speed))
 
     @cached_property
     def _charts(self) -> tuple[DrawnChart, ...]:

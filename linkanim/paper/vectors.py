@@ -40,7 +40,7 @@ def vectors_svg(found: Solution, size: tuple[int, int] = (760, 560)) -> str:
     """Return the figure as SVG; each vector stands once, by its name, as do the joints it leads between."""
     picture = _picture(found, size)
     ground, *_ = picture.drawing.standing()
-    links = Group("links", picture.drawing.faint(found.asked.scene.pose(found.phase, 0)))
+    links = Group("links", picture.drawing.faint(found.request.scene.pose(found.phase, 0)))
     drawn = [ground, links, grouped("vectors", _drawn(found, picture))]
     title = f"Vector loops of {found.title}"
     return svg(size, picture.theme.background, drawn, title=title)
@@ -53,13 +53,13 @@ def _vectors(found: Solution) -> tuple[LoopArrow, ...]:
 def _picture(found: Solution, size: tuple[int, int]) -> Picture:
     """Return the links with all vectors in view, as large as there is room for."""
     look = Look(trace=False, hud=False)
-    whole = Figured(found.asked.scene, size, look, found.phase).picture
+    whole = Figured(found.request.scene, size, look, found.phase).picture
     ends = np.array([_pixel(whole, end) for one in _vectors(found) for end in (one.begin, one.end)])
     spans = max(float(np.ptp(ends.real)), 1.0), max(float(np.ptp(ends.imag)), 1.0)
     zoom = min(_FILLED * size[0] / spans[0], _FILLED * size[1] / spans[1])
     off = (ends.real.max() + ends.real.min() - size[0]) / 2, (ends.imag.max() + ends.imag.min() - size[1]) / 2
     pan = -zoom * float(off[0]) / size[1], -zoom * float(off[1]) / size[1]
-    return Figured(found.asked.scene, size, replace(look, zoom=zoom, pan=pan), found.phase).picture
+    return Figured(found.request.scene, size, replace(look, zoom=zoom, pan=pan), found.phase).picture
 
 
 def _pixel(picture: Picture, at: complex) -> complex:

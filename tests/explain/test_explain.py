@@ -17,7 +17,7 @@ from printed import checks_of, of_html, of_latex, of_markdown
 from linkanim.cli import main
 from linkanim.digits import significant
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, document
-from linkanim.explain.inputs import Asked
+from linkanim.explain.inputs import PoseRequest
 from linkanim.explain.lines import System, ValueLine
 from linkanim.explain.solution import Solution, solution
 from linkanim.explain.variant import variant
@@ -28,15 +28,15 @@ DIGITS = 5.1e-5
 """Four significant digits, and what is in the last place of a float."""
 
 
-def _asked(name: str, degrees: float, speed: float | None = None) -> Asked:
+def _request(name: str, degrees: float, speed: float | None = None) -> PoseRequest:
     """Return a pose by angle, or by phase of an input that turns back."""
     scene = load(name)
     by: Literal["angle", "phase"] = "angle" if scene.info.full_turn else "phase"
-    return Asked(scene, by, math.radians(degrees), speed or scene.linkage.drive.speed)
+    return PoseRequest(scene, by, math.radians(degrees), speed or scene.linkage.drive.speed)
 
 
 def _disagreeing(found: Solution) -> list[tuple[str, float, float]]:
-    motion, quantities = found.asked.motion(), found.asked.scene.quantities
+    motion, quantities = found.request.motion(), found.request.scene.quantities
     wrong = []
     for result in found.results:
         true, shown = float(quantities[result.token].shown(motion)), result.value.value
@@ -66,7 +66,7 @@ def _failing(found: Solution) -> list[str]:
      "epicyclic-hypocycloid", "excavator", "driven-piston", "engine"],
 )  # fmt: skip
 def test_each_printed_line_gives_the_next_and_the_last_are_what_solving_gives(name: str) -> None:
-    found = solution(_asked(name, 50.0))
+    found = solution(_request(name, 50.0))
     assert not found.singular
     assert _failing(found) == []
     assert _disagreeing(found) == []
@@ -76,7 +76,7 @@ def test_each_printed_line_gives_the_next_and_the_last_are_what_solving_gives(na
 @pytest.mark.parametrize("name", names())
 def test_all_scenes_at_several_angles(name: str) -> None:
     for degrees in (0.0, 37.0, 111.5, 200.0, 306.0):
-        found = solution(_asked(name, degrees, speed=-3.0))
+        found = solution(_request(name, degrees, speed=-3.0))
         assert _failing(found) == []
         assert _disagreeing(found) == [] or found.singular
 
@@ -111,7 +111,7 @@ def test_the_press_has_the_values_of_the_report(degrees: int, capsys: pytest.Cap
 
 
 def test_at_a_limit_it_says_that_no_rates_follow() -> None:
-    found = solution(_asked("double-rocker", 0.0))
+    found = solution(_request("double-rocker", 0.0))
     assert found.singular
     assert "No rates follow" in document(found, MARKDOWN)
     assert np.isfinite([result.value.value for result in found.results]).all()
@@ -119,7 +119,7 @@ def test_at_a_limit_it_says_that_no_rates_follow() -> None:
 
 @pytest.mark.parametrize("form", [MARKDOWN, TEX, HTML], ids=["Markdown", "LaTeX", "HTML"])
 def test_an_exercise_leaves_its_numbers_open_and_has_a_key_on_a_page_of_its_own(form: DocumentForm) -> None:
-    found = solution(_asked("slider-crank", 50.0))
+    found = solution(_request("slider-crank", 50.0))
     sheet, _, key = document(found, form, exercise=True).partition(f"Key: {found.title}")
     lines = [item for chapter in found.chapters for item in chapter.items if isinstance(item, ValueLine)]
     assert sheet.count(form.how.blank) == len(lines)
@@ -144,9 +144,9 @@ def test_a_seed_gives_other_round_lengths_of_the_same_class(name: str) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("name", names())
 def test_variants_of_all_scenes_are_worked_out(name: str) -> None:
-    asked = _asked(name, 50.0)
-    changed = replace(asked, scene=variant(asked.scene, 5, lambda _: True))
-    assert changed.scene != asked.scene
+    request = _request(name, 50.0)
+    changed = replace(request, scene=variant(request.scene, 5, lambda _: True))
+    assert changed.scene != request.scene
     found = solution(changed)
     assert _failing(found) == []
     assert _disagreeing(found) == []
@@ -196,7 +196,7 @@ def test_bad_input_is_refused_in_one_line(
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["press"])
 def test_the_latex_compiles(name: str, tmp_path: Path) -> None:
-    (tmp_path / "solution.tex").write_text(document(solution(_asked(name, 87.0)), TEX), encoding="utf-8")
+    (tmp_path / "solution.tex").write_text(document(solution(_request(name, 87.0)), TEX), encoding="utf-8")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "solution.tex"]
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, check=False)
     assert ran.returncode == 0, ran.stdout[-2000:]

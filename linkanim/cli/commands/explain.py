@@ -9,7 +9,7 @@ from math import isnan
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.cli.commands.solve import out_of_range
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
-from linkanim.explain.inputs import Asked
+from linkanim.explain.inputs import PoseRequest
 from linkanim.explain.solution import Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.paper.vectors import vectors_svg
@@ -27,7 +27,7 @@ def run(options: Namespace) -> None:
     input does not come to.
     """
     target = None if options.output is None else checked_target(options.output, tuple(FORMS))
-    found = solution(_asked(load(options.scene), options))
+    found = solution(_request(load(options.scene), options))
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
     form = replace(form, figure=_figure) if form is HTML else form
     text = document(found, form, exercise=options.exercise)
@@ -43,26 +43,26 @@ def _figure(found: Solution) -> str:
     return f"<figure class='vectors'>{vectors_svg(found)}</figure>" if found.loops else ""
 
 
-def _asked(scene: Scene, options: Namespace) -> Asked:
+def _request(scene: Scene, options: Namespace) -> PoseRequest:
     """Return the pose that is asked for, of other lengths with a seed.
 
     Without a pose it is that at which the scene's own joints are farthest apart.
     """
-    asked = _pose(scene, options)
+    request = _pose(scene, options)
     if options.seed is None:
-        return asked
+        return request
 
     def reached(changed: Scene) -> bool:
-        return not isnan(replace(asked, scene=changed).motion().phase)
+        return not isnan(replace(request, scene=changed).motion().phase)
 
-    return replace(asked, scene=variant(scene, options.seed, reached))
+    return replace(request, scene=variant(scene, options.seed, reached))
 
 
-def _pose(scene: Scene, options: Namespace) -> Asked:
+def _pose(scene: Scene, options: Namespace) -> PoseRequest:
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     if options.angle is None:
         phase = figure(scene).clearest if options.phase is None else options.phase
-        return Asked(scene, "phase", float(phase), speed)
+        return PoseRequest(scene, "phase", float(phase), speed)
     if isnan(scene.solve(angle=options.angle, derivatives=0).phase):
         raise out_of_range(scene, options.angle)
-    return Asked(scene, "angle", float(options.angle), speed)
+    return PoseRequest(scene, "angle", float(options.angle), speed)
