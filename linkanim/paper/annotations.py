@@ -85,8 +85,10 @@ class Annotations:
         at_edge = [end for end in ends if end.at.real > area.right - 1]
         yield from self._beside(area, at_edge)
         within = [end for end in ends if end not in at_edge]
-        told = [(plot, curve) for plot, side in zip(plots, marked, strict=True) for curve in side]
-        yield from self._placed(both, [*within, *(peak for pair in told for peak in self._peaks(*pair))])
+        extremes_of = [(plot, curve) for plot, side in zip(plots, marked, strict=True) for curve in side]
+        yield from self._placed(
+            both, [*within, *(peak for pair in extremes_of for peak in self._peaks(*pair))]
+        )
 
     def _end(self, plot: Plot, curve: Curve) -> Iterator[_Words]:
         """Yield the name of a curve, to stand where it is furthest to the right."""

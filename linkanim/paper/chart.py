@@ -192,8 +192,8 @@ class Page:
                 yield curve_layer(plot, curve.x, curve.values, self.colour(curve), width, self.dashes(curve))
         if self.measured and self.measured.curve in sides[0]:
             yield from point_layers(plots[0], self.measured.points, pen.theme.ink, finer(pen))
-        told = [self._marked(side) for side in sides]
-        yield from Annotations(self.curves, pen, self.colour).items(plots, sides, told)
+        marked_curves = [self._marked(side) for side in sides]
+        yield from Annotations(self.curves, pen, self.colour).items(plots, sides, marked_curves)
 
     def _y_titles(self, area: Rect, sides: list[list[Curve]]) -> Iterator[Item]:
         pen, top = self.pen, area.y - (_LINE - _LIFT) * self.pen.small

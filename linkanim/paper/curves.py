@@ -89,13 +89,13 @@ class Curves:
 
     def words(self, curve: Curve) -> str:
         """Return what sets a curve off from the others: quantity, component, speed, as far as they differ."""
-        return self._told_apart(curve, curve.quantity.words + " " + curve.quantity.symbol)
+        return self._distinguishing(curve, curve.quantity.words + " " + curve.quantity.symbol)
 
     def name(self, curve: Curve) -> str:
         """Return the same with the quantity's symbol alone."""
-        return self._told_apart(curve, curve.quantity.symbol)
+        return self._distinguishing(curve, curve.quantity.symbol)
 
-    def _told_apart(self, curve: Curve, called: str) -> str:
+    def _distinguishing(self, curve: Curve, called: str) -> str:
         several = len({other.quantity.token for other in self.curves}) > 1
         paces = len({other.pace for other in self.curves}) > 1
         words = called if several or not paces else ""
