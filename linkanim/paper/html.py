@@ -205,7 +205,7 @@ def sheet_parts(sheet: Sheet, speeds: Sequence[str]) -> Iterator[TablePart]:
     for title, rows in sheet.sections:
         if rows:
             lines = "".join(
-                f"<tr><th scope='row'>{escape(_said_under(row.quantity.words))}</th>"
+                f"<tr><th scope='row'>{escape(_head_of_row(row.quantity.words))}</th>"
                 f"<td>{symbol(row.quantity.symbol)}</td>"
                 + "".join(f"<td class='n'>{escape(value)}</td>" for value in row.values)
                 + f"<td>{escape(row.unit)}</td></tr>"
@@ -214,7 +214,7 @@ def sheet_parts(sheet: Sheet, speeds: Sequence[str]) -> Iterator[TablePart]:
             yield TablePart(f"{title}, {sheet.title}", f"{head}<tbody>{lines}</tbody>", len(rows))
 
 
-def _said_under(words: str) -> str:
+def _head_of_row(words: str) -> str:
     """Return a quantity's words without what its heading says."""
     return words.partition(": ")[2] or words
 

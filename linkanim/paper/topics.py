@@ -82,8 +82,8 @@ class _ChartChoice:
         of_struts = self._all(("length", struts), ("rate", struts), ("force", struts))
         yield "Springs, dampers and input" if struts else "Input", [*of_struts, *effort]
 
-    def _all(self, *wanted: tuple[str, list[str]]) -> Iterator[PlannedChart]:
-        for measure, parts in wanted:
+    def _all(self, *planned: tuple[str, list[str]]) -> Iterator[PlannedChart]:
+        for measure, parts in planned:
             yield from self._of(parts, measure)
 
     def _of(self, parts: Iterable[str], measure: str) -> Iterator[PlannedChart]:

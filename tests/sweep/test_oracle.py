@@ -139,6 +139,43 @@ FOUND: dict[str, tuple[Document, str]] = {
         {"slider-crank": {"crank": 1e-7, "rod": 90}},
         "drawn painted",
     ),
+    "a dyad whose rate is unbounded by another's limit": (
+        {
+            "drive": {"start": "-60 deg"},
+            "ground": {"O2": [0, 0], "G": [-1.5, 0]},
+            "joints": {
+                "A": {"crank": "O2", "length": 10.5},
+                "E": {"slot": {"pivot": "G", "through": "A", "offset": 1.5}, "length": 14.5},
+                "S": {
+                    "from": "E",
+                    "length": 4,
+                    "line": {"through": "G", "angle": "0 deg"},
+                    "side": "backward",
+                },
+                "T": {
+                    "from": "S",
+                    "length": 4.5,
+                    "line": {"through": "G", "angle": "45 deg", "offset": 13},
+                    "side": "forward",
+                },
+            },
+        },
+        "solved",
+    ),
+    "dead centres of a slider without a bar": (
+        {
+            "drive": {"slider": {"joint": "C", "from": 43, "to": 55}},
+            "ground": {"O2": [0, 0]},
+            "joints": {
+                "C": {"line": {"through": "O2", "angle": "-107.47 deg"}},
+                "A": {"from": ["C", "O2"], "length": [12, 43], "side": "left"},
+            },
+            "springs": {"s": {"between": ["A", "C"]}},
+            "dampers": {"d": {"between": ["A", "O2"]}},
+            "bodies": {"Q": {"slider": "C"}},
+        },
+        "drawn",
+    ),
     "a start whole turns away": (
         {
             "drive": {"cylinder": {"between": ["G", "A"], "from": 60, "to": 90}, "start": "36000 deg"},

@@ -259,7 +259,9 @@ def _over(scale: Array, phases: Array, rows: Array) -> Sampled:
 def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
     """Return the samples with others between them wherever a second extreme could lie there."""
     left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
-    fastest = np.nanmax(_speed(samples), axis=1, initial=0.0, keepdims=True) / 4
+    speeds = _speed(samples)
+    # A speed that is unbounded at one place, at a limit, says nothing of all the others.
+    fastest = np.max(speeds, axis=1, initial=0.0, where=np.isfinite(speeds), keepdims=True) / 4
     for _ in range(HALVINGS):
         # At first a margin may change faster than at both neighbours; the nearer they are, the less.
         with np.errstate(all="ignore"):
@@ -300,7 +302,7 @@ def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
     none = (r * s > 0) & (r * (r + step * b) > 0) & (s * (s - step * c) > 0)
     one = (r * s <= 0) & (b * c > 0)
     flat = size * step * np.maximum(np.abs(d), np.abs(e)) <= FLAT
-    blind = np.isnan(r) & np.isnan(s)
+    blind = ~np.isfinite(r) & ~np.isfinite(s)
     return np.asarray(_near(left, right, fastest) & ~(even & (none | one)) & ~flat & ~blind)
 
 

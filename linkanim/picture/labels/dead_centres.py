@@ -89,7 +89,7 @@ class DeadCentres:
         """The way of the slider in pixels, and the way out from its guide: where there is more room."""
         assert self._ends is not None
         begin, way = self._ends[0], self._ends[1] - self._ends[0]
-        seen = (np.concatenate(list(self._passed())) - begin) / way
+        seen = (np.concatenate([np.zeros(0, complex), *self._passed()]) - begin) / way
         near = seen[(seen.real > -_NEAR) & (seen.real < 1 + _NEAR)].imag
         crowded = float(np.sum(np.sign(near) * np.exp(-np.abs(near))))
         out = 1j * way / abs(way) * (-1 if crowded > _FEW * near.size else 1)

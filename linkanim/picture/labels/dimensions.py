@@ -175,7 +175,7 @@ def _legs(figure: Figure, point: Rigid, numbers: Iterator[str]) -> Iterator[Meas
     (first, second), (along, left), name = point.on, point.at, point.name
     span, own = abs(figure.start(second) - figure.start(first)), frozenset((first, second, name))
     corner, there = complex(along) / span, complex(along, -left) / span
-    wanted = [
+    spans = [
         (
             along,
             0j,
@@ -183,8 +183,8 @@ def _legs(figure: Figure, point: Rigid, numbers: Iterator[str]) -> Iterator[Meas
             _named(first, name) if not left else f"{_named(first)} along {_named(first, second)}",
         )
     ]
-    wanted += [(left, corner, there, f"{_named(name)} off {_named(first, second)}")]
-    for value, begin, end, about in wanted:
+    spans += [(left, corner, there, f"{_named(name)} off {_named(first, second)}")]
+    for value, begin, end, about in spans:
         if value:
             yield Measurement(_symbol(next(numbers)), abs(value), about, point.on, begin, end, own)
 

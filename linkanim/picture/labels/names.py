@@ -209,13 +209,13 @@ def names_of(
     Lengths that do not stand on the picture at all times go into a table.
     """
     fixed, shown = ground.figure.fixed, ground.figure.shown
-    wanted = [*_joints(ground, style, fixed), *_links(ground, style)]
+    planned = [*_joints(ground, style, fixed), *_links(ground, style)]
     if known:
-        wanted += [*_dimensions(ground, style, known), *_angle(ground, style, known)]
-    wanted += [*_dead_centres(ground, style, dead_centres)] if dead_centres else []
-    wanted += _joints(ground, style, [name for name in shown if name not in fixed])
+        planned += [*_dimensions(ground, style, known), *_angle(ground, style, known)]
+    planned += [*_dead_centres(ground, style, dead_centres)] if dead_centres else []
+    planned += _joints(ground, style, [name for name in shown if name not in fixed])
     placer, kept, rows = Placer(ground.clutter()), [], []
-    for forms in wanted:
+    for forms in planned:
         placed = list(_placed(placer, forms))
         label, lasting = forms[0][0], any(one.shown is not None and one.shown.all() for one in placed)
         kept += placed

@@ -173,9 +173,9 @@ class Panels:
                 surface.blit(sheet, (round(left), round(top)))
                 top += 1.5 * size
 
-    def _mark(self, sign: Callable[[float], list[Loop]], said: tuple[str, Colour]) -> pygame.Surface:
+    def _mark(self, sign: Callable[[float], list[Loop]], mark: tuple[str, Colour]) -> pygame.Surface:
         """Return a sign and words on their backing."""
-        (words, colour), size = said, self.layout.text_size
+        (words, colour), size = mark, self.layout.text_size
         wide, high = self.type.width(words, size) + 1.6 * size, 1.15 * size
         sheet = pygame.Surface((ceil(wide), ceil(high)), pygame.SRCALPHA, 32)
         back = complex(wide / 2, high / 2) + box(wide, high, 0.4 * size)

@@ -24,7 +24,7 @@ _SHADED = 0.3
 """How much of the ground's colour is in the driven wheel's."""
 _MARK = (1.7, 0.55)
 """The length of a pitch circle's mark and half its width, in half widths of a bar."""
-_DASHES = ((0.0, 0.5, 5), (0.72, 0.78, 2))
+_DASHES = ((0.0, 0.5, 4), (0.72, 0.78, 2))
 """Where the dash and the dot of a pitch circle begin and end, in steps, and their points."""
 _HOLES, _HOLED, _HOLE = 5, 0.62, 0.19
 """How many holes a wheel has, how far from its middle, and how large: shares of what is within its teeth."""

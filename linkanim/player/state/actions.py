@@ -146,7 +146,7 @@ ACTIONS: Mapping[str, Rule] = {
     "step": Rule(_whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
     "speed": Rule(_whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
     "direction": Rule(_nothing, _running(lambda clock, frame, _: clock.turn(frame)), answer=_direction),
-    "start": Rule(_nothing, edits.start, answer=edits.answered),
+    "start": Rule(_nothing, edits.start, answer=edits.way_back),
     # the phase to go to, rad
     "scrub": Rule(_number, _running(lambda clock, frame, phase: clock.go(frame, phase, paused=True))),
     "type_place": Rule(_text, places.write),

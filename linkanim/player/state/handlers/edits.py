@@ -127,6 +127,6 @@ def start(state: State, _: None) -> State:
     return replace(state, clock=state.clock.go(state.frame, 0.0))
 
 
-def answered(_: State, after: State) -> str | None:
+def way_back(_: State, after: State) -> str | None:
     """Say how the file's dimensions come back, where others are on."""
     return AGAIN if after.place in after.edited else None
