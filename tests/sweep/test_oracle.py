@@ -162,6 +162,24 @@ FOUND: dict[str, tuple[Document, str]] = {
         },
         "solved",
     ),
+    "a dyad between two cranks that turn alike": (
+        {
+            "drive": {"speed": "3 rad/s", "start": "90 deg"},
+            "ground": {"O2": [0, 0], "G": [40, 43]},
+            "joints": {
+                "A": {"crank": "O2", "length": 25},
+                "C": {"crank": "O2", "length": 47, "gear": {"with": "A", "ratio": 1, "offset": "0 deg"}},
+                "D": {"from": ["A", "C"], "length": [78, 98], "side": "left"},
+                "S": {
+                    "from": "D",
+                    "length": 23,
+                    "line": {"through": "G", "angle": "45 deg", "offset": -80},
+                    "side": "forward",
+                },
+            },
+        },
+        "solved",
+    ),
     "dead centres of a slider without a bar": (
         {
             "drive": {"slider": {"joint": "C", "from": 43, "to": 55}},

@@ -259,9 +259,7 @@ def _over(scale: Array, phases: Array, rows: Array) -> Sampled:
 def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
     """Return the samples with others between them wherever a second extreme could lie there."""
     left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
-    speeds = _speed(samples)
-    # A speed that is unbounded at one place, at a limit, says nothing of all the others.
-    fastest = np.max(speeds, axis=1, initial=0.0, where=np.isfinite(speeds), keepdims=True) / 4
+    fastest = _fastest_change(samples)[:, None] / 4
     for _ in range(HALVINGS):
         # At first a margin may change faster than at both neighbours; the nearer they are, the less.
         with np.errstate(all="ignore"):
@@ -279,6 +277,15 @@ def _speed(samples: Sampled) -> Array:
     """Return how fast the margins change: by s' (U - W), since U' = -s' and W' = s'."""
     rates, _, _, differences = samples.rows
     return np.asarray(np.abs(rates * differences))
+
+
+def _fastest_change(samples: Sampled) -> Array:
+    """Return how fast each margin changes at most (D,).
+
+    A speed that is unbounded at one place, at a limit, says nothing of all the others.
+    """
+    speeds = _speed(samples)
+    return np.asarray(np.max(speeds, axis=1, initial=0.0, where=np.isfinite(speeds)))
 
 
 def _near(left: Sampled, right: Sampled, fastest: Array | float = 0.0) -> Bools:
@@ -311,7 +318,9 @@ def _turning(samples: Sampled, barely: Array) -> Bools:
     positive, margins = samples.rows[0] > 0, samples.rows[2]
     low = (np.minimum(margins[:, 1:], margins[:, :-1]) > 0) & (margins[:, 1:] <= barely[:, None])
     near = _near(*_neighbours(samples)) | low
-    return np.asarray(near & (positive[:, 1:] != positive[:, :-1]))
+    # Between two cranks that turn alike the separation stays as it is: what changes there is rounding.
+    moves = _fastest_change(samples)[:, None] > TOUCHING
+    return np.asarray(near & moves & (positive[:, 1:] != positive[:, :-1]))
 
 
 def _passing(samples: Sampled) -> Bools:
