@@ -140,6 +140,7 @@ def test_its_chapters_go_as_a_report_on_a_mechanism_does(press: Path) -> None:
     assert f"<p>{html.escape(scene.look_at)}</p>" in text
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_all_has_every_quantity_behind_the_hand_out(every: Path, press: Path) -> None:
     text = (every / "report.html").read_text(encoding="utf-8")
@@ -192,6 +193,7 @@ PRINTED = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_the_press_has_a_chart_of_all_that_the_printed_report_plots(every: Path) -> None:
     shown = {path.stem.split("-", 2)[2] for path in every.glob("chart-*.svg")}

@@ -119,7 +119,7 @@ def test_every_kind_is_asked() -> None:
     scenes = [
         load(name) for name in ("crank-rocker", "double-rocker", "inverted-slider-crank", "slider-crank")
     ]
-    found = Counter(question.kind for question in questions(scenes, 120, 1))
+    found = Counter(question.kind for question in questions(scenes, 60, 1))
     assert found.keys() == KINDS.keys()
 
 
