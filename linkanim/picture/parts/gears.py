@@ -95,7 +95,11 @@ def _pitch_circle(radius: float, gauge: Gauge) -> list[Loop]:
     """Return a circle about 0 in dashes and dots."""
     step = 2 * pi / max(round(2 * pi * radius / (9 * gauge.line)), 8)
     ways = directions(np.arange(0, 2 * pi - step / 2, step))
-    marks = [stroke(radius * directions(np.linspace(*ends) * step), 0.8 * gauge.line)[0] for ends in _DASHES]
+    edges, marks = (radius - 0.4 * gauge.line, radius + 0.4 * gauge.line), []
+    for ends in _DASHES:
+        arc = directions(np.linspace(*ends) * step)
+        # Ends that are not round: there are many, and a file holds each point.
+        marks.append(np.concatenate([edges[0] * arc, edges[1] * arc[::-1]]))
     return [way * mark for way in ways for mark in marks]
 
 
