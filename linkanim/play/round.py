@@ -17,9 +17,10 @@ _DECIMALS = 4
 
 
 def questions(scenes: Sequence[Scene], count: int, seed: int) -> tuple[QuizQuestion, ...]:
-    """Return so many questions, the scenes one after the other, no two of a round alike.
+    """Return so many questions, the scenes one after the other.
 
-    Kinds come in turn, as far as the scene has something to ask of each. WorkFailed where a scene has
+    Kinds come in turn, as far as the scene has something to ask of each; none is asked twice of one subject
+    before a scene has nothing else. WorkFailed where a scene has
     nothing that can be asked, because nothing of it moves clearly.
     """
     found: list[QuizQuestion] = []

@@ -33,7 +33,7 @@ FASTEST = 25.0
 LARGEST = 150_000
 MOST = 400_000
 """A GIF that is larger even at its lowest rate is recorded at a smaller size."""
-SHARES = (1.0, 0.8, 0.6)
+SHARES = (1.0, 0.8, 0.6, 0.5)
 """The sizes, in shares of `SIZE`."""
 LOOK = Look(hud=False)
 SHEET = "contact-sheet.png"

@@ -56,6 +56,9 @@ def check(question: QuizQuestion) -> None:
             turns_back(question, answer)
         case "input range":
             assert (answer == "it turns fully") == scene.info.full_turn
+            if not scene.info.full_turn:
+                ends = [float(word.rstrip("°").replace("−", "-")) for word in answer.split() if "°" in word]
+                assert ends == pytest.approx([degrees(end) for end in scene.info.input_range], abs=0.051)
         case "closure":
             assert answer.endswith("same closure" if scene.info.mechanism.retraced else "other closure")
         case "grashof":
@@ -63,8 +66,26 @@ def check(question: QuizQuestion) -> None:
             sign = (s + longest > p + q) - (s + longest < p + q)
             assert ("<" in answer, ">" in answer) == (sign < 0, sign > 0)
         case "coriolis":
-            slide = next(one for joint in scene.linkage.joints for one in joint.slides)
-            assert answer == ("yes" if slide.axis else "no") or len(scene.linkage.joints) > 4
+            assert (answer == "yes") == (coriolis(question) > 0)
+
+
+def coriolis(question: QuizQuestion) -> float:
+    """Return the size of 2ω × v where the subject slides, zero along a guide that stands still."""
+    scene, pose = question.scene, question.scene.pose(question.phase)
+    slides = [one for joint in scene.linkage.joints for one in joint.slides]
+    for slide in (one for one in slides if one.point == question.subject):
+        if slide.axis is None or slide.start is None:
+            continue
+        way, turn = (
+            complex(*pose.position[end]) - complex(*pose.position[begin])
+            for begin, end in ((slide.start, slide.point), slide.axis)
+        )
+        moves, turns = (
+            complex(*pose.velocity[end]) - complex(*pose.velocity[begin])
+            for begin, end in ((slide.start, slide.point), slide.axis)
+        )
+        return abs(2 * (turns / turn).imag * (moves / way).real * abs(way))
+    return 0.0
 
 
 def sums(why: str) -> list[str]:

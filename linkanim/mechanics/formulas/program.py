@@ -14,7 +14,7 @@ from ctypes import addressof, c_char
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import lru_cache
-from types import CodeType, MappingProxyType
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -100,23 +100,20 @@ def _compiled(source: str, name: str) -> CodeType:
 
 
 FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": math.atan2}
-NO_NAMES: Mapping[str, Any] = MappingProxyType({})
 DEEPEST = 40
 """Brackets in brackets; Python reads 200."""
 
 
-def scalar(
-    inputs: Sequence[str], outputs: Sequence[Value], layout: str, names: Mapping[str, Any] = NO_NAMES
-) -> Callable[..., Any]:
+def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Callable[..., Any]:
     """Return a function of float inputs that gives the outputs in `layout`.
 
-    `layout` is a Python expression with one `{}` for each output, which may use the `names`. Raises what
+    `layout` is a Python expression with one `{}` for each output, which may use the inputs. Raises what
     `math` raises (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
     """
     lines, texts = _inlined(needed(outputs), outputs)
     result = layout.format(*(texts.get(_name(value), _name(value)) for value in outputs))
     source = "\n".join([f"def pose({', '.join(inputs)}):", *lines, f"    return {result}"])
-    return _define(source, "pose", {**FLOAT_NAMES, **names})
+    return _define(source, "pose", FLOAT_NAMES)
 
 
 def _inlined(nodes: Sequence[Expr], outputs: Sequence[Value]) -> tuple[list[str], dict[str, str]]:
