@@ -6,22 +6,28 @@ from collections.abc import Iterator
 from html import escape
 from math import atan2, cos, degrees, pi, sin
 from pathlib import Path
-from typing import Any
 
 import pytest
 from browser import PROGRAM, Page, browser
+from shared_page import (
+    FINEST,
+    PHASES,
+    SAMPLE,
+    centre_of,
+    farthest,
+    go_to,
+    handle_of,
+    phase,
+    pressed,
+    put,
+    shown,
+)
 
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.closures import ghost_of
 from linkanim.share.page import Shared, document
 
 pytestmark = [pytest.mark.window, pytest.mark.skipif(not PROGRAM, reason="needs Chromium")]
-
-FINEST = 0.01
-"""Of a pixel on a screen of 3840 × 2160."""
-WIDE = 3840
-SAMPLE = ("press", "double-rocker", "excavator", "driven-piston", "kite")
-PHASES = (0.0, 0.7, 2.0, 3.1, 4.4, 6.0)
 
 
 @pytest.fixture(scope="module")
@@ -30,65 +36,6 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
         opened.sized(1280, 720)
         opened.prefer(reduced_motion="reduce", color_scheme="light")
         yield opened
-
-
-def put(folder: Path, shared: Shared) -> str:
-    """Write a page into a folder with blanks in its name, and return its address."""
-    room = folder / "a folder with blanks"
-    room.mkdir(exist_ok=True)
-    target = room / f"{shared.scene.name} 1.html"
-    target.write_text(document(shared), encoding="utf-8")
-    return target.as_uri()
-
-
-def shown(page: Page, name: str) -> str:
-    return str(page.value(f"document.getElementById({name!r}).textContent"))
-
-
-def pressed(page: Page, name: str) -> str:
-    return str(page.value(f"document.getElementById({name!r}).getAttribute('aria-pressed')"))
-
-
-def phase(page: Page) -> float:
-    return float(page.value("Number(document.getElementById('input').value)"))
-
-
-def go_to(page: Page, phase: float) -> None:
-    page.value(
-        "{ const input = document.getElementById('input'); "
-        f"input.value = {phase!r}; input.dispatchEvent(new Event('input')); }}"
-    )
-    page.frame()
-
-
-JOINTS = """
-(() => {
-  const data = JSON.parse(document.getElementById("data").textContent);
-  const number = data.sides.findIndex((_, n) => !document.getElementById(`side${n}`).hasAttribute("hidden"));
-  const side = data.sides[number], found = {};
-  const groups = document.getElementById(`side${number}`).querySelectorAll("[data-m]");
-  side.movers.forEach((mover, n) => {
-    if (mover.kind !== "part") return;
-    const { e, f } = groups[n].transform.baseVal.consolidate().matrix;
-    found[mover.at] = [e, f];
-  });
-  return { found, view: side.view, picture: document.getElementById("picture").viewBox.baseVal.width };
-})()
-"""
-
-
-def farthest(page: Page, scene: Any, phase: float) -> float:
-    """Return how far the farthest joint in the page is off, in pixels of the largest screen."""
-    go_to(page, phase)
-    known = page.value(JOINTS)
-    scale, x, y = known["view"]
-    places, off = scene.pose(phase, 0).position, 0.0
-    for name, (px, py) in known["found"].items():
-        if name in places:
-            there = complex(x + scale * places[name][0], y - scale * places[name][1])
-            off = max(off, abs(complex(px, py) - there))
-    assert known["found"]
-    return off * WIDE / float(known["picture"])
 
 
 @pytest.mark.parametrize(
@@ -118,10 +65,7 @@ def test_the_mouse_drags_the_crank(page: Page, tmp_path: Path) -> None:
 
 def drag(page: Page, target: float) -> None:
     """Drag the crank's pin to an angle, in degrees."""
-    pin = page.value(
-        "(() => { const box = document.getElementById('handle').getBoundingClientRect();"
-        "return [box.x + box.width / 2, box.y + box.height / 2]; })()"
-    )
+    pin = handle_of(page)
     centre = centre_of(page)
     radius = abs(complex(*pin) - complex(*centre))
     begin = atan2(centre[1] - pin[1], pin[0] - centre[0])
@@ -135,26 +79,11 @@ def drag(page: Page, target: float) -> None:
     page.mouse("mouseReleased", *pin)
 
 
-def centre_of(page: Page) -> list[float]:
-    """Return where the crank's pivot lies on the screen."""
-    return list(
-        page.value(
-            "(() => { const data = JSON.parse(document.getElementById('data').textContent).sides[0];"
-            "const svg = document.getElementById('picture').getScreenCTM();"
-            "const at = new DOMPoint(data.view[1], data.view[2]).matrixTransform(svg);"
-            "return [at.x, at.y]; })()"
-        )
-    )
-
-
 def test_a_finger_drags_an_input_that_swings_on_through_its_limit(page: Page, tmp_path: Path) -> None:
     scene = load("double-rocker")
     page.go(put(tmp_path, Shared(scene)))
     go_to(page, 0.9 * pi)
-    there = page.value(
-        "(() => { const box = document.getElementById('handle').getBoundingClientRect();"
-        "return [box.x + box.width / 2, box.y + box.height / 2]; })()"
-    )
+    there = handle_of(page)
     page.call("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": there[0], "y": there[1]}])
     for at in (0.95, 1.0, 1.05, 1.1):
         place = page.value(
