@@ -6,6 +6,7 @@ import json
 import math
 import re
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -209,3 +210,28 @@ def test_a_typed_travel_is_in_the_unit_that_is_shown() -> None:
     state = after(begin(scene), "unit", "pause", Action("type_place", f"{(low + high) / 20:.3f}"), "go")
     assert state.look.unit == "cm"
     assert scene.pose(state.phase, 0).coordinate == pytest.approx((low + high) / 2, abs=0.01)
+
+
+def test_a_worked_solution_a_hand_out_and_a_page_take_a_unit(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own, shown = (
+        _ran(capsys, "explain", "crank-rocker", "--angle", "60 deg", *more) for more in ([], ["--unit", "cm"])
+    )
+    assert r"r_{2} = 50\,\mathrm{mm}" in own
+    assert r"r_{2} = 5\,\mathrm{cm}" in shown
+    assert r"\mathrm{mm" not in shown
+    other = _ran(capsys, "explain", "crank-rocker", "--angle", "60 deg", "--seed", "3", "--unit", "in")
+    assert r"\mathrm{in}" in other
+    assert r"\mathrm{mm" not in other
+    _ran(capsys, "report", "crank-rocker", "-o", str(tmp_path / "report"), "--unit", "m")
+    page = (tmp_path / "report" / "report.html").read_text()
+    assert "m/s" in page
+    assert "mm" not in re.sub(r"<style.*?</style>|<[^>]*>", " ", page, flags=re.DOTALL)
+    _ran(capsys, "share", "crank-rocker", "-o", str(tmp_path / "page.html"), "--unit", "cm")
+    assert '"unit":"cm"' in (tmp_path / "page.html").read_text()
+
+
+def _ran(capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    assert main([*words]) == 0
+    return capsys.readouterr().out

@@ -254,6 +254,7 @@ def explain(parser: Parser) -> None:
     parser.add_argument("--exercise", action="store_true", help=text)
     text = "other round lengths, the same kind of motion; a number gives the same ones always"
     parser.add_argument("--seed", type=int, metavar="N", help=text)
+    _look(parser, "explain")
 
 
 def quiz(parser: Parser) -> None:
@@ -283,6 +284,7 @@ def report(parser: Parser) -> None:
     text = "of the tables' numbers (default: 4)"
     parser.add_argument("--digits", type=values.digits, default=4, metavar="N", help=text)
     parser.add_argument("--all", action="store_true", help="every quantity, and a chart of each, as well")
+    _look(parser, "report")
 
 
 def path(parser: Parser) -> None:

@@ -166,7 +166,7 @@ class Look:
         Option(
             "unit",
             "of the lengths shown, and so of velocities (default: the file's)",
-            commands=("play", "record", "solve", "draw", "chart"),
+            commands=("play", "record", "solve", "draw", "chart", "explain", "report", "share"),
         ),
         steps=LENGTH_UNITS,
         answers=tuple(f"lengths in {unit}" for unit in LENGTH_UNITS),

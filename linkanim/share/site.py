@@ -14,6 +14,7 @@ from linkanim.picture.items import clipped
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.scenes import load
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 from linkanim.share.page import Shared, document, packaged, themes_of
 from linkanim.share.pairs import Pairs
@@ -24,8 +25,10 @@ _EARLY = 0.09
 """Which part of its period a scene is in on the index: not at a limit, where much lies in line."""
 
 
-def write_site(folder: Path, names: Iterable[str], shared: Shared) -> None:
+def write_site(folder: Path, names: Iterable[str], shared: Shared, unit: str | None = None) -> None:
     """Write a page for each scene, as `shared` has the first, as NAME.html into a folder, and the index.
+
+    Lengths are shown in `unit`, each scene's own where it is None.
 
     All appear together or none does; they replace only files that we wrote. `BadInput` before any work where
     it cannot be a folder or a name is taken by another file.
@@ -35,7 +38,7 @@ def write_site(folder: Path, names: Iterable[str], shared: Shared) -> None:
     with replacing(FileSet(folder, "share", r"[\w.-]+\.html"), [*pages, INDEX]) as new:
         scenes = []
         for name, page in zip(chosen, pages, strict=True):
-            scenes.append(load(name))
+            scenes.append(in_unit(load(name), unit))
             (new / page).write_text(document(replace(shared, scene=scenes[-1])), encoding="utf-8")
         (new / INDEX).write_text(_index(scenes, shared), encoding="utf-8")
 

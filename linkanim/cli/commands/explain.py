@@ -15,6 +15,7 @@ from linkanim.explain.variant import variant
 from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.scenes import load
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 
 FORMS = {".html": HTML, ".htm": HTML, ".tex": TEX, ".md": MARKDOWN}
@@ -50,12 +51,12 @@ def _request(scene: Scene, options: Namespace) -> PoseRequest:
     """
     request = _pose(scene, options)
     if options.seed is None:
-        return request
+        return replace(request, scene=in_unit(scene, options.unit))
 
     def reached(changed: Scene) -> bool:
         return not isnan(replace(request, scene=changed).motion().phase)
 
-    return replace(request, scene=variant(scene, options.seed, reached))
+    return replace(request, scene=in_unit(variant(scene, options.seed, reached), options.unit))
 
 
 def _pose(scene: Scene, options: Namespace) -> PoseRequest:

@@ -10,6 +10,7 @@ from linkanim.manifest import FileSet, replacing
 from linkanim.paper.findings import instants_at, usual_instants
 from linkanim.paper.report import Report
 from linkanim.scenes import load
+from linkanim.scenes.editing.shown_unit import in_unit
 
 _ALWAYS = ("report.html", "figure.svg")
 _OURS = r"report\.html|figure\.svg|loops\.svg|chart-\d{3,}-[\w.-]+\.svg|quantities-\d+\.csv"
@@ -25,7 +26,7 @@ def run(options: Namespace) -> None:
     target: Path = options.output
     files = FileSet(target, "report", _OURS)
     with replacing(files, _ALWAYS) as folder:
-        scene = load(options.scene)
+        scene = in_unit(load(options.scene), options.unit)
         instants = instants_at(scene, options.angles) if options.angles else usual_instants(scene)
         report = Report(scene, instants, paces(scene, options), options.digits, options.all)
         for name, text in report.files():

@@ -11,6 +11,7 @@ from tqdm import tqdm
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.errors import BadInput
 from linkanim.scenes import load, names
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.share.page import Shared, document
 from linkanim.share.site import INDEX, write_site
 
@@ -42,9 +43,10 @@ def _site(options: Namespace) -> Path:
             raise BadInput(f"--all writes every scene into its folder; leave out {word}, which is for one")
     every = names()
     with tqdm(every, unit=" scenes", leave=False, disable=None, file=sys.stderr) as shown:
-        write_site(options.all, shown, _shared(options, every[0]))
+        write_site(options.all, shown, _shared(options, every[0]), options.unit)
     return Path(options.all / INDEX)
 
 
 def _shared(options: Namespace, scene: str) -> Shared:
-    return Shared(load(scene), options.speed, options.theme, options.chart, options.names)
+    shown = in_unit(load(scene), options.unit)
+    return Shared(shown, options.speed, options.theme, options.chart, options.names)
