@@ -19,7 +19,7 @@ from linkanim.picture.layout import CAPTION_STEP, Layout
 from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
 from linkanim.picture.panels.legend import Legend, legend_for
-from linkanim.picture.panels.marks import MeasuredLine, glow, grip, measure
+from linkanim.picture.panels.marks import MeasuredLine, glow, grip, measure, spots
 from linkanim.picture.panels.overlay import Overlay, PathShown
 from linkanim.picture.panels.path import dashed, drawn_line, handles, sheet
 from linkanim.picture.panels.readings import measured
@@ -274,6 +274,8 @@ class Picture:
         if overlay.path and overlay.path.curve:
             marks = list(handles(self.view, gauge, self.theme, overlay.path))
             yield from self._within([Group("handles", marks, over=True)])
+        for layers, words in spots(self.view, overlay.spots, self.theme, self.layout):
+            yield Group("spot", layers, [words], over=True)
         if overlay.glow:
             yield Group("glow", list(glow(self.view, pose, overlay.glow, gauge)), over=True)
 

@@ -14,6 +14,7 @@ from linkanim.picture.answer_row import RowPrinter
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
+from linkanim.play.games import game_of
 from linkanim.player.tape import tape_file
 from linkanim.player.window.approach import Framing
 from linkanim.player.window.show import overlay
@@ -97,7 +98,7 @@ def record_tape(
     _, form = checked_path(path)
     if size:
         refuse_size(size)
-    played = tape_file.read(Path(tape))
+    played = tape_file.read(Path(tape), game_of)
     size = size or _shape(played.size)
     state = played.start
     if played.is_loop and not state.listed:

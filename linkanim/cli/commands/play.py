@@ -5,6 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 
 from linkanim.picture.look import Look
+from linkanim.play.arcade import Arcade
 from linkanim.player.window.loop import run as play
 
 
@@ -15,4 +16,5 @@ def run(options: Namespace) -> None:
         look=Look(theme=options.theme, unit=options.unit),
         attract=options.attract,
         size=options.size,
+        keeper=Arcade(),
     )

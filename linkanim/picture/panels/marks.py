@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -11,11 +11,12 @@ import numpy as np
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.items import Caption, Group
 from linkanim.picture.layout import Gauge, Layout
-from linkanim.picture.panels.overlay import DimensionLine
+from linkanim.picture.panels.game_panel import mood_colour
+from linkanim.picture.panels.overlay import DimensionLine, Spot
 from linkanim.picture.parts.dimension_lines import dimension_line
 from linkanim.picture.raster.parts import Stamp
 from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.raster.shapes import box, disc, segments, unit
+from linkanim.picture.raster.shapes import box, disc, segments, stroke, unit
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import ORANGE, Theme
 from linkanim.picture.view import Rect, View
@@ -77,6 +78,25 @@ def glow(view: View, pose: Pose, joint: str, gauge: Gauge) -> Iterator[Layer]:
     middle = view.place(pose.position[joint])
     for reach, alpha in ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4)):
         yield Layer(ORANGE, [middle + disc(reach * gauge.bar)], alpha)
+
+
+def spots(
+    view: View, shown: Sequence[Spot], theme: Theme, layout: Layout
+) -> Iterator[tuple[list[Layer], Caption]]:
+    """Yield what marks the places of answers: a ring, and beside it, off the others, the key on a disc."""
+    size, places = layout.text_size, [view.place(spot.at) for spot in shown]
+    middle = sum(places) / max(len(places), 1)
+    for spot, at in zip(shown, places, strict=True):
+        colour = mood_colour(theme, spot.mood)
+        ink = theme.velocity if spot.mood == "" else colour
+        off = unit(at - middle) if abs(at - middle) > 1 else -1j
+        disc_at = _inside(layout.stage, at + 1.7 * size * off, 1.6 * size, 1.6 * size)
+        ring = stroke(at + disc(0.55 * size), 0.13 * size, closed=True)
+        lead = segments([at + 0.55 * size * off], [disc_at], 0.1 * size)
+        rim, inner = disc_at + disc(0.8 * size), disc_at + disc(0.68 * size)
+        layers = [Layer(ink, [*ring, *lead]), Layer(ink, [rim]), Layer(theme.panel, [inner])]
+        words = Caption(spot.key, (disc_at.real, disc_at.imag - 0.5 * size), size, ink, "centre", strong=True)
+        yield layers, words
 
 
 def grip(foot: complex, unit_: float, theme: Theme) -> list[Layer]:

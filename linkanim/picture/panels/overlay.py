@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from linkanim.mechanics.linkage.joint import Point
 from linkanim.picture.look import ThemeName
@@ -135,6 +135,63 @@ class DimensionLine(NamedTuple):
         return self.frame[0] != self.frame[1] and (self.begin, self.end) == (0, 1)
 
 
+Mood = Literal["", "right", "wrong", "faint"]
+"""How an answer is shown: as any other, as right, as wrong, as one that no longer counts."""
+
+
+class Choice(NamedTuple):
+    """An answer, or a door: the key that takes it, its words, what stands small below them, how it is shown.
+
+    A `curve` of values from −1 to 1 is drawn instead of words.
+    """
+
+    key: str
+    text: str
+    mood: Mood = ""
+    below: str = ""
+    curve: tuple[float, ...] = ()
+
+
+class ScoreBar(NamedTuple):
+    """A score as a bar: its words, how full it is (0 to 1), and where its thresholds stand."""
+
+    label: str
+    words: str
+    full: float
+    marks: tuple[float, ...] = ()
+
+
+class Spot(NamedTuple):
+    """The place of an answer on the picture, in the unit that is shown, and what marks it."""
+
+    key: str
+    at: Point
+    mood: Mood = ""
+
+
+@dataclass(frozen=True)
+class GamePanel:
+    """What a game shows in the room of a list: from its heading down to what there is to press.
+
+    A title's heading is `large`. `chosen` is the answer that Enter takes, the mouse is over `pointed`.
+    `verdict` says what has come of an answer, well or not, `lines_after` why. A `subject` stands over them.
+    """
+
+    heading: str
+    scores: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
+    choices: tuple[Choice, ...] = ()
+    bars: tuple[ScoreBar, ...] = ()
+    verdict: str = ""
+    well: bool = True
+    subject: str = ""
+    lines_after: tuple[str, ...] = ()
+    hint: str = ""
+    large: bool = False
+    chosen: int | None = None
+    pointed: int | None = None
+
+
 Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 """Subjects, each with its lines of (key, what it does)."""
 
@@ -143,10 +200,11 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    With `noted` the HUD says where a limit or a change point is near. `chip` answers a key, `hint` says what
-    there is to press, `watch` what to watch for. `measured` is what the chosen dimension and those beside it
-    measure, `glow` the joint under the mouse; with `grip` the chart's cursor has one. `shutter` is how white
-    the picture is, in eighths.
+    Answers that are places have `spots` on the picture, in their order. With `noted` the HUD says where a
+    limit or a change point is near. `chip` answers a key, `hint` says what there is to press, `watch` what
+    to watch for. `measured` is what the chosen dimension and those beside it measure, `glow` the joint
+    under the mouse; with `grip` the chart's cursor has one. `shutter` is how white the picture is, in
+    eighths.
     """
 
     paused: bool = False
@@ -158,6 +216,8 @@ class Overlay:
     shelf: Shelf | None = None
     path: PathShown | None = None
     row: AnswerRow | None = None
+    game: GamePanel | None = None
+    spots: tuple[Spot, ...] = ()
     chip: Fading | None = None
     hint: Fading | None = None
     watch: Fading | None = None

@@ -16,8 +16,9 @@ from linkanim.picture.layout import Layout
 from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.chips import chip, hint_bar, put
 from linkanim.picture.panels.edit_list import edit_list, edit_rows
+from linkanim.picture.panels.game_panel import answer_at, game_panel
 from linkanim.picture.panels.help_sheet import help_sheet
-from linkanim.picture.panels.overlay import Overlay, Panel, Quantities
+from linkanim.picture.panels.overlay import GamePanel, Overlay, Panel, Quantities
 from linkanim.picture.panels.quantity_list import quantity_list, quantity_rows
 from linkanim.picture.raster.raster import Colour, Layer, Loop, paint
 from linkanim.picture.raster.shapes import box, disc, stroke
@@ -52,6 +53,9 @@ class Panels:
         if overlay.help:
             surface.blit(self._keep("veil", None, self._veil), (0, 0))
         left = 0
+        if overlay.game:
+            drawn = self._game(overlay.game)
+            surface.blit(drawn, self._listed(drawn))
         if overlay.panel:
             drawn = self._edit_list(overlay.panel)
             surface.blit(drawn, self._listed(drawn))
@@ -71,6 +75,12 @@ class Panels:
 
     def row_at(self, overlay: Overlay, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
+        if overlay.game:
+            drawn = self._game(overlay.game)
+            left, top = self._listed(drawn)
+            return (
+                answer_at(self.board, overlay.game, y - top) if left <= x < left + drawn.get_width() else None
+            )
         if overlay.panel:
             drawn, rows = self._edit_list(overlay.panel), edit_rows(self.board, overlay.panel)
         elif overlay.quantities:
@@ -82,6 +92,9 @@ class Panels:
             return None
         found = rows.at(y - top)
         return -1 if found is None else found
+
+    def _game(self, panel: GamePanel) -> pygame.Surface:
+        return self._keep("game", panel, partial(game_panel, self.board))  # type: ignore[no-any-return]
 
     def _edit_list(self, panel: Panel) -> pygame.Surface:
         return self._keep("panel", panel, partial(edit_list, self.board))  # type: ignore[no-any-return]

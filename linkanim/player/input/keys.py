@@ -203,12 +203,27 @@ PENCIL_KEYS: tuple[KeyRow, ...] = (
 )
 """What the keys do while a path is drawn."""
 
+GAME_KEYS: tuple[KeyRow, ...] = (
+    KeyRow(
+        "in a game",
+        "1–9, click",
+        "choose an answer or a door",
+        tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", "option", n)),
+    ),
+    KeyRow("in a game", "Enter, Space", "go on", _on("return kp_enter space", "next")),
+    KeyRow("in a game", "← → (Shift: ×10)", "turn the crank", _steps("turn")),
+    KeyRow("in a game", "↑ ↓", "choose", _both("down", "up", "raise")),
+    KeyRow("in a game", "Esc", "out of it", ()),
+)
+"""What the keys do in a game and on the title."""
+
 _OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {
     "edit": EDIT_KEYS,
     "list": LIST_KEYS,
     "shelf": SHELF_KEYS,
     "paused": PAUSED_KEYS,
     "pencil": PENCIL_KEYS,
+    "game": GAME_KEYS,
 }
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),
@@ -238,7 +253,9 @@ def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind 
         return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
     tables = (_OPEN.get(mode, ()), KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
-    return next(found, None)
+    # any other letter goes on in a game, as a title's "any key" has it
+    others = Bind(press.key, Action("next")) if mode == "game" and press.text and not press.ctrl else None
+    return next(found, others)
 
 
 def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:

@@ -69,6 +69,9 @@ class MouseTarget(Protocol):
     def mode(self) -> Mode:
         """What the keys are for, and whether a list is open."""
 
+    def option_at(self, x: float, y: float) -> int | None:
+        """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""
+
     def row_at(self, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
 
@@ -93,6 +96,8 @@ class Mouse:
         if target.is_shelf_open:
             return self._on_the_shelf(event, target)
         if target.mode == "pencil" and (found := self._of_the_pencil(event, target)) is not None:
+            return found
+        if target.mode == "game" and self._drag is None and (found := self._in_a_game(event, target)):
             return found
         if self._drag in (None, "row") and (found := self._on_a_list(event, target)) is not None:
             return found
@@ -136,6 +141,19 @@ class Mouse:
         self._drag, self._taken, self._steps = "row", self._at[0], 0
         return (Action("grab_row", row),)
 
+    def _in_a_game(self, event: Event, target: MouseTarget) -> tuple[Action, ...]:
+        """Return what a click asks of a game: the answer that is there, else to go on.
+
+        The crank pin is dragged as without a game.
+        """
+        if event.type != pygame.MOUSEBUTTONDOWN or event.button != 1:
+            return ()
+        self._at = event.pos
+        option = target.option_at(*self._at)
+        if option is None and self._is_at_pin(target):
+            return ()
+        return (Action("next") if option is None else Action("option", option),)
+
     def _wheeled(self, notches: int, row: int, *, editing: bool) -> tuple[Action, ...]:
         """Nudge the value under the mouse; beside the values, and in the list of quantities, choose."""
         if editing and row >= 0:
@@ -154,7 +172,8 @@ class Mouse:
         """Return the row of the open list that the mouse is over; None before the mouse was seen."""
         if not self._seen or self._drag not in (None, "row") or target.is_shelf_open:
             return None
-        row = target.row_at(*self._at)
+        found = target.option_at if target.mode == "game" else target.row_at
+        row = found(*self._at)
         return row if row is not None and row >= 0 else None
 
     def hovered(self, target: MouseTarget) -> str | None:

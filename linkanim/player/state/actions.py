@@ -11,7 +11,7 @@ from linkanim.picture.look import TOGGLES, answer
 from linkanim.picture.parts.driven import speed_words
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import Clock
-from linkanim.player.state.handlers import edits, looks, outside, pencil, places, shelf
+from linkanim.player.state.handlers import edits, games, looks, outside, pencil, places, shelf
 from linkanim.player.state.state import State
 from linkanim.scenes.editing.closures import closure_name
 
@@ -120,6 +120,11 @@ def _zoom(_: State, after: State) -> str:
     return f"{after.look.zoom:.0%}".replace("%", " %")
 
 
+def _unused(state: State, _: object) -> State:
+    """Do nothing: without a game there is no use for it."""
+    return state
+
+
 def _idle(words: str) -> Callable[[State, State], str | None]:
     """Return what says so where there was nothing to do; else the picture says it."""
     return lambda before, after: words if before.editing == after.editing else None
@@ -198,6 +203,12 @@ ACTIONS: Mapping[str, Rule] = {
     "let_go": Rule(_nothing, pencil.let_go),
     "keep": Rule(_nothing, pencil.keep),
     "take_back": Rule(_nothing, pencil.take_back),
+    "play": Rule(_text, games.play),  # a game's words
+    # what games have in common; each says what they do in it
+    "option": Rule(_whole, _unused),  # the place of an answer, from 0
+    "next": Rule(_nothing, _unused),
+    "turn": Rule(_whole, _unused),  # small steps, counterclockwise or to the right
+    "raise": Rule(_whole, _unused),  # steps up
     "back": Rule(_nothing, outside.back),
     "list": Rule(_nothing, shelf.list_, taped=False),
     "shelf": Rule(_nothing, shelf.open_shelf, taped=False),

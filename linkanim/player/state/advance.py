@@ -14,6 +14,7 @@ from linkanim.player.state.actions import ACTIONS
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import refused
 from linkanim.player.state.glide import followed
+from linkanim.player.state.handlers.games import BESIDE, leave
 from linkanim.player.state.handlers.pencil import come, keep, left
 from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, with_chip
 
@@ -50,7 +51,8 @@ def aged(state: State) -> State:
     over = [name for name, life in _LIVES.items() if _is_over(getattr(state, name), life, state.frame)]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
     state = come(state) if state.sketch else state
-    return _followed(state) if state.glide else state
+    state = _followed(state) if state.glide else state
+    return _played(state) if state.game else state
 
 
 def _is_over(since: int | None, life: int, frame: int) -> bool:
@@ -67,6 +69,8 @@ def carried(state: State, action: Action) -> State:
     if action.name in _KEEPS | _LEAVES:
         state = keep(state, None) if action.name in _KEEPS else left(state)
     try:
+        if state.game and not (action.name in BESIDE or state.help):
+            return state.game.carried(state, action)
         after = rule.handle(state, action.value)
         return with_chip(after, rule.answer(state, after)) if rule.answer else after
     except Exception as error:
@@ -81,6 +85,14 @@ def settled(state: State) -> State:
         return state
     onward = replace(carried(replace(state, help=False), Action("mechanism", 1)), touched=state.touched)
     return replace(onward, clock=onward.clock.pause(onward.frame, False))
+
+
+def _played(state: State) -> State:
+    assert state.game is not None
+    try:
+        return state.game.aged(state)
+    except Exception as error:
+        return refused(leave(state), Action("play"), error)
 
 
 def _followed(state: State) -> State:

@@ -7,10 +7,12 @@ as data for the window to carry out.
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Protocol
 
 from linkanim.picture.look import Look
+from linkanim.picture.panels.overlay import Overlay
 from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.browsing import Browsing, Listing
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
@@ -52,6 +54,38 @@ class Edited(NamedTuple):
     editing: Editing
 
 
+class Game(Protocol):
+    """A game that is on, or the title: a frozen value that the state hands its actions to.
+
+    Equal games look the same. Where it needs something from outside, such as a seed, it leaves an effect:
+    "begin" with the words of another game, "score" with what is to be kept.
+    """
+
+    @property
+    def words(self) -> str:
+        """What begins it again just as it is now: its kind, then its parameters."""
+
+    @property
+    def listed(self) -> bool:
+        """Whether its panel takes the room of a list beside the scene."""
+
+    @property
+    def covers(self) -> bool:
+        """Whether Esc goes out of it."""
+
+    def entered(self, state: State) -> State:
+        """Return the state with what the game begins with; it is the state's game already."""
+
+    def carried(self, state: State, action: Action) -> State:
+        """Return the state with an action carried out, or as it is where the game has no use for it."""
+
+    def aged(self, state: State) -> State:
+        """Return the state, a frame later already, with what time does to the game."""
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with what the game shows."""
+
+
 @dataclass(frozen=True)
 class State:
     """All that the window shows at one frame; equal states are equal pictures.
@@ -63,12 +97,14 @@ class State:
     answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
     `place_typed` is the input's angle, or travel, that is being typed while paused.
+    `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
     `held` is the joint that is being dragged. `touched` is the frame of the last action, `arrived` that at
     which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
     list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
     "fullscreen", "save", "reload", "quit", "pencil" (it was taken), "search" and "follow" (answers to the
-    sketch, or the one that is shown again), and "report" (with the text of a fault's report).
+    sketch, or the one that is shown again), "begin" (a game, with its words), "score" (with what is to be
+    kept of one), and "report" (with the text of a fault's report).
     """
 
     scene: Scene
@@ -84,6 +120,9 @@ class State:
     listing: Listing | None = None
     browsing: Browsing | None = None
     sketch: Sketch | None = None
+    game: Game | None = None
+    games: Callable[[str], Game] | None = None
+    beneath: State | None = None
     glide: Glide | None = None
     turned: int | None = None
     arrived: int | None = None
@@ -110,6 +149,8 @@ class State:
     @property
     def mode(self) -> Mode:
         """What the keys are for."""
+        if self.game:
+            return "game"
         if self.editing.open:
             return "edit"
         if self.listing or self.browsing:
@@ -127,12 +168,15 @@ class State:
     @property
     def is_covered(self) -> bool:
         """Whether something is open that Esc closes."""
+        if self.game and not self.help:
+            return self.game.covers
         return self.help or self.mode not in ("play", "paused")
 
     @property
     def listed(self) -> bool:
         """Whether a list is open, beside which the scene has less room."""
-        return self.editing.open or self.listing is not None
+        listed = self.editing.open or self.listing is not None
+        return listed or (self.game is not None and self.game.listed)
 
     @property
     def typing(self) -> bool:

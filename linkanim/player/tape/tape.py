@@ -11,6 +11,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
 from linkanim.player.state.advance import advance, carried
 from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.handlers.games import leave
 from linkanim.player.state.state import State
 from linkanim.scenes.scene import Scene
 
@@ -78,6 +79,7 @@ class Tape:
 
 def starting(state: State) -> State:
     """Return the state as a tape starts from it: frame 0, standing where it stands, nothing to be done."""
+    state = leave(state) if state.game else state
     clock, sketch = state.clock.go(0, state.phase), state.sketch
     return State(
         scene=sketch.before if sketch else state.scene,
@@ -88,11 +90,15 @@ def starting(state: State) -> State:
         help=state.help,
         editing=sketch.editing if sketch else state.editing,
         kept=state.kept,
+        games=state.games,
     )
 
 
 def resumed(state: State) -> Iterator[Action]:
-    """Yield what a tape does at its frame 0, to have the pencil's sketch as it is."""
+    """Yield what a tape does at its frame 0, to have the pencil's sketch, or a game, as it is."""
+    if state.game:
+        yield Action("play", state.game.words)
+        return
     sketch = state.sketch
     if sketch is None:
         return

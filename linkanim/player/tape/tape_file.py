@@ -7,20 +7,22 @@ each of them comes at.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from linkanim import atomic_files, intake
 from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS
 from linkanim.document import Section, refuse_controls
-from linkanim.errors import BadInput
+from linkanim.errors import BadInput, LinkanimError
 from linkanim.intake import Intake
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.state.editing import Editing
-from linkanim.player.state.state import Edited, State
+from linkanim.player.state.state import Edited, Game, State
 from linkanim.player.tape.tape import Tape
 from linkanim.scenes import names
 from linkanim.scenes.fields.form import Key
@@ -42,8 +44,11 @@ def write(tape: Tape, path: Path) -> None:
     atomic_files.add(f"{text}\n".encode(), path)
 
 
-def read(path: Path) -> Tape:
-    """Read a tape; BadInput, naming the place, for what is none, or of another version."""
+def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:
+    """Read a tape; BadInput, naming the place, for what is none, or of another version.
+
+    `games` reads the games that are on it from their words.
+    """
     where = intake.named(path)
     text = TAPE_FILE.read(path, where)
     try:
@@ -53,7 +58,20 @@ def read(path: Path) -> Tape:
         raise BadInput(f"{where}: is not JSON; a tape is a file that G or M wrote in the window") from None
     if isinstance(document, dict):
         refuse_controls(Section(where, document))
-    return from_document(document, where)
+    return (
+        _with_games(from_document(document, where), games, where) if games else from_document(document, where)
+    )
+
+
+def _with_games(tape: Tape, games: Callable[[str], Game], where: str) -> Tape:
+    """Return a tape that can play its games; BadInput for one that there is not."""
+    for _, action in tape.actions:
+        if action.name == "play":
+            try:
+                games(str(action.value))
+            except LinkanimError as error:
+                raise BadInput(f"{where}: {error}") from None
+    return replace(tape, start=replace(tape.start, games=games))
 
 
 def _no_constant(name: str) -> float:

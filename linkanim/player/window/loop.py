@@ -19,6 +19,7 @@ from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
 from linkanim.player.window import display
 from linkanim.player.window.files import SceneFile
+from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.window import Window
 from linkanim.scenes.files import path_of
 from linkanim.scenes.scene import Scene
@@ -32,17 +33,19 @@ def run(
     look: Look | None = None,
     attract: bool = False,
     size: tuple[int, int] | None = None,
+    keeper: GameKeeper | None = None,
 ) -> int:
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
-    Without a scene it opens on the catalogue's first. With `attract` it walks through the catalogue
-    when left alone for a minute. NoDisplay where there is no screen, or none any more; BadInput as loading
-    raises it. Whatever ends the window, a recording that runs is finished.
+    Without a scene it opens on the catalogue's first. `keeper` has the games. With `attract` it walks
+    through the catalogue when left alone for a minute. NoDisplay where there is no screen, or none any more;
+    BadInput as loading raises it. Whatever ends the window, a recording that runs is finished.
     """
-    tape = _tape(scene)
+    tape = _tape(scene, keeper)
     state = tape.begun if tape else begin(scene, look=look)
+    state = replace(state, games=keeper.game_of if keeper else None)
     with display.opened(size) as connection:
-        window = Window(replace(state, attract=attract), tape, None if tape else _file(scene))
+        window = Window(replace(state, attract=attract), tape, None if tape else _file(scene), keeper)
         gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame
         try:
             for count in frames(time.monotonic, time.sleep):
@@ -81,10 +84,10 @@ def _file(scene: object) -> SceneFile | None:
     return SceneFile(path) if path else None
 
 
-def _tape(scene: object) -> Tape | None:
+def _tape(scene: object, keeper: GameKeeper | None) -> Tape | None:
     path = str(scene) if isinstance(scene, str | os.PathLike) else ""
     if not path.lower().endswith(".json"):
         return None
     from linkanim.player.tape import tape_file
 
-    return tape_file.read(Path(path))
+    return tape_file.read(Path(path), keeper.game_of if keeper else None)

@@ -177,6 +177,16 @@ class Screen:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         return self._printer.row_at(self._framing.last, self._over, x, y) if self._state.listed else None
 
+    def option_at(self, x: float, y: float) -> int | None:
+        """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""
+        reach = 1.6 * self._framing.last.layout.text_size
+        away = {n: hypot(*self._from(spot.at, x, y)) for n, spot in enumerate(self._over.spots)}
+        near = min(away, key=lambda n: away[n], default=None)
+        if near is not None and away[near] <= reach:
+            return near
+        row = self.row_at(x, y)
+        return None if row is None or row < 0 else row
+
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
         return self._framing.last.chart_phase_at(x, y)

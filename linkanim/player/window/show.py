@@ -63,11 +63,12 @@ def overlay(state: State, hover: str | None = None, row: int | None = None) -> O
         toast=state.toast.text if state.toast else None,
         chip=_chip(state),
         hint=_hint_bar(state),
-        watch=_watch(state),
+        watch=None if state.game else _watch(state),
         measured=tuple(_measured(state, items)),
         glow=(state.held.joint or None) if state.held else hover,
-        grip=state.look.chart is not None,
+        grip=state.look.chart is not None and not state.game,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
+        game=lists.game and replace(lists.game, pointed=row),
     )
 
 
@@ -82,8 +83,8 @@ def _items(state: State) -> tuple[Dimension, ...]:
 
 
 def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
-    return Overlay(
-        paused=state.clock.paused,
+    found = Overlay(
+        paused=state.clock.paused and not state.game,
         noted=True,
         recording=_recording(state),
         help=help_groups(state.mode) if state.help else None,
@@ -93,6 +94,7 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
         path=_path(state.sketch) if state.sketch else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
     )
+    return state.game.shown(state, found) if state.game else found
 
 
 def _quantities(state: State, listing: Listing) -> Quantities:

@@ -24,6 +24,7 @@ from linkanim.player.state.state import State, Take
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.window import display, files
 from linkanim.player.window.files import SceneFile
+from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.screen import Screen
 from linkanim.player.window.show import kept, overlay
 from linkanim.scenes.editing.write import save
@@ -44,9 +45,16 @@ class Window:
     A tape plays in it until a key is pressed. A scene file that it was opened on is watched.
     """
 
-    def __init__(self, state: State, tape: Tape | None = None, file: SceneFile | None = None) -> None:
+    def __init__(
+        self,
+        state: State,
+        tape: Tape | None = None,
+        file: SceneFile | None = None,
+        keeper: GameKeeper | None = None,
+    ) -> None:
         self.state = state
         self._file = file
+        self._keeper, self._begun = keeper, ""
         self._tape = tape
         self._taping: Taping | None = None
         self._renderings: Queue | None = None
@@ -100,6 +108,9 @@ class Window:
         """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
         yield from self._of_the_tape()
         yield from self._followed()
+        if self._begun:
+            words, self._begun = self._begun, ""
+            yield Action("play", words)
         drawing = self.state.sketch is not None and self.state.sketch.pen
         for event in events if drawing else latest(events):
             for action in self._meant(event):
@@ -242,6 +253,10 @@ class Window:
                 self._reload()
             case "pencil" | "search" | "follow":
                 self._ask_for(effect.name)
+            case "begin" if self._keeper:
+                self._begun = self._keeper.completed(str(effect.value))
+            case "score" if self._keeper:
+                self._notes += filter(None, [self._keeper.keep(str(effect.value))])
             case "fullscreen":
                 self._windowed = display.fill(self._windowed)
             case "quit":

@@ -1,0 +1,118 @@
+"""The title: mechanisms one after the other, and doors that any key or click goes through."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pygame
+import pytest
+from playing import SIZE, Player
+
+from linkanim.errors import BadInput
+from linkanim.play.games import GAMES, game_of
+from linkanim.play.title import EACH, Title
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance, carried
+from linkanim.player.state.state import State, begin
+from linkanim.player.tape.tape import Tape, resumed, starting
+from linkanim.player.tape.tape_file import read, write
+from linkanim.player.window import display
+from linkanim.scenes import load, names
+
+
+def titled() -> State:
+    """A window's state with the title on."""
+    state = replace(begin(load("press")), games=game_of)
+    return carried(state, Action("play", "title door=build place=0"))
+
+
+@pytest.fixture
+def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
+    monkeypatch.chdir(tmp_path)
+    with display.opened(SIZE):
+        player = Player(titled())
+        yield player
+        player.window.close()
+
+
+def test_mechanisms_run_behind_it_one_after_the_other() -> None:
+    state, seen = titled(), []
+    for _ in range(2 * EACH + 2):
+        seen.append(state.scene.name)
+        state = advance(state)
+    assert [*dict.fromkeys(seen)] == [*names()[:3]]
+    assert seen.count(names()[1]) == EACH
+
+
+@pytest.mark.parametrize(
+    ("key", "mode"),
+    [
+        ("any key goes through the door that was last", pygame.K_y),
+        ("Enter does", pygame.K_RETURN),
+        ("1 is the shelf", pygame.K_1),
+        ("up is the shelf, then in", pygame.K_UP),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_a_key_goes_in(player: Player, key: str, mode: int) -> None:
+    assert isinstance(player.state.game, Title)
+    player.press(mode, 0, "y" if mode == pygame.K_y else "")
+    if mode == pygame.K_UP:
+        assert player.state.game.door == 0
+        player.press(pygame.K_RETURN)
+    assert player.state.game is None
+    assert player.state.mode == ("pencil" if mode in (pygame.K_y, pygame.K_RETURN) else "shelf")
+    assert player.state.scene.name == "press"
+
+
+def test_a_click_on_a_door_goes_in_and_the_mouse_lights_it(player: Player) -> None:
+    before = player.pixels
+    door = next((x, y) for y in range(SIZE[1]) for x in [40] if player.window.screen.option_at(x, y) == 0)
+    player.mouse(pygame.MOUSEMOTION, door, rel=(0, 0), buttons=(0, 0, 0))
+    player.tick()
+    assert player.pixels != before
+    player.mouse(pygame.MOUSEBUTTONDOWN, door, button=1)
+    assert player.state.mode == "shelf"
+
+
+def test_esc_stays_and_the_theme_goes_along(player: Player) -> None:
+    player.press(pygame.K_ESCAPE)
+    assert player.state.game
+    player.press(pygame.K_l, 0, "l")
+    player.press(pygame.K_1)
+    assert player.state.look.theme == "dark"
+    assert player.state.look.hud
+
+
+def test_a_recording_begun_on_it_begins_there(tmp_path: Path) -> None:
+    state = titled()
+    for _ in range(EACH + 1):
+        state = advance(state)
+    actions = (*((0, one) for one in resumed(state)), (3, Action("option", 0)))
+    tape = Tape(starting(state), 5, actions)
+    write(tape, tmp_path / "title.tape.json")
+    states = list(read(tmp_path / "title.tape.json", game_of).states())
+    assert [type(one.game) for one in states] == [Title] * 3 + [type(None)] * 3
+    assert states[0].scene.name == names()[1]
+    assert states[-1].scene.name == "press"
+
+
+@pytest.mark.parametrize("words", ["no-such", "title door", "title place=x", "title place=-1"])
+def test_words_that_name_no_game_are_refused_in_a_line(words: str, tmp_path: Path) -> None:
+    with pytest.raises(BadInput):
+        game_of(words)
+    write(Tape(starting(titled()), 1, ((0, Action("play", words)),)), tmp_path / "a.tape.json")
+    with pytest.raises(BadInput, match="tape"):
+        read(tmp_path / "a.tape.json", game_of)
+
+
+def test_without_games_there_are_none() -> None:
+    state = carried(begin(load("press")), Action("play", "title"))
+    assert state.game is None
+    assert state.toast
+
+
+def test_every_game_is_where_the_table_has_it() -> None:
+    assert all(game_of(kind).words.startswith(kind) for kind in GAMES)
