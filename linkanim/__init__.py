@@ -14,6 +14,9 @@ asked for: `import linkanim` alone brings in neither a window nor an encoder.
     motion/    a linkage made ready, and what solving it gives: arrays, or one pose of floats
     facts/     what a linkage is called and can do: class, transmission angle, forces, all quantities
 
+`build`: a linkage drawn by hand: a `draft` and the `gestures` that change it, the dyads in it (`order`),
+the scene that it comes to (`making`), and what is `missing` before it comes to one.
+
 `picture`, likewise; what stands between `text` and `parts` (`figure`, `items`, `layout`, `look`, `placing`,
 `theme`, `view`) is its floor, and `picture.py` with its printers stands on all of them:
 

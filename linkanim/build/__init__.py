@@ -1,0 +1,31 @@
+"""A linkage built by hand on an empty sheet: a frozen draft, the gestures that change it, what it comes to.
+
+The window keeps one `Building` (`building.py`): the `draft`, the `chosen` thing, the digits `typed` for its
+number `row`, `past` and `future`, and a `sentence` of what the last gesture did or why not. Every gesture is
+a pure function that returns another Building; its parameters are names, numbers and texts, as tapes keep
+them. A thing is a pair (kind, name): ("joints", "A"), ("bars", "A–B"), ("guides", "1"), ("springs", "s"),
+("drive", "input"), ... Points are in the draft's unit of length, y upwards.
+
+By pointer (`pointing.py`): `reach` is how near counts as on it, `snap` the step of places, lengths and
+(so that ends move less than it) angles: 1 or 10 for a grid, 0.1 with Shift, 0 with Alt. Tools: see `TOOLS`.
+
+    click(building, tool, x, y, reach=, snap=)    a ground pin on paper; else chooses what is there
+    double_click(building, x, y, reach=, snap=)    a point of the body there
+    drag(building, tool, x, y, to_x, to_y, reach=, snap=)    a bar, a guide, a spring, ... as the tool says
+    under(draft, x, y, reach)                                what is there: a thing, or None
+
+On the chosen thing (`gestures.py`, `typing.py`), also by keys:
+
+    choose(building, further)      the next thing, or the one before    choose_thing(building, kind, name)
+    move(building, x, y, snap=)    what is chosen goes to a point       delete(building)
+    trace(building)                its curve on or off                  drive(building)  it is the drive
+    write(building, text), erase(building), take(building)              digits for its number, Enter
+    choose_number(building, further)                                    the next number of it
+    undo(building), redo(building), let_go(building)
+
+What comes of it: `building.made.scene` (a Scene, or None) and `building.made.missing` (why there is none).
+The scene's document is its file: `scenes.editing.write.save` writes it. While there is a scene, the window
+draws that, and calls `posed(building, phase)` before a gesture, so that places are those of the pose on
+the screen. Without a scene it draws `drawn(draft)` (`shapes.py`). `building_of(scene)` begins with a scene;
+`stored(draft)` and `restored(tables)` are the draft as plain data, for JSON.
+"""

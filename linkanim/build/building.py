@@ -1,0 +1,69 @@
+"""A drawing at work: what is drawn, what is chosen, what was typed, and the way back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from linkanim.build.draft import Draft, Thing
+from linkanim.build.making import Made, made
+from linkanim.build.order import sides
+
+_KEPT = 200
+
+
+@dataclass(frozen=True)
+class Building:
+    """A draft with what was `chosen` of it, the digits begun for its number `row`, and what undo goes to.
+
+    `sentence` says what the last gesture did besides, or why it did nothing; "" where that is plain.
+    """
+
+    draft: Draft = field(default_factory=Draft)
+    chosen: Thing | None = None
+    row: int = 0
+    typed: str = ""
+    past: tuple[Draft, ...] = ()
+    future: tuple[Draft, ...] = ()
+    sentence: str = ""
+
+    @cached_property
+    def made(self) -> Made:
+        """The scene that the draft comes to, or None and what it lacks; worked out once."""
+        return made(self.draft)
+
+
+def changed(building: Building, draft: Draft, chosen: Thing | None, sentence: str = "") -> Building:
+    """Return the building with another draft, which undo takes back."""
+    settled = draft.having_all("sides", sides(draft))
+    past = (*building.past, building.draft)[-_KEPT:]
+    return Building(settled, chosen, past=past, sentence=sentence)
+
+
+def refused(building: Building, sentence: str) -> Building:
+    """Return the building as it is, and why nothing was done."""
+    return replace(building, typed="", sentence=sentence)
+
+
+def undo(building: Building) -> Building:
+    """Return the building before its last change; digits begun are let go of first."""
+    if building.typed or not building.past:
+        return replace(building, typed="", sentence="")
+    *past, draft = building.past
+    future = (*building.future, building.draft)
+    return replace(_standing(building, draft), past=tuple(past), future=future)
+
+
+def redo(building: Building) -> Building:
+    """Return the building with the change that undo took back last."""
+    if not building.future:
+        return replace(building, typed="", sentence="")
+    *future, draft = building.future
+    past = (*building.past, building.draft)
+    return replace(_standing(building, draft), past=past, future=tuple(future))
+
+
+def _standing(building: Building, draft: Draft) -> Building:
+    """Return the building with another draft, what is chosen still so if it is in it."""
+    chosen = building.chosen if building.chosen in set(draft.things()) else None
+    return replace(building, draft=draft, chosen=chosen, row=0, typed="", sentence="")

@@ -1,0 +1,134 @@
+"""What has been drawn: joints with their places, bars, points, guides, and what else hangs on them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+from linkanim.mechanics.linkage.joint import Point
+
+Thing = tuple[str, str]
+"""What can be chosen: its kind, and its name among its kind."""
+Tables = Mapping[str, Mapping[str, Any]]
+KINDS = ("pins", "bars", "points", "guides", "sliders", "slots", "yokes", "gears", "springs", "dampers")
+"""The kinds of tables that are drawn; besides there are "sides", "bodies" and "drive"."""
+JOINT, DRIVE = "joints", ("drive", "input")
+"""The kind of a joint, fixed or not, and the one thing that drives."""
+_NAMING = {"guide": "guides", "bar": "bars"}
+_JOINTS = ("joints", "on", "between", "through", "with", "pin", "joint", "slider")
+
+
+class Photo(NamedTuple):
+    """A photograph behind the drawing: its file beside the scene's, and how it lies there.
+
+    `place` is that of its lower left corner, `width` how wide it is, both in the draft's unit; `turn` is
+    counterclockwise about that corner (rad).
+    """
+
+    file: str
+    place: Point = (0.0, 0.0)
+    width: float = 100.0
+    turn: float = 0.0
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A linkage as it is drawn, whole or not; nothing in it is changed in place.
+
+    `places` are those of all joints, fixed ones too, in the order in which they were drawn. `tables` hold
+    what is said of them, by kind and name, in the words of a scene file where it has any:
+
+        pins     O2 = [0, 0], or { length = 100, angle = "0 deg" }
+        bars     A–B = { joints = ["A", "B"], length = 90 }
+        points   P = { on = ["A", "B"], at = [45, 30] }
+        guides   1 = { through = "O2", angle = "0 deg", offset = 0 }, with `on` where a body carries it
+        sliders  C = { guide = "1" }
+        slots    A in O4–P = { bar = "O4–P", through = "A", offset = 0 }
+        yokes    Y = { pin = "A", slot = "90 deg" }
+        gears    D = { with = "A", ratio = -1, offset = "0 deg" }
+        springs, dampers, bodies, drive (one, called "input"): as in a file
+        sides    B = { joints = ["A", "O4"], side = "left" }: of the dyads as they were found
+
+    `rest` is what else the file says. `typed` are the keys of the numbers that were typed: no drag changes
+    them. `shorthand` tells whether it may be written as one.
+    """
+
+    places: Mapping[str, Point] = field(default_factory=dict)
+    tables: Tables = field(default_factory=dict)
+    rest: Mapping[str, Any] = field(default_factory=lambda: {"title": "New linkage", "length_unit": "mm"})
+    typed: frozenset[tuple[str | int, ...]] = frozenset()
+    photo: Photo | None = None
+    shorthand: bool = True
+
+    def of(self, kind: str) -> Mapping[str, Any]:
+        """Return all tables of a kind by their names."""
+        return self.tables.get(kind, {})
+
+    def having(self, kind: str, name: str, table: Any) -> Draft:
+        """Return the draft with another table at a name; None takes it away."""
+        kept = {**self.of(kind), name: table}
+        tables = {key: value for key, value in kept.items() if value is not None}
+        return replace(self, tables={**self.tables, kind: tables})
+
+    def having_all(self, kind: str, tables: Mapping[str, Any]) -> Draft:
+        """Return the draft with these tables as all of a kind."""
+        return replace(self, tables={**self.tables, kind: tables})
+
+    def placing(self, name: str, place: Point) -> Draft:
+        """Return the draft with a joint at a place."""
+        return replace(self, places={**self.places, name: place})
+
+    @property
+    def unit(self) -> str:
+        """Its unit of length."""
+        return str(self.rest.get("length_unit", "mm"))
+
+    @property
+    def trace(self) -> tuple[str, ...]:
+        """The joints whose curves are drawn."""
+        return tuple(self.rest.get("trace", {}).get("joints", ()))
+
+    @property
+    def drive(self) -> Mapping[str, Any]:
+        """What is said of the drive; nothing before there is one."""
+        table: Mapping[str, Any] = self.of("drive").get("input", {})
+        return table
+
+    @property
+    def driven(self) -> str | None:
+        """The joint that is driven: a crank pin or a slider."""
+        for table in (self.drive, self.drive.get("cylinder", {}), self.drive.get("slider", {})):
+            if "joint" in table:
+                return str(table["joint"])
+        return None
+
+    def bars_at(self, joint: str) -> Iterator[tuple[str, str, float]]:
+        """Iterate the bars that end in a joint, as they were drawn: their names, other ends and lengths."""
+        for name, table in self.of("bars").items():
+            if joint in table["joints"]:
+                first, second = table["joints"]
+                yield name, second if first == joint else first, table["length"]
+
+    def bar(self, one: str, other: str) -> str | None:
+        """Return the name of the bar between two joints."""
+        return next((name for name, end, _ in self.bars_at(one) if end == other), None)
+
+    def things(self) -> Iterator[Thing]:
+        """Iterate all that can be chosen: joints first, then what was drawn on them, by kind."""
+        yield from ((JOINT, name) for name in self.places)
+        for kind in KINDS[1:]:
+            yield from ((kind, name) for name in self.of(kind) if kind not in ("points", "sliders"))
+        yield from (("drive", name) for name in self.of("drive"))
+
+
+def named_in(table: Any, key: str = "at") -> Iterator[Thing]:
+    """Iterate what a table names: joints, and the guide or the bar that it is on."""
+    if isinstance(table, Mapping):
+        for under, value in table.items():
+            yield from named_in(value, under)
+    elif isinstance(table, list | tuple):
+        for value in table:
+            yield from named_in(value, key)
+    elif key in _NAMING or key in _JOINTS:
+        yield _NAMING.get(key, JOINT), table

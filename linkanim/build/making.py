@@ -1,0 +1,53 @@
+"""From a draft to a scene: the document that a scene file would hold, read as every file is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from linkanim.build.draft import Draft
+from linkanim.build.missing import missing, reworded
+from linkanim.build.order import found
+from linkanim.errors import BadInput
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
+
+NAME = "draft"
+"""What the scene of a draft is called, and its file, unless it has a name."""
+_AFTER = ("bodies", "springs", "dampers")
+
+
+class Made(NamedTuple):
+    """What a draft comes to: the scene, or None, and in words what is missing before there is one."""
+
+    scene: Scene | None
+    missing: str
+
+
+def document(draft: Draft) -> dict[str, Any]:
+    """Return the document of a scene file that says what is drawn, as far as its joints can be found."""
+    joints = found(draft)
+    stated = {**{key: value for key, value in draft.rest.items() if key != "trace"}, "drive": draft.drive}
+    stated |= {"ground": draft.of("pins"), "joints": joints}
+    stated |= {kind: draft.of(kind) for kind in _AFTER}
+    trace = [name for name in draft.trace if name in draft.of("pins") or name in joints]
+    stated |= {"trace": {"joints": trace}}
+    return {key: _plain(value) for key, value in stated.items() if value != {}}
+
+
+def made(draft: Draft, name: str = NAME) -> Made:
+    """Return the scene that a draft describes, put together; or none, and what it lacks."""
+    if reason := missing(draft):
+        return Made(None, reason)
+    try:
+        scene = scene_from(document(draft), name=name, where=name)
+    except BadInput as error:
+        return Made(None, reworded(draft, error))
+    return Made(scene, "")
+
+
+def _plain(value: Any) -> Any:
+    """Return a value as TOML has it: tables and lists, no tuples."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value

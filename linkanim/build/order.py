@@ -1,0 +1,126 @@
+"""The dyads of a drawing: each joint as a scene file says how it is found from joints before it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from math import cos, sin
+from typing import Any
+
+from linkanim import units
+from linkanim.build.draft import Draft
+from linkanim.mechanics.linkage.dyads import RRP, RRR
+
+Found = Mapping[str, Mapping[str, Any]]
+"""Tables of joints by their names, in solvable order."""
+
+
+def found(draft: Draft) -> dict[str, dict[str, Any]]:
+    """Return how each joint is found, as [joints] of a scene file; those that cannot be are left out.
+
+    A joint is found from the first things drawn that do: the drive or a gear, its body, a slot, a guide,
+    two bars. Of its two closures it is on the one where it was drawn.
+    """
+    tables: dict[str, dict[str, Any]] = {}
+    known = set(draft.of("pins"))
+    waiting = [name for name in draft.places if name not in known]
+    while table := next(((name, way) for name in waiting for way in _ways(draft, name, known)), None):
+        name, tables[table[0]] = table[0], table[1]
+        known.add(name)
+        waiting.remove(name)
+    return tables
+
+
+def sides(draft: Draft) -> dict[str, dict[str, Any]]:
+    """Return the closures of a draft's dyads: of which joints each is one, and what it is called."""
+    tables = ((name, table) for name, table in found(draft).items() if "side" in table)
+    return {name: {"joints": _ends(table), "side": table["side"]} for name, table in tables}
+
+
+def line_of(draft: Draft, guide: Mapping[str, Any]) -> tuple[complex, complex]:
+    """Return a point of a guide and its direction, of length 1, where the joints were drawn."""
+    start, way = place_of(draft, guide.get("through") or guide["on"][0]), 1 + 0j
+    if "on" in guide:
+        first, second = (place_of(draft, name) for name in guide["on"])
+        way = (second - first) / (abs(second - first) or 1.0)
+    angle = units.angle(guide.get("angle", "0 deg"))
+    way *= complex(cos(angle), sin(angle))
+    return start + 1j * way * units.length(guide.get("offset", 0), unit=draft.unit), way
+
+
+def place_of(draft: Draft, joint: str) -> complex:
+    """Return where a joint was drawn, as x + yi."""
+    return complex(*draft.places[joint])
+
+
+def _ways(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any]]:
+    """Yield the ways in which a joint can be found from those that are known."""
+    bars = [(end, length) for _, end, length in draft.bars_at(name) if end in known]
+    guide = draft.of("guides").get(draft.of("sliders").get(name, {}).get("guide"))
+    line = guide if guide and all(joint in known for joint in _base(guide)) else None
+    gear, point, yoke = (draft.of(kind).get(name) for kind in ("gears", "points", "yokes"))
+    if name == draft.driven:
+        yield from _driven(draft, bars, line)
+    elif gear and gear["with"] in known:
+        yield from ({"crank": end, "length": length, "gear": gear} for end, length in bars)
+    if point and known.issuperset(point["on"]):
+        yield dict(point)
+    yield from _slotted(draft, name, known, bars)
+    if yoke and line and yoke["pin"] in known:
+        yield {"slide": {"pin": yoke["pin"], "line": line, "slot": yoke["slot"]}}
+    for each in [line] if line else _carried(draft, name, known):
+        for end, length in bars:
+            if end not in each.get("on", ()):
+                yield _with_side(draft, name, {"from": end, "length": length, "line": each})
+    for (one, a), (other, b) in combinations(bars, 2):
+        yield _with_side(draft, name, {"from": [one, other], "length": [a, b]})
+
+
+def _driven(draft: Draft, bars: list[tuple[str, Any]], line: Any) -> Iterator[dict[str, Any]]:
+    if "slider" in draft.drive:
+        yield from [{"line": line}] if line and "on" not in line else []
+    else:
+        yield from ({"crank": end, "length": length} for end, length in bars if end in draft.of("pins"))
+
+
+def _slotted(
+    draft: Draft, name: str, known: set[str], bars: list[tuple[str, Any]]
+) -> Iterator[dict[str, Any]]:
+    """Yield the joint as the end of a bar that slides through a joint."""
+    for slot in draft.of("slots").values():
+        (one, other), through = draft.of("bars")[slot["bar"]]["joints"], slot["through"]
+        pivot = other if name == one else one
+        if name in (one, other) and {pivot, through} <= known:
+            length = dict(bars)[pivot]
+            aside = {"offset": slot["offset"]} if slot.get("offset") else {}
+            yield {"slot": {"pivot": pivot, "through": through, **aside}, "length": length}
+
+
+def _carried(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any]]:
+    """Yield the lines of the slots in known bars that a joint runs in."""
+    for slot in draft.of("slots").values():
+        ends = draft.of("bars")[slot["bar"]]["joints"]
+        if slot["through"] == name and known.issuperset(ends):
+            yield {"on": list(ends), "through": ends[0], "offset": slot.get("offset", 0)}
+
+
+def _base(guide: Mapping[str, Any]) -> list[str]:
+    return [*guide.get("on", ()), *([guide["through"]] if "through" in guide else [])]
+
+
+def _with_side(draft: Draft, name: str, table: dict[str, Any]) -> dict[str, Any]:
+    """Return a dyad with its closure: as it is known of the same dyad, else where the joint was drawn."""
+    known = draft.of("sides").get(name)
+    if known and known["joints"] == _ends(table):
+        return {**table, "side": known["side"]}
+    place, names = place_of(draft, name), _ends(table)
+    if "line" in table:
+        start, way = place_of(draft, names[0]), line_of(draft, table["line"])[1]
+        return {**table, "side": RRP.sides[((place - start) * way.conjugate()).real < 0]}
+    start, end = (place_of(draft, each) for each in names)
+    return {**table, "side": RRR.sides[((place - start) * (end - start).conjugate()).imag < 0]}
+
+
+def _ends(table: Mapping[str, Any]) -> list[str]:
+    ends = table["from"]
+    return [ends] if isinstance(ends, str) else list(ends)

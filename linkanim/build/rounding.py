@@ -1,0 +1,45 @@
+"""Round numbers: places on a grid, lengths and angles as a person would write them."""
+
+from __future__ import annotations
+
+from math import atan2, degrees, radians
+
+from linkanim.mechanics.linkage.joint import Point
+
+FREE = 1e-3
+"""The step of what is drawn without snapping, in its unit."""
+_ANGLES = (1.0, 0.1, 0.01, 0.001)
+
+
+def snapped(x: float, y: float, step: float) -> Point:
+    """Return the nearest point whose coordinates are multiples of a step; 0 is the finest."""
+    return _multiple(x, step or FREE), _multiple(y, step or FREE)
+
+
+def round_number(value: float, step: float) -> int | float:
+    """Return the nearest multiple of a step, whole numbers as such; 0 is the finest."""
+    number = _multiple(value, step or FREE)
+    return int(number) if number.is_integer() else number
+
+
+def round_length(value: float, step: float) -> int | float:
+    """Return the nearest multiple of a step above zero; of a finer one where that would be zero."""
+    step = step or FREE
+    while not (number := round_number(abs(value), step)) and step > 1e-9:
+        step /= 10
+    return number or step
+
+
+def round_angle(way: complex, step: float) -> str:
+    """Return a way's direction in the roundest degrees that keep its end within half a step."""
+    angle = degrees(atan2(way.imag, way.real))
+    for fine in _ANGLES:
+        number = round_number(angle, fine)
+        if abs(way) * radians(abs(angle - number)) <= (step or FREE) / 2:
+            break
+    return f"{number:g} deg"
+
+
+def _multiple(value: float, step: float) -> float:
+    """Return the nearest multiple of a step as a decimal, never -0."""
+    return float(f"{round(value / step) * step:.9f}") + 0.0
