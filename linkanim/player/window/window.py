@@ -14,6 +14,7 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.player.input.keyboard import Keyboard
 from linkanim.player.input.keys import bind_of
 from linkanim.player.input.mouse import Mouse, latest
+from linkanim.player.input.touch import Touch
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import aged, carried, settled
 from linkanim.player.state.browsing import RESOLVED, Browsing, listed
@@ -60,7 +61,7 @@ class Window:
         self._renderings: Queue | None = None
         self._following: Following | None = None
         self.screen = Screen(state)
-        self._keyboard, self._mouse = Keyboard(), Mouse()
+        self._keyboard, self._mouse, self._touch = Keyboard(), Mouse(), Touch()
         self._notes: list[str] = []
         self._windowed = display.frame()
         self._open = True
@@ -73,7 +74,8 @@ class Window:
 
         What happened since the last tick comes at its first frame.
         """
-        events, self._now = pygame.event.get(), self.state.frame + frames
+        events = self._touch.pointed(pygame.event.get(), pygame.display.get_window_size())
+        self._now = self.state.frame + frames
         for frame in range(frames):
             self._advance(events if frame == 0 else [])
         self._show()
