@@ -57,7 +57,7 @@ RANK = {
 
 # Rooms within a room, from the top down; what lies beside them under the name of the room itself.
 WITHIN = {
-    "player": ("state", "input", "tape", "window"),
+    "player": ("state", "sound", "input", "tape", "window"),
     "cli": ("cli", "commands"),
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import zip_longest
+from itertools import groupby, zip_longest
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -31,6 +31,7 @@ from linkanim.picture.view import View
 if TYPE_CHECKING:
     from linkanim.picture.diagrams.centres import Centres
     from linkanim.picture.labels.dead_centres import DeadCentres
+    from linkanim.picture.parts.causal_chain import CausalChain
 
 # What only some looks ask for is imported where they do: the first frame does not wait for it.
 
@@ -65,7 +66,7 @@ class Parts:
     bodies: tuple[Part, ...]
     pinned: tuple[tuple[str, ...], ...]
     """The pins and marks that lie below the first of the bodies, and on each."""
-    pin: Stamp
+    pins: Mapping[str, Stamp]
     mass: Stamp
     traces: tuple[Trace, ...]
     marks: Mapping[str, Stamp]
@@ -73,6 +74,7 @@ class Parts:
     turning: Turning | Sliding | None
     legs: tuple[Part, ...]
     centres: Centres | None
+    chain: CausalChain | None
 
 
 class Drawing:
@@ -192,8 +194,10 @@ class Drawing:
         return Part(name, name, name, tuple(self._stamped(names, {name: 0j})))
 
     def _stamped(self, names: tuple[str, ...], places: Places) -> list[Layer]:
-        pins = [places[name] for name in names if name in self.setting.figure.pins]
-        layers = self.parts.pin.at(pins) if pins else []
+        pins = [name for name in names if name in self.setting.figure.pins]
+        layers = []
+        for stamp, alike in groupby(pins, self.parts.pins.__getitem__):
+            layers += stamp.at([places[name] for name in alike])
         for name in names:
             if name in self.parts.marks:
                 layers += self.parts.marks[name].at([places[name]])
@@ -205,15 +209,16 @@ def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
     look = setting.look
     curves = traces(*setting.known) if look.trace else ()
     bodies = body_parts(*setting.known)
+    chain = _chain(setting) if look.chain else None
     marked = [trace.joint for trace in curves if trace.joint not in figure.pins]
     height = setting.layout.size[1]
     kinds = [kind for kind in (VELOCITY, ACCELERATION) if kind in look.vectors]
     return Parts(
         wheels=wheel_parts(*setting.known),
         struts=(*coils(*setting.known), *dampings(*setting.known)),
-        bodies=bodies,
+        bodies=tuple(chain.coloured(bodies, figure)) if chain else bodies,
         pinned=by_depth(bodies, (*figure.pins, *marked)),
-        pin=pin_stamp(gauge, theme),
+        pins=chain.pins(gauge) if chain else dict.fromkeys(figure.pins, pin_stamp(gauge, theme)),
         mass=mass_stamp(gauge, theme),
         traces=curves,
         marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
@@ -221,6 +226,7 @@ def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
         turning=motion_of(*setting.known) if look.names else None,
         legs=tuple(leg_part(point, view, gauge, theme.dim) for point in known.points) if known else (),
         centres=_centres(setting) if look.centres else None,
+        chain=chain,
     )
 
 
@@ -228,6 +234,12 @@ def _centres(setting: DrawSetting) -> Centres:
     from linkanim.picture.diagrams.centres import Centres
 
     return Centres(*setting.known, setting.layout, rolling=setting.look.centres > 1)
+
+
+def _chain(setting: DrawSetting) -> CausalChain:
+    from linkanim.picture.parts.causal_chain import causal_chain
+
+    return causal_chain(setting.figure, setting.theme)
 
 
 def _somewhere(place: complex) -> complex:

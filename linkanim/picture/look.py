@@ -73,7 +73,8 @@ class Look:
     faintly, where it is given. `names` is 0 for none, 1 for those of joints and links with the ground line
     and the input's direction of turning, 2 for dimensions and the input's angle as well. With `caption` the
     scene's sentence on what to watch for stands below. `polygons` draws those of velocity and acceleration
-    beside the linkage. `centres` is 0 for none, 1 for the instant centres, 2 for the coupler's centrodes as
+    beside the linkage; `chain` lets the input's colour fade along it, in the order in which joints are
+    solved. `centres` is 0 for none, 1 for the instant centres, 2 for the coupler's centrodes as
     well.
     """
 
@@ -128,6 +129,14 @@ class Look:
         keys=("i",),
         title="instant centres: off, marked, with centrodes",
         subject="measure",
+    )
+    chain: bool = _toggle(
+        False,
+        Option("chain", "the input's colour along the chain, fading in the order of solving", True),
+        answers=("links in their colours", "the input's colour along the chain"),
+        keys=("j",),
+        title="the input's colour along the chain, as it is solved",
+        subject="look",
     )
     ghost: bool = _toggle(
         False,

@@ -307,7 +307,9 @@ class Picture:
 
     @cached_property
     def _legend(self) -> Legend | None:
-        return legend_for(self.drawing.parts.arrows, self.layout, self.type, self.theme)
+        parts = self.drawing.parts
+        chain = parts.chain.colours if parts.chain else ()
+        return legend_for(parts.arrows, self.layout, self.type, self.theme, chain)
 
     def _chart_panel(self) -> ChartPanel | None:
         if self.look.chart is None:

@@ -130,6 +130,7 @@ TOGGLES = {
     "b": "b",
     "shift+b": "shift+b",
     "t": "t",
+    "j": "j",
     "v": "v",
     "a": "a",
     "c": "shift+c",

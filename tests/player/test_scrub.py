@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from linkanim.player.input.mouse import phase_towards
+from linkanim.player.input.steering import phase_towards
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import with_dimensions
 

@@ -27,7 +27,8 @@ class FitRequest(NamedTuple):
 
     size: tuple[int, int]
     chart: bool
-    arrows: int
+    keys: int
+    """How many lines the key to the colours has."""
     hud: bool
     listed: bool
     """Whether it leaves room for the edit list."""
@@ -40,9 +41,9 @@ class FitRequest(NamedTuple):
 
 def request_of(size: tuple[int, int], look: Look, *, listed: bool, row: bool) -> FitRequest:
     """Return what an arrangement for a look depends on."""
-    chart, arrows = look.chart is not None, len(look.vectors)
+    chart, keys = look.chart is not None, len(look.vectors) + look.chain
     captioned = look.caption and not listed
-    return FitRequest(size, chart, arrows, look.hud, listed, look.polygons, row, caption=captioned)
+    return FitRequest(size, chart, keys, look.hud, listed, look.polygons, row, caption=captioned)
 
 
 @dataclass(frozen=True)
@@ -158,6 +159,6 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
     if request.caption:
         parts = with_caption(parts, len(caption_lines(parts, sentence, type_)))
     worded = request.hud and not request.listed
-    words = blocks(subject.scenes, subject.rows, parts, request.arrows, type_) if worded else ()
+    words = blocks(subject.scenes, subject.rows, parts, request.keys, type_) if worded else ()
     shapes = shapes_of(sentence, parts, type_) if worded and not parts.caption else ()
     return arranged(parts, subject.sweep, subject.figure.shortest, words, shapes)

@@ -1,4 +1,4 @@
-"""The words about a scene, set in blocks: its title and class, its rows of numbers, the key to its arrows."""
+"""The words about a scene, set in blocks: its title and class, rows of numbers, the key to its colours."""
 
 from __future__ import annotations
 
@@ -61,14 +61,14 @@ def _over_a_cycle(scene: Scene) -> Iterator[WidestRow]:
 
 
 def blocks(
-    scenes: Sequence[Scene], rows: tuple[WidestRow, ...], layout: Layout, arrows: int, type_: Type
+    scenes: Sequence[Scene], rows: tuple[WidestRow, ...], layout: Layout, keys: int, type_: Type
 ) -> Iterator[list[WordBlock]]:
     """Yield the words in groups, each with the title in ever more lines; those to be preferred first.
 
-    First all `rows`, ever smaller, then ever less of it, then without the key. `arrows` is how many
-    the key has. The words are the first scene's; there is room for those of the others in their place.
+    First all `rows`, ever smaller, then ever less of it, then without the key. `keys` is how many
+    lines the key has. The words are the first scene's; there is room for those of the others in their place.
     """
-    setter = _Setter(scenes, layout, arrows, type_)
+    setter = _Setter(scenes, layout, keys, type_)
     smallest = max(_SMALLEST, round(_SHRUNK * layout.text_size))
     for size in range(layout.text_size, smallest, -1):
         yield setter.group(size, rows, True)
@@ -98,8 +98,8 @@ def shapes_of(text: str, layout: Layout, type_: Type) -> Iterator[tuple[float, f
 class _Setter:
     """Sets the words of one scene."""
 
-    def __init__(self, scenes: Sequence[Scene], layout: Layout, arrows: int, type_: Type) -> None:
-        self._scene, self._layout, self._arrows, self._type = scenes[0], layout, arrows, type_
+    def __init__(self, scenes: Sequence[Scene], layout: Layout, keys: int, type_: Type) -> None:
+        self._scene, self._layout, self._keys, self._type = scenes[0], layout, keys, type_
         shown = type_.width(self._scene.title, round(_TITLE * layout.text_size))
         self._title = self._scene.title if shown and self._scene.title.strip() else self._scene.name
         self._classes = [beyond_title(self._title, scene.info.class_name) for scene in scenes]
@@ -126,7 +126,7 @@ class _Setter:
         key = note + 1.2 * size * max(
             (len(self.wrapped(words, size, column)) for words in self._notes), default=0
         )
-        high = KEY_STEP * self._layout.small_size * self._arrows if rows else 0.0
+        high = KEY_STEP * self._layout.small_size * self._keys if rows else 0.0
         width = max(column, *(line.width for line in lines))
         shown = frozenset(one.row.label for one in rows)
         last, tall = len(title) - 1, key + high
@@ -142,12 +142,12 @@ class _Setter:
         return self._type.wrapped(words, size, column) if column else []
 
     def _column(self, size: int, rows: tuple[WidestRow, ...]) -> int:
-        """Return how wide the rows are, and the key to the arrows."""
+        """Return how wide the rows are, and the key to the colours."""
         width = self._type.width
         wide = [
             width(one.row.label, size) + width(one.row.value, size, strong=True) + _GAP * size for one in rows
         ]
-        if rows and self._arrows:
+        if rows and self._keys:
             small = self._layout.small_size
             unit = f"acceleration  00000 {self._scene.length_unit}/s²"
             wide.append(3.2 * small + width(unit, small))

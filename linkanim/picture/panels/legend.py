@@ -1,4 +1,4 @@
-"""The key to the arrows: which colour is what, and how much the arrow shown there stands for."""
+"""The key to the colours: of arrows with how much the one shown there stands for, of the causal chain."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from linkanim.digits import three_digits
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import Layout
 from linkanim.picture.parts.vectors import Arrows
-from linkanim.picture.raster.raster import Layer
-from linkanim.picture.raster.shapes import arrows
+from linkanim.picture.raster.raster import Colour, Layer
+from linkanim.picture.raster.shapes import arrows, disc
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
@@ -18,11 +18,14 @@ from linkanim.picture.view import Rect
 KEY_STEP = 1.5
 """From line to line of the key to the arrows."""
 _SMALLEST = 8
+_ENDS = ("input", "output")
+_DISC_STEP = 1.2
+"""From the colour of a step to the next one's, in heights of the text."""
 
 
 @dataclass(frozen=True)
 class Legend:
-    """A line for each kind of arrow at the foot of the HUD's column."""
+    """A line for each kind of arrow at the foot of the HUD's column, and one for the chain's colours."""
 
     kinds: tuple[Arrows, ...]
     column: Rect
@@ -30,6 +33,7 @@ class Legend:
     """The height of its text."""
     type: Type
     theme: Theme
+    chain: tuple[Colour, ...] = ()
 
     def group(self, speed: float) -> Group:
         """Return the key at this input speed (rad/s)."""
@@ -43,6 +47,22 @@ class Legend:
             yield Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))
             at = (self.column.x + self._reach + 0.6 * size, self._top(n))
             yield Caption(kind.words, at, size, self.theme.dim)
+
+        if self.chain:
+            yield from self._chained(self._top(len(self.kinds)))
+
+    def _chained(self, top: float) -> Iterator[Item]:
+        """Yield the colours of the steps in which joints are solved, between input and output."""
+        size, (begin, end) = self.size, _ENDS
+        first = self.column.x + self.type.width(begin, size) + 0.5 * size
+        room = self.column.right - self.type.width(end, size) - 0.5 * size - first
+        step = min(_DISC_STEP * size, room / len(self.chain))
+        yield Caption(begin, (self.column.x, top), size, self.theme.dim)
+        for n, colour in enumerate(self.chain):
+            middle, radius = complex(first + (n + 0.5) * step, top + 0.5 * size), 0.42 * step
+            yield Layer(self.theme.outline, [middle + disc(radius)])
+            yield Layer(colour, [middle + disc(radius - max(0.1 * size, 1.0))])
+        yield Caption(end, (first + len(self.chain) * step + 0.5 * size, top), size, self.theme.dim)
 
     def values(self, speed: float) -> Iterator[Caption]:
         """Yield how much each arrow stands for at this input speed (rad/s)."""
@@ -71,11 +91,13 @@ class Legend:
         return self.column.y + KEY_STEP * self.size * line
 
 
-def legend_for(kinds: tuple[Arrows, ...], layout: Layout, type_: Type, theme: Theme) -> Legend | None:
-    """Return the key to the arrows, its text as large as fits; None without arrows or a place for it."""
+def legend_for(
+    kinds: tuple[Arrows, ...], layout: Layout, type_: Type, theme: Theme, chain: tuple[Colour, ...] = ()
+) -> Legend | None:
+    """Return the key to arrows and chain, its text as large as fits; None without any or a place for it."""
     column = layout.legend
-    if column is None or not kinds:
+    if column is None or not (kinds or chain):
         return None
-    sizes = range(layout.small_size, _SMALLEST, -1)
-    legends = (Legend(kinds, column, size, type_, theme) for size in sizes)
-    return next((legend for legend in legends if legend.fits), Legend(kinds, column, _SMALLEST, type_, theme))
+    sizes = range(layout.small_size, _SMALLEST - 1, -1)
+    legends = [Legend(kinds, column, size, type_, theme, chain) for size in sizes]
+    return next((legend for legend in legends if legend.fits), legends[-1])

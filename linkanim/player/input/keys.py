@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from linkanim.picture.look import TOGGLES
+from linkanim.player.input.pad_buttons import PAD
 from linkanim.player.state.action import Action, Mode, Value
 
 
@@ -86,6 +87,7 @@ KEYS: tuple[KeyRow, ...] = (
     ),
     KeyRow("look", "0, Home", "fit", _on("0 kp0 home", "fit")),
     KeyRow("look", "L", "light / dark", _of_look("theme")),
+    KeyRow("look", "U", "sounds: dead centres and limits", _on("u", "sounds")),
     KeyRow("look", "F11", "full screen", _on("f11", "fullscreen")),
     KeyRow("look", "H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
     KeyRow(
@@ -284,9 +286,19 @@ def key_names() -> tuple[str, ...]:
     return tuple(dict.fromkeys(name.removeprefix("ctrl+").removeprefix("shift+") for name in names))
 
 
-def help_groups(mode: Mode = "play") -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
-    """Return (subject, its lines of keys and what they do) as the help overlay shows them."""
+PAD_KEYS = tuple(KeyRow("gamepad", row.written, row.words) for row in PAD)
+"""What the buttons of a gamepad do."""
+
+
+def help_groups(
+    mode: Mode = "play", *, pad: bool = False
+) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+    """Return (subject, its lines of keys and what they do) as the help overlay shows them.
+
+    With a `pad` plugged in its buttons, too.
+    """
     rows = KEYS if mode == "paused" else _OPEN.get(mode, KEYS)
+    rows += PAD_KEYS if pad else ()
     groups: dict[str, list[tuple[str, str]]] = {}
     for row in rows:
         groups.setdefault(row.subject, []).append((row.keys, row.words))
@@ -295,7 +307,7 @@ def help_groups(mode: Mode = "play") -> tuple[tuple[str, tuple[tuple[str, str], 
 
 def _lines() -> tuple[tuple[str, str], ...]:
     """Return all lines of the table, those of an open list told as such."""
-    within = (row for table in _OPEN.values() for row in table)
+    within = (row for table in (*_OPEN.values(), PAD_KEYS) for row in table)
     rows = (*KEYS, *(row._replace(keys=f"{row.subject}: {row.keys}") for row in within))
     return tuple((row.keys, row.words) for row in rows)
 

@@ -115,6 +115,11 @@ def _chart(before: State, after: State) -> str | None:
     return quantity(after.scene, token).words if token else "no chart"
 
 
+def _sounds(_: State, after: State) -> str:
+    """Say whether the motion is heard."""
+    return "sounds" if after.is_audible else "no sounds"
+
+
 def _zoom(_: State, after: State) -> str:
     """Say how large the picture is."""
     return f"{after.look.zoom:.0%}".replace("%", " %")
@@ -226,6 +231,8 @@ ACTIONS: Mapping[str, Rule] = {
     "reload": Rule(_nothing, outside.effect("reload"), taped=False),
     "quit": Rule(_nothing, outside.quit_, taped=False),
     "close": Rule(_nothing, outside.effect("quit"), taped=False),  # the window's own button
+    "sounds": Rule(_nothing, outside.sounds, taped=False, answer=_sounds),
+    "pad": Rule(_text, outside.pad, taped=False),  # what is plugged in is called; empty for nothing
     "note": Rule(_text, outside.note, taped=False),  # something the window has to say, as a toast
 }
 

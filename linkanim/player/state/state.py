@@ -98,7 +98,9 @@ class State:
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
     `place_typed` is the input's angle, or travel, that is being typed while paused.
     `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
-    `held` is the joint that is being dragged. `touched` is the frame of the last action, `arrived` that at
+    `held` is the joint that is being dragged, `pad` whether a gamepad is plugged in.
+    `sounds` says whether the motion is heard, None where nobody has.
+    `touched` is the frame of the last action, `arrived` that at
     which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
     list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
@@ -133,6 +135,8 @@ class State:
     shot: int | None = None
     recording: Take | None = None
     attract: bool = False
+    pad: bool = False
+    sounds: bool | None = None
     touched: int = 0
     effects: tuple[Action, ...] = ()
 
@@ -164,6 +168,11 @@ class State:
         """The places of the shelf whose scenes are not as their files have them."""
         found = (*self.kept, Edited(self.place, self.scene, self.editing))
         return frozenset(one.place for one in found if one.editing.original not in (None, one.scene))
+
+    @property
+    def is_audible(self) -> bool:
+        """Whether sounds are on: by U, and of their own accord nowhere but in games."""
+        return bool(self.sounds)
 
     @property
     def is_covered(self) -> bool:

@@ -49,8 +49,7 @@ def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
 
 
 def _prepare() -> None:
-    """Keep SDL off the sound and off our signals; on Linux choose what is quick and quiet there."""
-    os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+    """Keep SDL off our signals; on Linux choose what is quick and quiet there."""
     os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
     if not sys.platform.startswith("linux"):
         return

@@ -87,7 +87,7 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
         paused=state.clock.paused and not state.game,
         noted=True,
         recording=_recording(state),
-        help=help_groups(state.mode) if state.help else None,
+        help=help_groups(state.mode, pad=state.pad) if state.help else None,
         panel=_panel(state, items) if state.editing.open else None,
         quantities=_quantities(state, state.listing) if state.listing else None,
         shelf=shelf_of(state, state.browsing) if state.browsing else None,

@@ -14,7 +14,10 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.player.input.keyboard import Keyboard
 from linkanim.player.input.keys import bind_of
 from linkanim.player.input.mouse import Mouse, latest
+from linkanim.player.input.pads import PAD_EVENTS, Pads
 from linkanim.player.input.touch import Touch
+from linkanim.player.sound.cues import cues
+from linkanim.player.sound.speaker import Speaker
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import aged, carried, settled
 from linkanim.player.state.browsing import RESOLVED, Browsing, listed
@@ -61,7 +64,8 @@ class Window:
         self._renderings: Queue | None = None
         self._following: Following | None = None
         self.screen = Screen(state)
-        self._keyboard, self._mouse, self._touch = Keyboard(), Mouse(), Touch()
+        self._keyboard, self._mouse, self._touch, self._pads = Keyboard(), Mouse(), Touch(), Pads()
+        self._speaker = Speaker()
         self._notes: list[str] = []
         self._windowed = display.frame()
         self._open = True
@@ -74,10 +78,13 @@ class Window:
 
         What happened since the last tick comes at its first frame.
         """
+        self._pads.look(frames)
         events = self._touch.pointed(pygame.event.get(), pygame.display.get_window_size())
-        self._now = self.state.frame + frames
+        self._now, before = self.state.frame + frames, self.state
         for frame in range(frames):
             self._advance(events if frame == 0 else [])
+        for cue in cues(before, self.state):
+            self._speaker.play(cue)
         self._show()
         return self._open
 
@@ -87,6 +94,7 @@ class Window:
             if self.state.recording:
                 self._render(self.state.recording.format)
         finally:
+            self._speaker.close()
             if self._renderings:
                 self._renderings.close()
                 self._renderings = None
@@ -118,7 +126,10 @@ class Window:
             for action in self._meant(event):
                 yield from self._off_the_tape(action)
                 yield from self._resolved(action)
-        for action in self._keyboard.repeated(self.state.frame):
+        for action in self._pads.turned(self.screen):
+            yield from self._off_the_tape(action)
+            yield action
+        for action in (*self._keyboard.repeated(self.state.frame), *self._pads.repeated(self.state.frame)):
             yield from self._resolved(action)
         yield from self._news()
 
@@ -310,6 +321,8 @@ class Window:
             self.screen.uncovered()
         if event.type in _MOUSE:
             return self._mouse.actions(event, self.screen)
+        if event.type in PAD_EVENTS:
+            return self._pads.actions(event, self.state.mode, self._now)
         if event.type != pygame.KEYDOWN:
             return ()
         press = self._keyboard.press(event)

@@ -19,6 +19,17 @@ def note(state: State, text: str) -> State:
     return with_toast(state, text)
 
 
+def sounds(state: State, _: None) -> State:
+    """Switch sounds on or off."""
+    return replace(state, sounds=not state.is_audible)
+
+
+def pad(state: State, name: str) -> State:
+    """Take note of the gamepad that was plugged in, or that the last one is gone."""
+    told = f"{name}: its left stick turns the crank; H lists its buttons" if name else "the gamepad is gone"
+    return with_toast(replace(state, pad=bool(name)), told)
+
+
 def back(state: State, _: None) -> State:
     """Let go of what lies on top: the help, a list, a value begun; never of the window."""
     if state.help:
