@@ -17,8 +17,8 @@ The frame for games lies below, in the player, which knows no game by name:
   `games.game_of` reads them; a new game is a module with `read(words)`, named in its table.
 - What only the outside knows (a seed, best scores, what was missed) is asked for by the effect "begin" with
   words that lack it; the window has `Arcade.completed` fill them in and carries out "play" with the whole
-  words, which the tape keeps. The effect "score" hands on what is to be kept. Both are left out when a tape
-  is played.
+  words, which the tape keeps. The effect "score" hands on what is to be kept, "sound" is a cue of
+  `player.sound.cues`. All are left out when a tape is played.
 - What is shown is `picture.panels.overlay.GamePanel` (heading, scores, lines, answers, bars, a verdict) in
   the room of a list, and `Spot`s on the picture; curves can be had from `Overlay.path`.
 

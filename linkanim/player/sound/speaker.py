@@ -21,9 +21,9 @@ class Speaker:
 
     def __init__(self) -> None:
         self._opening: Thread | None = None
-        self._sounds: dict[Cue, pygame.mixer.Sound] = {}
+        self._sounds: dict[str, pygame.mixer.Sound] = {}
 
-    def play(self, cue: Cue) -> None:
+    def play(self, cue: str) -> None:
         """Play a sound; the first call only begins to open the device, which may take longer than a frame."""
         if self._opening is None:
             self._opening = Thread(target=self._open, daemon=True)

@@ -106,7 +106,7 @@ class State:
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
     "fullscreen", "save", "reload", "quit", "pencil" (it was taken), "search" and "follow" (answers to the
     sketch, or the one that is shown again), "begin" (a game, with its words), "score" (with what is to be
-    kept of one), and "report" (with the text of a fault's report).
+    kept of one), "sound" (a cue), and "report" (with the text of a fault's report).
     """
 
     scene: Scene
@@ -172,7 +172,7 @@ class State:
     @property
     def is_audible(self) -> bool:
         """Whether sounds are on: by U, and of their own accord nowhere but in games."""
-        return bool(self.sounds)
+        return (self.game is not None and self.game.covers) if self.sounds is None else self.sounds
 
     @property
     def is_covered(self) -> bool:

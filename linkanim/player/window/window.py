@@ -258,6 +258,8 @@ class Window:
                 self._notes.append(f"{files.vector(self.state, pygame.display.get_window_size())} saved")
             case "share":
                 self._notes.append(f"{files.page(self.state)} saved")
+            case "sound" if self.state.is_audible:
+                self._speaker.play(str(effect.value))
             case "report":
                 self._report(str(effect.value))
             case "save":

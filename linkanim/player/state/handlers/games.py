@@ -13,7 +13,7 @@ from linkanim.scenes.scene import Scene
 
 BESIDE = frozenset(
     {
-        *("play", "help", "theme", "zoom", "pan", "fit", "fullscreen", "note"),
+        *("play", "help", "theme", "zoom", "pan", "fit", "fullscreen", "note", "sounds", "pad"),
         *("record", "screenshot", "svg", "quit", "close"),
     }
 )
