@@ -2,28 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from random import Random
-from typing import Any
+from types import MappingProxyType
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
+from linkanim.errors import BadInput
+from linkanim.mechanics.linkage.joint import Point
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.motion.motion import Motion, Pose
 from linkanim.picture.figure import Figure, figure
+from linkanim.picture.look import Look
 from linkanim.scenes.scene import Scene
+from linkanim.units import shown
 
 CLEAR = 0.02
 """Two values that differ by less of their range look alike; below as much a value is as good as zero."""
+
+
+class Wrong(NamedTuple):
+    """A wrong answer, and the misconception that it comes from, to be read after "that is"."""
+
+    answer: str
+    slip: str
+
+
+class Asked(NamedTuple):
+    """What a question was about: enough to make it again just as it was."""
+
+    kind: str
+    scene: str
+    phase: float
+    subject: str
+
+    @classmethod
+    def of(cls, text: str) -> Self:
+        """Read it as `str` writes it; BadInput for other text."""
+        try:
+            kind, scene, phase, subject = text.split("@")
+            return cls(kind.replace("_", " "), scene, float(phase), subject)
+        except ValueError:
+            raise BadInput(f"{shown(text)} is no question; one is KIND@SCENE@PHASE@SUBJECT") from None
+
+    def __str__(self) -> str:
+        return f"{self.kind.replace(' ', '_')}@{self.scene}@{self.phase!r}@{self.subject}"
 
 
 @dataclass(frozen=True)
 class QuizQuestion:
     """A question with its answers, of which one is right, and why.
 
-    `subject` is the token of what it is about: a body, a joint, or the input.
+    `subject` is the token of what it is about: a body, a joint, or the input. Each answer has its `slips`,
+    the misconception that it comes from, empty for the right one; where answers are `places` (in the scene's
+    unit, at the phase) or `curves` (values from −1 to 1 over one period), one of those. The look that `shows`
+    the answer has arrows at the joints of `arrows`; the input runs on then, to the phase at which it `stops`.
     """
 
     kind: str
@@ -34,6 +70,17 @@ class QuizQuestion:
     answers: tuple[str, ...]
     right: int
     why: str
+    slips: tuple[str, ...] = ()
+    places: tuple[Point, ...] = ()
+    curves: tuple[tuple[float, ...], ...] = ()
+    shows: Look = field(default_factory=lambda: Look(names=1))
+    arrows: tuple[str, ...] = ()
+    stops: float | None = None
+
+    @property
+    def asked(self) -> Asked:
+        """What makes it again."""
+        return Asked(self.kind, self.scene.name, self.phase, self.subject)
 
 
 @dataclass(frozen=True)
@@ -95,19 +142,36 @@ class Puzzle:
         subject: str,
         text: str,
         right: str,
-        wrong: Iterable[str],
+        wrong: Iterable[Wrong],
         why: str,
         *,
         kept: bool = False,
+        shows: Look = Look(names=1),  # noqa: B008 -- frozen
+        arrows: Collection[str] = (),
+        places: Mapping[str, Point] = MappingProxyType({}),
+        curves: Mapping[str, tuple[float, ...]] = MappingProxyType({}),
+        stops: float | None = None,
     ) -> QuizQuestion:
         """Return the question; its answers are shuffled, or `kept` in the order of the alphabet."""
-        answers = [right, *wrong]
-        if kept:
-            answers.sort()
-        else:
+        slips = {**dict(wrong), right: ""}
+        answers = sorted(slips)
+        if not kept:
             self.random.shuffle(answers)
         return QuizQuestion(
-            kind, self.scene, self.phase, subject, text, tuple(answers), answers.index(right), why
+            kind,
+            self.scene,
+            self.phase,
+            subject,
+            text,
+            tuple(answers),
+            answers.index(right),
+            why,
+            tuple(slips[answer] for answer in answers),
+            tuple(places[answer] for answer in answers if places),
+            tuple(curves[answer] for answer in answers if curves),
+            shows,
+            tuple(arrows),
+            stops,
         )
 
 

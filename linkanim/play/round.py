@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from random import Random
 
-from linkanim.errors import WorkFailed
-from linkanim.play.kinds import KINDS
-from linkanim.play.question import Puzzle, QuizQuestion
+from linkanim.errors import BadInput, WorkFailed
+from linkanim.play.kinds.table import KINDS
+from linkanim.play.question import Asked, Puzzle, QuizQuestion
+from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
+from linkanim.units import shown
 
 _TRIES = 12
 """So many phases are tried for a kind before another is taken."""
@@ -26,24 +28,43 @@ def questions(scenes: Sequence[Scene], count: int, seed: int) -> tuple[QuizQuest
     found: list[QuizQuestion] = []
     for number in range(count):
         scene = scenes[number % len(scenes)]
-        found.append(_question(scene, Random(f"{seed} {number} {scene.name}"), found))
+        found.append(next_question(scene, f"{seed} {number}", [one.asked for one in found]))
     return tuple(found)
 
 
-def _question(scene: Scene, random: Random, before: Sequence[QuizQuestion]) -> QuizQuestion:
-    """Return a question about a scene, of the kind that was least often, that was not there before."""
-    kinds = random.sample(sorted(KINDS), len(KINDS))
-    often = [question.kind for question in before]
-    kinds.sort(key=often.count)
-    known = {(question.scene.name, question.kind, question.subject) for question in before}
+def next_question(
+    scene: Scene, seed: str, before: Sequence[Asked], kinds: Collection[str] = tuple(KINDS)
+) -> QuizQuestion:
+    """Return a question about a scene, of the kind that was least often, that was not there before.
+
+    Of other kinds than those that are asked for where the scene has nothing to ask of these. WorkFailed as
+    `questions`.
+    """
+    random = Random(f"{seed} {scene.name}")
+    order = random.sample(sorted(KINDS), len(KINDS))
+    often = [asked.kind for asked in before]
+    order.sort(key=lambda kind: (kind not in kinds, often.count(kind)))
+    known = {(asked.scene, asked.kind, asked.subject) for asked in before}
     spare = None
-    for kind in kinds:
+    for kind in order:
         for _ in range(_TRIES):
-            phase = round(random.uniform(0.0, scene.period), _DECIMALS)
-            made = KINDS[kind](Puzzle(scene, phase, random))
+            made = _made(kind, scene, round(random.uniform(0.0, scene.period), _DECIMALS))
             if made and (scene.name, kind, made.subject) not in known:
                 return made
             spare = spare or made
     if spare is None:
         raise WorkFailed(f"{scene.name}: nothing of it moves so clearly that a question can be made of it")
     return spare
+
+
+def question_of(asked: Asked) -> QuizQuestion:
+    """Return a question of the catalogue again; BadInput where there is none such."""
+    if asked.kind in KINDS and asked.scene in names() and abs(asked.phase) < 1e6:
+        made = _made(asked.kind, load(asked.scene), asked.phase)
+        if made and made.subject == asked.subject:
+            return made
+    raise BadInput(f"{shown(str(asked))} is no question of this version")
+
+
+def _made(kind: str, scene: Scene, phase: float) -> QuizQuestion | None:
+    return KINDS[kind].make(Puzzle(scene, phase, Random(f"{kind} {scene.name} {phase}")))

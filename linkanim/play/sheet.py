@@ -11,6 +11,10 @@ from linkanim.picture.look import Look
 from linkanim.picture.parts.driven import driven_words, speed_words
 from linkanim.play.question import QuizQuestion
 
+_CURVE = (160, 34)
+"""The size of a curve on a sheet."""
+_PRINTED = 12
+"""So many of a curve's values stand in plain text."""
 LETTERS = "abcd"
 _SIZE = (480, 300)
 _LOOK = Look(hud=False, names=1)
@@ -43,7 +47,8 @@ def as_text(round_: Sequence[QuizQuestion]) -> str:
     lines = []
     for number, question in enumerate(round_, 1):
         lines += [f"{number}. {question.text}", f"   {pose_words(question)} (phase {question.phase:g} rad)"]
-        lines += [f"   {letter}) {answer}" for letter, answer in zip(LETTERS, question.answers, strict=False)]
+        shown = map(_worded, question.answers, question.curves or [()] * len(question.answers))
+        lines += [f"   {letter}) {answer}" for letter, answer in zip(LETTERS, shown, strict=False)]
         lines.append("")
     lines.append("key")
     lines += [f"{number}. {_key(question)}" for number, question in enumerate(round_, 1)]
@@ -61,7 +66,9 @@ def _sections(round_: Sequence[QuizQuestion]) -> Iterator[str]:
     for number, question in enumerate(round_, 1):
         drawn = Figured(question.scene, _SIZE, _LOOK, question.phase).document()
         words = pose_words(question)
-        answers = "".join(f"<li>{escape(answer)}</li>" for answer in question.answers)
+        curves = question.curves or [()] * len(question.answers)
+        pairs = zip(question.answers, curves, strict=True)
+        answers = "".join(f"<li>{escape(answer)}{_drawn(curve)}</li>" for answer, curve in pairs)
         yield (
             f"<section><h2>{number}. {escape(question.text)}</h2>"
             f"<figure>{embedded(drawn, words)}<figcaption>{escape(words)}</figcaption></figure>"
@@ -73,6 +80,25 @@ def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
     yield f"<div class='key'><h1>Key: {escape(title)}</h1><ol>"
     yield from (f"<li>{escape(_key(question))}</li>" for question in round_)
     yield "</ol></div>"
+
+
+def _worded(answer: str, curve: Sequence[float]) -> str:
+    """Return an answer, and of its curve some values evenly over the period."""
+    values = curve[:: max(len(curve) // _PRINTED, 1)]
+    return f"{answer}: {' '.join(f'{value:.2f}' for value in values)}" if curve else answer
+
+
+def _drawn(curve: Sequence[float]) -> str:
+    """Return a curve as an SVG of its own; nothing where there is none."""
+    if not curve:
+        return ""
+    wide, high = _CURVE
+    step = wide / (len(curve) - 1)
+    points = " ".join(f"{n * step:.1f},{high / 2 * (1 - 0.94 * value):.1f}" for n, value in enumerate(curve))
+    return (
+        f"<br><svg class='curve' width='{wide}' height='{high}' fill='none' stroke='currentColor'>"
+        f"<path d='M0 {high / 2}H{wide}' stroke-width='.4'/><polyline points='{points}'/></svg>"
+    )
 
 
 def _key(question: QuizQuestion) -> str:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from itertools import pairwise
 from math import atan2, degrees, hypot, radians, tau
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import orjson
 import pytest
 
 from linkanim.cli import main
-from linkanim.play.kinds import KINDS
+from linkanim.mechanics.facts.naming import four_bar_of
+from linkanim.play.kinds.table import KINDS
 from linkanim.play.question import QuizQuestion
 from linkanim.play.round import questions
 from linkanim.scenes import chapters, load, names
@@ -24,6 +27,8 @@ def check(question: QuizQuestion) -> None:
     """Hold the key against what is solved at the question's phase, read by its own words."""
     assert len(set(question.answers)) == len(question.answers) >= 2
     assert 0 <= question.right < len(question.answers)
+    assert [n for n, slip in enumerate(question.slips) if not slip] == [question.right]
+    assert all(len(one) in (0, len(question.answers)) for one in (question.places, question.curves))
     scene, answer = question.scene, question.answers[question.right]
     pose, cycle = scene.pose(question.phase), scene.cycle(720)
     match question.kind:
@@ -65,8 +70,58 @@ def check(question: QuizQuestion) -> None:
             s, p, q, longest = (float(word) for word in sums(question.why))
             sign = (s + longest > p + q) - (s + longest < p + q)
             assert ("<" in answer, ">" in answer) == (sign < 0, sign > 0)
+        case "grashof sum":
+            misplaced(question, answer)
+        case "curves":
+            is_the_steepness(question)
+        case "force":
+            assert answer == FACTORS[grows(question)]
         case "coriolis":
             assert (answer == "yes") == (coriolis(question) > 0)
+
+
+FACTORS = {1: "as large as before", 2: "twice as large", 4: "four times as large"}
+
+
+def grows(question: QuizQuestion) -> int:
+    """Return by how much a force grows when the speed doubles, from two solutions."""
+    scene, subject = question.scene, question.subject
+    speed = scene.linkage.drive.speed
+    once, twice = (scene.pose(question.phase, speed=factor * speed) for factor in (1, 2))
+    if subject.endswith(".acceleration"):
+        joint = subject.partition(".")[0]
+        values = [hypot(*pose.acceleration[joint]) for pose in (once, twice)]
+    else:
+        values = [({**pose.spring, **pose.damper})[subject].force for pose in (once, twice)]
+    assert values[1] / values[0] == pytest.approx(round(values[1] / values[0]), rel=1e-6)
+    return round(values[1] / values[0])
+
+
+def misplaced(question: QuizQuestion, answer: str) -> None:
+    """Check that the answer stands elsewhere in the sum than its length has it, and no other answer does."""
+    bar = four_bar_of(question.scene.mechanism)
+    assert bar
+    written = re.findall(r"\((\w+)\)", question.text)  # s, l, p, q
+    s, p, q, longest = sorted(bar.links, key=lambda part: bar.links[part])
+    own = {written[0]: (s,), written[1]: (longest,), written[2]: (p, q), written[3]: (p, q)}
+    wrong = [part for part, places in own.items() if part not in places]
+    assert len(wrong) == 2
+    assert [one for one in question.answers if one in wrong] == [answer]
+
+
+def is_the_steepness(question: QuizQuestion) -> None:
+    """Check that the right curve is what is solved, over time, and that no other is near it."""
+    body, _, token = question.subject.partition(".")
+    times = np.linspace(0.0, 1.0, 72, endpoint=False) * question.scene.period
+    way = 1.0 if question.scene.linkage.drive.speed > 0 else -1.0
+    values = np.asarray(getattr(question.scene.solve(phase=way * times), token)[body])
+    right = np.array(question.curves[question.right])
+    # over one period, from whatever phase on
+    apart = [float(np.abs(values / np.abs(values).max() - np.roll(right, n)).max()) for n in range(72)]
+    assert min(apart) < 0.01
+    others = [np.array(one) for one in question.curves if one != question.curves[question.right]]
+    assert all(float(np.abs(other - right).max()) > 0.25 for other in others)
+    assert len(others) == 2
 
 
 def coriolis(question: QuizQuestion) -> float:

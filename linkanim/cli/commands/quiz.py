@@ -48,6 +48,7 @@ def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:
 
 
 def _as_object(question: QuizQuestion) -> dict[str, object]:
-    fields = ("kind", "phase", "subject", "answers", "right", "why")
+    fields = ("kind", "phase", "subject", "answers", "right", "why", "slips")
     found: dict[str, object] = {name: getattr(question, name) for name in fields}
-    return {"scene": question.scene.name, **found, "question": question.text}
+    curves = {"curves": question.curves} if question.curves else {}
+    return {"scene": question.scene.name, **found, **curves, "question": question.text}

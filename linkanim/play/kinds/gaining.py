@@ -1,0 +1,234 @@
+"""What speeds up, and by what: the acceleration, its Coriolis term, its curve, what a doubled speed does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import hypot, isfinite
+from types import MappingProxyType
+
+import numpy as np
+
+from linkanim.mechanics.motion.measures import between as way_between
+from linkanim.mechanics.motion.measures import growth, output_body
+from linkanim.picture.look import ACCELERATION, VELOCITY, Look
+from linkanim.play.kinds.wording import PLAIN, number
+from linkanim.play.question import CLEAR, Puzzle, QuizQuestion, Wrong
+
+_BOTH = Look(names=1, vectors=frozenset({VELOCITY, ACCELERATION}))
+_SAMPLES = 72
+"""Values of a curve."""
+_APART = 0.3
+"""Curves that differ by less, of their greatest value, could be taken for one."""
+_FACTORS = MappingProxyType(
+    {1: "as large as before", 2: "twice as large", 4: "four times as large", 8: "eight times as large"}
+)
+_GOES_WITH = MappingProxyType(
+    {1: "a spring's force", 2: "a velocity or a damper's force", 4: "an acceleration", 8: "a power"}
+)
+"""What becomes so large when the speed doubles."""
+
+
+def speeding(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return whether a joint becomes faster; taken wrongly, whether it moves forward."""
+    names = [name for name in puzzle.joints if puzzle.share("velocity", name) > PLAIN]
+    puzzle.random.shuffle(names)
+    for name in names:
+        (vx, vy), (ax, ay) = puzzle.pose.velocity[name], puzzle.pose.acceleration[name]
+        along = (vx * ax + vy * ay) / hypot(vx, vy)
+        if (
+            isfinite(along)
+            and abs(along) > PLAIN * hypot(ax, ay)
+            and puzzle.share("acceleration", name) > CLEAR
+        ):
+            right, wrong = ("it speeds up", "it slows down")[:: 1 if along > 0 else -1]
+            why = (
+                f"Its acceleration along its velocity is {number(along)} {puzzle.scene.length_unit}/s²: "
+                "not where it moves to, but whether both point the same way, decides."
+            )
+            return puzzle.question(
+                "speeding",
+                name,
+                f"Does {name} speed up or slow down?",
+                right,
+                [Wrong(wrong, "the velocity taken for the acceleration")],
+                why,
+                kept=True,
+                shows=_BOTH,
+                arrows=[name],
+            )
+    return None
+
+
+def doubled(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return what becomes of a joint's velocity or acceleration as the speed doubles."""
+    kind, factor = puzzle.random.choice((("velocity", 2), ("acceleration", 4)))
+    names = [name for name in puzzle.joints if puzzle.share(kind, name) > PLAIN]
+    if not names:
+        return None
+    name = puzzle.random.choice(names)
+    value = hypot(*getattr(puzzle.pose, kind)[name])
+    unit = f"{puzzle.scene.length_unit}/s{'²' if kind == 'acceleration' else ''}"
+    power = "the square of the speed" if factor == 4 else "the speed itself"
+    return _growing(
+        puzzle,
+        "doubled",
+        f"{name}.{kind}",
+        f"How large is the {kind} of {name} in the same place?",
+        factor,
+        f"It goes with {power}: {number(value)} becomes {number(factor * value)} {unit}.",
+    )
+
+
+def force(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return what becomes of a force as the speed doubles: a spring's, a damper's, or that of a mass."""
+    known = puzzle.scene.linkage
+    struts = [
+        (
+            item,
+            factor,
+            getattr(puzzle.pose, kind)[item.name].force,
+            getattr(puzzle.cycle, kind)[item.name].force,
+        )
+        for kind, items, factor in (("spring", known.springs, 1), ("damper", known.dampers, 2))
+        for item in items
+        if item.forceful
+    ]
+    clear = [
+        (item, factor, value)
+        for item, factor, value, cycle in struts
+        if isfinite(value) and abs(value) > PLAIN * float(np.nanmax(np.abs(cycle)))
+    ]
+    if clear:
+        item, factor, value = puzzle.random.choice(clear)
+        power = "the speed itself" if factor == 2 else "its length alone, which is the same there"
+        return _growing(
+            puzzle,
+            "force",
+            item.name,
+            f"How large is the force of the {known.strut_words(item)} in the same place?",
+            factor,
+            f"It goes with {power}: {number(value)} N becomes {number(factor * value)} N.",
+        )
+    names = [name for name in puzzle.joints if puzzle.share("acceleration", name) > PLAIN]
+    if not names:
+        return None
+    name = puzzle.random.choice(names)
+    return _growing(
+        puzzle,
+        "force",
+        f"{name}.acceleration",
+        f"How large is the force that accelerates a mass at {name}, in the same place?",
+        4,
+        "It goes with the acceleration, and that with the square of the speed.",
+    )
+
+
+def _growing(puzzle: Puzzle, kind: str, subject: str, text: str, factor: int, why: str) -> QuizQuestion:
+    """Return a question on what a doubled speed does."""
+    return puzzle.question(
+        kind,
+        subject,
+        f"The input runs twice as fast. {text}",
+        _FACTORS[factor],
+        [Wrong(words, f"what {_GOES_WITH[one]} does") for one, words in _FACTORS.items() if one != factor],
+        why,
+        shows=_BOTH,
+        arrows=[name for name in [subject.partition(".")[0]] if name in puzzle.pose.position],
+    )
+
+
+_ORDERS = ("position", "velocity", "acceleration")
+
+
+def curves(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return which of three curves is the output's velocity or acceleration; taken wrongly, another."""
+    body = output_body(puzzle.scene.linkage)
+    if body is None or not puzzle.scene.info.full_turn:
+        return None
+    step = max(len(puzzle.cycle.phase) // _SAMPLES, 1)
+    tokens = (
+        ("travel", "travel_velocity", "travel_acceleration")
+        if body.slider
+        else ("angle", "angular_velocity", "angular_acceleration")
+    )
+    values = [np.asarray(getattr(puzzle.cycle, token)[body.name], np.float64)[::step] for token in tokens]
+    if not all(np.isfinite(part).all() and np.ptp(part) > 0.0 for part in values):
+        return None
+    values[0] = values[0] - (values[0].max() + values[0].min()) / 2
+    if abs(float(values[0][-1] - values[0][0])) > 0.5 * float(np.ptp(values[0])):
+        return None  # it turns on and on: its angle is a line
+    if puzzle.scene.linkage.drive.speed < 0:
+        values = [part[::-1] for part in values]
+    scaled = [part / np.abs(part).max() for part in values]
+    pairs = ((0, 1), (1, 2), (0, 2))
+    if any(float(np.abs(scaled[a] - scaled[b]).max()) < _APART for a, b in pairs):
+        return None
+    order = puzzle.random.sample(range(3), 3)
+    names = [f"curve {order.index(n) + 1}" for n in range(3)]
+    which = puzzle.random.choice((1, 2))
+    right = _ORDERS[which]
+    wrong = [Wrong(names[n], f"the {_ORDERS[n]} taken for the {right}") for n in range(3) if n != which]
+    token = f"{body.name}.{tokens[which]}"
+    return puzzle.question(
+        "curves",
+        token,
+        f"Over one period, which curve is the {right} of the {puzzle.name(body)}?",
+        names[which],
+        wrong,
+        f"Where the {_ORDERS[which - 1]} has its extremes the {right}, its steepness, is zero.",
+        kept=True,
+        shows=Look(names=1, chart=token),
+        curves={
+            name: tuple(round(float(v), 3) for v in part) for name, part in zip(names, scaled, strict=True)
+        },
+    )
+
+
+def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return whether a slider's acceleration has a Coriolis term; only where the guide turns it has."""
+    found = list(_sliding(puzzle))
+    if not found:
+        return None
+    joint, turns = puzzle.random.choice(found)
+    answers = ("yes", "no")
+    right, wrong = answers[:: 1 if turns else -1]
+    why = (
+        f"{joint} slides along a guide that turns meanwhile: 2ω × v is not zero."
+        if turns
+        else f"The guide of {joint} does not turn: ω is zero, and 2ω × v with it."
+    )
+    slip = "the guide's turning overlooked" if turns else "sliding alone taken for a Coriolis term"
+    return puzzle.question(
+        "coriolis",
+        joint,
+        f"Is there a Coriolis term in the acceleration of {joint}, told in its guide's frame?",
+        right,
+        [Wrong(wrong, slip)],
+        why,
+        kept=True,
+        shows=_BOTH,
+        arrows=[joint],
+    )
+
+
+def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, bool]]:
+    """Yield joints that slide clearly, each with whether its guide turns clearly; none between."""
+    sliders = {body.slider: body for body in puzzle.scene.linkage.bodies if body.slider}
+    for joint in puzzle.scene.linkage.joints:
+        for slide in joint.slides:
+            if slide.axis is None and slide.start is None and joint.name in sliders:
+                if abs(puzzle.share("travel_velocity", sliders[joint.name].name)) > PLAIN:
+                    yield joint.name, False
+            elif slide.axis and slide.start and _slides(puzzle, (slide.start, slide.point)):
+                body = next((one for one in puzzle.turning if {*slide.axis} <= {*one.joints}), None)
+                if body is not None and abs(puzzle.share("angular_velocity", body.name)) > PLAIN:
+                    yield slide.point, True
+
+
+def _slides(puzzle: Puzzle, ends: tuple[str, str]) -> bool:
+    """Return whether two joints clearly come nearer to each other, or part."""
+    rates = [
+        growth(way_between(found.position, ends), way_between(found.velocity, ends))
+        for found in (puzzle.cycle, puzzle.pose)
+    ]
+    return bool(abs(rates[1]) > PLAIN * float(np.nanmax(abs(rates[0]))))
