@@ -51,7 +51,8 @@ class Draft:
         sides    B = { joints = ["A", "O4"], side = "left" }: of the dyads as they were found
 
     `rest` is what else the file says. `typed` are the keys of the numbers that were typed: no drag changes
-    them. `shorthand` tells whether it may be written as one.
+    them. `short` is the shorthand that it came from, by its key, if any; None of a linkage that is to be
+    written joint by joint.
     """
 
     places: Mapping[str, Point] = field(default_factory=dict)
@@ -59,7 +60,7 @@ class Draft:
     rest: Mapping[str, Any] = field(default_factory=lambda: {"title": "New linkage", "length_unit": "mm"})
     typed: frozenset[tuple[str | int, ...]] = frozenset()
     photo: Photo | None = None
-    shorthand: bool = True
+    short: Mapping[str, Any] | None = field(default_factory=dict)
 
     def of(self, kind: str) -> Mapping[str, Any]:
         """Return all tables of a kind by their names."""

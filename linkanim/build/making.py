@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from linkanim.build.draft import Draft
 from linkanim.build.missing import missing, reworded
 from linkanim.build.order import found
+from linkanim.build.shorthand import shortened
 from linkanim.errors import BadInput
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
@@ -24,7 +25,7 @@ class Made(NamedTuple):
     missing: str
 
 
-def document(draft: Draft) -> dict[str, Any]:
+def document(draft: Draft) -> Mapping[str, Any]:
     """Return the document of a scene file that says what is drawn, as far as its joints can be found."""
     joints = found(draft)
     stated = {**{key: value for key, value in draft.rest.items() if key != "trace"}, "drive": draft.drive}
@@ -32,7 +33,8 @@ def document(draft: Draft) -> dict[str, Any]:
     stated |= {kind: draft.of(kind) for kind in _AFTER}
     trace = [name for name in draft.trace if name in draft.of("pins") or name in joints]
     stated |= {"trace": {"joints": trace}}
-    return {key: _plain(value) for key, value in stated.items() if value != {}}
+    plain = {key: _plain(value) for key, value in stated.items() if value != {} and value != {"joints": []}}
+    return shortened(draft, plain)
 
 
 def made(draft: Draft, name: str = NAME) -> Made:

@@ -1,0 +1,31 @@
+"""Scenes as drafts: taken apart into bars, guides and points, they come to equal scenes again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+import linkanim
+from linkanim.build.origin import building_of
+from linkanim.scenes.editing.write import text
+from linkanim.scenes.scene import Scene
+
+
+@pytest.mark.sampled
+@pytest.mark.parametrize("name", linkanim.names())
+def test_a_scene_s_draft_comes_to_an_equal_scene(name: str) -> None:
+    scene, draft = linkanim.load(name), building_of(linkanim.load(name))
+    assert draft.made.missing == ""
+    assert _named(draft.made.scene, name) == scene
+
+
+def _named(scene: Scene | None, name: str) -> Scene | None:
+    return scene and replace(scene, name=name)
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "rocker-driven", "engine", "six-bar"])
+def test_a_shorthand_stays_one(name: str) -> None:
+    scene = building_of(linkanim.load(name)).made.scene
+    assert scene
+    assert text(scene).count("[joints") == 0
