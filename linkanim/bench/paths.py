@@ -1,9 +1,9 @@
 """What `linkanim path` finds: random coupler curves, published problems, and shapes that no four-bar traces.
 
 Beside the shapes stands what a global search finds in the time that it is given: scipy's differential
-evolution over the same parameters, each point counted to the nearest of 240 points of the curve, whatever
-their order. Published figures are sums of squared distances: the eighteen points are those of Kunjur and
-Krishnamurty (1997), with the crank's steps of 20°.
+evolution over the same parameters, each point counted to one of 240 places of the curve, in their order.
+Published figures are sums of squared distances: the eighteen points are those of Kunjur and Krishnamurty
+(1997), with the crank's steps of 20°.
 """
 
 from __future__ import annotations
@@ -128,9 +128,25 @@ def _off(rows: Real, sought: Complex) -> Real:
         angles = np.tile(np.linspace(0, 2 * math.pi, _SAMPLES, endpoint=False), (len(turning), 1))
         closure = np.where(rows[turning, 9] > 0, 1.0, -1.0)
         way = FOUR_BAR.points(rows[turning, :9], closure, angles)
-        nearest = np.abs(way[:, :, None] - sought).min(axis=1)
-        off[turning] = np.sqrt((nearest**2).mean(axis=1))
+        off[turning] = np.sqrt(_in_order(np.abs(way[:, :, None] - sought) ** 2) / len(sought))
     return np.asarray(off)
+
+
+def _in_order(squares: Real) -> Real:
+    """Return the least sums of squared distances (B, places, points) with the places in the points' order.
+
+    They go once round, one way or the other, from the place that is nearest to the first point.
+    """
+    sums = np.full(len(squares), np.inf)
+    for way in (squares, squares[:, ::-1]):
+        begin = way[:, :, 0].argmin(axis=1)
+        turned = (begin[:, None] + np.arange(way.shape[1])) % way.shape[1]
+        least = np.take_along_axis(way[:, :, 0], turned[:, :1], axis=1)
+        for point in range(1, way.shape[2]):
+            here = np.take_along_axis(way[:, :, point], turned, axis=1)
+            least = np.minimum.accumulate(least + here, axis=1)
+        sums = np.minimum(sums, least[:, -1])
+    return sums
 
 
 def _outline(*corners: complex, count: int) -> Complex:
