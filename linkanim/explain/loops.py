@@ -14,6 +14,9 @@ from linkanim.explain.lines import Chapter, Equation, Step, Unknown, ValueLine
 from linkanim.explain.work import Work
 from linkanim.mechanics.linkage.joint import Joint
 
+CYLINDER = Symbol("ℓ")
+"""The length of the cylinder that drives."""
+
 
 class LoopArrow(NamedTuple):
     """A vector of a loop where it lies, x + yi in the scene's unit."""
@@ -44,7 +47,36 @@ def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
         for step in places.steps
     }
     dyads = (joint for joint in work.linkage.joints if KINDS[type(joint)].loop)
-    return tuple(_loop(joint, work, found.get(f"Joint {{{joint.name}}}", set())) for joint in dyads)
+    loops = tuple(_loop(joint, work, found.get(f"Joint {{{joint.name}}}", set())) for joint in dyads)
+    lines = [item for step in places.steps for item in step.items if isinstance(item, ValueLine)]
+    length = next((line.value for line in lines if line.value.symbol == CYLINDER), None)
+    return loops if length is None else (_cylinder(length, work), *loops)
+
+
+def _cylinder(length: Formula, work: Work) -> VectorLoop:
+    """Return the loop of a cylinder that drives the crank, from the crank's pivot over its foot and head."""
+    between, crank = work.linkage.drive.actuator.along, work.linkage.crank(work.linkage.drive.joint)
+    assert between is not None
+    (pivot, foot, head), turned = (crank.pivot, *between), work.angles[crank.pivot, crank.name]
+    ends = [work.place(name) for name in (pivot, foot, head)]
+    tilt = Formula("leaf", symbol=Symbol("θ", CYLINDER.letter), shown="0")
+    names = [Symbol(letter, index, bold=True) for letter, index in (("R", "g"), ("L", ""), ("R", "c"))]
+    base, arm, way = (
+        work.points[foot] - work.points[pivot],
+        work.points[head] - work.points[pivot],
+        along(tilt),
+    )
+    bold = [Formula("leaf", symbol=name, shown="0") for name in names]
+    equations = (
+        Equation(bold[0] + bold[1], bold[2]),
+        Equation(base.x + length * way.x, arm.x),
+        Equation(base.y + length * way.y, arm.y),
+    )
+    arrows = tuple(
+        LoopArrow(name, ends[begin], ends[end])
+        for name, begin, end in zip(names, (0, 1, 0), (1, 2, 2), strict=True)
+    )
+    return VectorLoop(Step("Loop of the cylinder", (*equations, Unknown((turned, tilt)))), arrows)
 
 
 def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:

@@ -38,6 +38,7 @@ _IN_TIME: dict[Order, str] = {
     1: "The loops differentiated in time: the same equations, the input running at its own speed.",
     2: "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
 }
+_NO_LOOP = "There is none to close: each joint follows from the input alone."
 _SINGULAR = (
     "No rates follow here in as many digits as a page can show: at a limit or a change point the two linear "
     "equations of a dyad are one. Take a pose beside it."
@@ -140,7 +141,8 @@ class _Draft:
         else:
             rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
         given = Chapter("Given", (Step("", tuple(self.work.given.values())),))
-        chapters = (given, Chapter("Vector loops", tuple(loop.step for loop in loops)), places, *rest)
+        steps = tuple(loop.step for loop in loops) or (Step("", (Words(_NO_LOOP),)),)
+        chapters = (given, Chapter("Vector loops", steps), places, *rest)
         known = self.request.scene.quantities
         # of parts with one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())

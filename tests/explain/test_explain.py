@@ -201,3 +201,14 @@ def test_the_latex_compiles(name: str, tmp_path: Path) -> None:
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, check=False)
     assert ran.returncode == 0, ran.stdout[-2000:]
     assert (tmp_path / "solution.pdf").stat().st_size > 10_000
+
+
+def test_a_cylinder_that_drives_is_a_loop_and_where_none_closes_it_says_so() -> None:
+    found = solution(_request("excavator", 100.0))
+    (loop,) = found.loops
+    foot, cylinder, head = (arrow.end - arrow.begin for arrow in loop.arrows)
+    assert foot + cylinder == pytest.approx(head)
+    places = found.request.scene.pose(math.radians(100.0), 0).position
+    assert abs(cylinder) == pytest.approx(math.dist(places["G"], places["H"]))
+    text = document(solution(_request("cardan-gears", 50.0)), MARKDOWN)
+    assert "There is none to close" in text
