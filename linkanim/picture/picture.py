@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.arrangement.fit import FitRequest, SceneFit, fitted, request_of
 from linkanim.picture.arrangement.words import caption_lines
+from linkanim.picture.building.sheet import Place, drafted, hand, home_view, paper
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.drawing import Drawing, DrawSetting
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.items import Caption, Group, grouped
-from linkanim.picture.layout import CAPTION_STEP, Layout
+from linkanim.picture.layout import CAPTION_STEP, Gauge, Layout, gauge
 from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
 from linkanim.picture.panels.legend import Legend, legend_for
@@ -27,7 +28,7 @@ from linkanim.picture.parts.turning import motion_of
 from linkanim.picture.raster.parts import Part
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import Theme, theme_of
-from linkanim.picture.view import Rect, View, moved
+from linkanim.picture.view import Box, Rect, View, moved
 from linkanim.scenes.editing.closures import ghost_of
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
@@ -43,10 +44,11 @@ class Picture:
 
     The view fits what is shown: the scene, and its other closure where the look has it in view. `scene` is
     in the unit of the look. `listed` leaves room for the edit list, instead of the HUD, and `row` for one of
-    small pictures. A `kept` view is zoomed and panned instead of the one that fits. With `apart` each
-    joint has a group of its own. What `before` measured of the same scene is taken over; names keep their
-    places on one that is zoomed, on its way to another, or `held` by the hand. With a `moment` names stand
-    as is best at that phase alone. Raises BadInput where the look's chart is no quantity of the scene.
+    small pictures. A `kept` view is zoomed and panned instead of the one that fits, or that of a rectangle
+    of the `sheet` that it is built on. With `apart` each joint has a group of its own. What `before`
+    measured of the same scene is taken over; names keep their places on one that is zoomed, on its way to
+    another, or `held` by the hand. With a `moment` names stand as is best at that phase alone. Raises
+    BadInput where the look's chart is no quantity of the scene.
     """
 
     def __init__(
@@ -61,9 +63,11 @@ class Picture:
         apart: bool = False,
         row: bool = False,
         kept: View | None = None,
+        sheet: Box | None = None,
         moment: float | None = None,
     ) -> None:
-        self._made_for, self._kept, self.row = (scene, size, look, listed, held, row), kept, row
+        self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
+        self.sheet = sheet
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
         self.type: Type = before.type if before else Type()
@@ -88,15 +92,22 @@ class Picture:
         self.fit: SceneFit = fitted(self._goal, self._beside, request, self.type, before=last, held=held)
         self.figure: Figure = figure(scene) if scene.towards else self.fit.subject.figure
         self.layout: Layout = self.fit.arrangement.layout
-        self.fitted: View = self._kept or self.fit.view_of(self.figure)
+        self.fitted: View = self._kept or self._of_sheet or self.fit.view_of(self.figure)
         """The view before it is zoomed and panned."""
         (width, height), (right, down) = self.size, look.pan
         about, shift = (width / 2, height / 2), (right * height, down * height)
         self.view: View = moved(self.fitted, about, zoom=look.zoom, pan=shift)
-        gauge = self.fit.arrangement.gauge
-        setting = DrawSetting(self.figure, self.view, gauge, self.theme, self.layout, look, self.type)
+        self.gauge: Gauge = self.fit.arrangement.gauge
+        if self.sheet:
+            self.gauge = gauge(self.layout.unit, self.figure.shortest * self.fitted.scale)
+        setting = DrawSetting(self.figure, self.view, self.gauge, self.theme, self.layout, look, self.type)
         self.drawing = Drawing(setting, apart=self._apart)
         self._chart = self._chart_panel()
+
+    @property
+    def _of_sheet(self) -> View | None:
+        """The view of the sheet that it is built on."""
+        return home_view(self.sheet, self.layout) if self.sheet else None
 
     def fits(
         self,
@@ -107,9 +118,10 @@ class Picture:
         listed: bool = False,
         held: bool = False,
         row: bool = False,
+        sheet: Box | None = None,
     ) -> bool:
         """Return whether it is made for these."""
-        return self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row)
+        return self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
 
     def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
@@ -135,6 +147,11 @@ class Picture:
         path = overlay.path
         if path and path.blank:
             yield from (self._sheet, drawn_line(self.view, self.layout, self.theme, path))
+            return
+        build = overlay.build
+        if build and build.draft:
+            yield self._paper
+            yield from drafted(build, build.draft, self._place, self.type)
             return
         yield from self._behind_at(pose.input_speed, path)
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
@@ -174,6 +191,14 @@ class Picture:
     def _sheet(self) -> Group:
         return sheet(self.view, self.layout, self.theme)
 
+    @property
+    def _place(self) -> Place:
+        return Place(self.view, self.layout, self.gauge, self.theme)
+
+    @cached_property
+    def _paper(self) -> Group:
+        return paper(self._place)
+
     def _behind_at(self, speed: float, path: PathShown | None) -> tuple[Group, ...]:
         """Return what stands still behind all that moves; the chart and the key go by the speed."""
         known, curve = self._behind, path.curve if path else None
@@ -183,9 +208,11 @@ class Picture:
         return self._behind[2]
 
     def _still_behind(self, speed: float, path: PathShown | None) -> Iterator[Group]:
+        if self.sheet:
+            yield self._paper
         yield from self._within([self._discs])
         if path and path.curve:
-            yield from self._within([dashed(self.view, self.fit.arrangement.gauge, self.theme, path)])
+            yield from self._within([dashed(self.view, self.gauge, self.theme, path)])
         if not self._moves_behind:
             yield from self._standing
         if self._chart:
@@ -233,7 +260,7 @@ class Picture:
     @cached_property
     def _dimension_lines(self) -> dict[str, Part]:
         assert self.names
-        return self.names.parts(self.figure, self.view, self.fit.arrangement.gauge, self.theme.dim)
+        return self.names.parts(self.figure, self.view, self.gauge, self.theme.dim)
 
     def _clear(self, line: Caption) -> bool:
         """Return whether a line of text ends before what stands beside the scene."""
@@ -265,19 +292,21 @@ class Picture:
 
     def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
         """Yield what is there for the hand: the chosen bar, and the joint to be dragged."""
-        gauge = self.fit.arrangement.gauge
+        if overlay.build:
+            yield from hand(overlay.build, self._place, self.type)
         for shown in overlay.measured:
             at, head = map(self.view.place, (pose.position[name] for name in shown.frame))
             way = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
             begin, end = (at + place.conjugate() * way for place in (shown.begin, shown.end))
-            yield from measure(self.type, self.layout, self.theme, gauge, MeasuredLine(begin, end, shown))
+            line = MeasuredLine(begin, end, shown)
+            yield from measure(self.type, self.layout, self.theme, self.gauge, line)
         if overlay.path and overlay.path.curve:
-            marks = list(handles(self.view, gauge, self.theme, overlay.path))
+            marks = list(handles(self.view, self.gauge, self.theme, overlay.path))
             yield from self._within([Group("handles", marks, over=True)])
         for layers, words in spots(self.view, overlay.spots, self.theme, self.layout):
             yield Group("spot", layers, [words], over=True)
         if overlay.glow:
-            yield Group("glow", list(glow(self.view, pose, overlay.glow, gauge)), over=True)
+            yield Group("glow", list(glow(self.view, pose, overlay.glow, self.gauge)), over=True)
 
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
         """Return where the pin that the phase drives lies, in pixels."""
@@ -358,7 +387,7 @@ class Picture:
     def _label_style(self) -> LabelStyle:
         from linkanim.picture.labels.names import LabelStyle
 
-        return LabelStyle(self.type, self.layout, self.theme, self.fit.arrangement.gauge)
+        return LabelStyle(self.type, self.layout, self.theme, self.gauge)
 
     def _table_size(self) -> tuple[int, float]:
         """Return how many rows a table of all dimensions has, and how wide they are."""

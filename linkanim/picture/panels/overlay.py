@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from linkanim.mechanics.linkage.joint import Point
+from linkanim.picture.building.shown import BuildShown
 from linkanim.picture.look import ThemeName
 from linkanim.scenes.scene import Scene
 
@@ -216,6 +217,7 @@ class Overlay:
     shelf: Shelf | None = None
     path: PathShown | None = None
     row: AnswerRow | None = None
+    build: BuildShown | None = None
     game: GamePanel | None = None
     spots: tuple[Spot, ...] = ()
     chip: Fading | None = None

@@ -28,10 +28,15 @@ _HANDLES = 12
 def sheet(view: View, layout: Layout, theme: Theme) -> Group:
     """Return the empty sheet: lines at round distances in the scene's unit."""
     width, height = layout.size
-    step = view.scale * _round_step(_GRID * layout.unit / view.scale)
+    step = view.scale * grid_step(view, layout)
     x, y = (np.arange(start % step, end, step) for start, end in ((view.x, width), (view.y, height)))
     lines = [*segments(x, x + 1j * height, 1.0), *segments(1j * y, width + 1j * y, 1.0)]
     return Group("sheet", [Layer(mixed(theme.rule, theme.background, 0.4), lines)], still=True)
+
+
+def grid_step(view: View, layout: Layout) -> float:
+    """Return how far the sheet's lines are apart, in the scene's unit."""
+    return _round_step(_GRID * layout.unit / view.scale)
 
 
 def pencil(layout: Layout, theme: Theme) -> pygame.Surface:

@@ -202,7 +202,11 @@ def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[
 
 
 def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
-    gauge, theme = bench.gauge, bench.theme
+    return block_layers(bench.gauge, bench.theme, turn, share)
+
+
+def block_layers(gauge: Gauge, theme: Theme, turn: complex, share: float = 1.0) -> tuple[Layer, ...]:
+    """Return what slides about 0, along the direction `turn`: the block between rails, or a share of it."""
     length, height = (share * side * gauge.bar for side in _BLOCK)
     edge, corner = 2 * share * gauge.outline, share * gauge.bar
     outer, inner = box(length, height, 0.4 * corner), box(length - edge, height - edge, 0.3 * corner)

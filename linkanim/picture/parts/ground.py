@@ -21,7 +21,7 @@ def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> lis
     lines = [loop for loops in rails_of(Bench(figure, view, gauge, theme)) for loop in loops]
     layers = [Layer(theme.ground, [*lines, *_rails_under(figure, view, gauge)])]
     for name in figure.fixed:
-        layers += _pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)
+        layers += pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)
     return layers
 
 
@@ -74,8 +74,8 @@ def pedestal_corners(figure: Figure, view: View, gauge: Gauge, name: str) -> lis
     return [pin, pin + turn * complex(-wide, deep), pin + turn * complex(wide, deep)]
 
 
-def _pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> list[Layer]:
-    """Return a foot that widens from the pin to a hatched line."""
+def pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the foot of a fixed pin, in pixels: it widens from the pin to a hatched line, the way `away`."""
     deep, wide, bar = 2.1 * gauge.bar, 1.75 * gauge.bar, gauge.bar
     foot = [0j, complex(-0.85 * wide, deep), complex(0.85 * wide, deep)]
     turn = away / 1j

@@ -180,10 +180,21 @@ def turning_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turnin
     pivot = getattr(figure.linkage.joint(pin), "pivot", None)
     if pivot is None:
         return None
-    length = view.scale * abs(figure.start(pin) - figure.start(pivot))
-    arc = max(min(0.36 * length, 6 * gauge.bar), 2.2 * gauge.bar)
-    arrow = max(min(0.7 * length, 8 * gauge.bar), arc + 1.6 * gauge.bar)
+    arc, arrow = _radii(view.scale * abs(figure.start(pin) - figure.start(pivot)), gauge)
     fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
     info = figure.scene.info
     middle = pi if info.full_turn else sum(info.input_range) / 2
     return Turning(pivot, pin, arc, arrow, fastest, (theme.ink, theme.background), gauge, middle)
+
+
+def _radii(length: float, gauge: Gauge) -> tuple[float, float]:
+    """Return the radii of the angle's arc and of the arrow, in pixels, for a bar of that length."""
+    arc = max(min(0.36 * length, 6 * gauge.bar), 2.2 * gauge.bar)
+    return arc, max(min(0.7 * length, 8 * gauge.bar), arc + 1.6 * gauge.bar)
+
+
+def turning_arrow(pivot: complex, pin: complex, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the arrow of a driven bar that stands still, in pixels, counter-clockwise."""
+    _, arrow = _radii(abs(pin - pivot), gauge)
+    drawn = zip((theme.background, theme.ink), _bent(-SWEEP, arrow, gauge.line), strict=True)
+    return [Layer(colour, outlines.placed(pivot, unit(pin - pivot))) for colour, outlines in drawn]

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from linkanim.picture.look import TOGGLES
 from linkanim.player.input.pad_buttons import PAD
 from linkanim.player.state.action import Action, Mode, Value
+from linkanim.player.state.tools import TOOLS
 
 
 class Bind(NamedTuple):
@@ -114,6 +115,12 @@ KEYS: tuple[KeyRow, ...] = (
         _on("w", "pencil") + _on("shift+w", "own_trace"),
     ),
     KeyRow(
+        "edit",
+        "F2",
+        "build a linkage on an empty sheet",
+        _on("f2", "build"),
+    ),
+    KeyRow(
         "edit", "B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")
     ),
     KeyRow(
@@ -205,6 +212,44 @@ PENCIL_KEYS: tuple[KeyRow, ...] = (
 )
 """What the keys do while a path is drawn."""
 
+_UP, _DOWN, _LEFT, _RIGHT = (0.0, 1.0), (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0)
+
+
+def _aims() -> tuple[Bind, ...]:
+    """Return the arrows, which move the cursor by a line of the grid, and with Shift by a fine step."""
+    ways = (("up", _UP), ("down", _DOWN), ("left", _LEFT), ("right", _RIGHT))
+    lines = (bind for key, way in ways for bind in _on(key, "aim", way, held=True))
+    steps = (bind for key, (x, y) in ways for bind in _on(f"shift+{key}", "aim", (x, y, 0.0), held=True))
+    return (*lines, *steps)
+
+
+BUILD_KEYS: tuple[KeyRow, ...] = (
+    KeyRow(
+        "in F2", "click, drag", "a ground pin; from a pin or joint a bar, which is joined where it is let go"
+    ),
+    KeyRow("in F2", "drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
+    *(
+        KeyRow("in F2", tool.key, tool.name, _on(tool.key.lower(), tool.action, tool.value))
+        for tool in TOOLS
+        if len(tool.key) == 1
+    ),
+    KeyRow(
+        "in F2",
+        "arrows (Shift: fine), Enter",
+        "a cursor; press and lift there",
+        _aims() + _on("return kp_enter", "enter"),
+    ),
+    KeyRow(
+        "in F2",
+        "Ctrl+Z, Ctrl+Y",
+        "undo, redo",
+        _on("ctrl+z", "unbuild", held=True) + _on("ctrl+y ctrl+shift+z", "rebuild", held=True),
+    ),
+    KeyRow("in F2", "Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
+    KeyRow("in F2", "Esc, F2", "let go; leave, the linkage being the scene; F2 goes on"),
+)
+"""What the keys do on a sheet."""
+
 GAME_KEYS: tuple[KeyRow, ...] = (
     KeyRow(
         "in a game",
@@ -226,6 +271,7 @@ _OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {
     "paused": PAUSED_KEYS,
     "pencil": PENCIL_KEYS,
     "game": GAME_KEYS,
+    "build": BUILD_KEYS,
 }
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),

@@ -12,6 +12,7 @@ from pygame.event import Event
 
 from linkanim.player.input.steering import phase_towards
 from linkanim.player.state.action import Action, Mode
+from linkanim.player.state.tools import TOOLS
 from linkanim.scenes.scene import Scene
 
 _REACH = 0.035  # of the window's height
@@ -19,7 +20,9 @@ _TENTHS = 0.1
 _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
 _COARSE = 10
-Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead"]
+Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "hand", "paper"]
+_STILL = 0.006
+"""How far the hand may move in a click on paper, in the window's height."""
 _PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead"}
 """What the mouse does on while its button is down, by what the pencil has begun."""
 
@@ -60,6 +63,15 @@ class MouseTarget(Protocol):
     def pencil_at(self, x: float, y: float, reach: float) -> Action:
         """Return what the pencil begins at a pixel."""
 
+    def sheet_at(self, x: float, y: float) -> Literal["hand", "crank", "paper"]:
+        """Return what the hand does at a pixel of a sheet: it draws, turns the crank, shifts the paper."""
+
+    def tool_at(self, x: float, y: float) -> int | None:
+        """Return the number of the tool of the sheet under a pixel; None beside them."""
+
+    def handed(self, x: float, y: float, part: float) -> tuple[float, float, float, float]:
+        """Return a place of the sheet, how near counts as on it, and the usual step times a part."""
+
     @property
     def is_shelf_open(self) -> bool:
         """Whether the shelf lies over the picture."""
@@ -94,6 +106,8 @@ class Mouse:
         self._seen = self._seen or event.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN)
         if target.is_shelf_open:
             return self._on_the_shelf(event, target)
+        if target.mode == "build" and (found := self._of_the_sheet(event, target)) is not None:
+            return found
         if target.mode == "pencil" and (found := self._of_the_pencil(event, target)) is not None:
             return found
         if target.mode == "game" and self._drag is None and (found := self._in_a_game(event, target)):
@@ -179,7 +193,9 @@ class Mouse:
         """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
         if not self._seen or target.is_shelf_open or self._drag in ("pan", "chart", "row"):
             return None
-        if target.mode == "pencil" or (self._drag is None and target.row_at(*self._at) is not None):
+        if target.mode in ("pencil", "build") or (
+            self._drag is None and target.row_at(*self._at) is not None
+        ):
             return None
         return target.handle_at(*self._at, _REACH * target.size[1]) or (
             target.scene.linkage.drive.joint if self._is_at_pin(target) else None
@@ -220,6 +236,36 @@ class Mouse:
             return (Action(drawn if drag == "pen" else "let_go"),)
         return None
 
+    def _of_the_sheet(self, event: Event, target: MouseTarget) -> tuple[Action, ...] | None:
+        """Draw on the sheet, take a tool, turn the crank, or shift the paper; None for what else there is."""
+        at: tuple[float, float] = getattr(event, "pos", self._at)
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1 and target.charted(*at) is None:
+            self._at, self._begun, self._far, self._drag = at, at, 0.0, None
+            if (tool := target.tool_at(*at)) is not None:
+                return (Action(TOOLS[tool].action, TOOLS[tool].value),)
+            self._drag = target.sheet_at(*at)
+            return (Action("hand_down", target.handed(*at, _step())),) if self._drag == "hand" else ()
+        if self._drag not in ("hand", "paper"):
+            return None
+        if event.type == pygame.MOUSEMOTION:
+            before, self._at = self._at, at
+            self._far = max(self._far, math.dist(self._begun, at))
+            if self._drag == "hand":
+                return (Action("hand_to", target.handed(*at, _step())),)
+            return self._panned(before, target) if self._far > _STILL * target.size[1] else ()
+        if event.type == pygame.MOUSEBUTTONUP and event.button == 1:
+            drag, self._drag = self._drag, None
+            if drag == "hand":
+                return (Action("hand_up"),)
+            stayed = self._far <= _STILL * target.size[1]
+            return (Action("hand_down", target.handed(*at, _step())), Action("hand_up")) if stayed else ()
+        return None
+
+    def over_sheet(self, target: MouseTarget) -> tuple[float, float] | None:
+        """Return where the mouse is over an open sheet, in pixels; None elsewhere, and before it was seen."""
+        shown = self._seen and target.mode == "build" and self._drag in (None, "hand")
+        return self._at if shown else None
+
     def _grabbed(self, target: MouseTarget) -> Literal["pan", "crank", "chart"]:
         if self._is_at_pin(target):
             return "crank"
@@ -243,6 +289,12 @@ class Mouse:
             return (Action("carry", (*target.world(*self._at), fine)),)
         phase = target.charted(*self._at) if self._drag == "chart" else None
         return () if phase is None else (Action("scrub", phase),)
+
+
+def _step() -> float:
+    """Return which part of the usual step the hand draws in: tenths with Shift, 0 for any with Alt."""
+    mods = pygame.key.get_mods()
+    return 0.0 if mods & pygame.KMOD_ALT else _TENTHS if mods & pygame.KMOD_SHIFT else 1.0
 
 
 def _coarser() -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-Mode = Literal["play", "paused", "edit", "list", "shelf", "pencil", "game"]
+Mode = Literal["play", "paused", "edit", "list", "shelf", "pencil", "game", "build"]
 """What the keys are for: the picture, or the overlay that is open."""
 Value = None | int | float | str | tuple[float, ...]
 

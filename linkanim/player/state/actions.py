@@ -11,7 +11,7 @@ from linkanim.picture.look import TOGGLES, answer
 from linkanim.picture.parts.driven import speed_words
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import Clock
-from linkanim.player.state.handlers import edits, games, looks, outside, pencil, places, shelf
+from linkanim.player.state.handlers import build, edits, games, looks, outside, pencil, places, shelf
 from linkanim.player.state.state import State
 from linkanim.scenes.editing.closures import closure_name
 
@@ -135,6 +135,11 @@ def _idle(words: str) -> Callable[[State, State], str | None]:
     return lambda before, after: words if before.editing == after.editing else None
 
 
+def _stuck(words: str) -> Callable[[State, State], str | None]:
+    """Return what says so where nothing on the sheet has changed."""
+    return lambda before, after: words if before.sheet == after.sheet else None
+
+
 def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any], State]:
     """Return the handler of what changes the clock alone, from the frame of the state on."""
     return lambda state, value: replace(state, clock=work(state.clock, state.frame, value))
@@ -214,6 +219,16 @@ ACTIONS: Mapping[str, Rule] = {
     "next": Rule(_nothing, _unused),
     "turn": Rule(_whole, _unused),  # small steps, counterclockwise or to the right
     "raise": Rule(_whole, _unused),  # steps up
+    "build": Rule(_nothing, build.build),
+    "sheet": Rule(_nothing, build.new),
+    "tool": Rule(_text, build.tool),
+    # (x, y) of the sheet, how near counts as on it, the step of what is drawn
+    "hand_down": Rule(_numbers(4), build.down),
+    "hand_to": Rule(_numbers(4), build.along),
+    "hand_up": Rule(_nothing, build.up),
+    "cursor": Rule(_numbers(2), build.cursor),  # (x, y) of the sheet
+    "unbuild": Rule(_nothing, build.undo, answer=_stuck("nothing to undo")),
+    "rebuild": Rule(_nothing, build.redo, answer=_stuck("nothing to redo")),
     "back": Rule(_nothing, outside.back),
     "list": Rule(_nothing, shelf.list_, taped=False),
     "shelf": Rule(_nothing, shelf.open_shelf, taped=False),

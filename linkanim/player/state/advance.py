@@ -14,6 +14,7 @@ from linkanim.player.state.actions import ACTIONS
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import refused
 from linkanim.player.state.glide import followed
+from linkanim.player.state.handlers import build
 from linkanim.player.state.handlers.games import BESIDE, leave
 from linkanim.player.state.handlers.pencil import come, keep, left
 from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, with_chip
@@ -23,6 +24,8 @@ _WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
 _KEEPS = frozenset({"edit"})
 _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
 """What keeps the answer that the pencil has, and what goes back to the scene before."""
+_OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
+"""What is not done on a sheet, which is left for it."""
 ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND
 
@@ -50,7 +53,7 @@ def aged(state: State) -> State:
         state = replace(state, chip=None, place_typed="")
     over = [name for name, life in _LIVES.items() if _is_over(getattr(state, name), life, state.frame)]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
-    state = come(state) if state.sketch else state
+    state = build.rested(come(state) if state.sketch else state)
     state = _followed(state) if state.glide else state
     return _played(state) if state.game else state
 
@@ -66,6 +69,10 @@ def carried(state: State, action: Action) -> State:
         state = replace(state, touched=state.frame)
     if state.sketch and action.name in _WITHOUT_PENCIL:
         return state
+    if state.building and action.name in _WITHOUT_PENCIL:
+        return state
+    if action.name in _OFF_THE_SHEET:
+        state = build.left(state)
     if action.name in _KEEPS | _LEAVES:
         state = keep(state, None) if action.name in _KEEPS else left(state)
     try:
@@ -80,7 +87,7 @@ def carried(state: State, action: Action) -> State:
 def settled(state: State) -> State:
     """Return the state at the end of a frame: left alone for a minute, it walks on through the shelf."""
     idle = state.frame - state.touched - ATTRACT_AFTER
-    busy = state.recording or state.sketch or state.editing.open or state.editing.changed
+    busy = state.recording or state.sketch or state.building or state.editing.open or state.editing.changed
     if not state.attract or busy or idle < 0 or idle % ATTRACT_EACH:
         return state
     onward = replace(carried(replace(state, help=False), Action("mechanism", 1)), touched=state.touched)

@@ -18,6 +18,7 @@ from linkanim.player.state.browsing import Browsing, Listing
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.state.editing import Editing, Held
 from linkanim.player.state.glide import Glide
+from linkanim.player.state.sheet import Sheet
 from linkanim.player.state.sketch import Sketch
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.shown_unit import in_unit
@@ -92,7 +93,7 @@ class State:
 
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
     `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf,
-    `sketch` what the pencil has drawn.
+    `sketch` what the pencil has drawn, `sheet` what is built, or was while it is not open.
     `kept` are the other places whose scenes were edited. `chip` is the
     answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
@@ -122,6 +123,7 @@ class State:
     listing: Listing | None = None
     browsing: Browsing | None = None
     sketch: Sketch | None = None
+    sheet: Sheet | None = None
     game: Game | None = None
     games: Callable[[str], Game] | None = None
     beneath: State | None = None
@@ -161,7 +163,14 @@ class State:
             return "list" if self.listing else "shelf"
         if self.sketch:
             return "pencil"
+        if self.building:
+            return "build"
         return "paused" if self.clock.paused else "play"
+
+    @property
+    def building(self) -> Sheet | None:
+        """The sheet, while it is open."""
+        return self.sheet if self.sheet and self.sheet.open and not self.game else None
 
     @property
     def edited(self) -> frozenset[int]:
@@ -192,7 +201,8 @@ class State:
         """Whether something has been begun in the open list."""
         if self.editing.open:
             return self.editing.typed != ""
-        browsed = self.browsing.sieve if self.browsing else self.place_typed
+        begun = self.building.building.typed if self.building else self.place_typed
+        browsed = self.browsing.sieve if self.browsing else begun
         return bool(self.listing.sieve if self.listing else browsed)
 
     @property

@@ -80,7 +80,7 @@ class Tape:
 def starting(state: State) -> State:
     """Return the state as a tape starts from it: frame 0, standing where it stands, nothing to be done."""
     state = leave(state) if state.game else state
-    clock, sketch = state.clock.go(0, state.phase), state.sketch
+    clock, sketch = state.clock.go(0, state.phase), state.sketch or state.building
     return State(
         scene=sketch.before if sketch else state.scene,
         clock=clock.at_rate(0, sketch.clock.rate) if sketch else clock,

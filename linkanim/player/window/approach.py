@@ -73,16 +73,21 @@ class Framing:
     def fitting(self, state: State, size: tuple[int, int]) -> Picture:
         """Return the picture that fits the state; a view other than the last one's, it is approached."""
         before, sketch, look = self._fitting, state.sketch, self._look(state)
-        held = state.held is not None or (sketch is not None and sketch.held is not None)
-        row = sketch is not None and bool(sketch.answers)
-        if before and before.fits(state.shown, size, look, listed=state.listed, held=held, row=row):
+        held = bool(state.held or (sketch and sketch.held is not None) or state.building)
+        row, listed = sketch is not None and bool(sketch.answers), state.listed
+        home = state.building.home if state.building else None
+        if before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home):
             return before
-        make = partial(Picture, state.shown, size, look, before, listed=state.listed, held=held, row=row)
+        make = partial(
+            Picture, state.shown, size, look, before, listed=listed, held=held, row=row, sheet=home
+        )
         stays = before is not None and before.size == size
         made = make(kept=before.fitted if before and sketch and stays else None)
         if sketch and stays and not held and not _is_in_sight(made, sketch):
             made = make(kept=_seen_whole(made, sketch))
-        if before and (_has_moved(before, made) or (sketch and stays and before.fitted != made.fitted)):
+        if before and before.sheet != made.sheet:
+            self._approach = None
+        elif before and (_has_moved(before, made) or (sketch and stays and before.fitted != made.fitted)):
             self._approach = Approach((self._passing or before).view, state.frame)
         elif before and not _is_framed_alike(before, made):
             self._approach = None
@@ -91,7 +96,7 @@ class Framing:
 
     def _look(self, state: State) -> Look:
         """Return the look of a state; where it is captioned, names come with what to watch for."""
-        look = state.look
+        look = replace(state.look, hud=False) if state.building else state.look
         return replace(look, caption=True) if self._captioned and look.names else look
 
     def at(self, state: State, size: tuple[int, int]) -> Picture:
@@ -102,7 +107,9 @@ class Framing:
             return goal
         look = self._approach.look(self._look(state), goal.fitted, goal.view, size, state.frame)
         kept = goal.fitted if state.sketch else None
-        self._passing = Picture(state.shown, size, look, goal, listed=state.listed, row=goal.row, kept=kept)
+        self._passing = Picture(
+            state.shown, size, look, goal, listed=state.listed, row=goal.row, kept=kept, sheet=goal.sheet
+        )
         return self._passing
 
 

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import ceil, hypot, log10
+from typing import Literal
 
 import pygame
 
+from linkanim.build.draft import Draft, Thing
+from linkanim.build.pointing import under
 from linkanim.picture.answer_row import RowPrinter, row_cells
+from linkanim.picture.building.shown import BuildShown
+from linkanim.picture.building.tools import ToolPrinter, tool_at, tool_cells
 from linkanim.picture.layout import layout
 from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.panels.path import pencil
+from linkanim.picture.panels.path import grid_step, pencil
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, ShelfPrinter, grid
 from linkanim.picture.surface import SurfacePrinter
@@ -17,14 +22,24 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.browsing import Browsing
+from linkanim.player.state.sheet import Sheet, driven_bar
 from linkanim.player.state.sketch import PIVOTS
 from linkanim.player.state.state import State
+from linkanim.player.state.tools import TOOLS
 from linkanim.player.window import display
 from linkanim.player.window.approach import Framing
 from linkanim.player.window.fade import Fade
+from linkanim.player.window.sheet import Hover
 from linkanim.player.window.show import shelf_of
 from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.scene import Scene
+
+_NEAR = 0.022
+"""How near to a thing counts as on it, in the window's height."""
+_PULLED = 6.0
+"""How near to a line of the grid counts as on it, in units."""
+_VISIBLE = 2.0
+"""The least of a step of what is drawn, in pixels."""
 
 
 class Screen:
@@ -42,7 +57,7 @@ class Screen:
         self._fade = Fade()
         self._printer = SurfacePrinter()
         self._over = Overlay()
-        self._row = RowPrinter()
+        self._row, self._tools = RowPrinter(), ToolPrinter()
         self._pointer: object = None
 
     def show(self, state: State, over: Overlay) -> None:
@@ -66,6 +81,7 @@ class Screen:
             self._shelf.close()
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
             self._row.draw(surface, picture.layout, over.row)
+            self._tools.draw(surface, picture.layout, picture.theme, over.build.tools if over.build else None)
 
     def _point(self, state: State) -> None:
         """Let the mouse point with a pencil while that is taken."""
@@ -145,6 +161,86 @@ class Screen:
         if away and min(away) <= reach:
             return Action("take_point", away.index(min(away)))
         return Action("pen_down", self.world(x, y))
+
+    def sheet_at(self, x: float, y: float) -> Literal["hand", "crank", "paper"]:
+        """Return what the hand does at a pixel of a sheet: it draws, turns the crank, shifts the paper."""
+        sheet = self._state.building
+        assert sheet
+        near, *_ = self._under(x, y)
+        if near is None:
+            return "paper" if sheet.tool in ("bar", "move") else "hand"
+        moves = sheet.building.made.scene is not None and sheet.tool in ("bar", "move")
+        return "crank" if moves and near == driven_bar(sheet.building.draft) else "hand"
+
+    def _under(self, x: float, y: float) -> tuple[Thing | None, Draft]:
+        """Return what of a draft is under a pixel, and the draft as it is seen."""
+        sheet = self._state.building
+        assert sheet
+        seen = sheet.seen(self._state.scene, self.phase)
+        return under(seen, *self.world(x, y), self._near), seen
+
+    @property
+    def _near(self) -> float:
+        """How near counts as on a thing, in the sheet's unit."""
+        return _NEAR * self.size[1] / self._framing.last.view.scale
+
+    @property
+    def built(self) -> BuildShown | None:
+        """What was shown last of an open sheet."""
+        return self._over.build
+
+    @property
+    def tool_cells(self) -> tuple[Rect, ...]:
+        """Where the tools of a sheet stand, in pixels."""
+        return tool_cells(self._framing.last.layout, len(TOOLS))
+
+    def tool_at(self, x: float, y: float) -> int | None:
+        """Return the number of the tool of the sheet under a pixel; None beside them."""
+        return tool_at(self._framing.last.layout, len(TOOLS), x, y)
+
+    def handed(self, x: float, y: float, part: float) -> tuple[float, float, float, float]:
+        """Return a place of the sheet, how near counts as on it, and the usual step times a part.
+
+        On paper a place near a line of the grid is on it, but for parts of the step.
+        """
+        place = self.world(x, y)
+        if part == 1.0 and self._under(x, y)[0] is None:
+            place = self._gridded(*place)
+        return (*place, self._near, part * self.sheet_step)
+
+    def hover(self, x: float, y: float) -> Hover:
+        """Return what of the sheet is under a pixel."""
+        return Hover(self.world(x, y), self._near, self.tool_at(x, y))
+
+    def aimed(self, sheet: Sheet, way: tuple[float, ...]) -> tuple[float, float]:
+        """Return where the keys' cursor goes, one line of the grid on; a fine way is one step.
+
+        Without one it begins in the middle of what is seen.
+        """
+        step = self.sheet_step if len(way) > 2 else self.grid_step
+        middle = self.world(self.size[0] / 2, self.size[1] / 2)
+        begin = sheet.cursor or middle
+        by = way[:2] if sheet.cursor else (0.0, 0.0)
+        x, y = (round(at / step + part) * step for at, part in zip(begin, by, strict=True))
+        return x, y
+
+    def _gridded(self, x: float, y: float) -> tuple[float, float]:
+        """Return a place with each coordinate that is near to a line of the grid on that."""
+        view = self._framing.last.view
+        step, near = self.grid_step, _PULLED * self._framing.last.layout.unit / view.scale
+        lines = (round(at / step) * step for at in (x, y))
+        x, y = (line if abs(line - at) <= near else at for at, line in zip((x, y), lines, strict=True))
+        return x, y
+
+    @property
+    def grid_step(self) -> float:
+        """From line to line of the sheet's grid, in its unit."""
+        return grid_step(self._framing.last.view, self._framing.last.layout)
+
+    @property
+    def sheet_step(self) -> float:
+        """The usual step of what is drawn: a power of ten of its unit that can be seen."""
+        return 10.0 ** ceil(log10(_VISIBLE / self._framing.last.view.scale))
 
     def world(self, x: float, y: float) -> tuple[float, float]:
         """Return the point of the scene under a pixel."""

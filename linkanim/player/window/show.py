@@ -29,6 +29,7 @@ from linkanim.player.state.browsing import Browsing, Listing, listed
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.sketch import Sketch
 from linkanim.player.state.state import FLASH_FRAMES, SHUTTER_FRAMES, State
+from linkanim.player.window.sheet import Hover, built
 from linkanim.scenes.editing.edit import Dimension, dimensions
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.editing.stretches import stretches
@@ -52,8 +53,13 @@ _STEPS = 12
 """So many shades of a flash: each is drawn once."""
 
 
-def overlay(state: State, hover: str | None = None, row: int | None = None) -> Overlay:
-    """Return all that the window shows beside the scene; `hover` and `row` are what is under the mouse."""
+def overlay(
+    state: State, hover: str | None = None, row: int | None = None, over: Hover | None = None
+) -> Overlay:
+    """Return all that the window shows beside the scene.
+
+    What is under the mouse: `hover` the joint, `row` the row of a list, `over` the place of a sheet.
+    """
     items = _items(state)
     lists = _kept(state, items)
     return replace(
@@ -62,6 +68,7 @@ def overlay(state: State, hover: str | None = None, row: int | None = None) -> O
         quantities=lists.quantities and replace(lists.quantities, pointed=row),
         toast=state.toast.text if state.toast else None,
         chip=_chip(state),
+        build=built(state, state.building, over) if state.building and over else lists.build,
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
         measured=tuple(_measured(state, items)),
@@ -84,7 +91,7 @@ def _items(state: State) -> tuple[Dimension, ...]:
 
 def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
     found = Overlay(
-        paused=state.clock.paused and not state.game,
+        paused=state.clock.paused and not (state.game or state.building),
         noted=True,
         recording=_recording(state),
         help=help_groups(state.mode, pad=state.pad) if state.help else None,
@@ -93,6 +100,7 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
         shelf=shelf_of(state, state.browsing) if state.browsing else None,
         path=_path(state.sketch) if state.sketch else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
+        build=built(state, state.building) if state.building else None,
     )
     return state.game.shown(state, found) if state.game else found
 

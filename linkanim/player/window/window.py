@@ -24,12 +24,14 @@ from linkanim.player.state.browsing import RESOLVED, Browsing, listed
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import recovered, report
 from linkanim.player.state.handlers.shelf import renewed
+from linkanim.player.state.sheet import Sheet
 from linkanim.player.state.state import State, Take
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.window import display, files
 from linkanim.player.window.files import SceneFile
 from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.screen import Screen
+from linkanim.player.window.sheet import Hover
 from linkanim.player.window.show import kept, overlay
 from linkanim.scenes.editing.write import save
 
@@ -150,6 +152,8 @@ class Window:
             tokens = listed(self.state.scene, listing.sieve)
             row = action.value if isinstance(action.value, int) else listing.chosen
             yield from (Action("plot", token) for token in tokens[row : row + 1])
+        elif action.name in ("aim", "enter") and self.state.building:
+            yield from self._by_keys(self.state.building, action)
         elif action.name == "back" and not self.state.is_covered and display.is_full():
             yield Action("fullscreen")
         elif action.name == "back" and not self.state.is_covered and self.state.recording:
@@ -197,6 +201,22 @@ class Window:
             near = [n for row in free.rows for n in row if n in seen]
             yield Action("point", near[0] if rows > 0 else near[-1])
 
+    def _by_keys(self, sheet: Sheet, action: Action) -> Iterator[Action]:
+        """Yield what arrows and Enter mean on a sheet: its cursor goes on, the hand goes down or up there."""
+        if action.name == "aim" and isinstance(action.value, tuple):
+            yield Action("cursor", self.screen.aimed(sheet, action.value))
+        elif sheet.building.typed:
+            yield Action("take_number")
+        elif sheet.grip:
+            yield Action("hand_up")
+        elif sheet.cursor:
+            click = (
+                Action("hand_down", self.screen.handed(*self.screen.pixel(*sheet.cursor), 1.0)),
+                Action("hand_up"),
+            )
+            on_paper = self.screen.sheet_at(*self.screen.pixel(*sheet.cursor)) == "paper"
+            yield from 2 * click if action.value else click if on_paper else click[:1]
+
     def _rewound(self) -> State:
         """Return the state to go on from: a tape that has ended goes on from its start."""
         return self._tape.rewound(self.state) if self._tape else self.state
@@ -219,7 +239,8 @@ class Window:
         if hover not in self.state.shown.linkage.by_name:
             hover = None  # a joint of the scene that was there until now
         try:
-            self.screen.show(self.state, overlay(self.state, hover, self._mouse.pointed(self.screen)))
+            row, over = self._mouse.pointed(self.screen), self._over_sheet()
+            self.screen.show(self.state, overlay(self.state, hover, row, over))
         except Exception as error:
             if self._good is None:
                 raise
@@ -228,6 +249,11 @@ class Window:
             self.state = recovered(self.state, self._good, error)
             self.screen.show(self.state, overlay(self.state))
         self._good = self.state
+
+    def _over_sheet(self) -> Hover | None:
+        """Return what of an open sheet the mouse is over."""
+        at = self._mouse.over_sheet(self.screen) if self._good and self._good.building else None
+        return self.screen.hover(*at) if at and self.state.building else None
 
     def _news(self) -> tuple[Action, ...]:
         """Return, as notes, what was done outside, and how far recordings are."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Literal
 
 from linkanim.player.state import editing as edit_
+from linkanim.player.state.handlers import build
 from linkanim.player.state.handlers.edits import edit
 from linkanim.player.state.handlers.pencil import left
 from linkanim.player.state.state import State, Take, with_effect, with_toast
@@ -38,6 +39,8 @@ def back(state: State, _: None) -> State:
         return replace(state, listing=None, browsing=None)
     if state.sketch and not state.editing.open:
         return left(state)
+    if state.building:
+        return build.let_go(state) or build.left(state)
     if state.editing.open and state.editing.begun:
         return replace(state, editing=edit_.let_go(state.editing))
     if state.place_typed:

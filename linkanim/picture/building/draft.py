@@ -1,0 +1,151 @@
+"""A draft as it is drawn before it moves: bars and plates, pins with their feet, guides, struts, wheels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from linkanim.build.shapes import Shape
+from linkanim.mechanics.linkage.joint import Point
+from linkanim.picture.building.shown import DraftShown
+from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.layout import Gauge, Layout, gauge
+from linkanim.picture.parts.bodies import mark_stamp, pin_stamp
+from linkanim.picture.parts.fittings import block_layers, hatched
+from linkanim.picture.parts.ground import pedestal
+from linkanim.picture.parts.struts import Coil, barrel, piston
+from linkanim.picture.parts.turning import turning_arrow
+from linkanim.picture.raster.parts import glazed, lined
+from linkanim.picture.raster.raster import Layer, Loop
+from linkanim.picture.raster.shapes import disc, hull, rod, segments, stroke, unit
+from linkanim.picture.text.text import subscripted
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import View
+
+_COILS = 10
+_BARREL, _PISTON = 0.95, 0.16
+"""A barrel's half width in those of a bar, and the piston's length in barrels."""
+_CYLINDER = (0.25, 0.75)
+"""Where a barrel begins and ends, and the piston is, between its ends."""
+_GUIDE = 11.0
+"""How far a guide is drawn about a place, in half widths of a bar."""
+_WHEELS = 0.55
+"""How much of what lies behind a wheel it covers."""
+
+
+def draft_gauge(layout: Layout, view: View, draft: DraftShown) -> Gauge:
+    """Return how thick a draft is drawn: as the linkage is that it becomes."""
+    ends = [[*map(view.place, one.places[:2])] for one in draft.shapes if one.kind == "bars"]
+    spans = (abs(end - begin) for begin, end in ends)
+    return gauge(layout.unit, min(spans, default=200 * layout.unit))
+
+
+class DraftDrawing:
+    """A draft in one view, in pixels."""
+
+    def __init__(self, draft: DraftShown, view: View, gauge_: Gauge, theme: Theme) -> None:
+        self._draft, self._view, self._gauge, self._theme = draft, view, gauge_, theme
+
+    def groups(self, size: int) -> Iterator[Group]:
+        """Yield all of it, back to front; names are written at that size."""
+        drawn = {"gears": self._wheels, "guides": self._guide, "pins": self._foot}
+        behind = [layer for kind, draw in drawn.items() for one in self._of(kind) for layer in draw(one)]
+        yield Group("draft-ground", behind)
+        yield Group("draft-bodies", [*self._bodies()])
+        struts = (layer for kind in _STRUTS for one in self._of(kind) for layer in self._strut(one))
+        yield Group("draft-struts", [*struts])
+        yield Group("draft-pins", [*self._pins()], [*self._names(size)])
+
+    def _of(self, *kinds: str) -> list[Shape]:
+        return [one for one in self._draft.shapes if one.kind in kinds]
+
+    def _placed(self, places: tuple[Point, ...]) -> list[complex]:
+        return [self._view.place(point) for point in places]
+
+    def _guide(self, guide: Shape) -> Iterator[Layer]:
+        """Yield a line along a guide's two places, some way to either side of what slides on it."""
+        start, beside, *blocks = self._placed(guide.places)
+        along, reach = unit(beside - start), _GUIDE * self._gauge.bar
+        ways = [((at - start) * along.conjugate()).real for at in blocks] or [0.0]
+        ends = start + along * (min(ways) - reach), start + along * (max(ways) + reach)
+        yield Layer(self._theme.ground, [*hatched(*ends, self._gauge, 1)])
+
+    def _foot(self, pin: Shape) -> Iterator[Layer]:
+        yield from pedestal(self._view.place(pin.places[0]), 1j, self._gauge, self._theme)
+
+    def _wheels(self, gear: Shape) -> Iterator[Layer]:
+        one, other, touching = self._placed(gear.places)
+        for middle in (one, other):
+            ring = middle + disc(max(abs(touching - middle), 1.0))
+            yield Layer(self._theme.gear, [ring], _WHEELS)
+            yield Layer(self._theme.ground, stroke(ring, self._gauge.line, closed=True))
+
+    def _bodies(self) -> Iterator[Layer]:
+        bars = self._of("bars")
+        crank = next((n for n, bar in enumerate(bars) if set(self._draft.crank or ()) >= {*bar.places}), None)
+        order = [n for n in range(len(bars)) if n != crank]
+        colour = {n: place for place, n in enumerate([*([] if crank is None else [crank]), *order])}
+        for n in sorted(colour, key=lambda n: len(bars[n].places) < 3):
+            yield from self._body(bars[n], colour[n])
+        for block in self._of("sliders", "slots", "yokes"):
+            yield from self._block(block)
+
+    def _body(self, bar: Shape, colour: int) -> list[Layer]:
+        points = self._placed(bar.places)
+        colours = self._theme.outline, self._theme.bodies[colour % len(self._theme.bodies)]
+        draw = glazed if len(hull(points)) > 2 else lined
+        return draw(points, self._gauge.bar, self._gauge.outline, colours)
+
+    def _block(self, block: Shape) -> Iterator[Layer]:
+        """Yield what slides, along the way from its first place to its second."""
+        at, *beside = self._placed(block.places)
+        turn = unit(beside[0] - at) if beside else 1 + 0j
+        share = 1.0 if block.kind == "sliders" else 0.62
+        for layer in block_layers(self._gauge, self._theme, turn, share):
+            yield layer._replace(loops=[at + loop for loop in layer.loops])
+
+    def _strut(self, strut: Shape) -> list[Layer]:
+        begin, end = self._placed(strut.places[:2])
+        gauge_, theme = self._gauge, self._theme
+        if strut.kind == "springs":
+            coil = Coil(("begin", "end"), 1.15 * gauge_.bar, 1.5 * gauge_.bar, _COILS, gauge_, theme)
+            return coil.layers({"begin": begin, "end": end})
+        span, turn = abs(end - begin), unit(end - begin)
+        near, far = (share * span for share in _CYLINDER)
+        radius, thin, middle = _BARREL * gauge_.bar, 1.2 * gauge_.line, (near + far) / 2
+        head = piston(_PISTON * (far - near), radius, gauge_, theme)
+        head = head._replace(loops=[loop + middle for loop in head.loops])
+        rods = Layer(theme.outline, [rod(middle, max(span, middle), thin), rod(0.0, near, thin)])
+        layers = (*barrel(near, far, radius, gauge_, theme), rods, head)
+        return [Layer(one.colour, [begin + turn * loop for loop in one.loops]) for one in layers]
+
+    def _pins(self) -> Iterator[Layer]:
+        joints = [one.places[0] for one in self._of("pins", "joints")]
+        yield from pin_stamp(self._gauge, self._theme).at(self._placed(tuple(joints)))
+        for n, at in enumerate(self._placed(self._draft.traced)):
+            colour = self._theme.traces[n % len(self._theme.traces)]
+            yield from mark_stamp(colour, self._gauge, self._theme).at([at])
+        if self._draft.crank:
+            pivot, pin = self._placed(self._draft.crank)
+            yield from turning_arrow(pivot, pin, self._gauge, self._theme)
+
+    def _names(self, size: int) -> Iterator[Caption]:
+        halo = Halo(self._theme.background, 0.12 * size)
+        for joint in self._of("pins", "joints"):
+            at = self._view.place(joint.places[0]) + self._gauge.bar * (1.3 - 1.3j)
+            words = subscripted(joint.label)
+            yield Caption(words, (at.real, at.imag - size), size, self._theme.dim, halo=halo)
+
+
+_STRUTS = ("springs", "dampers", "cylinder")
+
+
+def lit(shape: Shape, view: View, reach: float) -> Iterator[Loop]:
+    """Yield a light on a shape: round its place, along the way from its first place to its second."""
+    places = [view.place(point) for point in shape.places[:2]]
+    if shape.kind == "guides":
+        along = 300 * reach * unit(places[1] - places[0])
+        yield from segments(places[0] - along, places[0] + along, reach)
+        return
+    if len(places) > 1:
+        yield from segments(places[0], places[1], 2 * reach)
+    yield from (at + disc(reach * (1.0 if len(places) > 1 else 1.3)) for at in places)

@@ -1,0 +1,174 @@
+"""The sheet that a linkage is built on: its grid and ground line, what the hand draws, where it snaps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.picture.building.draft import DraftDrawing, draft_gauge, lit
+from linkanim.picture.building.shown import BuildShown, DraftShown, Rubber, Snap
+from linkanim.picture.building.tools import tool_cells
+from linkanim.picture.items import Caption, Group
+from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.panels.marks import MeasuredLine, measure
+from linkanim.picture.panels.overlay import DimensionLine
+from linkanim.picture.panels.path import sheet
+from linkanim.picture.parts.fittings import hatched
+from linkanim.picture.raster.parts import lined
+from linkanim.picture.raster.raster import Layer, Loop
+from linkanim.picture.raster.shapes import box, disc, segments, stroke, unit
+from linkanim.picture.text.text import Type
+from linkanim.picture.theme import ORANGE, Theme, mixed
+from linkanim.picture.view import Box, View
+
+_ROOM = 0.86
+"""The share of the window that the home of a sheet takes."""
+_LIT, _FAINT = 0.45, 0.55
+"""How strongly what is chosen is lit, and how much of what the hand draws shows."""
+_BACKING = 0.8
+"""How little of what lies under the words shows."""
+_ALONG = ("begin", "end")
+"""The frame of what is measured along itself."""
+
+
+def home_view(home: Box, layout: Layout) -> View:
+    """Return the view in which a rectangle of the scene lies in the middle of a window, as large as fits."""
+    room = layout.stage
+    wide, high = max(home.right - home.left, 1e-9), max(home.high - home.low, 1e-9)
+    scale = _ROOM * min(room.width / wide, room.height / high)
+    (x, y), middle = home.middle, room.middle
+    return View(scale, middle.real - scale * x, middle.imag + scale * y)
+
+
+class Place(NamedTuple):
+    """Where a sheet is shown, and how thick and in which colours things are drawn on it."""
+
+    view: View
+    layout: Layout
+    gauge: Gauge
+    theme: Theme
+
+
+def paper(place: Place) -> Group:
+    """Return the empty sheet: a light grid, and the ground line through the origin."""
+    view, layout, gauge, theme = place
+    grid, (_, level) = sheet(view, layout, theme), view.to_pixel(0.0, 0.0)
+    width, height = layout.size
+    if not -20 * layout.unit < level < height:
+        return grid
+    faint = mixed(theme.ground, theme.background, 0.62)
+    ground = Layer(faint, [*hatched(complex(0, level), complex(width, level), gauge, 1)])
+    return grid._replace(layers=[*grid.layers, ground])
+
+
+def drafted(shown: BuildShown, draft: DraftShown, place: Place, type_: Type) -> Iterator[Group]:
+    """Yield a draft that does not move, what the hand does to it, and the words."""
+    thick = draft_gauge(place.layout, place.view, draft)
+    drawing = DraftDrawing(draft, place.view, thick, place.theme)
+    yield from drawing.groups(place.layout.small_size)
+    yield from hand(shown, place._replace(gauge=thick), type_)
+
+
+def hand(shown: BuildShown, place: Place, type_: Type) -> Iterator[Group]:
+    """Yield what is chosen, what the hand draws, what that would be joined to, and the words on it all."""
+    yield from _chosen(shown, place, type_)
+    if shown.rubber:
+        yield from _rubber(shown.rubber, place, type_)
+    if shown.snap:
+        yield Group("snap", [*_snap(shown.snap, place)], over=True)
+    if shown.cursor:
+        yield Group("cursor", [*_crosshair(place.view.place(shown.cursor), place)], over=True)
+    yield _words(shown, place, type_)
+
+
+def _chosen(shown: BuildShown, place: Place, type_: Type) -> Iterator[Group]:
+    """Yield the light on what is chosen, and its number beside it."""
+    if shown.chosen is None:
+        return
+    loops = [*lit(shown.chosen, place.view, 1.5 * place.gauge.bar)]
+    yield Group("chosen", [Layer(ORANGE, loops, _LIT)], over=True)
+    if shown.number:
+        ends = [place.view.place(point) for point in shown.chosen.places[:2]]
+        if len(ends) < 2 or shown.chosen.kind == "guides":
+            ends = [ends[0] - 30 * place.layout.unit, ends[0] + 30 * place.layout.unit]
+        words = DimensionLine(_ALONG, 0, 1, shown.number, chosen=False)
+        line = MeasuredLine(ends[0], ends[1], words)
+        yield from measure(type_, place.layout, place.theme, place.gauge, line)
+
+
+def _rubber(rubber: Rubber, place: Place, type_: Type) -> Iterator[Group]:
+    """Yield what the hand draws, and its measures beside it."""
+    view, layout, gauge, theme = place
+    begin, end = view.place(rubber.begin), view.place(rubber.end)
+    yield Group("rubber", [*_drawn(rubber, begin, end, place)], over=True)
+    if rubber.words:
+        words = DimensionLine(_ALONG, 0, 1, rubber.words, chosen=False)
+        yield from measure(type_, layout, theme, gauge, MeasuredLine(begin, end, words))
+
+
+def _drawn(rubber: Rubber, begin: complex, end: complex, place: Place) -> Iterator[Layer]:
+    gauge, theme = place.gauge, place.theme
+    if rubber.tool == "bar":
+        colours = theme.outline, mixed(theme.metal, theme.background, 0.3)
+        for layer in lined([begin, end], gauge.bar, gauge.outline, colours):
+            yield layer._replace(alpha=_FAINT)
+    elif rubber.tool == "guide":
+        yield Layer(theme.ground, [*hatched(begin, end, gauge, 1)], _FAINT)
+    else:
+        yield Layer(theme.ink, dashes(begin, end, 2.2 * gauge.line))
+
+
+def _snap(snap: Snap, place: Place) -> Iterator[Layer]:
+    """Yield the mark of what is under the hand: a ring, the line lit."""
+    view, _, gauge, theme = place
+    at = view.place(snap.at)
+    if snap.ends:
+        begin, end = map(view.place, snap.ends)
+        yield Layer(ORANGE, segments(begin, end, 2.4 * gauge.bar), _LIT)
+    yield Layer(theme.velocity, stroke(at + disc(1.9 * gauge.bar), 1.8 * gauge.line, closed=True))
+
+
+def _crosshair(at: complex, place: Place) -> Iterator[Layer]:
+    arms = 0.9 * place.gauge.bar * np.array([1, 1j])
+    yield Layer(place.theme.velocity, segments(at - arms, at + arms, 1.3 * place.gauge.line))
+
+
+def _words(shown: BuildShown, place: Place, type_: Type) -> Group:
+    """Return what is missing or what the linkage is, at the top, off the tools, on a backing."""
+    layout, theme = place.layout, place.theme
+    beside = (
+        max((cell.right for cell in tool_cells(layout, len(shown.tools.tools))), default=0)
+        if shown.tools
+        else 0
+    )
+    left = beside + layout.margin if layout.size[0] >= layout.size[1] else layout.margin
+    room, y = layout.stage.right - layout.margin - left, layout.margin
+    lines = [
+        (line, layout.text_size, theme.warning if shown.is_warning else theme.ink)
+        for line in type_.wrapped(shown.sentence, layout.text_size, room)
+    ]
+    lines += [
+        (line, layout.small_size, theme.dim)
+        for fact in shown.facts
+        for line in type_.wrapped(fact, layout.small_size, room)
+    ]
+    captions = []
+    for text, size, colour in lines:
+        captions.append(Caption(text, (left, y), size, colour, strong=size == layout.text_size))
+        y += 1.35 * size
+    if not captions:
+        return Group("build-words", ())
+    wide = max(type_.width(one.text, one.size, strong=one.strong) for one in captions)
+    edge = 0.5 * layout.small_size
+    middle = complex(left + wide / 2, (layout.margin + y) / 2)
+    plate = middle + box(wide + 2 * edge, y - layout.margin + 2 * edge, edge)
+    return Group("build-words", [Layer(theme.background, [plate], _BACKING)], captions, over=True)
+
+
+def dashes(begin: complex, end: complex, width: float) -> list[Loop]:
+    """Return a dashed line."""
+    along, step = unit(end - begin), 5.0 * width
+    feet = begin + along * np.arange(0.0, abs(end - begin), step)
+    return segments(feet, feet + 0.6 * step * along, width)

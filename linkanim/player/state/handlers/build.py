@@ -1,0 +1,226 @@
+"""Actions of the sheet: it is opened and left, the hand draws on it, what is chosen is changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import ceil, dist
+from typing import Any
+
+from linkanim.build import pointing
+from linkanim.build.building import Building
+from linkanim.build.building import redo as redone
+from linkanim.build.building import undo as undone
+from linkanim.picture.figure import figure
+from linkanim.player.state import editing as edit
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.handlers.edits import drop
+from linkanim.player.state.handlers.shelf import exchanged
+from linkanim.player.state.sheet import HOME, Grip, Sheet
+from linkanim.player.state.state import State, with_toast
+
+Handler = Callable[[State, Any], State]
+
+_DOUBLE = 24
+"""Frames within which a second click at a place makes a double one."""
+_LONGEST = 10 * FRAMES_PER_SECOND
+"""A linkage that can move runs for a period, if that is no longer."""
+LOST = "the draft is in no scene file: Ctrl+S writes it; once more begins anew"
+
+
+def build(state: State, _: None) -> State:
+    """Open the sheet, as it was left if there is one, or leave it with what was built."""
+    if state.sheet is None:
+        return _opened(state, Building())
+    return left(state) if state.sheet.open else _opened(state, state.sheet.building)
+
+
+def new(state: State, _: None) -> State:
+    """Open an empty sheet; once more where a draft would be lost."""
+    return _anew(state, Building)
+
+
+def _anew(state: State, make: Callable[[], Building]) -> State:
+    """Return the state with another sheet; where a draft is in no file, only by asking once more."""
+    sheet = state.sheet
+    if sheet and not (sheet.is_written or sheet.warned):
+        return with_toast(replace(state, sheet=replace(sheet, warned=True)), LOST)
+    building = make()
+    return _opened(replace(left(state), sheet=None), building, known=True)
+
+
+def _opened(state: State, building: Building, *, known: bool = False) -> State:
+    """Return the state with a sheet open over its scene; `known` tells that a file has what is on it."""
+    state, last = drop(state, None), state.sheet
+    editing = edit.let_go(replace(state.editing, open=False))
+    sheet = Sheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
+    if last and not known:
+        sheet = replace(sheet, written=last.written, tool=last.tool, home=last.home)
+    elif building.draft.places:
+        sheet = replace(sheet, home=figure(state.scene).box)
+    look = replace(state.look, unit=None, zoom=1.0, pan=(0.0, 0.0), chart=None)
+    bare = replace(state, editing=editing, listing=None, browsing=None, glide=None, toast=None, look=look)
+    return _shown(replace(bare, sheet=sheet, faded=state.frame), building)
+
+
+def left(state: State) -> State:
+    """Leave the sheet: what was built is the scene if it moves, which undo takes back; the sheet is kept."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open:
+        return state
+    kept = replace(state, sheet=replace(sheet, open=False, grip=None, cursor=None, warned=False))
+    kept = replace(kept, faded=state.frame, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
+    if sheet.building.made.scene is None:
+        return replace(kept, scene=sheet.before, clock=sheet.clock, editing=sheet.editing)
+    return replace(kept, editing=edit.changed(sheet.editing, sheet.before))
+
+
+def _shown(state: State, building: Building, *, live: bool = False) -> State:
+    """Return the state with another building, its linkage running for a period, or standing while `live`."""
+    sheet = state.sheet
+    assert sheet
+    same = building.draft is sheet.building.draft
+    drawn = replace(state, sheet=replace(sheet, building=building, warned=sheet.warned and same))
+    scene = building.made.scene
+    if scene is None or scene is state.scene:
+        return drawn
+    found = exchanged(replace(drawn, glide=None), scene)
+    clock = found.clock.go(state.frame, 0.0, paused=live)
+    frames = ceil(FRAMES_PER_SECOND * scene.period / abs(clock.speed))
+    rests = state.frame + frames if frames <= _LONGEST and not live else None
+    return replace(found, clock=clock, sheet=replace(drawn.sheet, rests=rests))  # type: ignore[type-var]
+
+
+def rested(state: State) -> State:
+    """Return the state with the linkage standing as it was drawn, once it has run for a period."""
+    sheet = state.sheet
+    if sheet is None or sheet.rests is None:
+        return state
+    if state.clock.paused or not sheet.open:
+        return replace(state, sheet=replace(sheet, rests=None))
+    if state.frame < sheet.rests:
+        return state
+    clock = state.clock.go(state.frame, 0.0, paused=True)
+    return replace(state, clock=clock, sheet=replace(sheet, rests=None))
+
+
+def tool(state: State, name: str) -> State:
+    """Take a tool."""
+    return _with(state, tool=name, grip=None)
+
+
+def down(state: State, at: tuple[float, float, float, float]) -> State:
+    """Put the hand down at a point; a linkage that runs stands still, at the nearest whole degree."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open:
+        return state
+    x, y, reach, snap = at
+    base, ran = sheet.building, not state.clock.paused
+    if base.made.scene:
+        state = replace(state, clock=state.clock.go(state.frame, 0.0, paused=True))
+    cursor = sheet.cursor if sheet.cursor and dist(sheet.cursor, (x, y)) <= reach else None
+    return _with(state, grip=Grip((x, y), (x, y), reach, snap, base, ran), cursor=cursor)
+
+
+def along(state: State, at: tuple[float, float, float, float]) -> State:
+    """Move the hand to a point; what it moves comes along."""
+    sheet = state.sheet
+    if sheet is None or sheet.grip is None:
+        return state
+    x, y, _, snap = at
+    grip = replace_grip(sheet.grip, x, y, snap)
+    state = _with(state, grip=grip)
+    return (
+        _shown(state, _drawn(sheet, grip), live=True) if sheet.tool == "move" and not grip.is_click else state
+    )
+
+
+def replace_grip(grip: Grip, x: float, y: float, snap: float) -> Grip:
+    """Return a grip with the hand at another point."""
+    return grip._replace(at=(x, y), snap=snap)
+
+
+def up(state: State, _: None) -> State:
+    """Lift the hand: a click or a drag is done."""
+    sheet = state.sheet
+    if sheet is None or sheet.grip is None:
+        return state
+    grip = sheet.grip
+    state = _with(state, grip=None, clicked=(state.frame, grip.begin) if grip.is_click else None)
+    building = _clicked(state, sheet, grip) if grip.is_click else _drawn(sheet, grip)
+    if building.draft is grip.base.draft:
+        kept = replace(building, draft=sheet.building.draft) if sheet.tool != "move" else building
+        return _running(_shown(state, kept), ran=grip.ran)
+    return _shown(state, building)
+
+
+def off(state: State, _: None) -> State:
+    """Lift the hand, and leave all as it was before."""
+    sheet = state.sheet
+    if sheet is None or sheet.grip is None:
+        return state
+    return _running(_shown(_with(state, grip=None), sheet.grip.base), ran=sheet.grip.ran)
+
+
+def _running(state: State, *, ran: bool) -> State:
+    return replace(state, clock=state.clock.pause(state.frame, not ran))
+
+
+def _clicked(state: State, sheet: Sheet, grip: Grip) -> Building:
+    """Return the building after a click, the second one at a place after the double click."""
+    (x, y), near = grip.begin, {"reach": grip.reach, "snap": grip.snap}
+    if sheet.tool == "move" and pointing.under(grip.base.draft, x, y, grip.reach) is None:
+        return replace(grip.base, chosen=None, sentence="")
+    return pointing.click(grip.base, sheet.tool, x, y, **near)
+
+
+def _drawn(sheet: Sheet, grip: Grip) -> Building:
+    """Return the building after a drag."""
+    ends = (*grip.begin, *grip.at)
+    return pointing.drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
+
+
+def cursor(state: State, at: tuple[float, float]) -> State:
+    """Move the keys' cursor to a point; what the hand does by keys goes along."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open:
+        return state
+    if sheet.grip:
+        state = along(state, (*at, 0.0, sheet.grip.snap))
+    return _with(state, cursor=at)
+
+
+def _changed(work: Callable[..., Building]) -> Handler:
+    """Make a handler of what changes the building; a value, if there is one, is handed on."""
+
+    def handle(state: State, value: Any) -> State:
+        sheet = state.sheet
+        if sheet is None or not sheet.open or sheet.grip:
+            return state
+        return _shown(state, work(sheet.building, *(() if value is None else (value,))))
+
+    return handle
+
+
+undo = _changed(undone)
+redo = _changed(redone)
+
+
+def let_go(state: State) -> State | None:
+    """Return the state without what the hand does, what is typed or chosen, or another tool; else None."""
+    sheet = state.sheet
+    assert sheet
+    if sheet.grip:
+        return off(state, None)
+    building = sheet.building
+    if building.typed or building.chosen:
+        chosen = building.chosen if building.typed else None
+        return _with(state, building=replace(building, typed="", chosen=chosen, sentence=""))
+    return _with(state, tool="bar") if sheet.tool != "bar" else None
+
+
+def _with(state: State, **changes: Any) -> State:
+    """Return the state with these changes of its sheet, if one is open."""
+    if state.sheet is None or not state.sheet.open:
+        return state
+    return replace(state, sheet=replace(state.sheet, **changes))

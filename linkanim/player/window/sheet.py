@@ -1,0 +1,126 @@
+"""What a sheet shows: its draft or the linkage it makes, words, tools, what is under the hand."""
+
+from __future__ import annotations
+
+from math import atan2, degrees, hypot
+
+from linkanim.build.draft import JOINT, Draft, Thing
+from linkanim.build.order import line_of, place_of
+from linkanim.build.pointing import under
+from linkanim.build.rounding import snapped
+from linkanim.build.shapes import Shape, drawn
+from linkanim.digits import significant, typeset
+from linkanim.mechanics.linkage.joint import Point
+from linkanim.picture.building.shown import BuildShown, DraftShown, Rubber, Snap, ToolBar, ToolShown
+from linkanim.player.state.sheet import Grip, Sheet, driven_bar
+from linkanim.player.state.state import State
+from linkanim.player.state.tools import TOOLS
+
+_SHOWN = tuple(ToolShown(tool.icon, tool.name, tool.key) for tool in TOOLS)
+_STRETCHED = ("bar", "spring", "damper", "cylinder", "slot", "gear")
+"""The tools that draw from a joint."""
+
+
+class Hover:
+    """What the mouse is over on a sheet: a place, in its unit, how near counts as on a thing; or a tool."""
+
+    def __init__(self, place: Point, reach: float, tool: int | None) -> None:
+        self.place, self.reach, self.tool = place, reach, tool
+
+
+def built(state: State, sheet: Sheet, hover: Hover | None = None) -> BuildShown:
+    """Return what an open sheet shows, with the mouse over it or not."""
+    building, seen = sheet.building, sheet.seen(state.scene, state.phase)
+    shapes = drawn(seen)
+    moves = building.made.scene is not None
+    sentence, facts = _words(state, sheet)
+    tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet.tool), 0)
+    return BuildShown(
+        draft=None if moves else _draft(seen, shapes),
+        sentence=sentence,
+        facts=facts,
+        chosen=next((one for one in shapes if one.thing == building.chosen), None),
+        number=f"{building.typed}_" if building.typed else "",
+        rubber=_rubber(seen, sheet, sheet.grip) if sheet.grip and not sheet.grip.is_click else None,
+        snap=_snap(seen, sheet, hover),
+        cursor=sheet.cursor,
+        tools=ToolBar(_SHOWN, tool, hover.tool if hover else None),
+        is_warning=bool(building.sentence),
+    )
+
+
+def _words(state: State, sheet: Sheet) -> tuple[str, tuple[str, ...]]:
+    """Return what the last gesture did, else what is missing or what the linkage is, and its facts."""
+    building = sheet.building
+    if building.made.scene is None:
+        missing = building.made.missing
+        return building.sentence or missing, (missing,) if building.sentence else ()
+    info = state.scene.info
+    lines = dict(info.lines)
+    facts = tuple(filter(None, (info.grashof, f"input {lines['input']}" if "input" in lines else None)))
+    if building.sentence:
+        return building.sentence, (info.class_name, *facts)
+    return info.class_name[:1].upper() + info.class_name[1:], facts
+
+
+def _draft(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown:
+    crank = driven_bar(seen)
+    ends = seen.of("bars")[crank[1]]["joints"] if crank else ()
+    pivot_first = sorted(ends, key=lambda joint: joint not in seen.of("pins"))
+    places = tuple(seen.places[joint] for joint in pivot_first)
+    traced = tuple(seen.places[joint] for joint in seen.trace if joint in seen.places)
+    return DraftShown(shapes, (places[0], places[1]) if crank else None, traced)
+
+
+def _rubber(seen: Draft, sheet: Sheet, grip: Grip) -> Rubber | None:
+    """Return what the hand draws, from the joint it began at to the thing or place that it is at."""
+    start = under(seen, *grip.begin, grip.reach)
+    if sheet.tool == "move" or (sheet.tool in _STRETCHED and (start is None or start[0] != JOINT)):
+        return None
+    begin = seen.places[start[1]] if start and start[0] == JOINT else grip.begin
+    end = _met(seen, under(seen, *grip.at, grip.reach), grip.at) or snapped(*grip.at, grip.snap)
+    across, up = end[0] - begin[0], end[1] - begin[1]
+    long, angle = hypot(across, up), degrees(atan2(up, across))
+    digits = f"{significant(long, 4)} {seen.unit} · {significant(angle, 3)}°"
+    return Rubber(sheet.tool, begin, end, typeset(digits))
+
+
+def _met(seen: Draft, thing: Thing | None, at: Point) -> Point | None:
+    """Return the place of a joint, or the foot of a point on a guide; None elsewhere."""
+    if thing and thing[0] == JOINT:
+        return seen.places[thing[1]]
+    if thing and thing[0] == "guides":
+        start, way = line_of(seen, seen.of("guides")[thing[1]])
+        foot = start + way * ((complex(*at) - start) * way.conjugate()).real
+        return foot.real, foot.imag
+    return None
+
+
+def _snap(seen: Draft, sheet: Sheet, hover: Hover | None) -> Snap | None:
+    """Return what the hand, or the mouse, is on."""
+    grip = sheet.grip
+    if grip is None and (hover is None or hover.tool is not None):
+        return None
+    at, reach = (grip.at, grip.reach) if grip else (hover.place, hover.reach)  # type: ignore[union-attr]
+    thing = under(seen, at[0], at[1], reach)
+    if thing is None or (grip and sheet.tool == "move"):
+        return None
+    if thing[0] == "bars":
+        one, other = (seen.places[joint] for joint in seen.of("bars")[thing[1]]["joints"])
+        return Snap(
+            _on(place_of(seen, seen.of("bars")[thing[1]]["joints"][0]), complex(*other), at), (one, other)
+        )
+    if thing[0] == "guides":
+        start, way = line_of(seen, seen.of("guides")[thing[1]])
+        ends = start - 1e3 * reach * way, start + 1e3 * reach * way
+        return Snap(_met(seen, thing, at) or at, ((ends[0].real, ends[0].imag), (ends[1].real, ends[1].imag)))
+    met = _met(seen, thing, at)
+    return Snap(met) if met else None
+
+
+def _on(begin: complex, end: complex, at: Point) -> Point:
+    """Return the foot of a point on the line through two others."""
+    way = end - begin
+    share = ((complex(*at) - begin) * way.conjugate()).real / (abs(way) ** 2 or 1.0)
+    foot = begin + way * min(max(share, 0.0), 1.0)
+    return foot.real, foot.imag

@@ -1,0 +1,225 @@
+"""A linkage built in the window: real clicks and keys on a sheet, what is shown of it, and the way back."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import pygame
+import pytest
+from playing import CTRL, Player
+
+from linkanim.player.state.sheet import Sheet
+from linkanim.player.state.state import begin
+from linkanim.player.window import display
+from linkanim.scenes import load
+
+WINDOW = (640, 360)
+
+
+class Builder(Player):
+    """A window with an open sheet, drawn on in its own unit."""
+
+    @property
+    def sheet(self) -> Sheet:
+        assert self.state.building
+        return self.state.building
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        return self.window.screen.pixel(x, y)
+
+    def click(self, x: float, y: float) -> None:
+        self.drag(self.at(x, y))
+
+    def draw(self, *places: tuple[float, float]) -> None:
+        self.drag(*(self.at(*place) for place in places))
+
+    def four_bar(self) -> None:
+        self.click(0, 0)
+        self.click(100, 0)
+        self.draw((0, 0), (30, 0))
+        self.draw((30, 0), (60, 80))
+        self.draw((60, 80), (100, 0))
+
+
+@pytest.fixture
+def builder(here: object) -> Iterator[Builder]:
+    with display.opened(WINDOW):
+        player = Builder(begin(load("crank-rocker")))
+        player.press(pygame.K_F2)
+        yield player
+        player.window.close()
+
+
+def test_an_empty_sheet_says_what_to_do(builder: Builder) -> None:
+    assert builder.state.mode == "build"
+    shown = builder.window.screen.built
+    assert shown
+    assert shown.sentence == builder.sheet.building.made.missing
+    assert "ground pin" in shown.sentence
+
+
+def test_a_four_bar_is_drawn_in_five_gestures_and_runs_for_a_period(builder: Builder) -> None:
+    builder.four_bar()
+    scene = builder.sheet.building.made.scene
+    assert scene is builder.state.scene
+    assert scene
+    assert [joint.name for joint in scene.linkage.joints] == ["O2", "O4", "A", "B"]
+    assert scene.linkage.crank("A").length == 30
+    assert scene.info.class_name == "Grashof crank-rocker"
+    assert not builder.state.clock.paused
+    builder.tick(200)
+    assert (builder.state.clock.paused, builder.state.phase) == (True, 0.0)
+    builder.press(pygame.K_SPACE)
+    builder.tick(400)
+    assert not builder.state.clock.paused
+
+
+def test_before_it_moves_what_is_drawn_is_shown_with_what_is_missing(builder: Builder) -> None:
+    builder.click(0, 0)
+    builder.draw((0, 0), (30, 0))
+    before = builder.pixels
+    builder.draw((30, 0), (60, 80))
+    shown = builder.window.screen.built
+    assert shown
+    assert shown.draft
+    assert [one.kind for one in shown.draft.shapes] == ["bars", "bars", "pins", "joints", "joints"]
+    assert shown.draft.crank == ((0.0, 0.0), (30.0, 0.0))
+    assert builder.pixels != before
+
+
+def test_the_hand_shows_its_bar_and_what_it_would_be_joined_to(builder: Builder) -> None:
+    builder.click(0, 0)
+    builder.click(100, 0)
+    builder.mouse(pygame.MOUSEBUTTONDOWN, builder.at(0, 0), button=1)
+    builder.mouse(pygame.MOUSEMOTION, builder.at(30, 40), rel=(0, 0), buttons=(1, 0, 0))
+    shown = builder.window.screen.built
+    assert shown
+    assert shown.rubber
+    assert shown.rubber.end == pytest.approx((30, 40), abs=1.0)
+    assert shown.rubber.words.endswith("°")
+    builder.mouse(pygame.MOUSEMOTION, builder.at(99, 1), rel=(0, 0), buttons=(1, 0, 0))
+    shown = builder.window.screen.built
+    assert shown
+    assert shown.snap
+    assert shown.snap.at == (100.0, 0.0)
+
+
+def test_esc_lets_go_of_what_the_hand_draws(builder: Builder) -> None:
+    builder.click(0, 0)
+    building = builder.sheet.building
+    builder.mouse(pygame.MOUSEBUTTONDOWN, builder.at(0, 0), button=1)
+    builder.mouse(pygame.MOUSEMOTION, builder.at(50, 20), rel=(0, 0), buttons=(1, 0, 0))
+    builder.press(pygame.K_ESCAPE)
+    assert builder.sheet.grip is None
+    builder.mouse(pygame.MOUSEBUTTONUP, builder.at(50, 20), button=1)
+    assert builder.sheet.building.draft == building.draft
+
+
+def test_undo_to_the_start_gives_an_empty_sheet_and_redo_all_of_it(builder: Builder) -> None:
+    builder.four_bar()
+    whole = builder.sheet.building.draft
+    for _ in range(5):
+        builder.press(pygame.K_z, CTRL)
+    assert not builder.sheet.building.draft.places
+    builder.press(pygame.K_z, CTRL)
+    assert builder.state.chip
+    assert builder.state.chip.text == "nothing to undo"
+    for _ in range(5):
+        builder.press(pygame.K_y, CTRL)
+    assert builder.sheet.building.draft == whole
+    assert builder.sheet.building.made.scene is builder.state.scene
+
+
+def test_the_sheet_is_left_with_the_linkage_on_and_undo_brings_the_old_one_back(builder: Builder) -> None:
+    before = builder.sheet.before
+    builder.four_bar()
+    built = builder.state.scene
+    builder.press(pygame.K_F2)
+    assert (builder.state.mode, builder.state.scene) == ("play", built)
+    builder.press(pygame.K_z, CTRL)
+    assert builder.state.scene is before
+    builder.press(pygame.K_F2)
+    assert builder.state.scene is built
+
+
+def test_a_sheet_that_cannot_move_is_left_for_the_scene_before_and_gone_on_with(builder: Builder) -> None:
+    builder.click(0, 0)
+    builder.press(pygame.K_ESCAPE)  # nothing is chosen any more
+    builder.press(pygame.K_ESCAPE)
+    assert (builder.state.mode, builder.state.scene.name) == ("play", "crank-rocker")
+    builder.press(pygame.K_F2)
+    assert list(builder.sheet.building.draft.places) == ["O2"]
+
+
+def test_all_is_done_by_keys_too(builder: Builder) -> None:
+    def go(across: int, up: int) -> None:
+        for key, count in ((pygame.K_RIGHT, across), (pygame.K_UP, up)):
+            back = {pygame.K_RIGHT: pygame.K_LEFT, pygame.K_UP: pygame.K_DOWN}[key]
+            for _ in range(abs(count)):
+                builder.press(key if count > 0 else back)
+
+    builder.press(pygame.K_RIGHT)
+    x, y = builder.sheet.cursor or (math.nan, math.nan)
+    step = builder.window.screen.grid_step
+    for across, up in ((0, 0), (6, 0), (-6, 0), (1, 1), (0, 0), (3, 4), (0, 0), (2, -5)):
+        go(across, up)
+        builder.press(pygame.K_RETURN)
+    draft = builder.sheet.building.draft
+    assert draft.places["O2"] == pytest.approx((x, y))
+    assert draft.places["O4"] == pytest.approx((x + 6 * step, y))
+    assert list(draft.of("bars")) == ["O2–A", "A–B", "B–O4"]
+    assert builder.sheet.building.made.scene is builder.state.scene
+
+
+def test_a_place_near_a_line_of_the_grid_is_on_it_but_not_in_tenths(builder: Builder) -> None:
+    x, y = builder.at(40, 0)
+    builder.drag((x + 2, y + 1))
+    assert builder.sheet.building.draft.places["O2"] == (40.0, 0.0)
+
+
+def test_the_paper_is_shifted_where_nothing_is_drawn(builder: Builder) -> None:
+    builder.drag((400, 200), (430, 220), (450, 240))
+    assert builder.state.look.pan != (0.0, 0.0)
+    assert not builder.sheet.building.draft.places
+
+
+def test_the_crank_is_turned_by_the_hand(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.drag(builder.at(15, 0), builder.at(0, 15))
+    assert builder.state.phase == pytest.approx(math.pi / 2, abs=0.1)
+
+
+def test_icons_take_tools_and_act(builder: Builder) -> None:
+    builder.click(0, 0)
+    cells = builder.window.screen.tool_cells
+    undo = next(n for n, tool in enumerate(builder.window.screen.built.tools.tools) if tool.icon == "undo")  # type: ignore[union-attr]
+    builder.drag((cells[undo].middle.real, cells[undo].middle.imag))
+    assert not builder.sheet.building.draft.places
+    builder.mouse(
+        pygame.MOUSEMOTION, (cells[0].middle.real, cells[0].middle.imag), rel=(0, 0), buttons=(0, 0, 0)
+    )
+    shown = builder.window.screen.built
+    assert shown
+    assert shown.tools
+    assert shown.tools.pointed == 0
+
+
+def test_another_mechanism_leaves_the_sheet(builder: Builder) -> None:
+    builder.four_bar()
+    builder.press(pygame.K_o)
+    builder.press(pygame.K_RIGHT)
+    builder.press(pygame.K_RETURN)
+    assert builder.state.mode == "play"
+    assert builder.state.scene.name != "draft"
+
+
+def test_an_empty_sheet_is_asked_for_twice_where_a_draft_would_be_lost(builder: Builder) -> None:
+    builder.click(0, 0)
+    builder.press(pygame.K_n, CTRL)
+    assert builder.state.toast
+    assert "Ctrl+S" in builder.state.toast.text
+    assert builder.sheet.building.draft.places
+    builder.press(pygame.K_n, CTRL)
+    assert not builder.sheet.building.draft.places
