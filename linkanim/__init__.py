@@ -25,6 +25,7 @@ the scene that it comes to (`making`), and what is `missing` before it comes to 
     parts/        what is drawn of a linkage: bodies, springs, wheels, the ground, traces, arrows
     diagrams/     charts, polygons, instant centres
     panels/       the words about a scene, and what lies over the picture: lists, help, marks
+    building/     a linkage that is being built: the sheet, the draft on it, the tools
     labels/       names, dimensions and dead centres on the scene
     arrangement/  what stands where in a window
 

@@ -141,7 +141,18 @@ INNER_ROOMS = {
 }
 
 
-PICTURE = ("raster", "text", "floor", "parts", "diagrams", "panels", "labels", "arrangement", "picture")
+PICTURE = (
+    "raster",
+    "text",
+    "floor",
+    "parts",
+    "diagrams",
+    "panels",
+    "building",
+    "labels",
+    "arrangement",
+    "picture",
+)
 FLOOR = {"figure", "items", "layout", "look", "placing", "theme", "view"}
 
 

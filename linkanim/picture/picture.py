@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.arrangement.fit import FitRequest, SceneFit, fitted, request_of
 from linkanim.picture.arrangement.words import caption_lines
-from linkanim.picture.building.sheet import Place, drafted, hand, home_view, paper
+from linkanim.picture.building.sheet import SheetView, drafted, hand, home_view, paper
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.drawing import Drawing, DrawSetting
@@ -151,7 +151,7 @@ class Picture:
         build = overlay.build
         if build and build.draft:
             yield self._paper
-            yield from drafted(build, build.draft, self._place, self.type)
+            yield from drafted(build, build.draft, self._sheet_view, self.type)
             return
         yield from self._behind_at(pose.input_speed, path)
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
@@ -192,12 +192,12 @@ class Picture:
         return sheet(self.view, self.layout, self.theme)
 
     @property
-    def _place(self) -> Place:
-        return Place(self.view, self.layout, self.gauge, self.theme)
+    def _sheet_view(self) -> SheetView:
+        return SheetView(self.view, self.layout, self.gauge, self.theme)
 
     @cached_property
     def _paper(self) -> Group:
-        return paper(self._place)
+        return paper(self._sheet_view)
 
     def _behind_at(self, speed: float, path: PathShown | None) -> tuple[Group, ...]:
         """Return what stands still behind all that moves; the chart and the key go by the speed."""
@@ -293,7 +293,7 @@ class Picture:
     def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
         """Yield what is there for the hand: the chosen bar, and the joint to be dragged."""
         if overlay.build:
-            yield from hand(overlay.build, self._place, self.type)
+            yield from hand(overlay.build, self._sheet_view, self.type)
         for shown in overlay.measured:
             at, head = map(self.view.place, (pose.position[name] for name in shown.frame))
             way = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)

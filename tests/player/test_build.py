@@ -9,7 +9,7 @@ import pygame
 import pytest
 from playing import CTRL, Player
 
-from linkanim.player.state.sheet import Sheet
+from linkanim.player.state.sheet import BuildSheet
 from linkanim.player.state.state import begin
 from linkanim.player.window import display
 from linkanim.scenes import load
@@ -21,7 +21,7 @@ class Builder(Player):
     """A window with an open sheet, drawn on in its own unit."""
 
     @property
-    def sheet(self) -> Sheet:
+    def sheet(self) -> BuildSheet:
         assert self.state.building
         return self.state.building
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 from playing import SIZE, Player
 
-from linkanim.player.input.touch import Touch
+from linkanim.player.input.touch import Fingers
 
 WIDE, HIGH = SIZE
 
@@ -19,7 +19,7 @@ def kinds(events: list[pygame.event.Event]) -> list[int]:
 
 
 def test_a_finger_is_the_mouse_and_what_the_system_makes_of_it_is_left_out() -> None:
-    touch = Touch()
+    touch = Fingers()
     made = pygame.event.Event(pygame.MOUSEBUTTONDOWN, pos=(40, 50), button=1, touch=True)
     found = touch.pointed([finger(pygame.FINGERDOWN, 7, 40, 50), made], SIZE)
     assert kinds(found) == [pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN]
@@ -29,7 +29,7 @@ def test_a_finger_is_the_mouse_and_what_the_system_makes_of_it_is_left_out() -> 
 
 
 def test_a_second_finger_lets_go_and_two_turn_the_wheel_about_their_middle() -> None:
-    touch = Touch()
+    touch = Fingers()
     touch.pointed([finger(pygame.FINGERDOWN, 1, 100, 90)], SIZE)
     second = touch.pointed([finger(pygame.FINGERDOWN, 2, 140, 90)], SIZE)
     assert [(event.type, event.pos) for event in second] == [(pygame.MOUSEBUTTONUP, (100, 90))]

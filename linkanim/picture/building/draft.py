@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from linkanim.build.shapes import Shape
 from linkanim.mechanics.linkage.joint import Point
-from linkanim.picture.building.shown import DraftShown
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.layout import Gauge, Layout, gauge
+from linkanim.picture.panels.building import DraftShown
 from linkanim.picture.parts.bodies import mark_stamp, pin_stamp
 from linkanim.picture.parts.fittings import block_layers, hatched
 from linkanim.picture.parts.ground import pedestal

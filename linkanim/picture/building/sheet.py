@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.picture.building.draft import DraftDrawing, draft_gauge, lit
-from linkanim.picture.building.shown import BuildShown, DraftShown, Rubber, Snap
 from linkanim.picture.building.tools import tool_cells
 from linkanim.picture.items import Caption, Group
 from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.panels.building import BuildShown, DraftShown, Rubber, Snap
 from linkanim.picture.panels.marks import MeasuredLine, measure
 from linkanim.picture.panels.overlay import DimensionLine
 from linkanim.picture.panels.path import sheet
@@ -42,7 +42,7 @@ def home_view(home: Box, layout: Layout) -> View:
     return View(scale, middle.real - scale * x, middle.imag + scale * y)
 
 
-class Place(NamedTuple):
+class SheetView(NamedTuple):
     """Where a sheet is shown, and how thick and in which colours things are drawn on it."""
 
     view: View
@@ -51,7 +51,7 @@ class Place(NamedTuple):
     theme: Theme
 
 
-def paper(place: Place) -> Group:
+def paper(place: SheetView) -> Group:
     """Return the empty sheet: a light grid, and the ground line through the origin."""
     view, layout, gauge, theme = place
     grid, (_, level) = sheet(view, layout, theme), view.to_pixel(0.0, 0.0)
@@ -63,7 +63,7 @@ def paper(place: Place) -> Group:
     return grid._replace(layers=[*grid.layers, ground])
 
 
-def drafted(shown: BuildShown, draft: DraftShown, place: Place, type_: Type) -> Iterator[Group]:
+def drafted(shown: BuildShown, draft: DraftShown, place: SheetView, type_: Type) -> Iterator[Group]:
     """Yield a draft that does not move, what the hand does to it, and the words."""
     thick = draft_gauge(place.layout, place.view, draft)
     drawing = DraftDrawing(draft, place.view, thick, place.theme)
@@ -71,7 +71,7 @@ def drafted(shown: BuildShown, draft: DraftShown, place: Place, type_: Type) -> 
     yield from hand(shown, place._replace(gauge=thick), type_)
 
 
-def hand(shown: BuildShown, place: Place, type_: Type) -> Iterator[Group]:
+def hand(shown: BuildShown, place: SheetView, type_: Type) -> Iterator[Group]:
     """Yield what is chosen, what the hand draws, what that would be joined to, and the words on it all."""
     yield from _chosen(shown, place, type_)
     if shown.rubber:
@@ -83,7 +83,7 @@ def hand(shown: BuildShown, place: Place, type_: Type) -> Iterator[Group]:
     yield _words(shown, place, type_)
 
 
-def _chosen(shown: BuildShown, place: Place, type_: Type) -> Iterator[Group]:
+def _chosen(shown: BuildShown, place: SheetView, type_: Type) -> Iterator[Group]:
     """Yield the light on what is chosen, and its number beside it."""
     if shown.chosen is None:
         return
@@ -98,7 +98,7 @@ def _chosen(shown: BuildShown, place: Place, type_: Type) -> Iterator[Group]:
         yield from measure(type_, place.layout, place.theme, place.gauge, line)
 
 
-def _rubber(rubber: Rubber, place: Place, type_: Type) -> Iterator[Group]:
+def _rubber(rubber: Rubber, place: SheetView, type_: Type) -> Iterator[Group]:
     """Yield what the hand draws, and its measures beside it."""
     view, layout, gauge, theme = place
     begin, end = view.place(rubber.begin), view.place(rubber.end)
@@ -108,7 +108,7 @@ def _rubber(rubber: Rubber, place: Place, type_: Type) -> Iterator[Group]:
         yield from measure(type_, layout, theme, gauge, MeasuredLine(begin, end, words))
 
 
-def _drawn(rubber: Rubber, begin: complex, end: complex, place: Place) -> Iterator[Layer]:
+def _drawn(rubber: Rubber, begin: complex, end: complex, place: SheetView) -> Iterator[Layer]:
     gauge, theme = place.gauge, place.theme
     if rubber.tool == "bar":
         colours = theme.outline, mixed(theme.metal, theme.background, 0.3)
@@ -120,7 +120,7 @@ def _drawn(rubber: Rubber, begin: complex, end: complex, place: Place) -> Iterat
         yield Layer(theme.ink, dashes(begin, end, 2.2 * gauge.line))
 
 
-def _snap(snap: Snap, place: Place) -> Iterator[Layer]:
+def _snap(snap: Snap, place: SheetView) -> Iterator[Layer]:
     """Yield the mark of what is under the hand: a ring, the line lit."""
     view, _, gauge, theme = place
     at = view.place(snap.at)
@@ -130,12 +130,12 @@ def _snap(snap: Snap, place: Place) -> Iterator[Layer]:
     yield Layer(theme.velocity, stroke(at + disc(1.9 * gauge.bar), 1.8 * gauge.line, closed=True))
 
 
-def _crosshair(at: complex, place: Place) -> Iterator[Layer]:
+def _crosshair(at: complex, place: SheetView) -> Iterator[Layer]:
     arms = 0.9 * place.gauge.bar * np.array([1, 1j])
     yield Layer(place.theme.velocity, segments(at - arms, at + arms, 1.3 * place.gauge.line))
 
 
-def _words(shown: BuildShown, place: Place, type_: Type) -> Group:
+def _words(shown: BuildShown, place: SheetView, type_: Type) -> Group:
     """Return what is missing or what the linkage is, at the top, off the tools, on a backing."""
     layout, theme = place.layout, place.theme
     beside = (

@@ -9,9 +9,9 @@ from math import ceil
 import numpy as np
 import pygame
 
-from linkanim.picture.building.shown import ToolBar, ToolShown
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.panels.board import Board
+from linkanim.picture.panels.building import ToolBar, ToolShown
 from linkanim.picture.parts.bodies import pin_stamp
 from linkanim.picture.parts.fittings import block_layers, hatched
 from linkanim.picture.parts.ground import pedestal

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from linkanim.mechanics.linkage.joint import Point
-from linkanim.picture.building.shown import BuildShown
 from linkanim.picture.look import ThemeName
+from linkanim.picture.panels.building import BuildShown
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:

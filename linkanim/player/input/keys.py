@@ -110,15 +110,9 @@ KEYS: tuple[KeyRow, ...] = (
     KeyRow("edit", "E", "edit dimensions (H there: how)", _on("e", "edit")),
     KeyRow(
         "edit",
-        "W (Shift: its own trace)",
-        "draw a path, get the linkage",
-        _on("w", "pencil") + _on("shift+w", "own_trace"),
-    ),
-    KeyRow(
-        "edit",
-        "F2",
-        "build a linkage on an empty sheet",
-        _on("f2", "build"),
+        "F2, W (Shift: this one)",
+        "build it, or draw its path",
+        _on("f2", "build") + _on("w", "pencil") + _on("shift+w", "own_trace"),
     ),
     KeyRow(
         "edit", "B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")

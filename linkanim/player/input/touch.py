@@ -16,7 +16,7 @@ _NOTCH = 1.1
 Place = tuple[int, int]
 
 
-class Touch:
+class Fingers:
     """Knows the fingers that are down, and which of them is the pointer."""
 
     def __init__(self) -> None:

@@ -38,7 +38,7 @@ class Grip(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sheet:
+class BuildSheet:
     """What is built over the scene `before`, which comes back, with its clock and editing, if it cannot move.
 
     `home` is the part of the plane that is seen unless it is zoomed. `tool` is what is in hand, `grip` what

@@ -18,7 +18,7 @@ from linkanim.player.state.browsing import Browsing, Listing
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.state.editing import Editing, Held
 from linkanim.player.state.glide import Glide
-from linkanim.player.state.sheet import Sheet
+from linkanim.player.state.sheet import BuildSheet
 from linkanim.player.state.sketch import Sketch
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.shown_unit import in_unit
@@ -123,7 +123,7 @@ class State:
     listing: Listing | None = None
     browsing: Browsing | None = None
     sketch: Sketch | None = None
-    sheet: Sheet | None = None
+    sheet: BuildSheet | None = None
     game: Game | None = None
     games: Callable[[str], Game] | None = None
     beneath: State | None = None
@@ -168,7 +168,7 @@ class State:
         return "paused" if self.clock.paused else "play"
 
     @property
-    def building(self) -> Sheet | None:
+    def building(self) -> BuildSheet | None:
         """The sheet, while it is open."""
         return self.sheet if self.sheet and self.sheet.open and not self.game else None
 

@@ -10,9 +10,9 @@ import pygame
 from linkanim.build.draft import Draft, Thing
 from linkanim.build.pointing import under
 from linkanim.picture.answer_row import RowPrinter, row_cells
-from linkanim.picture.building.shown import BuildShown
 from linkanim.picture.building.tools import ToolPrinter, tool_at, tool_cells
 from linkanim.picture.layout import layout
+from linkanim.picture.panels.building import BuildShown
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.panels.path import grid_step, pencil
 from linkanim.picture.picture import Picture
@@ -22,7 +22,7 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.browsing import Browsing
-from linkanim.player.state.sheet import Sheet, driven_bar
+from linkanim.player.state.sheet import BuildSheet, driven_bar
 from linkanim.player.state.sketch import PIVOTS
 from linkanim.player.state.state import State
 from linkanim.player.state.tools import TOOLS
@@ -212,7 +212,7 @@ class Screen:
         """Return what of the sheet is under a pixel."""
         return Hover(self.world(x, y), self._near, self.tool_at(x, y))
 
-    def aimed(self, sheet: Sheet, way: tuple[float, ...]) -> tuple[float, float]:
+    def aimed(self, sheet: BuildSheet, way: tuple[float, ...]) -> tuple[float, float]:
         """Return where the keys' cursor goes, one line of the grid on; a fine way is one step.
 
         Without one it begins in the middle of what is seen.

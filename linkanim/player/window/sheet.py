@@ -11,8 +11,8 @@ from linkanim.build.rounding import snapped
 from linkanim.build.shapes import Shape, drawn
 from linkanim.digits import significant, typeset
 from linkanim.mechanics.linkage.joint import Point
-from linkanim.picture.building.shown import BuildShown, DraftShown, Rubber, Snap, ToolBar, ToolShown
-from linkanim.player.state.sheet import Grip, Sheet, driven_bar
+from linkanim.picture.panels.building import BuildShown, DraftShown, Rubber, Snap, ToolBar, ToolShown
+from linkanim.player.state.sheet import BuildSheet, Grip, driven_bar
 from linkanim.player.state.state import State
 from linkanim.player.state.tools import TOOLS
 
@@ -28,7 +28,7 @@ class Hover:
         self.place, self.reach, self.tool = place, reach, tool
 
 
-def built(state: State, sheet: Sheet, hover: Hover | None = None) -> BuildShown:
+def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildShown:
     """Return what an open sheet shows, with the mouse over it or not."""
     building, seen = sheet.building, sheet.seen(state.scene, state.phase)
     shapes = drawn(seen)
@@ -49,7 +49,7 @@ def built(state: State, sheet: Sheet, hover: Hover | None = None) -> BuildShown:
     )
 
 
-def _words(state: State, sheet: Sheet) -> tuple[str, tuple[str, ...]]:
+def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:
     """Return what the last gesture did, else what is missing or what the linkage is, and its facts."""
     building = sheet.building
     if building.made.scene is None:
@@ -72,7 +72,7 @@ def _draft(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown:
     return DraftShown(shapes, (places[0], places[1]) if crank else None, traced)
 
 
-def _rubber(seen: Draft, sheet: Sheet, grip: Grip) -> Rubber | None:
+def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
     """Return what the hand draws, from the joint it began at to the thing or place that it is at."""
     start = under(seen, *grip.begin, grip.reach)
     if sheet.tool == "move" or (sheet.tool in _STRETCHED and (start is None or start[0] != JOINT)):
@@ -96,7 +96,7 @@ def _met(seen: Draft, thing: Thing | None, at: Point) -> Point | None:
     return None
 
 
-def _snap(seen: Draft, sheet: Sheet, hover: Hover | None) -> Snap | None:
+def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
     """Return what the hand, or the mouse, is on."""
     grip = sheet.grip
     if grip is None and (hover is None or hover.tool is not None):

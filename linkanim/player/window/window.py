@@ -15,7 +15,7 @@ from linkanim.player.input.keyboard import Keyboard
 from linkanim.player.input.keys import bind_of
 from linkanim.player.input.mouse import Mouse, latest
 from linkanim.player.input.pads import PAD_EVENTS, Pads
-from linkanim.player.input.touch import Touch
+from linkanim.player.input.touch import Fingers
 from linkanim.player.sound.cues import cues
 from linkanim.player.sound.speaker import Speaker
 from linkanim.player.state.action import Action
@@ -24,7 +24,7 @@ from linkanim.player.state.browsing import RESOLVED, Browsing, listed
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import recovered, report
 from linkanim.player.state.handlers.shelf import renewed
-from linkanim.player.state.sheet import Sheet
+from linkanim.player.state.sheet import BuildSheet
 from linkanim.player.state.state import State, Take
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.window import display, files
@@ -66,7 +66,7 @@ class Window:
         self._renderings: Queue | None = None
         self._following: Following | None = None
         self.screen = Screen(state)
-        self._keyboard, self._mouse, self._touch, self._pads = Keyboard(), Mouse(), Touch(), Pads()
+        self._keyboard, self._mouse, self._fingers, self._pads = Keyboard(), Mouse(), Fingers(), Pads()
         self._speaker = Speaker()
         self._notes: list[str] = []
         self._windowed = display.frame()
@@ -81,7 +81,7 @@ class Window:
         What happened since the last tick comes at its first frame.
         """
         self._pads.look(frames)
-        events = self._touch.pointed(pygame.event.get(), pygame.display.get_window_size())
+        events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
         self._now, before = self.state.frame + frames, self.state
         for frame in range(frames):
             self._advance(events if frame == 0 else [])
@@ -201,7 +201,7 @@ class Window:
             near = [n for row in free.rows for n in row if n in seen]
             yield Action("point", near[0] if rows > 0 else near[-1])
 
-    def _by_keys(self, sheet: Sheet, action: Action) -> Iterator[Action]:
+    def _by_keys(self, sheet: BuildSheet, action: Action) -> Iterator[Action]:
         """Yield what arrows and Enter mean on a sheet: its cursor goes on, the hand goes down or up there."""
         if action.name == "aim" and isinstance(action.value, tuple):
             yield Action("cursor", self.screen.aimed(sheet, action.value))

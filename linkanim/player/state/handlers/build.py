@@ -16,7 +16,7 @@ from linkanim.player.state import editing as edit
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.handlers.edits import drop
 from linkanim.player.state.handlers.shelf import exchanged
-from linkanim.player.state.sheet import HOME, Grip, Sheet
+from linkanim.player.state.sheet import HOME, BuildSheet, Grip
 from linkanim.player.state.state import State, with_toast
 
 Handler = Callable[[State, Any], State]
@@ -53,7 +53,7 @@ def _opened(state: State, building: Building, *, known: bool = False) -> State:
     """Return the state with a sheet open over its scene; `known` tells that a file has what is on it."""
     state, last = drop(state, None), state.sheet
     editing = edit.let_go(replace(state.editing, open=False))
-    sheet = Sheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
+    sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
     if last and not known:
         sheet = replace(sheet, written=last.written, tool=last.tool, home=last.home)
     elif building.draft.places:
@@ -166,7 +166,7 @@ def _running(state: State, *, ran: bool) -> State:
     return replace(state, clock=state.clock.pause(state.frame, not ran))
 
 
-def _clicked(state: State, sheet: Sheet, grip: Grip) -> Building:
+def _clicked(state: State, sheet: BuildSheet, grip: Grip) -> Building:
     """Return the building after a click, the second one at a place after the double click."""
     (x, y), near = grip.begin, {"reach": grip.reach, "snap": grip.snap}
     if sheet.tool == "move" and pointing.under(grip.base.draft, x, y, grip.reach) is None:
@@ -174,7 +174,7 @@ def _clicked(state: State, sheet: Sheet, grip: Grip) -> Building:
     return pointing.click(grip.base, sheet.tool, x, y, **near)
 
 
-def _drawn(sheet: Sheet, grip: Grip) -> Building:
+def _drawn(sheet: BuildSheet, grip: Grip) -> Building:
     """Return the building after a drag."""
     ends = (*grip.begin, *grip.at)
     return pointing.drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
