@@ -14,18 +14,23 @@ By pointer (`pointing.py`): `reach` is how near counts as on it, `snap` the step
     drag(building, tool, x, y, to_x, to_y, reach=, snap=)    a bar, a guide, a spring, ... as the tool says
     under(draft, x, y, reach)                                what is there: a thing, or None
 
-On the chosen thing (`gestures.py`, `typing.py`), also by keys:
+On the chosen thing, also by keys (`chosen.py`, `dimensions.py`, `building.py`):
 
     choose(building, further)      the next thing, or the one before    choose_thing(building, kind, name)
     move(building, x, y, snap=)    what is chosen goes to a point       delete(building)
     trace(building)                its curve on or off                  drive(building)  it is the drive
-    write(building, text), erase(building), take(building)              digits for its number, Enter
+    write(building, text), erase(building), take(building)              digits for its number `row`, Enter
     choose_number(building, further)                                    the next number of it
     undo(building), redo(building), let_go(building)
+
+`numbers_of(draft, chosen)` are its numbers (label, value, unit), `row` the one that digits are for.
 
 What comes of it: `building.made.scene` (a Scene, or None) and `building.made.missing` (why there is none).
 The scene's document is its file: `scenes.editing.write.save` writes it. While there is a scene, the window
 draws that, and calls `posed(building, phase)` before a gesture, so that places are those of the pose on
-the screen. Without a scene it draws `drawn(draft)` (`shapes.py`). `building_of(scene)` begins with a scene;
-`stored(draft)` and `restored(tables)` are the draft as plain data, for JSON.
+the screen. Without a scene it draws `drawn(draft)` (`shapes.py`). `building_of(scene)` (`origin.py`) begins
+with a scene; `stored(draft)` and `restored(tables)` (`stored.py`) are the draft as plain data, for JSON.
+
+`order` finds the dyads in a draft, `making` its scene, `shorthand` the few lines that say the same; `places`
+is numbers to places and back, `missing` what to say before it moves.
 """

@@ -45,6 +45,23 @@ def refused(building: Building, sentence: str) -> Building:
     return replace(building, typed="", sentence=sentence)
 
 
+def posed(building: Building, phase: float) -> Building:
+    """Return the building with its joints where they stand at a phase; as it is where it does not move.
+
+    What is drawn next is drawn onto that pose. No numbers change, and there is nothing to undo.
+    """
+    scene = building.made.scene
+    if scene is None:
+        return building
+    places = {**building.draft.places, **scene.pose(phase, 0).position}
+    return replace(building, draft=replace(building.draft, places=places))
+
+
+def let_go(building: Building) -> Building:
+    """Return the building with nothing chosen, nothing typed and no sentence."""
+    return replace(building, chosen=None, row=0, typed="", sentence="")
+
+
 def undo(building: Building) -> Building:
     """Return the building before its last change; digits begun are let go of first."""
     if building.typed or not building.past:

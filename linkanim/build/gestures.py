@@ -1,4 +1,4 @@
-"""What a hand does to a drawing, by name: each gesture gives another building, or says why it cannot be."""
+"""What a hand draws, by name: each gesture gives another building, or the same and why it cannot be."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ from typing import Any
 
 from linkanim.build.building import Building, changed, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
-from linkanim.build.naming import body_name, joint_name, pin_name
+from linkanim.build.naming import body_name, joint_name, numbered, pin_name
 from linkanim.build.order import line_of, place_of
+from linkanim.build.places import at_on, crank_of, foot, gear_offset, moved
 from linkanim.build.rounding import round_angle, round_length, round_number, snapped
 
-_SPEED = "20 rpm"
+SPEED = "20 rpm"
+_STROKE = 0.1
+"""How much shorter and longer than it was drawn a new cylinder becomes, in its length."""
 
 
 def pin(building: Building, x: float, y: float, *, snap: float) -> Building:
@@ -25,47 +28,157 @@ def bar(building: Building, start: str, end: Thing | None, x: float, y: float, *
     On another joint it is joined there; on a guide it makes a slider, on a bar a joint in its slot; on paper
     (None) a joint. The first bar from a ground pin is the crank.
     """
+    draft = building.draft
     if end and end[0] == JOINT:
-        return _joined(building, start, end[1], snap)
-    draft, name = _with_joint(building.draft, end, x, y, snap)
+        name = end[1]
+        if {start, name} <= draft.of("pins").keys() and start != name:
+            return refused(building, f"{start} and {name} stand on the ground, and that is one body already")
+        if known := draft.bar(start, name):
+            return refused(building, f"Bar {known} is there already")
+    else:
+        if end and end[0] == "bars" and start in draft.of("bars")[end[1]]["joints"]:
+            return refused(building, f"{start} is an end of that bar: let go beside it, or on another bar")
+        draft, name = _with_joint(draft, end, x, y, snap)
     if place_of(draft, name) == place_of(draft, start):
-        return refused(building, f"The bar has no length: let go further from {start}")
+        return refused(building, f"A bar needs a length: let go further from {start}")
     draft = _with_bar(draft, start, name, snap)
     return changed(building, draft, ("bars", draft.bar(start, name) or ""))
 
 
-def drive(building: Building) -> Building:
-    """Return the building with the chosen crank as the drive: its bar, or its pin."""
+def point(building: Building, name: str, x: float, y: float, *, snap: float) -> Building:
+    """Return the building with a point on the body of a bar."""
+    draft, on = building.draft, list(building.draft.of("bars")[name]["joints"])
+    new, at = joint_name(draft, point=True), at_on(draft, on, complex(x, y), snap)
+    if at == [0, 0]:
+        return refused(building, f"That is {on[0]} itself: a point of a body lies beside its joints")
+    draft = draft.placing(new, (x, y)).having("points", new, {"on": on, "at": at})
+    for body, table in draft.of("bodies").items():
+        if set(on) <= set(table.get("joints", ())):
+            draft = draft.having("bodies", body, {**table, "joints": [*table["joints"], new]})
+    return changed(building, draft, (JOINT, new))
+
+
+def guide(
+    building: Building, start: Thing | None, x: float, y: float, to_x: float, to_y: float, *, snap: float
+) -> Building:
+    """Return the building with a line through a point: on the ground, or on the body of a joint or a bar."""
+    draft, way = building.draft, complex(to_x - x, to_y - y)
+    if not way:
+        return refused(building, "A guide needs a direction: drag along it")
+    through, on = _carrier(draft, start)
+    if on:
+        axis = place_of(draft, on[1]) - place_of(draft, on[0])
+        way *= axis.conjugate() / abs(axis)
+    elif not draft.of("pins"):
+        draft, through = _with_pin(draft, x, y, snap)
+    through = through or min(draft.of("pins"), key=lambda pin: abs(place_of(draft, pin) - complex(x, y)))
+    table: dict[str, Any] = {"on": on} if on else {}
+    table |= {"through": through, "angle": round_angle(way, snap)}
+    direction = line_of(draft, table)[1]
+    offset = ((complex(x, y) - place_of(draft, through)) * direction.conjugate()).imag
+    if start is None or start[0] != JOINT:
+        table["offset"] = round_number(offset, snap)
+    name = numbered(draft, "guides", "guide")
+    return changed(building, draft.having("guides", name, table), ("guides", name))
+
+
+def slider(building: Building, joint: str | None, name: str, x: float, y: float, *, snap: float) -> Building:
+    """Return the building with a joint on a guide: a new one at a point, or one that is there."""
     draft = building.draft
-    crank = _crank(draft, building.chosen)
-    if crank is None:
-        return refused(building, "Choose a crank first: a bar on a ground pin")
-    draft = draft.having(*DRIVE, _crank_drive(draft, *crank, 0.0))
-    return changed(building, draft, building.chosen, f"{crank[1]} is driven")
+    if joint is None:
+        draft, joint = _with_joint(draft, ("guides", name), x, y, snap)
+    elif held := next((kind for kind in ("pins", "points", "sliders") if joint in draft.of(kind)), None):
+        words = {"pins": "stands on the ground", "points": "is a point of a body"}
+        return refused(building, f"{joint} {words.get(held, 'slides on a guide')} already")
+    else:
+        draft = moved(_with_slider(draft, joint, name), joint, place_of(draft, joint), snap)
+    return changed(building, draft, (JOINT, joint))
 
 
-def _crank(draft: Draft, thing: Thing | None) -> tuple[str, str] | None:
-    """Return the ground pin and the joint of the crank that a thing is; None where it is none."""
-    pins = draft.of("pins")
-    if thing and thing[0] == "bars":
-        one, other = draft.of("bars")[thing[1]]["joints"]
-        return (one, other) if one in pins else (other, one) if other in pins else None
-    if thing and thing[0] == JOINT:
-        return next(((end, thing[1]) for _, end, _ in draft.bars_at(thing[1]) if end in pins), None)
+def slot(building: Building, joint: str, end: Thing) -> Building:
+    """Return the building with a joint in the slot of a bar, or of what slides on a guide: a yoke."""
+    draft, (kind, name) = building.draft, end
+    if kind == "bars":
+        if joint in draft.of("bars")[name]["joints"]:
+            return refused(building, f"{joint} is an end of that bar, and cannot slide in it")
+        return changed(building, _with_slot(draft, name, joint), (JOINT, joint))
+    if kind != JOINT or name not in draft.of("sliders") or name == joint:
+        return refused(building, "A slot is in a bar, or in a slider that has none: let go on one")
+    return changed(building, draft.having("yokes", name, {"pin": joint, "slot": "90 deg"}), (JOINT, name))
+
+
+def gear(building: Building, joint: str, mate: str, *, snap: float) -> Building:
+    """Return the building with a crank geared to another one, as fast and the other way round."""
+    draft = building.draft
+    others = [end for _, end, _ in draft.bars_at(joint)]
+    if joint == mate or not others or joint in draft.of("pins") or not crank_of(draft, mate):
+        return refused(building, "A gear pair joins two cranks: drag from one's pin to the other's")
+    if joint == draft.driven:
+        return refused(building, f"{joint} is driven: let the other crank follow it")
+    table = {"with": mate, "ratio": -1, "offset": "0 deg"}
+    draft = draft.having("gears", joint, table)
+    table["offset"] = gear_offset(draft, joint, table, snap)
+    return changed(building, draft.having("gears", joint, table), (JOINT, joint))
+
+
+def strut(
+    building: Building, kind: str, start: str, end: str | None, x: float, y: float, *, snap: float
+) -> Building:
+    """Return the building with a spring or a damper between joints; on paper it ends on a new ground pin."""
+    draft = building.draft
+    if end is None:
+        draft, end = _with_pin(draft, x, y, snap)
+    if start == end:
+        return refused(building, f"A {kind} has two ends: let go further from {start}")
+    kinds = f"{kind}s"
+    name = numbered(draft, kinds, kind)
+    return changed(building, draft.having(kinds, name, {"between": [start, end]}), (kinds, name))
+
+
+def cylinder(building: Building, start: str, end: str, *, snap: float) -> Building:
+    """Return the building with a cylinder as the drive, from a ground pin to a body on another."""
+    draft = building.draft
+    fixed, moving = (start, end) if start in draft.of("pins") else (end, start)
+    crank = _turning_with(draft, moving)
+    if fixed not in draft.of("pins") or crank is None or crank[0] == fixed:
+        return refused(building, "A cylinder drives a body that turns about a ground pin, from another pin")
+    length = abs(place_of(draft, moving) - place_of(draft, fixed))
+    reach = [round_length(length * (1 + part), snap) for part in (-_STROKE, _STROKE)]
+    table = {"between": [fixed, moving], "from": reach[0], "to": reach[1], "joint": crank[1]}
+    start_angle = round_angle(place_of(draft, crank[1]) - place_of(draft, crank[0]), snap)
+    stated = {"speed": draft.drive.get("speed", SPEED), "start": start_angle, "cylinder": table}
+    return changed(building, draft.having(*DRIVE, stated), DRIVE, f"The cylinder drives {crank[1]}")
+
+
+def crank_drive(draft: Draft, pivot: str, joint: str, snap: float) -> dict[str, Any]:
+    """Return the drive of a crank that starts where it is drawn."""
+    way = place_of(draft, joint) - place_of(draft, pivot)
+    return {"joint": joint, "speed": draft.drive.get("speed", SPEED), "start": round_angle(way, snap)}
+
+
+def _turning_with(draft: Draft, joint: str) -> tuple[str, str] | None:
+    """Return the ground pin and the joint of the bar that carries a joint about that pin."""
+    on = draft.of("points").get(joint, {}).get("on")
+    for end in [joint] if on is None else on:
+        pivot = crank_of(draft, end)
+        if pivot and (on is None or pivot in on):
+            return pivot, end
     return None
 
 
-def _joined(building: Building, start: str, end: str, snap: float) -> Building:
-    """Return the building with a bar between two joints."""
-    draft = building.draft
-    if start == end:
-        return refused(building, f"The bar has no length: let go further from {start}")
-    if {start, end} <= draft.of("pins").keys():
-        return refused(building, f"{start} and {end} both stand on the ground, which is one body already")
-    if name := draft.bar(start, end):
-        return refused(building, f"{name} is a bar already")
-    draft = _with_bar(draft, start, end, snap)
-    return changed(building, draft, ("bars", draft.bar(start, end) or ""))
+def _carrier(draft: Draft, start: Thing | None) -> tuple[str | None, list[str]]:
+    """Return what a guide that begins on a thing runs through, and the axis of the body that carries it."""
+    if start and start[0] == JOINT:
+        if start[1] in draft.of("pins"):
+            return start[1], []
+        name = next((name for name, _, _ in draft.bars_at(start[1])), None)
+        point = draft.of("points").get(start[1])
+        on = point["on"] if point else draft.of("bars")[name]["joints"] if name else []
+        return start[1], list(on)
+    if start and start[0] == "bars":
+        on = list(draft.of("bars")[start[1]]["joints"])
+        return on[0], on
+    return None, []
 
 
 def _with_pin(draft: Draft, x: float, y: float, snap: float) -> tuple[Draft, str]:
@@ -78,15 +191,11 @@ def _with_joint(draft: Draft, end: Thing | None, x: float, y: float, snap: float
     """Return the draft with a new joint at a point: on paper, on a guide, or in the slot of a bar."""
     name, place = joint_name(draft), complex(*snapped(x, y, snap))
     if end and end[0] == "guides":
-        start, way = line_of(draft, draft.of("guides")[end[1]])
-        place = start + way * ((place - start) * way.conjugate()).real
+        place = foot(draft, end[1], place)
     draft = draft.placing(name, (place.real, place.imag))
     if end and end[0] == "guides":
-        draft = draft.having("sliders", name, {"guide": end[1]})
-        draft = draft.having("bodies", body_name(draft), {"slider": name})
-    if end and end[0] == "bars":
-        draft = draft.having("slots", f"{name} in {end[1]}", {"bar": end[1], "through": name})
-    return draft, name
+        draft = _with_slider(draft, name, end[1])
+    return (_with_slot(draft, end[1], name) if end and end[0] == "bars" else draft), name
 
 
 def _with_bar(draft: Draft, start: str, end: str, snap: float) -> Draft:
@@ -95,10 +204,17 @@ def _with_bar(draft: Draft, start: str, end: str, snap: float) -> Draft:
     name = f"{start}–{end}"
     draft = draft.having("bars", name, {"joints": [start, end], "length": round_length(abs(way), snap)})
     draft = draft.having("bodies", body_name(draft), {"joints": [start, end]})
-    crank = _crank(draft, ("bars", name))
-    return draft.having(*DRIVE, _crank_drive(draft, *crank, snap)) if crank and not draft.drive else draft
+    pins = [joint for joint in (start, end) if joint in draft.of("pins")]
+    if draft.drive or not pins:
+        return draft
+    moving = end if pins == [start] else start
+    return draft.having(*DRIVE, crank_drive(draft, pins[0], moving, snap))
 
 
-def _crank_drive(draft: Draft, pivot: str, joint: str, snap: float) -> dict[str, Any]:
-    way = place_of(draft, joint) - place_of(draft, pivot)
-    return {"joint": joint, "speed": draft.drive.get("speed", _SPEED), "start": round_angle(way, snap)}
+def _with_slider(draft: Draft, joint: str, name: str) -> Draft:
+    draft = draft.having("sliders", joint, {"guide": name})
+    return draft.having("bodies", body_name(draft), {"slider": joint})
+
+
+def _with_slot(draft: Draft, name: str, joint: str) -> Draft:
+    return draft.having("slots", f"{joint} in {name}", {"bar": name, "through": joint})

@@ -32,12 +32,16 @@ def round_length(value: float, step: float) -> int | float:
 
 def round_angle(way: complex, step: float) -> str:
     """Return a way's direction in the roundest degrees that keep its end within half a step."""
-    angle = degrees(atan2(way.imag, way.real))
-    for fine in _ANGLES:
-        number = round_number(angle, fine)
-        if abs(way) * radians(abs(angle - number)) <= (step or FREE) / 2:
-            break
-    return f"{number:g} deg"
+    return f"{round_degrees(degrees(atan2(way.imag, way.real)), abs(way), step):g} deg"
+
+
+def round_degrees(angle: float, reach: float, step: float) -> int | float:
+    """Return the roundest degrees that keep what lies so far away within half a step."""
+    off = (step or FREE) / 2
+    fine = next(
+        (fine for fine in _ANGLES if reach * radians(abs(angle - round_number(angle, fine))) <= off), FREE
+    )
+    return round_number(angle, fine)
 
 
 def _multiple(value: float, step: float) -> float:

@@ -108,7 +108,7 @@ def _tables(draft: Draft, key: str) -> Iterator[dict[str, Any]]:
         value, old = _value(draft, one), former.get(one.key)
         if value is None and one.key == "link_angle":
             value = old
-        if value is not None:
+        if value is not None and (value != one.usual or old is not None):
             stated[one.key] = old if old is not None and _alike(value, old, draft.unit) else value
     if draft.driven == "B":
         stated["driver"] = "rocker"

@@ -2,32 +2,24 @@
 
 from __future__ import annotations
 
-from functools import reduce
+import json
+from dataclasses import replace
+
+import pytest
+from hand import drawn, gesture
 
 from linkanim.build.building import Building, redo, undo
-from linkanim.build.pointing import click, drag
+from linkanim.build.draft import Photo
+from linkanim.build.stored import restored, stored
+from linkanim.errors import BadInput
 
-FOUR_BAR = (
-    ("click", 0, 0),
-    ("click", 100, 0),
-    ("drag", 0, 0, 50, 0),
-    ("drag", 50, 0, 68, 83),
-    ("drag", 68, 83, 100, 0),
-)
-
-
-def hand(building: Building, gesture: tuple[str | float, ...]) -> Building:
-    """Return the building after a gesture as a tape has it."""
-    name, *numbers = gesture
-    points = [float(number) for number in numbers]
-    act = {"click": click, "drag": drag}[str(name)]
-    return act(building, "bar", *points, reach=3.0, snap=1.0)  # type: ignore[operator, no-any-return]
+FOUR_BAR = ("click 0 0", "click 100 0", "drag 0 0 50 0", "drag 50 0 68 83", "drag 68 83 100 0")
 
 
 def test_a_four_bar_moves_after_its_last_bar() -> None:
     steps = [Building()]
-    for gesture in FOUR_BAR:
-        steps.append(hand(steps[-1], gesture))
+    for line in FOUR_BAR:
+        steps.append(gesture(steps[-1], line))
     assert [step.made.scene is not None for step in steps] == [
         False,
         False,
@@ -43,7 +35,20 @@ def test_a_four_bar_moves_after_its_last_bar() -> None:
 
 
 def test_undo_goes_back_to_the_empty_sheet_and_redo_on_again() -> None:
-    done = reduce(hand, FOUR_BAR, Building())
-    back = reduce(lambda building, _: undo(building), FOUR_BAR, done)
+    done = back = drawn(FOUR_BAR)
+    for _ in FOUR_BAR:
+        back = undo(back)
     assert back.draft == Building().draft
-    assert reduce(lambda building, _: redo(building), FOUR_BAR, back).draft == done.draft
+    for _ in FOUR_BAR:
+        back = redo(back)
+    assert back.draft == done.draft
+
+
+def test_a_draft_that_is_stored_comes_back() -> None:
+    draft = replace(drawn(FOUR_BAR).draft, photo=Photo("digger.jpg", (-20.0, 5.0), 300.0, 0.1))
+    assert restored(json.loads(json.dumps(stored(draft)))) == draft
+
+
+def test_what_is_no_draft_is_refused() -> None:
+    with pytest.raises(BadInput, match="no draft"):
+        restored({"places": {"A": 1}})

@@ -15,7 +15,7 @@ from linkanim import units
 from linkanim.scenes.editing.numbers import Number, numbers
 from linkanim.scenes.editing.titles import retitled
 from linkanim.scenes.fields.form import Key
-from linkanim.scenes.fields.types import LENGTHS, Measure
+from linkanim.scenes.fields.types import LENGTHS, Measure, ValueType
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -69,23 +69,28 @@ def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
 def _with(scene: Scene, values: Mapping[Key, float | str]) -> Mapping[str, Any]:
     known, document = {item.key: item for item in dimensions(scene)}, scene.document
     for key, value in values.items():
-        document = replaced(document, key, _written(value, known[key]))
+        document = replaced(document, key, written(value, known[key]))
     return document
 
 
 def _dimension(number: Number, scene: Scene) -> Dimension:
-    measure, written = number.type.measure, number.written
+    return dimension_of(number.key, number.label(scene), number.type, number.written, scene.length_unit)
+
+
+def dimension_of(key: Key, label: str, kind: ValueType, stated: Any, length_unit: str) -> Dimension:
+    """Return what is `stated` of a number as it can be edited, lengths in that unit."""
+    measure = kind.measure
     assert measure
     if measure in LENGTHS:
-        value, unit = units.length(written, unit=scene.length_unit), scene.length_unit
+        value, unit = units.length(stated, unit=length_unit), length_unit
     elif measure == "ratio":
-        value, unit = float(Fraction(written)), ""
+        value, unit = float(Fraction(stated)), ""
     else:
-        value, unit = units.split(written)
-    return Dimension(number.key, number.label(scene), value, unit, measure, number.type.bare)
+        value, unit = units.split(stated)
+    return Dimension(key, label, value, unit, measure, kind.bare)
 
 
-def _written(value: float | str, dimension: Dimension) -> object:
+def written(value: float | str, dimension: Dimension) -> object:
     """Return a new value as the document writes it: a number, or a text with its unit."""
     text = value.strip() if isinstance(value, str) else repr(value)
     if _BARE.fullmatch(text) is None or not dimension.bare:

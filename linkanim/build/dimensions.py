@@ -1,0 +1,174 @@
+"""The numbers of the chosen thing: what they are called, and digits typed for one of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from math import atan2, degrees, hypot, nan
+from typing import Any
+
+from linkanim.build.building import Building, changed, refused
+from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
+from linkanim.build.places import fitted, with_number
+from linkanim.build.rounding import round_number
+from linkanim.errors import BadInput
+from linkanim.scenes.editing.edit import Dimension, dimension_of, written
+from linkanim.scenes.fields import joints as forms
+from linkanim.scenes.fields import scene_file
+from linkanim.scenes.fields.form import Field, Form, Key
+from linkanim.scenes.fields.table import Context, Table
+from linkanim.scenes.fields.types import LENGTHS
+
+_FORMS: Mapping[str, Form] = {
+    "bars": Form((forms.CRANK.field("length"),)),
+    "points": forms.BODY_POINT,
+    "guides": forms.LINE,
+    "slots": Form((forms.SLOT.field("offset"),)),
+    "yokes": Form((forms.SLIDE.field("slot"),)),
+    "gears": forms.GEAR,
+    "springs": scene_file.SPRING,
+    "dampers": scene_file.DAMPER,
+    "drive": scene_file.DRIVE,
+}
+"""What may be said of each kind, as a scene file has it."""
+_UNITS = {"angle": "deg", "speed": "rpm", "stiffness": "N/m", "damping": "N s/m", "ratio": ""}
+_LONGEST = 40
+
+
+def numbers_of(draft: Draft, thing: Thing | None) -> tuple[Dimension, ...]:
+    """Return the numbers of a thing, the first of them the one that is meant by digits typed.
+
+    Those of a joint are what is said of it as a pin, a point, a yoke or a geared crank, then its guide's
+    and the drive's where it is driven. A `value` is NaN where nothing is stated yet. `key` leads to it.
+    """
+    return tuple(_dimension(draft, key, one) for key, one in _fields(draft, thing))
+
+
+def write(building: Building, text: str) -> Building:
+    """Return the building with text added to what is being typed."""
+    return replace(building, typed=(building.typed + text)[:_LONGEST], sentence="")
+
+
+def erase(building: Building) -> Building:
+    """Return the building with the last typed character gone."""
+    return replace(building, typed=building.typed[:-1], sentence="")
+
+
+def choose_number(building: Building, further: int) -> Building:
+    """Return the building with another number of the chosen thing as the one that is typed."""
+    count = len(numbers_of(building.draft, building.chosen))
+    return replace(building, row=(building.row + further) % count if count else 0, typed="", sentence="")
+
+
+def take(building: Building) -> Building:
+    """Return the building with what was typed as the chosen number; or the same, and why it is refused.
+
+    What has no unit is in the draft's, in degrees or in the unit of the number before. The next number is
+    then the one that is typed.
+    """
+    draft, fields = building.draft, list(_fields(building.draft, building.chosen))
+    if not fields or not building.typed.strip():
+        return refused(building, "Choose what has a length or an angle, then type it")
+    key, one = fields[building.row % len(fields)]
+    try:
+        value = written(building.typed, _dimension(draft, key, one))
+        _refuse(draft, key, one, value)
+    except BadInput as error:
+        return replace(building, sentence=str(error))
+    draft = _with_polar(draft, key)
+    draft = replace(with_number(draft, key, value), typed=draft.typed | {key})
+    return replace(changed(building, fitted(draft), building.chosen), row=(building.row + 1) % len(fields))
+
+
+def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
+    """Yield the fields of a thing that are numbers, with their keys."""
+    if thing is None:
+        return
+    kind, name = thing
+    if kind == JOINT:
+        if name in draft.of("pins"):
+            yield from _of_pin(draft, name)
+        for own in ("points", "yokes", "gears"):
+            if name in draft.of(own):
+                yield from _of_form(_FORMS[own], draft.of(own)[name], (own, name))
+        if name in draft.of("sliders"):
+            yield from _fields(draft, ("guides", draft.of("sliders")[name]["guide"]))
+        if name == draft.driven:
+            yield from _fields(draft, DRIVE)
+    elif kind in _FORMS and name in draft.of(kind):
+        yield from _of_form(_FORMS[kind], draft.of(kind)[name], thing)
+
+
+def _of_form(form: Form, table: Mapping[str, Any], key: Key) -> Iterator[tuple[Key, Field]]:
+    for one in form.fields:
+        if isinstance(one.type, Form) and one.key in table:
+            yield from _of_form(one.type, table[one.key], (*key, one.key))
+        elif one.plain and one.plain.measure and one.key == "at":
+            yield from (((*key, one.key, part), one) for part in (0, 1))
+        elif one.plain and one.plain.measure and not ("slider" in table and one.key == "start"):
+            yield (*key, one.key), one
+
+
+def _of_pin(draft: Draft, name: str) -> Iterator[tuple[Key, Field]]:
+    """Yield what may be typed of a fixed pin: x and y, or distance and direction, as it is written first."""
+    plain: list[tuple[Key, Field]] = [(("pins", name, part), forms.PLACE) for part in (0, 1)]
+    polar: list[tuple[Key, Field]] = [(("pins", name, one.key), one) for one in forms.POLAR_PIN.fields]
+    first = isinstance(draft.of("pins")[name], Mapping)
+    yield from [*polar, *plain] if first else [*plain, *polar]
+
+
+def _dimension(draft: Draft, key: Key, one: Field) -> Dimension:
+    """Return a number as it stands, with what it is called; NaN where nothing is stated, nor usual."""
+    assert one.plain
+    assert one.plain.measure
+    stated = _stated(draft, key)
+    if stated is None and isinstance(one.usual, str | int):
+        stated = one.usual
+    if stated is not None:
+        return dimension_of(key, _label(one, key), one.plain, stated, draft.unit)
+    unit = draft.unit if one.plain.measure in LENGTHS else _UNITS[one.plain.measure]
+    return Dimension(key, _label(one, key), nan, unit, one.plain.measure, one.plain.bare)
+
+
+def _stated(draft: Draft, key: Key) -> Any:
+    """Return what stands at a key; of a fixed pin also what is not written, but follows; else None."""
+    table: Any = draft.of(str(key[0])).get(str(key[1]))
+    if key[0] == "pins":
+        x, y = draft.places[str(key[1])]
+        angle = f"{round_number(degrees(atan2(y, x)), 0.0)} deg"
+        derived = {0: x, 1: y, "length": hypot(x, y), "angle": angle}
+        own = table if isinstance(table, Mapping) else dict(enumerate(table))
+        return {**derived, **own}[key[2]]
+    for part in key[2:]:
+        table = table[part] if isinstance(part, int) else table.get(part)
+    return table
+
+
+def _label(one: Field, key: Key) -> str:
+    """Return what a number is called, in short: "length", "along", "x"."""
+    part = key[-1]
+    if isinstance(part, int):
+        return ("x", "y")[part] if key[0] == "pins" else ("along", "to the left")[part]
+    return {"length": "length", "angle": "direction"}.get(part) or part.replace("_", " ")
+
+
+def _with_polar(draft: Draft, key: Key) -> Draft:
+    """Return the draft with a fixed pin written the way in which one of its numbers is typed."""
+    if key[0] != "pins":
+        return draft
+    name, pin = str(key[1]), draft.of("pins")[str(key[1])]
+    names = (0, 1) if isinstance(key[2], int) else ("length", "angle")
+    if isinstance(pin, Mapping) == (names != (0, 1)):
+        return draft
+    values = [_stated(draft, (*key[:2], part)) for part in names]
+    return draft.having("pins", name, values if names == (0, 1) else dict(zip(names, values, strict=True)))
+
+
+def _refuse(draft: Draft, key: Key, one: Field, value: object) -> None:
+    """Raise where a value cannot stand at a key, with what a scene file's reader says of it."""
+    assert one.plain
+    part = str(key[-1])
+    holder = Table("", {part: [value, value] if isinstance(key[-1], int) else value}, (), Context(draft.unit))
+    found = one.plain.read(holder, part)
+    if found is None:
+        raise holder.context.problems[0]
