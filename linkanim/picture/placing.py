@@ -28,6 +28,8 @@ _STEP = 4
 """At every fourth of them a place is chosen."""
 _FORBIDDEN = 20.0
 """What a place costs that is forbidden for the whole cycle, where one on what it belongs to costs 1."""
+_AT_ONCE = 12
+"""So many places are tried together, the least in price first."""
 _BESIDE = 2.0
 """What it costs to lie on a solid that a label belongs to."""
 _CROSSING = 0.4
@@ -99,7 +101,7 @@ class LabelPlaces(NamedTuple):
     lines: tuple[Loop, ...] = ()
     drawn: NDArray[np.int64] | None = None
 
-    def at(self, moments: slice, which: slice = slice(None)) -> LabelPlaces:
+    def at(self, moments: slice, which: slice | NDArray[np.intp] = slice(None)) -> LabelPlaces:
         """Return it with some of the moments, and of the places."""
         lines = tuple(line[moments] for line in self.lines)
         drawn = None if self.drawn is None else self.drawn[which]
@@ -147,14 +149,27 @@ class Placer:
         return best, found[best]
 
     def _found(self, label: LabelPlaces, but: _Bools | None) -> Placed:
-        every = slice(None, None, _STEP)
-        cost = self._cost(label.at(every), every, self.clutter.some)
-        if but is not None:
-            cost[but[every]] = 0.0
-        which = int((label.price + cost.mean(axis=0)).argmin())
+        which = self._cheapest(label, but)
         cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
         shown = _eased(cost[:, 0] >= _FORBIDDEN)
         return Placed(which, shown if but is None else shown * _eased(but, 0))
+
+    def _cheapest(self, label: LabelPlaces, but: _Bools | None) -> int:
+        """Return the first of the places that cost least; those whose price alone is more are not tried."""
+        every, (which, least) = slice(None, None, _STEP), (0, np.inf)
+        order = label.price.argsort(kind="stable")
+        for begin in range(0, len(order), _AT_ONCE):
+            some = np.sort(order[begin : begin + _AT_ONCE])
+            some = some[label.price[some] <= least]
+            if not some.size:
+                break
+            cost = self._cost(label.at(every, some), every, self.clutter.some)
+            if but is not None:
+                cost[but[every]] = 0.0
+            found = label.price[some] + cost.mean(axis=0)
+            best = int(found.argmin())
+            which, least = min((which, least), (int(some[best]), float(found[best])), key=lambda one: one[::-1])
+        return which
 
     def _take(self, label: LabelPlaces, placed: Placed) -> None:
         if placed.shown.any():
