@@ -14,7 +14,7 @@ from decimal import Decimal
 from linkanim.digits import degrees, typeset
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.facts.classify import Info
-from linkanim.scenes.editing.edit import Dimension, dimensions, with_dimensions, with_unit
+from linkanim.scenes.editing.edit import Dimension, dimensions, with_dimensions, with_unit, with_values
 from linkanim.scenes.editing.handles import dragged, handles
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.fields.form import Key
@@ -255,6 +255,8 @@ def changed_to(
     However far they are dragged, undo goes back to where they were taken.
     """
     try:
+        if with_values(held.scene, values) == scene.document:
+            return replace(editing, typed="", refusal=None, warned=False), scene
         after = with_dimensions(held.scene, values)
         lost = loss_of_turning(held.scene.info, after.info)
     except LinkanimError as error:

@@ -196,8 +196,10 @@ def _watch(state: State) -> Fading | None:
 
 def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLine]:
     """Yield what the chosen dimension measures, and the others by which its place is found, in words."""
+    if not items:
+        return
     known, scene = {item.key: item for item in items}, in_unit(state.scene, state.look.unit)
-    chosen = items[state.editing.chosen % len(items)].key if items else ()
+    chosen = items[state.editing.chosen % len(items)].key
     for frame, begin, end, key in stretches(scene, chosen):
         yield DimensionLine(frame, begin, end, _worded(known[key], _digits(state)), key == chosen)
 

@@ -55,7 +55,7 @@ def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
     ("3 cm", "1 rad", "90 deg/s"), and a ratio may be a fraction ("1/3"). KeyError for a key that is
     not one of the scene's dimensions; SceneError and AssemblyError as reading a file raises them.
     """
-    return retitled(scene, scene_from(_with(scene, values), name=scene.name, where=scene.name))
+    return retitled(scene, scene_from(with_values(scene, values), name=scene.name, where=scene.name))
 
 
 def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
@@ -63,10 +63,11 @@ def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
 
     Where no dyad down the chain limits `scene`, none is looked at: one that does not close gives NaN.
     """
-    return scene_from(_with(scene, values), name=scene.name, where=scene.name, towards=scene)
+    return scene_from(with_values(scene, values), name=scene.name, where=scene.name, towards=scene)
 
 
-def _with(scene: Scene, values: Mapping[Key, float | str]) -> Mapping[str, Any]:
+def with_values(scene: Scene, values: Mapping[Key, float | str]) -> Mapping[str, Any]:
+    """Return the scene's document with some dimensions changed; KeyError as above."""
     known, document = {item.key: item for item in dimensions(scene)}, scene.document
     for key, value in values.items():
         document = replaced(document, key, written(value, known[key]))
