@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, reduce
+from itertools import product
 from math import ceil
 
 import numpy as np
@@ -52,32 +53,33 @@ class Lettering:
         return self._drawn[right, down]
 
 
-def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.float32], int]:
-    """Return how far a large line of text covers (height, width), 0 to 1, without empty rows.
+def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.uint8], int]:
+    """Return how far a large line of text covers (height, width), 0 to 255, without empty rows.
 
     Also how many rows of the line are left out above it.
     """
     large = _FINE * size
     sheet = pygame.Surface((kind.width(text, large, strong=True) + _FINE, 2 * large), pygame.SRCALPHA, 32)
     kind.draw(sheet, text, (_FINE // 2, large // 2), size=large, colour=(255, 255, 255), strong=True)
-    cover = pygame.surfarray.array_alpha(sheet).T.astype(np.float32) / 255
+    cover = np.ascontiguousarray(pygame.surfarray.array_alpha(sheet).T)
     rows = np.flatnonzero(cover.any(axis=1))
     first, last = (int(rows[0]), int(rows[-1])) if rows.size else (0, 0)
-    return np.asarray(cover[first : last + 1], np.float32), first - large // 2
+    return cover[first : last + 1], first - large // 2
 
 
-def _haloed(cover: NDArray[np.float32], halo: int, ink: Colour, back: Colour) -> NDArray[np.float32]:
+def _haloed(cover: NDArray[np.uint8], halo: int, ink: Colour, back: Colour) -> NDArray[np.float32]:
     """Return letters in ink on a halo as (height, width, 4), colours times opacity, 0 to 1."""
-    cover = np.pad(cover, halo + 1)
-    around = cover.copy()
+    middle = halo + 1
+    letters, around = np.pad(cover, middle), np.pad(cover, middle)
     for turn in directions(np.linspace(0, 2 * np.pi, 24, endpoint=False)):
-        shift = round(halo * turn.imag), round(halo * turn.real)
-        np.maximum(around, np.roll(cover, shift, (0, 1)), out=around)
-    opacity = np.maximum(around, cover)[..., None]
+        top, left = middle + round(halo * turn.imag), middle + round(halo * turn.real)
+        under = around[top : top + cover.shape[0], left : left + cover.shape[1]]
+        np.maximum(under, cover, out=under)
+    share, opacity = (levels.astype(np.float32) / 255 for levels in (letters, around))
     inks, backs = (np.array(colour, np.float32) / 255 for colour in (ink, back))
-    letters = cover[..., None]
-    colours = letters * inks + np.maximum(opacity - letters, 0) * backs
-    return np.concatenate((colours, opacity), axis=-1)
+    rest = np.maximum(opacity - share, 0)
+    colours = (share * own + rest * other for own, other in zip(inks, backs, strict=True))
+    return np.stack([*colours, opacity], axis=-1)
 
 
 def _averaged(large: NDArray[np.float32], right: int, down: int) -> pygame.Surface:
@@ -86,7 +88,8 @@ def _averaged(large: NDArray[np.float32], right: int, down: int) -> pygame.Surfa
     )
     room = np.zeros((high * _FINE, wide * _FINE, 4), np.float32)
     room[down : down + large.shape[0], right : right + large.shape[1]] = large
-    small = room.reshape(high, _FINE, wide, _FINE, 4).mean(axis=(1, 3))
+    shifted = (room[row::_FINE, column::_FINE] for row, column in product(range(_FINE), repeat=2))
+    small = reduce(np.add, shifted) / _FINE**2
     opacity = np.maximum(small[..., 3:], 1e-6)
     straight = np.concatenate((small[..., :3] / opacity, small[..., 3:]), axis=-1)
     levels = (255 * straight + 0.5).astype(np.uint8)
