@@ -8,12 +8,13 @@ of one moment, such as a chart or a figure, a label stands there or not at all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.picture.raster.raster import Loop
@@ -28,8 +29,6 @@ _STEP = 4
 """At every fourth of them a place is chosen."""
 _FORBIDDEN = 20.0
 """What a place costs that is forbidden for the whole cycle, where one on what it belongs to costs 1."""
-_AT_ONCE = 12
-"""So many places are tried together, the least in price first."""
 _BESIDE = 2.0
 """What it costs to lie on a solid that a label belongs to."""
 _CROSSING = 0.4
@@ -60,6 +59,23 @@ class Solid(NamedTuple):
         return self._replace(corners=self.corners[moments])
 
 
+class Solids(NamedTuple):
+    """Solids with as many corners each: those (n or 1 moments, m, c), and `half` (m,)."""
+
+    corners: Loop
+    half: _Floats
+
+    @classmethod
+    def of(cls, solids: Sequence[Solid]) -> Solids:
+        """Return solids in one."""
+        corners = np.broadcast_arrays(*(solid.corners for solid in solids))
+        return cls(np.stack(corners, axis=1), np.array([solid.half for solid in solids]))
+
+    def picked(self, which: NDArray[np.intp]) -> Solids:
+        """Return some of them."""
+        return Solids(self.corners.take(which, axis=1), self.half[which])
+
+
 @dataclass(frozen=True)
 class Clutter:
     """What labels must stay off: all that is not `inside`, rectangles, and solids."""
@@ -79,6 +95,18 @@ class Clutter:
             for end, sign in ((np.min, -1), (np.max, 1))
         )
         return tuple(ends)
+
+    @cached_property
+    def alike(self) -> tuple[tuple[NDArray[np.intp], Solids], ...]:
+        """The solids in groups of as many corners, each with their numbers."""
+        counts = np.array([solid.corners.shape[1] for solid in self.solids])
+        groups = (np.flatnonzero(counts == count) for count in np.unique(counts))
+        return tuple((group, Solids.of([self.solids[n] for n in group])) for group in groups)
+
+    @cached_property
+    def little(self) -> _Bools:
+        """Whether each solid matters little."""
+        return np.array([solid.little for solid in self.solids], np.bool_)
 
     @cached_property
     def some(self) -> Clutter:
@@ -101,7 +129,7 @@ class LabelPlaces(NamedTuple):
     lines: tuple[Loop, ...] = ()
     drawn: NDArray[np.int64] | None = None
 
-    def at(self, moments: slice, which: slice | NDArray[np.intp] = slice(None)) -> LabelPlaces:
+    def at(self, moments: slice, which: slice = slice(None)) -> LabelPlaces:
         """Return it with some of the moments, and of the places."""
         lines = tuple(line[moments] for line in self.lines)
         drawn = None if self.drawn is None else self.drawn[which]
@@ -149,27 +177,14 @@ class Placer:
         return best, found[best]
 
     def _found(self, label: LabelPlaces, but: _Bools | None) -> Placed:
-        which = self._cheapest(label, but)
+        every = slice(None, None, _STEP)
+        cost = self._cost(label.at(every), every, self.clutter.some)
+        if but is not None:
+            cost[but[every]] = 0.0
+        which = int((label.price + cost.mean(axis=0)).argmin())
         cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
         shown = _eased(cost[:, 0] >= _FORBIDDEN)
         return Placed(which, shown if but is None else shown * _eased(but, 0))
-
-    def _cheapest(self, label: LabelPlaces, but: _Bools | None) -> int:
-        """Return the first of the places that cost least; those whose price alone is more are not tried."""
-        every, (which, least) = slice(None, None, _STEP), (0, np.inf)
-        order = label.price.argsort(kind="stable")
-        for begin in range(0, len(order), _AT_ONCE):
-            some = np.sort(order[begin : begin + _AT_ONCE])
-            some = some[label.price[some] <= least]
-            if not some.size:
-                break
-            cost = self._cost(label.at(every, some), every, self.clutter.some)
-            if but is not None:
-                cost[but[every]] = 0.0
-            found = label.price[some] + cost.mean(axis=0)
-            best = int(found.argmin())
-            which, least = min((which, least), (int(some[best]), float(found[best])), key=lambda one: one[::-1])
-        return which
 
     def _take(self, label: LabelPlaces, placed: Placed) -> None:
         if placed.shown.any():
@@ -190,15 +205,11 @@ class Placer:
         )
         forbidden |= _over(places[:, :, None] - taken[:, None], size, self._sizes).any(axis=2)
         forbidden |= _cut(places, size, placed_lines, _THICK)
-        for n in _near(places, size, clutter):
-            solid = clutter.solids[n]
-            if n in label.own:
-                continue
-            touched = touching(places, size, solid)
-            if n in label.beside or solid.little:
-                cost += _BESIDE * touched
-            else:
-                forbidden |= touched
+        minor = clutter.little.copy()
+        minor[[*label.beside]] = True
+        for numbers, touched in _touched(places, size, clutter, but=label.own):
+            cost += _BESIDE * touched[..., minor[numbers]].sum(axis=2)
+            forbidden |= touched[..., ~minor[numbers]].any(axis=2)
         lined = np.flatnonzero(label.drawn >= 0) if label.drawn is not None else ()
         if label.drawn is not None and len(lined):
             used, which = np.unique(label.drawn[lined], return_inverse=True)
@@ -225,28 +236,42 @@ def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
     return [placer.first([label])[1] for label in labels]
 
 
-def touching(places: Loop, size: tuple[float, float], solid: Solid) -> _Bools:
-    """Return whether boxes of a size about places (n, k) touch a solid (n or 1 moments).
+def touching(places: Loop, size: tuple[float, float], solids: Solids) -> _Bools:
+    """Return whether boxes of a size about places (n, k) touch each of the solids (n, k, m).
 
     Two convex shapes are apart where one of their edges parts them; a bar's ends count as square.
     """
-    (wide, high), corners, half = size, solid.corners, solid.half
-    if corners.shape[1] == 1:
-        away = places - corners
+    (wide, high), (corners, half) = size, solids
+    if corners.shape[2] == 1:
+        away = places[..., None] - corners[:, None, :, 0]
         aside = np.maximum(np.abs(away.real) - wide / 2, 0) + 1j * np.maximum(np.abs(away.imag) - high / 2, 0)
         return np.asarray(np.abs(aside) < half)
-    if corners.shape[1] == 2:
-        return _cut(places, size, corners[:, None], half)
-    hit = _straddles(corners.real, places.real, wide / 2 + half)
-    hit &= _straddles(corners.imag, places.imag, high / 2 + half)
-    for n in range(corners.shape[1]):
-        along = corners[:, n] - corners[:, n - 1]
+    if corners.shape[2] == 2:
+        return _hits(places, size, corners, half)
+    hit = _straddles(corners.real, places.real[..., None], wide / 2 + half)
+    hit &= _straddles(corners.imag, places.imag[..., None], high / 2 + half)
+    for n in range(corners.shape[2]):
+        along = corners[..., n] - corners[..., n - 1]
         length = np.abs(along)
-        normal = (1j * along / np.where(length > 0, length, 1))[:, None]
+        normal = 1j * along / np.where(length > 0, length, 1)
         reach = np.abs(normal.real) * wide / 2 + np.abs(normal.imag) * high / 2 + half
-        across = corners.real * normal.real + corners.imag * normal.imag
-        hit &= _straddles(across, places.real * normal.real + places.imag * normal.imag, reach)
+        across = corners.real * normal.real[..., None] + corners.imag * normal.imag[..., None]
+        right, down = normal.real[:, None], normal.imag[:, None]
+        middles = places.real[..., None] * right + places.imag[..., None] * down
+        hit &= _straddles(across, middles, reach[:, None])
     return hit
+
+
+def _touched(
+    places: Loop, size: tuple[float, float], clutter: Clutter, *, but: frozenset[int] = frozenset()
+) -> Iterator[tuple[NDArray[np.intp], _Bools]]:
+    """Yield the numbers of solids that come near, and whether boxes touch each of them (n, k, m)."""
+    wanted = _near(places, size, clutter)
+    wanted[[*but]] = False
+    for numbers, solids in clutter.alike:
+        which = np.flatnonzero(wanted[numbers])
+        if which.size:
+            yield numbers[which], touching(places, size, solids.picked(which))
 
 
 def _cut(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float) -> _Bools:
@@ -254,7 +279,9 @@ def _cut(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, ha
     return np.asarray(_hits(places, size, lines, half).any(axis=2))
 
 
-def _hits(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float) -> _Bools:
+def _hits(
+    places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float | _Floats
+) -> _Bools:
     """Return which boxes touch which of the lines (n, k, m)."""
     wide, high = (np.atleast_1d(side)[:, None] / 2 for side in size)
     middle, reach = lines.mean(axis=2)[:, None], (lines[..., 1] - lines[..., 0])[:, None] / 2
@@ -277,29 +304,26 @@ def _crossings(lines: Loop, clutter: Clutter) -> _Floats:
     """Return how many solids each of some lines (n, m, 2) crosses at each moment (n, m)."""
     places = lines[..., :1] + _ALONG * (lines[..., 1:] - lines[..., :1])
     found, points = np.zeros(lines.shape[:2]), places.reshape(len(places), -1)
-    for n in _near(points, (0.0, 0.0), clutter):
-        found += touching(points, (0.0, 0.0), clutter.solids[n]).reshape(places.shape).any(axis=2)
+    for _, touched in _touched(points, (0.0, 0.0), clutter):
+        found += touched.reshape(*places.shape, -1).any(axis=2).sum(axis=2)
     return found
 
 
 def _straddles(corners: _Floats, middle: _Floats, reach: _Floats | float) -> _Bools:
-    """Return whether what lies between corners (n, c) comes so near to middles (n, k) in one direction."""
-    low, high = corners.min(axis=1, keepdims=True), corners.max(axis=1, keepdims=True)
-    return np.asarray((low - middle < reach) & (middle - high < reach))
+    """Return whether what lies between corners (n, m, c) comes so near to middles in one direction."""
+    low, high = corners.min(axis=2)[:, None], corners.max(axis=2)[:, None]
+    return np.asarray((low - middle < reach) & (middle - high < reach), np.bool_)
 
 
-def _near(places: Loop, size: tuple[float, float], clutter: Clutter) -> list[int]:
+def _near(places: Loop, size: tuple[float, float], clutter: Clutter) -> _Bools:
     """Return which solids come near to boxes of a size about one of the places at some moment."""
     if not clutter.solids:
-        return []
+        return np.zeros(0, np.bool_)
     near, boxes = np.ones((1, 1), np.bool_), clutter.boxes
-    for part, side, ends in (
-        (places.real, size[0], boxes[:2]),
-        (places.imag, size[1], boxes[2:]),
-    ):
+    for part, side, ends in ((places.real, size[0], boxes[:2]), (places.imag, size[1], boxes[2:])):
         low, high = (end(part, axis=1, keepdims=True) for end in (np.min, np.max))
         near = near & (ends[0] < high + side / 2) & (ends[1] > low - side / 2)
-    return list(np.flatnonzero(near.any(axis=0)).tolist())
+    return np.asarray(near.any(axis=0))
 
 
 def _within(places: Loop, size: tuple[float, float], room: Rect) -> _Bools:
@@ -317,7 +341,11 @@ def _eased(forbidden: _Bools, gone: int = _GONE) -> _Floats:
     """Return how far a label shows that must not at some moments; it is `gone` in time for each."""
     if len(forbidden) == 1 or not forbidden.any():
         return np.where(forbidden, 0.0, 1.0)
-    shifts = range(-gone - _SOFT, gone + _SOFT + 1)
-    hidden = np.any([np.roll(forbidden, shift) for shift in shifts], axis=0)
-    around = [np.roll(~hidden, shift) for shift in range(-_SOFT, _SOFT + 1)]
-    return np.asarray(np.mean(around, axis=0), np.float64)
+    clear = _around(forbidden, gone + _SOFT) == 0
+    return np.asarray(_around(clear, _SOFT) / (2 * _SOFT + 1), np.float64)
+
+
+def _around(flags: _Bools, reach: int) -> NDArray[np.int64]:
+    """Return how many flags are set in so many moments either way of each, the last beside the first."""
+    wrapped = np.concatenate((flags[-reach:], flags, flags[:reach]))
+    return np.asarray(sliding_window_view(wrapped, 2 * reach + 1).sum(axis=1))

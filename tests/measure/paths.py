@@ -175,4 +175,4 @@ def _cells(rows: list[PathRow]) -> Iterator[tuple[str, ...]]:
 
 
 if __name__ == "__main__":
-    print(as_markdown(run(float((*sys.argv[1:], 600)[0]), CURVES), this_machine().line))
+    print(as_markdown(run(float(sys.argv[1]) if sys.argv[1:] else 600.0, CURVES), this_machine().line))

@@ -15,7 +15,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.parts.fittings import Bench, rail_reach
 from linkanim.picture.parts.turning import Turning
 from linkanim.picture.picture import Picture
-from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placed, Solid, place, touching
+from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placed, Solid, Solids, place, touching
 from linkanim.picture.raster.shapes import hull
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
@@ -226,7 +226,7 @@ def test_boxes_touch_what_reaches_into_them(corners: int, turn: complex) -> None
     shape = 30 * turn * np.exp(2j * np.pi * np.arange(corners) / corners)
     solid = Solid(shape[None], 4.0)
     boxes = np.add.outer(np.linspace(-60, 60, 25), 1j * np.linspace(-60, 60, 25)).ravel()[None]
-    found = touching(boxes, (20.0, 10.0), solid)[0]
+    found = touching(boxes, (20.0, 10.0), Solids.of([solid]))[0, :, 0]
     inner = np.add.outer(np.linspace(-10, 10, 21), 1j * np.linspace(-5, 5, 11)).ravel()
     for box, touched in zip(boxes[0], found, strict=True):
         near = (
