@@ -21,7 +21,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
 from linkanim.picture.panels.legend import Legend, legend_for
 from linkanim.picture.panels.marks import MeasuredLine, glow, grip, measure, spots
-from linkanim.picture.panels.overlay import Overlay, PathShown
+from linkanim.picture.panels.overlay import Lane, Overlay, PathShown
 from linkanim.picture.panels.path import dashed, drawn_line, handles, sheet
 from linkanim.picture.panels.readings import measured
 from linkanim.picture.parts.turning import motion_of
@@ -154,6 +154,8 @@ class Picture:
             yield from drafted(build, build.draft, self._sheet_view, self.type)
             return
         yield from self._behind_at(pose.input_speed, path)
+        if overlay.lane:
+            yield self._lane(overlay.lane)
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
         for n, other in enumerate(faint, start=1):
             yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
@@ -165,6 +167,11 @@ class Picture:
         yield from self._within(self._named_groups(pose))
         yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
+
+    def _lane(self, shown: Lane) -> Group:
+        from linkanim.picture.panels.lane import lane
+
+        return lane(self.view, self.layout, self.fit.arrangement.gauge, self.theme, shown)
 
     @property
     def _overrun(self) -> bool:

@@ -11,7 +11,9 @@ from linkanim.play.words import GameWords
 from linkanim.player.state.state import Game
 from linkanim.units import shown
 
-GAMES: MappingProxyType[str, str] = MappingProxyType({"title": "linkanim.play.title"})
+GAMES: MappingProxyType[str, str] = MappingProxyType(
+    {"title": "linkanim.play.title", "follow": "linkanim.play.follow"}
+)
 """Where each kind lives, imported when it is first played: a module with `read(words)`."""
 
 

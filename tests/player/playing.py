@@ -10,6 +10,7 @@ import pygame
 from linkanim.player.state.state import CHIP_FRAMES, State
 from linkanim.player.window import display
 from linkanim.player.window.files import SceneFile
+from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.window import Window
 from linkanim.synthesis.follower import Follow, Reply
 
@@ -20,8 +21,8 @@ SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL
 class Player:
     """A window, the keys and the mouse to use it with, and its pixels to look at."""
 
-    def __init__(self, state: State, file: SceneFile | None = None) -> None:
-        self.window = Window(state, file=file)
+    def __init__(self, state: State, file: SceneFile | None = None, keeper: GameKeeper | None = None) -> None:
+        self.window = Window(state, file=file, keeper=keeper)
         self.tick()
 
     @property

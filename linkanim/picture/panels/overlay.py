@@ -193,6 +193,20 @@ class GamePanel:
     pointed: int | None = None
 
 
+class Lane(NamedTuple):
+    """Two lines across a ram's guide, from its `back` to its `forward` dead centre, in the unit shown.
+
+    `middle` has how far before the ram, in shares of all that is in sight, and where between the dead centres
+    (0 to 1) the ram has to be then, `half_width` to either side; `well` says that it is between them now.
+    """
+
+    back: Point
+    forward: Point
+    middle: tuple[tuple[float, float], ...]
+    half_width: float
+    well: bool
+
+
 Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 """Subjects, each with its lines of (key, what it does)."""
 
@@ -201,11 +215,11 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    Answers that are places have `spots` on the picture, in their order. With `noted` the HUD says where a
-    limit or a change point is near. `chip` answers a key, `hint` says what there is to press, `watch` what
-    to watch for. `measured` is what the chosen dimension and those beside it measure, `glow` the joint
-    under the mouse; with `grip` the chart's cursor has one. `shutter` is how white the picture is, in
-    eighths.
+    Answers that are places have `spots` on the picture, in their order, a ram that is followed its `lane`.
+    With `noted` the HUD says where a limit or a change point is near. `chip` answers a key, `hint` says
+    what there is to press, `watch` what to watch for. `measured` is what the chosen dimension and those
+    beside it measure, `glow` the joint under the mouse; with `grip` the chart's cursor has one. `shutter`
+    is how white the picture is, in eighths.
     """
 
     paused: bool = False
@@ -220,6 +234,7 @@ class Overlay:
     build: BuildShown | None = None
     game: GamePanel | None = None
     spots: tuple[Spot, ...] = ()
+    lane: Lane | None = None
     chip: Fading | None = None
     hint: Fading | None = None
     watch: Fading | None = None

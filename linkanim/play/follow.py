@@ -1,0 +1,243 @@
+"""Follow: turn the crank so that the ram stays between two lines on paper that scrolls by."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import radians
+from typing import Literal
+
+from linkanim.errors import BadInput
+from linkanim.picture.look import Look
+from linkanim.picture.panels.overlay import Choice, GamePanel, Lane, Overlay, ScoreBar
+from linkanim.play.track import LENGTH, LEVELS, Track, track_of, tracks
+from linkanim.play.words import GameWords
+from linkanim.player.state.action import Action
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.handlers.games import play, with_scene
+from linkanim.player.state.state import State, with_effect
+from linkanim.scenes import load
+from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.units import shown
+
+Stage = Literal["ready", "runs", "over"]
+
+_PAPER = (1_000, 1_200, 1_400)
+"""How far the paper scrolls in a frame as it begins, in thousandths of a mm, by level."""
+_FASTER_EACH, _MOST = 6, 700
+"""After so many frames it scrolls by a thousandth more, up to so many more."""
+_SLACK = 3 * FRAMES_PER_SECOND
+"""For how many frames in all the ram may be outside."""
+_NOTCH = radians(0.4)
+"""How far the crank turns in a frame at the first notch of the arrow keys."""
+_NOTCHES = 12
+_COARSE = 3
+_AHEAD, _BEHIND, _EVERY = 200, 40, 4
+"""How much of the paper is in sight before the ram and behind it, in mm, and how close its points."""
+_WIDTHS = ("wide, slow", "narrower, faster", "narrow, fast")
+_HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's stick"
+
+
+@dataclass(frozen=True)
+class Follow:
+    """A run along a scene's track: how much paper has gone by, on how much of it the ram kept to its lines.
+
+    `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames; `notch` is how fast the
+    arrow keys turn the crank.
+    """
+
+    scene: str
+    level: int = 1
+    stage: Stage = "ready"
+    frames: int = 0
+    paper: int = 0
+    passed: int = 0
+    outside: int = 0
+    notch: int = 0
+    phase: float = 0.0
+    best: int = 0
+    """The best score so far, in mm."""
+    is_within: bool = True
+
+    @property
+    def words(self) -> str:
+        """What begins it again just here."""
+        fields = {name: value for name, value in vars(self).items() if name != "is_within"}
+        return str(GameWords("follow", {name: str(value) for name, value in fields.items()}))
+
+    @property
+    def listed(self) -> bool:
+        """Its panel stands beside the scene."""
+        return True
+
+    @property
+    def covers(self) -> bool:
+        """Esc goes out of it."""
+        return True
+
+    @property
+    def track(self) -> Track:
+        """What the ram has to follow."""
+        return track_of(self.scene, self.level)
+
+    @property
+    def metres(self) -> float:
+        """The score: on how much paper the ram kept between the lines, in m."""
+        return self.passed / 1e6
+
+    def entered(self, state: State) -> State:
+        """Return the state with the scene standing where the run is."""
+        look = Look(hud=False, trace=False, theme=state.look.theme, unit=state.look.unit)
+        return with_scene(replace(state, look=look), load(self.scene), self.phase, paused=True)
+
+    def carried(self, state: State, action: Action) -> State:
+        """Turn the crank; before and after a run choose another track, or another level."""
+        match action:
+            case Action("back"):
+                return play(state, "title door=play")
+            case Action("scrub", float() | int() as phase):
+                return self._turned(state, float(phase), 0)
+            case Action("turn", int() as steps) if self.stage != "over":
+                way = 1 if steps > 0 else -1
+                notch = self.notch + way * (_COARSE if abs(steps) > 1 else 1)
+                return self._turned(state, state.phase, min(max(notch, -_NOTCHES), _NOTCHES))
+            case Action("next"):
+                return self._gone_on(state)
+            case Action("raise", int() as further) if self.stage != "runs":
+                known = tracks()
+                place = known.index(self.scene) if self.scene in known else 0
+                way = 1 if further > 0 else -1
+                return _begun(state, known[(place - way) % len(known)], self.level)
+            case Action("option", int() as level) if self.stage != "runs" and 0 <= level < LEVELS:
+                return _begun(state, self.scene, level + 1)
+        return state
+
+    def _turned(self, state: State, phase: float, notch: int) -> State:
+        """Return the state with the crank at a phase; the first turn starts the paper."""
+        if self.stage == "over":
+            return state
+        game = replace(self, stage="runs", notch=notch, phase=phase)
+        return replace(state, game=game, clock=state.clock.go(state.frame, phase, paused=True))
+
+    def _gone_on(self, state: State) -> State:
+        """Start the paper, stop the crank, or begin again."""
+        if self.stage == "over":
+            return _begun(state, self.scene, self.level)
+        return self._turned(state, state.phase, 0)
+
+    def aged(self, state: State) -> State:
+        """Let the paper scroll, and see whether the ram is between its lines; none of it below the help."""
+        if self.stage != "runs" or state.help:
+            return state
+        paper = self.paper + _PAPER[self.level - 1] + min(self.frames // _FASTER_EACH, _MOST)
+        way = 1 if state.scene.linkage.drive.speed > 0 else -1
+        phase = state.phase + way * self.notch * _NOTCH
+        track = self.track
+        off = track.share(state.scene, phase) - track.at(paper / 1e3)
+        within = abs(off) <= track.half_width
+        game = replace(
+            self,
+            frames=self.frames + 1,
+            paper=paper,
+            passed=self.passed + within * (paper - self.paper),
+            outside=self.outside + (not within),
+            phase=phase,
+            is_within=within,
+        )
+        state = replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+        if game.outside >= _SLACK or paper >= 1_000 * LENGTH:
+            return game._ended(state)
+        crossed = self.is_within and not within
+        return replace(with_effect(state, "sound", "wrong") if crossed else state, game=game)
+
+    def _ended(self, state: State) -> State:
+        """Return the state with the run over, its score handed on."""
+        kept = f"best=follow-{self.scene}.{self.level}:{self.passed // 1_000}"
+        state = with_effect(with_effect(state, "score", kept), "sound", "right" if self.is_best else "wrong")
+        return replace(state, game=replace(self, stage="over", notch=0))
+
+    @property
+    def is_best(self) -> bool:
+        """Whether it went further than before."""
+        return self.passed // 1_000 > self.best
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the paper before the ram, and the score beside it."""
+        left = 1.0 - self.outside / _SLACK
+        bars = (
+            ScoreBar("between the lines", f"{self.metres:.2f} m", self.passed / (1e3 * LENGTH)),
+            ScoreBar("slack", f"{max(_SLACK - self.outside, 0) / FRAMES_PER_SECOND:.1f} s", left),
+        )
+        choices = tuple(Choice(f"{n}", words) for n, words in enumerate(_WIDTHS, 1))
+        panel = GamePanel(
+            "Follow",
+            scores=(state.scene.title, *([f"best {self.best / 1e3:.2f} m"] * (self.best > 0))),
+            lines=() if self.stage == "runs" else ("Keep the ram between the two lines.",),
+            choices=() if self.stage == "runs" else choices,
+            bars=bars,
+            verdict=self._verdict if self.stage == "over" else "",
+            well=self.is_best,
+            lines_after=(state.scene.look_at,) if self.stage != "runs" and state.scene.look_at else (),
+            hint=_HINT if self.stage == "runs" else f"{_AGAIN[self.stage]}   ↑ ↓ another track   Esc out",
+            chosen=None if self.stage == "runs" else self.level - 1,
+        )
+        return replace(over, game=panel, lane=self._lane(state))
+
+    @property
+    def _verdict(self) -> str:
+        before = f"; the best was {self.best / 1e3:.2f} m" if self.best else ""
+        end = "to the end of the paper" if self.paper >= 1_000 * LENGTH else "then the slack was used up"
+        return f"{self.metres:.2f} m, {end}{before}"
+
+    def _lane(self, state: State) -> Lane:
+        """Return the two lines about the ram, in the unit that is shown."""
+        track, paper = self.track, self.paper / 1e3
+        first = int(paper - _BEHIND) // _EVERY * _EVERY
+        middle = tuple(
+            ((at - paper) / _AHEAD, track.at(at)) for at in range(first, int(paper) + _AHEAD + 1, _EVERY)
+        )
+        factor = _factor(state)
+        back, forward = ((factor * place[0], factor * place[1]) for place in (track.back, track.forward))
+        return Lane(back, forward, middle, track.half_width, self.is_within)
+
+
+_AGAIN = {"ready": "turn the crank: it starts", "over": "Enter again"}
+
+
+def _factor(state: State) -> float:
+    """Return how many of the units that are shown one of the scene's is."""
+    return in_unit(state.scene, state.look.unit).linkage.metre ** -1 * state.scene.linkage.metre
+
+
+def _begun(state: State, scene: str, level: int) -> State:
+    return with_effect(state, "begin", str(GameWords("follow", {}).having(scene=scene, level=level)))
+
+
+def read(words: GameWords) -> Follow:
+    """Return the run that words begin; BadInput where they do not."""
+    scene = words.text("scene", tracks()[0])
+    if scene not in tracks():
+        raise BadInput(f"follow: scene={shown(scene)} is no track; there are {', '.join(tracks())}")
+    stage = words.text("stage", "ready")
+    most = 10**9
+    return Follow(
+        scene,
+        words.whole("level", 1, 1, LEVELS),
+        "runs" if stage == "runs" else "over" if stage == "over" else "ready",
+        words.whole("frames", 0, 0, most),
+        words.whole("paper", 0, 0, most),
+        words.whole("passed", 0, 0, most),
+        words.whole("outside", 0, 0, most),
+        words.whole("notch", 0, -_NOTCHES, _NOTCHES),
+        _number(words.text("phase", "0.0")),
+        words.whole("best", 0, 0, most),
+    )
+
+
+def _number(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not abs(value) <= 1e9:
+        raise BadInput(f"follow: phase={shown(text)} is no angle in radians")
+    return value
