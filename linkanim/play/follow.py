@@ -9,7 +9,7 @@ from typing import Literal
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Lane, Overlay, ScoreBar
-from linkanim.play.track import LENGTH, LEVELS, Track, track_of, tracks
+from linkanim.play.track import LENGTH, LEVELS, RamTrack, track_of, tracks
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import FRAMES_PER_SECOND
@@ -38,7 +38,7 @@ _HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's
 
 
 @dataclass(frozen=True)
-class Follow:
+class FollowRun:
     """A run along a scene's track: how much paper has gone by, on how much of it the ram kept to its lines.
 
     `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames; `notch` is how fast the
@@ -75,7 +75,7 @@ class Follow:
         return True
 
     @property
-    def track(self) -> Track:
+    def track(self) -> RamTrack:
         """What the ram has to follow."""
         return track_of(self.scene, self.level)
 
@@ -212,14 +212,14 @@ def _begun(state: State, scene: str, level: int) -> State:
     return with_effect(state, "begin", str(GameWords("follow", {}).having(scene=scene, level=level)))
 
 
-def read(words: GameWords) -> Follow:
+def read(words: GameWords) -> FollowRun:
     """Return the run that words begin; BadInput where they do not."""
     scene = words.text("scene", tracks()[0])
     if scene not in tracks():
         raise BadInput(f"follow: scene={shown(scene)} is no track; there are {', '.join(tracks())}")
     stage = words.text("stage", "ready")
     most = 10**9
-    return Follow(
+    return FollowRun(
         scene,
         words.whole("level", 1, 1, LEVELS),
         "runs" if stage == "runs" else "over" if stage == "over" else "ready",

@@ -32,7 +32,7 @@ _SAMPLES = 1_440
 
 
 @dataclass(frozen=True)
-class Track:
+class RamTrack:
     """Where the ram of a scene has to be at each mm of the paper: 0 at its back dead centre, 1 forward.
 
     `phase` is that of the mechanism at its beginning. `back` and `forward` are the ram's places at its dead
@@ -73,7 +73,7 @@ def tracks() -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=2)
-def track_of(name: str, level: int) -> Track:
+def track_of(name: str, level: int) -> RamTrack:
     """Return a scene's track at a level, 1 to `LEVELS`; each is the same at all times."""
     scene = load(name)
     ram, ends = output_slider(scene.linkage), scene.info.dead_centres
@@ -87,7 +87,7 @@ def track_of(name: str, level: int) -> Track:
     random = Random(crc32(f"{name} {level}".encode()))
     places = _places(cycle, scene, random)
     joint = ram.slider
-    return Track(
+    return RamTrack(
         places,
         _HALF_WIDTHS[level - 1],
         0.0,

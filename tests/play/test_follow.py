@@ -17,9 +17,9 @@ from playing import SIZE, Player
 from linkanim.errors import BadInput
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.play.arcade import Arcade
-from linkanim.play.follow import Follow, read
+from linkanim.play.follow import FollowRun, read
 from linkanim.play.games import game_of
-from linkanim.play.track import LENGTH, LEVELS, Track, is_track, track_of, tracks
+from linkanim.play.track import LENGTH, LEVELS, RamTrack, is_track, track_of, tracks
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
@@ -37,12 +37,12 @@ def on(words: str) -> State:
     return advance(state, [Action("play", words)])
 
 
-def game(state: State) -> Follow:
-    assert isinstance(state.game, Follow)
+def game(state: State) -> FollowRun:
+    assert isinstance(state.game, FollowRun)
     return state.game
 
 
-def towards(track: Track, scene: Scene, place: float, phase: float) -> float:
+def towards(track: RamTrack, scene: Scene, place: float, phase: float) -> float:
     """Return the phase near by at which the ram is nearest to a place: what a steady hand does."""
     phases = phase + np.linspace(-1.2, 1.2, 241)
     low, high = track.limits
@@ -184,7 +184,7 @@ def test_it_is_played_by_mouse_keys_and_stick(player: Player) -> None:
     assert game(player.state).paper == paper  # it waits below the help
     player.press(pygame.K_ESCAPE)
     player.press(pygame.K_ESCAPE)
-    assert not isinstance(player.state.game, Follow)
+    assert not isinstance(player.state.game, FollowRun)
 
 
 def test_another_track_or_level_is_chosen_before_it_starts(player: Player) -> None:
