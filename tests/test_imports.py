@@ -82,7 +82,7 @@ THIRD_PARTIES = {
     "paper": {"numpy", "pygame", "fpdf"},
     "share": {"numpy"},
     "player": {"numpy", "pygame"},
-    "play": {"numpy"},
+    "play": {"numpy", "platformdirs"},
     "recorder": {"numpy", "imageio", "imageio_ffmpeg"},
     "bench": {"numpy", "mpmath", "pylinkage", "scipy", "matplotlib"},
     "cli": {"numpy", "tqdm"},

@@ -43,6 +43,8 @@ def play(parser: Parser) -> None:
         "--attract", action="store_true", help="walk through the scenes when no key is pressed for a minute"
     )
     parser.add_argument("--size", type=values.size, metavar="WxH", help="the window's, in pixels")
+    kept = "where best scores are kept (default: the user's data folder)"
+    parser.add_argument("--scores", type=Path, metavar="FILE.json", help=kept)
     _look(parser, "play")
 
 

@@ -12,7 +12,12 @@ from linkanim.player.state.state import Game
 from linkanim.units import shown
 
 GAMES: MappingProxyType[str, str] = MappingProxyType(
-    {"title": "linkanim.play.title", "follow": "linkanim.play.follow"}
+    {
+        "title": "linkanim.play.title",
+        "menu": "linkanim.play.menu",
+        "predict": "linkanim.play.predict",
+        "follow": "linkanim.play.follow",
+    }
 )
 """Where each kind lives, imported when it is first played: a module with `read(words)`."""
 

@@ -23,6 +23,9 @@ from linkanim.units import shown
 CLEAR = 0.02
 """Two values that differ by less of their range look alike; below as much a value is as good as zero."""
 
+_ADJECTIVES = frozenset({"upper", "lower", "left", "right", "large", "small", "short", "upright"})
+"""What bodies are called that is no noun."""
+
 
 class Wrong(NamedTuple):
     """A wrong answer, and the misconception that it comes from, to be read after "that is"."""
@@ -60,6 +63,7 @@ class QuizQuestion:
     the misconception that it comes from, empty for the right one; where answers are `places` (in the scene's
     unit, at the phase) or `curves` (values from −1 to 1 over one period), one of those. The look that `shows`
     the answer has arrows at the joints of `arrows`; the input runs on then, to the phase at which it `stops`.
+    While it is asked `names` of the look are shown that do not give the answer away.
     """
 
     kind: str
@@ -76,6 +80,7 @@ class QuizQuestion:
     shows: Look = field(default_factory=lambda: Look(names=1))
     arrows: tuple[str, ...] = ()
     stops: float | None = None
+    names: int = 1
 
     @property
     def asked(self) -> Asked:
@@ -122,8 +127,10 @@ class Puzzle:
     def name(self, body: Body) -> str:
         """Return what a body is called, with its number where the scene gives one."""
         called = self.scene.info.link_names[body.name]
+        if called in _ADJECTIVES:
+            return f"{called} link"
         if called == body.name:
-            return f"link {called}" if called.isdecimal() else called
+            return called if len(called) > 2 and called.islower() else f"link {called}"
         return f"{called} ({body.name})" if body.name.isdecimal() else called
 
     def share(self, kind: str, name: str) -> float:
@@ -151,6 +158,7 @@ class Puzzle:
         places: Mapping[str, Point] = MappingProxyType({}),
         curves: Mapping[str, tuple[float, ...]] = MappingProxyType({}),
         stops: float | None = None,
+        names: int = 1,
     ) -> QuizQuestion:
         """Return the question; its answers are shuffled, or `kept` in the order of the alphabet."""
         slips = {**dict(wrong), right: ""}
@@ -172,6 +180,7 @@ class Puzzle:
             shows,
             tuple(arrows),
             stops,
+            names,
         )
 
 

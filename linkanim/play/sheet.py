@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from html import escape
+from math import tau
 
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import embedded
@@ -17,7 +18,6 @@ _PRINTED = 12
 """So many of a curve's values stand in plain text."""
 LETTERS = "abcd"
 _SIZE = (480, 300)
-_LOOK = Look(hud=False, names=1)
 _STYLE = """
 body { font: 15px/1.45 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
        color: #1b1f23; margin: 2rem auto; max-width: 54rem; padding: 0 1rem; }
@@ -39,7 +39,8 @@ def pose_words(question: QuizQuestion) -> str:
     way = f", {speed_words(scene, drive.speed)}"
     if drive.coordinate.is_angle:
         way += " counterclockwise" if pose.coordinate_rate > 0 else " clockwise"
-    return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, pose.coordinate)}{way}"
+    at = pose.coordinate % tau if scene.info.full_turn else pose.coordinate
+    return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, at)}{way}"
 
 
 def as_text(round_: Sequence[QuizQuestion]) -> str:
@@ -64,7 +65,9 @@ def as_html(round_: Sequence[QuizQuestion], title: str) -> str:
 
 def _sections(round_: Sequence[QuizQuestion]) -> Iterator[str]:
     for number, question in enumerate(round_, 1):
-        drawn = Figured(question.scene, _SIZE, _LOOK, question.phase).document()
+        drawn = Figured(
+            question.scene, _SIZE, Look(hud=False, names=question.names), question.phase
+        ).document()
         words = pose_words(question)
         curves = question.curves or [()] * len(question.answers)
         pairs = zip(question.answers, curves, strict=True)

@@ -88,6 +88,8 @@ def _parts(board: Board, panel: GamePanel, size: int) -> Iterator[_PanelPart]:
         yield _scores(board, panel.scores, size)
     for line in panel.lines:
         yield _words(board, [line], size, ink)
+    if panel.aside:
+        yield _words(board, [panel.aside], max(round(0.85 * size), _LEAST), dim, left=size)
     for n, choice in enumerate(panel.choices):
         yield _answer(board, panel, n, choice, size)
     for bar in panel.bars:
@@ -100,7 +102,7 @@ def _parts(board: Board, panel: GamePanel, size: int) -> Iterator[_PanelPart]:
     for line in panel.lines_after:
         yield _words(board, [line], size, ink)
     if panel.hint:
-        yield _words(board, [panel.hint], max(round(0.85 * size), _LEAST), dim, gap="   ")
+        yield _words(board, [panel.hint], max(round(0.85 * size), _LEAST), dim, left=size, gap="   ")
 
 
 def _words(
@@ -109,11 +111,12 @@ def _words(
     size: int,
     colour: Colour,
     *,
+    left: float | None = None,
     strong: bool = False,
     gap: str = " ",
 ) -> _PanelPart:
-    """Return words in lines, as wide as the panel."""
-    left = _LEFT * min(size, board.layout.text_size)
+    """Return words in lines, as wide as the panel; `left` is their place where the size does not say it."""
+    left = _LEFT * (min(size, board.layout.text_size) if left is None else left)
     room = board.layout.lists.width - 2 * left
     lines = [line for text in texts for line in board.type.wrapped(text, size, 0.97 * room, gap=gap)]
 

@@ -174,13 +174,15 @@ class Spot(NamedTuple):
 class GamePanel:
     """What a game shows in the room of a list: from its heading down to what there is to press.
 
-    A title's heading is `large`. `chosen` is the answer that Enter takes, the mouse is over `pointed`.
-    `verdict` says what has come of an answer, well or not, `lines_after` why. A `subject` stands over them.
+    A title's heading is `large`; what stands `aside` below the lines is dim. `chosen` is the answer that
+    Enter takes, the mouse is over `pointed`. `verdict` says what has come of an answer, well or not,
+    `lines_after` why. A `subject` stands over them.
     """
 
     heading: str
     scores: tuple[str, ...] = ()
     lines: tuple[str, ...] = ()
+    aside: str = ""
     choices: tuple[Choice, ...] = ()
     bars: tuple[ScoreBar, ...] = ()
     verdict: str = ""

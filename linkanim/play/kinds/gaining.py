@@ -108,6 +108,7 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
             f"How large is the force of the {known.strut_words(item)} in the same place?",
             factor,
             f"It goes with {power}: {number(value)} N becomes {number(factor * value)} N.",
+            Look(names=1, chart=f"{item.name}.force"),
         )
     names = [name for name in puzzle.joints if puzzle.share("acceleration", name) > PLAIN]
     if not names:
@@ -123,7 +124,9 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
     )
 
 
-def _growing(puzzle: Puzzle, kind: str, subject: str, text: str, factor: int, why: str) -> QuizQuestion:
+def _growing(
+    puzzle: Puzzle, kind: str, subject: str, text: str, factor: int, why: str, shows: Look = _BOTH
+) -> QuizQuestion:
     """Return a question on what a doubled speed does."""
     return puzzle.question(
         kind,
@@ -132,7 +135,7 @@ def _growing(puzzle: Puzzle, kind: str, subject: str, text: str, factor: int, wh
         _FACTORS[factor],
         [Wrong(words, f"what {_GOES_WITH[one]} does") for one, words in _FACTORS.items() if one != factor],
         why,
-        shows=_BOTH,
+        shows=shows,
         arrows=[name for name in [subject.partition(".")[0]] if name in puzzle.pose.position],
     )
 

@@ -48,6 +48,7 @@ def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
         f"Its velocity is zero at {' and '.join(map(angle, exact))}; where that is greatest it runs on.",
         shows=Look(names=1, chart=f"{name}.{kind}"),
         stops=exact[right],
+        names=0,  # named, a guide has its dead centres
     )
 
 

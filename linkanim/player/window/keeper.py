@@ -16,5 +16,8 @@ class GameKeeper(Protocol):
     def completed(self, words: str) -> str:
         """Return a game's words with what only the outside knows: a seed, best scores, what was missed."""
 
-    def keep(self, words: str) -> str | None:
-        """Keep what a game leaves, and return what is to be said of it; WorkFailed where the disk refuses."""
+    def keep(self, words: str) -> None:
+        """Keep what a game leaves; what cannot be kept is news."""
+
+    def news(self) -> list[str]:
+        """Return what there is to say of what is kept, once."""

@@ -14,6 +14,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from linkanim.picture.look import Look
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import carried
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
@@ -37,13 +39,15 @@ def run(
 ) -> int:
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
-    Without a scene it opens on the catalogue's first. `keeper` has the games. With `attract` it walks
+    Without a scene it opens on the title, where a `keeper` has games. With `attract` it walks
     through the catalogue when left alone for a minute. NoDisplay where there is no screen, or none any more;
     BadInput as loading raises it. Whatever ends the window, a recording that runs is finished.
     """
     tape = _tape(scene, keeper)
     state = tape.begun if tape else begin(scene, look=look)
     state = replace(state, games=keeper.game_of if keeper else None)
+    if scene is None and keeper:
+        state = carried(state, Action("play", keeper.completed("title")))
     with display.opened(size) as connection:
         window = Window(replace(state, attract=attract), tape, None if tape else _file(scene), keeper)
         gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame

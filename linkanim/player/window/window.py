@@ -258,6 +258,7 @@ class Window:
     def _news(self) -> tuple[Action, ...]:
         """Return, as notes, what was done outside, and how far recordings are."""
         notes, self._notes = self._notes, []
+        notes += self._keeper.news() if self._keeper else []
         if self._file and self.state.frame % FRAMES_PER_SECOND == 0:
             notes += self._file.news()
         if self._renderings and self.state.frame % _NEWS_EVERY == 0:
@@ -297,7 +298,7 @@ class Window:
             case "begin" if self._keeper:
                 self._begun = self._keeper.completed(str(effect.value))
             case "score" if self._keeper:
-                self._notes += filter(None, [self._keeper.keep(str(effect.value))])
+                self._keeper.keep(str(effect.value))
             case "fullscreen":
                 self._windowed = display.fill(self._windowed)
             case "quit":

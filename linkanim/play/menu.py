@@ -1,0 +1,120 @@
+"""What there is to play: rounds by chapter and level, with the best scores."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+from linkanim.errors import BadInput
+from linkanim.picture.look import Look
+from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
+from linkanim.play.chapters import ALL, members, titled
+from linkanim.play.kinds.table import LEVELS
+from linkanim.play.words import GameWords
+from linkanim.player.state.action import Action
+from linkanim.player.state.state import State, with_effect
+from linkanim.scenes import chapters
+from linkanim.units import shown
+
+_ABOUT = MappingProxyType(
+    {1: "which way, how fast, how far", 2: "dead centres, closures, curves", 3: "instant centres and forces"}
+)
+
+
+@dataclass(frozen=True)
+class Menu:
+    """The choice of a round: the chapter that Enter takes, the level, and the best score of each."""
+
+    chapter: str
+    level: int
+    best: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def words(self) -> str:
+        """What begins it again."""
+        words = GameWords("menu", {}).having(chapter=self.chapter, level=self.level)
+        best = ",".join(f"{name}:{score}" for name, score in self.best)
+        return str(words.having(best=best) if best else words)
+
+    @property
+    def listed(self) -> bool:
+        """It stands beside the scene."""
+        return True
+
+    @property
+    def covers(self) -> bool:
+        """Esc goes back to the title."""
+        return True
+
+    def entered(self, state: State) -> State:
+        """Let what is on run behind it."""
+        clock = state.clock.pause(state.frame, False)
+        return replace(state, look=Look(hud=False, theme=state.look.theme), clock=clock)
+
+    def aged(self, state: State) -> State:
+        """Return the state as it is: time does nothing here."""
+        return state
+
+    def carried(self, state: State, action: Action) -> State:
+        """Choose a chapter or a level, begin a round, or go back to the title."""
+        rows = _rows()
+        if action.name == "back":
+            return with_effect(state, "begin", "title")
+        if action.name == "turn" and isinstance(action.value, int):
+            level = min(max(self.level + (1 if action.value > 0 else -1), LEVELS[0]), LEVELS[-1])
+            return replace(state, game=replace(self, level=level))
+        if action.name == "raise" and isinstance(action.value, int):
+            further = -1 if action.value > 0 else 1
+            at = (rows.index(self.chapter) + further) % len(rows)
+            return replace(state, game=replace(self, chapter=rows[at]))
+        if (action.name, action.value) == ("option", len(rows)):
+            return replace(state, game=replace(self, level=self.level % LEVELS[-1] + 1))
+        if action.name == "option" and isinstance(action.value, int):
+            return _begun(state, rows[action.value], self.level) if 0 <= action.value < len(rows) else state
+        return _begun(state, self.chapter, self.level) if action.name == "next" else state
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the chapters."""
+        best = dict(self.best)
+        choices = tuple(
+            Choice(
+                f"{n}", titled(chapter), below=_best(best.get(f"{chapter.replace(' ', '_')}.{self.level}"))
+            )
+            for n, chapter in enumerate(_rows(), 1)
+        )
+        level = Choice(f"{len(choices) + 1}", f"Level {self.level}", below=_ABOUT[self.level])
+        panel = GamePanel(
+            "Predict",
+            lines=("Ten questions, before it moves.",),
+            choices=(*choices, level),
+            hint="Enter begins   ↑ ↓ chapter   ← → level   Esc goes back",
+            chosen=_rows().index(self.chapter),
+        )
+        return replace(over, game=panel)
+
+
+def _rows() -> tuple[str, ...]:
+    return (ALL, *chapters())
+
+
+def _best(score: int | None) -> str:
+    return "" if score is None else f"best {score}"
+
+
+def _begun(state: State, chapter: str, level: int) -> State:
+    return with_effect(state, "begin", str(GameWords("predict", {}).having(chapter=chapter, level=level)))
+
+
+def read(words: GameWords) -> Menu:
+    """Return the menu that words begin; BadInput where they do not."""
+    chapter = words.text("chapter", ALL)
+    members(chapter)
+    best = tuple(_scored(text) for text in words.fields.get("best", "").split(",") if text)
+    return Menu(chapter, words.whole("level", 1, LEVELS[0], LEVELS[-1]), best)
+
+
+def _scored(text: str) -> tuple[str, int]:
+    name, _, score = text.rpartition(":")
+    if not score.isdecimal():
+        raise BadInput(f"{shown(text)} is no score; one is four-bars.1:1200")
+    return name, int(score)

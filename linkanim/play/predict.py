@@ -1,0 +1,299 @@
+"""Predict: the mechanism stands still, a question is asked, then it runs and shows the answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from linkanim.errors import BadInput
+from linkanim.picture.look import Look
+from linkanim.picture.panels.overlay import Choice, GamePanel, Mood, Overlay, Spot
+from linkanim.play.chapters import ALL, members, titled
+from linkanim.play.kinds.table import LEVELS, of_level
+from linkanim.play.question import Asked, QuizQuestion
+from linkanim.play.round import next_question, question_of
+from linkanim.play.sheet import pose_words
+from linkanim.play.words import GameWords
+from linkanim.player.state.action import Action
+from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.handlers.games import with_scene
+from linkanim.player.state.state import State, with_effect
+from linkanim.scenes import load
+from linkanim.units import shown
+
+COUNT = 10
+"""Questions of a round, before those that were missed come again."""
+POINTS, BONUS, STREAK, SECOND = 100, 50, 10, 40
+"""For a right answer, at most for its speed, for each right one before it, for one that came again."""
+QUICK = 20 * FRAMES_PER_SECOND
+"""Within this time an answer earns a part of the bonus."""
+_LONGEST_STREAK = 5
+_HOLD = 75
+"""So many frames the answer stands at the question's pose before the input runs on."""
+_SLOW = -4
+"""How slowly it runs then, in rungs of the clock's ladder."""
+_BARE = Look(hud=False, trace=False)
+
+
+class Answered(NamedTuple):
+    """A question that was answered: whether right, and after how many frames."""
+
+    asked: Asked
+    right: bool
+    frames: int
+
+    def __str__(self) -> str:
+        return f"{self.asked}:{int(self.right)}:{self.frames}"
+
+
+@dataclass(frozen=True)
+class Predict:
+    """A round: of a chapter's scenes, at a level; questions that were missed before come first, as `again`.
+
+    `question` is the one that is asked since frame `since`, None at the end; `chosen` the answer taken.
+    """
+
+    chapter: str
+    level: int
+    seed: int
+    again: tuple[Asked, ...] = ()
+    done: tuple[Answered, ...] = ()
+    question: QuizQuestion | None = None
+    since: int = 0
+    chosen: int | None = None
+
+    @property
+    def words(self) -> str:
+        """What begins it again as it is; a question that is asked begins anew."""
+        done = self.done if self.chosen is None else self.done[:-1]
+        words = GameWords("predict", {}).having(chapter=self.chapter, level=self.level, seed=self.seed)
+        lists = {"again": self.again, "done": done}
+        return str(
+            words.having(**{name: ",".join(map(str, found)) for name, found in lists.items() if found})
+        )
+
+    @property
+    def listed(self) -> bool:
+        """The question stands beside the scene."""
+        return True
+
+    @property
+    def covers(self) -> bool:
+        """Esc goes back to the choice of rounds."""
+        return True
+
+    @property
+    def missed(self) -> tuple[Asked, ...]:
+        """What of the first pass was not answered right: it comes again."""
+        return tuple(one.asked for one in self.done[:COUNT] if not one.right)
+
+    @property
+    def score(self) -> int:
+        """The points of all that was answered."""
+        return sum(points(self.level, self.done, n) for n in range(len(self.done)))
+
+    @property
+    def streak(self) -> int:
+        """How many were right in a row, up to the last."""
+        return _streak(self.done)
+
+    @property
+    def seconds(self) -> float:
+        """The time that all answers took."""
+        return sum(one.frames for one in self.done) / FRAMES_PER_SECOND
+
+    @property
+    def is_over(self) -> bool:
+        """Whether all was asked."""
+        return len(self.done) >= COUNT + len(self.missed)
+
+    def entered(self, state: State) -> State:
+        """Ask the next question, or say at the end how it went."""
+        if self.is_over:
+            return replace(state, game=replace(self, question=None, chosen=None, since=state.frame))
+        question = self._next()
+        scene = replace(question.scene, trace=question.arrows or question.scene.trace)
+        state = replace(state, look=replace(_BARE, names=question.names, theme=state.look.theme))
+        state = with_scene(state, scene, question.phase, paused=True)
+        return replace(state, game=replace(self, question=question, chosen=None, since=state.frame))
+
+    def _next(self) -> QuizQuestion:
+        """Return the question that is due: one of an earlier round, a new one, or one that was missed."""
+        number = len(self.done)
+        if number < len(self.again[:COUNT]):
+            return question_of(self.again[number])
+        if number >= COUNT:
+            return question_of(self.missed[number - COUNT])
+        scenes = members(self.chapter)
+        scene = load(scenes[(self.seed + 7 * number) % len(scenes)])
+        before = [*self.again, *(one.asked for one in self.done)]
+        return next_question(scene, f"{self.seed} {number}", before, of_level(self.level))
+
+    def carried(self, state: State, action: Action) -> State:
+        """Take an answer, go on to the next question, or out."""
+        if action.name == "back":
+            return with_effect(state, "begin", str(self._menu))
+        if self.question is None:
+            return self._ended(state, action)
+        if action.name == "option" and isinstance(action.value, int):
+            return self._answered(state, self.question, action.value) if self.chosen is None else state
+        if action.name == "next" and self.chosen is not None:
+            return self.entered(state)
+        return state
+
+    @property
+    def _menu(self) -> GameWords:
+        return GameWords("menu", {}).having(chapter=self.chapter, level=self.level)
+
+    def _answered(self, state: State, question: QuizQuestion, chosen: int) -> State:
+        """Take an answer: the arrows come on, and after a while the input runs."""
+        if not 0 <= chosen < len(question.answers):
+            return state
+        right = chosen == question.right
+        done = (*self.done, Answered(question.asked, right, state.frame - self.since))
+        look = replace(question.shows, hud=False, trace=False, theme=state.look.theme)
+        look = replace(look, zoom=state.look.zoom, pan=state.look.pan)
+        state = replace(state, look=look, game=replace(self, done=done, chosen=chosen, since=state.frame))
+        state = with_effect(state, "sound", "right" if right else "wrong")
+        state = with_effect(state, "score", f"{'met' if right else 'missed'}={question.asked}")
+        over = replace(self, done=done)
+        if over.is_over:
+            best = f"best={self.chapter.replace(' ', '_')}.{self.level}:{over.score}"
+            state = with_effect(state, "score", best)
+        return state
+
+    def _ended(self, state: State, action: Action) -> State:
+        """Go on from the end: the same again, or another choice."""
+        if action.name == "next" or (action.name, action.value) == ("option", 0):
+            return with_effect(state, "begin", str(self._menu._replace(kind="predict")))
+        if (action.name, action.value) == ("option", 1):
+            return with_effect(state, "begin", str(self._menu))
+        return state
+
+    def aged(self, state: State) -> State:
+        """Let the input run on when the answer has stood for a while, up to where it is to stop."""
+        if self.question is None or self.chosen is None:
+            return state
+        stops, clock = self.question.stops, state.clock
+        if state.frame == self.since + _HOLD and stops != self.question.phase:
+            slow = (
+                clock
+                if self.question.shows.chart or self.question.shows.ghost
+                else clock.faster(state.frame, _SLOW)
+            )
+            return replace(state, clock=slow.pause(state.frame, False))
+        if stops is None or clock.paused or stops == self.question.phase:
+            return state
+        ahead = (stops - state.phase) * (1 if clock.speed > 0 else -1) % state.scene.period
+        if ahead <= abs(clock.speed) / FRAMES_PER_SECOND:
+            return replace(state, clock=clock.go(state.frame, stops, paused=True))
+        return state
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the question, or with what came of it."""
+        if self.question is None:
+            return replace(over, game=self._end_panel())
+        question = self.question
+        moods = tuple(self._mood(n) for n in range(len(question.answers)))
+        words = [
+            f"at {n}" if question.places and question.kind != "fastest" else text
+            for n, text in enumerate(question.answers, 1)
+        ]
+        curves = question.curves or ((),) * len(words)
+        choices = tuple(
+            Choice(f"{n}", text, mood, curve=curve)
+            for n, (text, mood, curve) in enumerate(zip(words, moods, curves, strict=True), 1)
+        )
+        asked = self.chosen is None
+        panel = GamePanel(
+            titled(self.chapter),
+            scores=self._scores(),
+            lines=(question.text,),
+            aside=pose_words(question),
+            choices=choices,
+            hint="1–4 or a click answers   Esc leaves" if asked else "Enter goes on   Esc leaves",
+        )
+        if not asked:
+            panel = self._verdict(panel, question)
+        still = asked or state.frame < self.since + _HOLD or state.clock.paused
+        marks = zip(question.places, moods, strict=True) if question.places and still else ()
+        spots = tuple(Spot(f"{n}", at, mood) for n, (at, mood) in enumerate(marks, 1))
+        return replace(over, game=panel, spots=spots)
+
+    def _mood(self, n: int) -> Mood:
+        assert self.question
+        if self.chosen is None:
+            return ""
+        return "right" if n == self.question.right else "wrong" if n == self.chosen else "faint"
+
+    def _scores(self) -> tuple[str, ...]:
+        number = len(self.done) + (self.chosen is None)
+        place = f"{number} / {COUNT}" if number <= COUNT else f"again {number - COUNT} / {len(self.missed)}"
+        return place, f"{self.streak} in a row", f"{self.score} points"
+
+    def _verdict(self, panel: GamePanel, question: QuizQuestion) -> GamePanel:
+        assert self.chosen is not None
+        well = self.chosen == question.right
+        gained = points(self.level, self.done, len(self.done) - 1)
+        slip = question.slips[self.chosen]
+        verdict = f"Right: {gained} points" if well else f"No: that is {slip}."
+        return replace(panel, verdict=verdict, well=well, lines_after=(question.why,))
+
+    def _end_panel(self) -> GamePanel:
+        first = self.done[:COUNT]
+        right = sum(one.right for one in first)
+        longest = max((_streak(self.done[:n]) for n in range(len(self.done) + 1)), default=0)
+        return GamePanel(
+            f"{self.score} points",
+            scores=(titled(self.chapter), f"level {self.level}"),
+            lines=(
+                f"{right} of {len(first)} right at first, {longest} in a row at best.",
+                f"{self.seconds:.0f} s for all answers.",
+            ),
+            choices=(
+                Choice("1", "Another round", below="what was missed comes first"),
+                Choice("2", "Another chapter or level"),
+            ),
+            hint="Enter: another round   Esc: other rounds",
+            large=True,
+            chosen=0,
+        )
+
+
+def _streak(done: tuple[Answered, ...]) -> int:
+    """Return how many of the last were right."""
+    wrong = [n for n, one in enumerate(done) if not one.right]
+    return len(done) - 1 - wrong[-1] if wrong else len(done)
+
+
+def points(level: int, done: tuple[Answered, ...], n: int) -> int:
+    """Return what the answer numbered `n` earned."""
+    one = done[n]
+    if not one.right:
+        return 0
+    if n >= COUNT:
+        return SECOND * level
+    quick = BONUS * max(QUICK - one.frames, 0) // QUICK
+    return (POINTS + quick) * level + STREAK * min(_streak(done[:n]), _LONGEST_STREAK)
+
+
+def read(words: GameWords) -> Predict:
+    """Return the round that words begin; BadInput where they do not."""
+    chapter = words.text("chapter", ALL)
+    members(chapter)
+    again = tuple(Asked.of(text) for text in words.fields.get("again", "").split(",") if text)
+    done = tuple(_answered(text) for text in words.fields.get("done", "").split(",") if text)
+    return Predict(
+        chapter,
+        words.whole("level", 1, LEVELS[0], LEVELS[-1]),
+        words.whole("seed", 0, 0, 10**9),
+        again,
+        done,
+    )
+
+
+def _answered(text: str) -> Answered:
+    asked, *marks = text.rsplit(":", 2)
+    if len(marks) != 2 or marks[0] not in ("0", "1") or not marks[1].isdecimal():
+        raise BadInput(f"{shown(text)} is no answer; one is QUESTION:0 or 1:FRAMES")
+    return Answered(Asked.of(asked), marks[0] == "1", int(marks[1]))

@@ -1,0 +1,235 @@
+"""Predict in the window: keys and clicks, what is shown, and the same score from a tape."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import dist
+from pathlib import Path
+from random import Random
+
+import pygame
+import pytest
+from playing import SIZE, Player
+
+from linkanim.errors import BadInput
+from linkanim.play.arcade import Arcade
+from linkanim.play.games import game_of
+from linkanim.play.kinds.table import KINDS
+from linkanim.play.menu import Menu
+from linkanim.play.predict import COUNT, QUICK, Answered, Predict, points
+from linkanim.play.question import Asked
+from linkanim.play.scores import load as load_scores
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance, carried
+from linkanim.player.state.state import State, begin
+from linkanim.player.tape.tape import Tape, Taping, resumed, starting
+from linkanim.player.tape.tape_file import read, write
+from linkanim.player.window import display
+from linkanim.scenes import chapters, load
+
+BEGUN = "predict chapter=four-bars level=1 seed=7"
+FASTEST = "fastest@press@0.2105@velocity"
+CENTRE = "instant_centre@crank-rocker@4.6593@coupler"
+TURNS_BACK = "dead_centre@slider-crank@6.075@slider"
+
+
+def playing(words: str) -> State:
+    state = replace(begin(load("press")), games=game_of)
+    return carried(state, Action("play", words))
+
+
+def round_of(state: State) -> Predict:
+    assert isinstance(state.game, Predict)
+    return state.game
+
+
+def right_of(state: State) -> int:
+    question = round_of(state).question
+    assert question
+    return question.right
+
+
+def answered(state: State, *, well: bool) -> State:
+    """Answer a question and go on to the next."""
+    right = right_of(state)
+    state = advance(state, [Action("option", right if well else (right + 1) % 2)])
+    return advance(state, [Action("next")])
+
+
+@pytest.fixture
+def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
+    """A window on the title, scores in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    arcade = Arcade(tmp_path / "scores.json", Random(3))
+    with display.opened(SIZE):
+        state = replace(begin(load("press")), games=game_of)
+        player = Player(carried(state, Action("play", arcade.completed("title"))), keeper=arcade)
+        yield player
+        player.window.close()
+
+
+def test_from_the_title_enter_alone_begins_a_round_and_a_key_answers(player: Player, tmp_path: Path) -> None:
+    for _ in range(2):
+        player.press(pygame.K_RETURN)
+        player.tick()
+    game = round_of(player.state)
+    assert game.question
+    assert player.state.clock.paused
+    asked = player.pixels
+    player.press(pygame.K_1 + game.question.right)
+    assert round_of(player.state).score > 0
+    assert player.state.look.vectors == game.question.shows.vectors
+    assert player.pixels != asked
+    before = player.state.phase
+    player.tick(100)
+    assert player.state.phase != before
+    player.press(pygame.K_RETURN)
+    assert round_of(player.state).chosen is None
+    assert load_scores(tmp_path / "scores.json").door == "play"
+
+
+def test_what_is_missed_is_kept_and_comes_first_the_next_time(player: Player, tmp_path: Path) -> None:
+    player.window.state = playing(BEGUN)
+    player.tick()
+    player.press(pygame.K_1 + (right_of(player.state) + 1) % 2)
+    player.tick()
+    missed = load_scores(tmp_path / "scores.json").missed
+    assert missed == (round_of(player.state).done[0].asked,)
+    words = Arcade(tmp_path / "scores.json").completed("predict chapter=four-bars level=1")
+    state = playing(words)
+    assert round_of(state).question == round_of(playing(BEGUN)).question
+    player.window.state = state
+    player.tick()
+    player.press(pygame.K_1 + right_of(state))
+    player.tick()
+    assert load_scores(tmp_path / "scores.json").missed == ()
+
+
+def test_the_menu_chooses_chapter_and_level_and_shows_best_scores(player: Player, tmp_path: Path) -> None:
+    Arcade(tmp_path / "scores.json").keep("best=four-bars.2:321")
+    player.press(pygame.K_RETURN)
+    player.tick()
+    game = player.state.game
+    assert isinstance(game, Menu)
+    assert dict(game.best) == {"four-bars.2": 321}
+    player.press(pygame.K_RIGHT)
+    player.press(pygame.K_DOWN)
+    player.press(pygame.K_RETURN)
+    player.tick()
+    assert (round_of(player.state).chapter, round_of(player.state).level) == ("four-bars", 2)
+    player.press(pygame.K_ESCAPE)
+    player.tick()
+    assert isinstance(player.state.game, Menu)
+    player.press(pygame.K_ESCAPE)
+    player.tick()
+    assert player.state.game
+    assert player.state.game.words.startswith("title")
+
+
+@pytest.mark.parametrize("token", [FASTEST, CENTRE])
+def test_a_click_on_a_spot_in_the_picture_answers(player: Player, token: str) -> None:
+    player.window.state = playing(f"predict chapter=all level=3 again={token}")
+    player.tick(20)
+    question = round_of(player.state).question
+    assert question
+    place = player.window.screen.pixel(*question.places[question.right])
+    assert min(dist(place, player.window.screen.pixel(*one)) for one in question.places) == 0
+    player.mouse(pygame.MOUSEBUTTONDOWN, place, button=1)
+    assert round_of(player.state).done[-1].right
+
+
+def test_the_input_runs_to_the_dead_centre_and_stands_there() -> None:
+    state = playing(f"predict chapter=sliders level=2 again={TURNS_BACK}")
+    question = round_of(state).question
+    assert question
+    assert state.look.names == 0
+    state = advance(state, [Action("option", question.right)])
+    for _ in range(400):
+        state = advance(state)
+    assert state.clock.paused
+    assert state.phase == question.stops
+    assert abs(state.scene.pose(state.phase).travel_velocity["slider"]) < 1e-6
+
+
+def test_keys_that_would_show_the_answer_do_nothing() -> None:
+    state = playing(BEGUN)
+    same = state
+    for name, value in (("vectors", "v"), ("step", 10), ("scrub", 1.0), ("chart", 1), ("centres", None)):
+        same = carried(same, Action(name, value))
+    assert (same.look, same.phase, same.game) == (state.look, state.phase, state.game)
+
+
+def test_a_round_asks_ten_and_then_what_was_missed() -> None:
+    state = playing(BEGUN)
+    for n in range(COUNT):
+        state = answered(state, well=n not in (2, 5))
+    game = round_of(state)
+    assert game.question
+    assert game.question.asked == game.done[2].asked == game.missed[0]
+    state = answered(answered(state, well=True), well=False)
+    assert round_of(state).is_over
+    assert round_of(state).question is None
+    assert len({one.asked for one in round_of(state).done}) == COUNT
+    assert {one.asked.scene for one in round_of(state).done} <= {*chapters()["four-bars"]}
+
+
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_a_level_asks_its_own_kinds(level: int) -> None:
+    state = playing(f"predict chapter=four-bars level={level} seed=1")
+    for _ in range(5):
+        state = answered(state, well=True)
+    assert all(level in KINDS[one.asked.kind].levels for one in round_of(state).done)
+
+
+# So many frames, so much before: what an answer earns.
+EARNED = {
+    "at once": (1, [Answered(Asked("a", "b", 0.0, "c"), True, 0)], 150),
+    "late": (1, [Answered(Asked("a", "b", 0.0, "c"), True, QUICK)], 100),
+    "at level three": (3, [Answered(Asked("a", "b", 0.0, "c"), True, QUICK)], 300),
+    "wrong": (1, [Answered(Asked("a", "b", 0.0, "c"), False, 0)], 0),
+    "third in a row": (1, [Answered(Asked("a", "b", 0.0, "c"), True, QUICK)] * 3, 120),
+    "again": (2, [Answered(Asked("a", "b", 0.0, "c"), True, 0)] * (COUNT + 1), 80),
+}
+
+
+@pytest.mark.parametrize(("level", "done", "expected"), EARNED.values(), ids=EARNED)
+def test_an_answer_earns(level: int, done: list[Answered], expected: int) -> None:
+    assert points(level, tuple(done), len(done) - 1) == expected
+
+
+def test_a_tape_of_a_round_has_its_score_and_one_begun_in_its_midst_goes_on(tmp_path: Path) -> None:
+    state = replace(begin(load("press")), games=game_of)
+    taping = Taping(state, SIZE)
+    script = {3: Action("play", BEGUN), 40: Action("option", 0), 50: Action("next"), 90: Action("option", 1)}
+    script |= {99: Action("next"), 130: Action("option", 0)}
+    for frame in range(1, 160):
+        done = (script[frame],) if frame in script else ()
+        state = advance(state, done)
+        taping.note(frame, done)
+        if frame == 100:
+            midway = Tape(starting(state), 40, tuple((0, one) for one in resumed(state)))
+    assert round_of(state).score > 0
+    path = tmp_path / "round.tape.json"
+    write(taping.tape(159), path)
+    *_, last = read(path, game_of).states()
+    assert (round_of(last).score, round_of(last).done) == (round_of(state).score, round_of(state).done)
+    *_, again = midway.states()
+    assert round_of(again).done == round_of(state).done[:2]
+    assert round_of(again).question == round_of(state).question
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "predict chapter=no-such",
+        "predict level=4",
+        "predict again=x",
+        "predict done=turning@press@1@2",
+        "predict done=turning@press@1@2:2:0",
+        "menu best=x",
+    ],
+)
+def test_words_that_make_no_round_are_refused(words: str) -> None:
+    with pytest.raises(BadInput):
+        game_of(words)
