@@ -9,7 +9,7 @@ from typing import Any
 
 from linkanim.build.building import Building, changed, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
-from linkanim.build.places import fitted, with_number
+from linkanim.build.places import crank_of, fitted, with_number
 from linkanim.build.rounding import round_number
 from linkanim.errors import BadInput
 from linkanim.scenes.editing.edit import Dimension, dimension_of, written
@@ -97,6 +97,14 @@ def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
             yield from _fields(draft, DRIVE)
     elif kind in _FORMS and name in draft.of(kind):
         yield from _of_form(_FORMS[kind], draft.of(kind)[name], thing)
+        if kind == "bars" and _is_crank(draft, name):
+            yield from reversed(list(_fields(draft, DRIVE)))
+
+
+def _is_crank(draft: Draft, name: str) -> bool:
+    """Tell whether a bar is the crank that is driven."""
+    driven = draft.driven
+    return driven is not None and {driven, crank_of(draft, driven)} == set(draft.of("bars")[name]["joints"])
 
 
 def _of_form(form: Form, table: Mapping[str, Any], key: Key) -> Iterator[tuple[Key, Field]]:
@@ -110,11 +118,10 @@ def _of_form(form: Form, table: Mapping[str, Any], key: Key) -> Iterator[tuple[K
 
 
 def _of_pin(draft: Draft, name: str) -> Iterator[tuple[Key, Field]]:
-    """Yield what may be typed of a fixed pin: x and y, or distance and direction, as it is written first."""
+    """Yield what may be typed of a fixed pin: x and y, or its distance and direction from the origin."""
     plain: list[tuple[Key, Field]] = [(("pins", name, part), forms.PLACE) for part in (0, 1)]
     polar: list[tuple[Key, Field]] = [(("pins", name, one.key), one) for one in forms.POLAR_PIN.fields]
-    first = isinstance(draft.of("pins")[name], Mapping)
-    yield from [*polar, *plain] if first else [*plain, *polar]
+    yield from [*plain, *polar]
 
 
 def _dimension(draft: Draft, key: Key, one: Field) -> Dimension:

@@ -199,16 +199,16 @@ def _with_joint(draft: Draft, end: Thing | None, x: float, y: float, snap: float
 
 
 def _with_bar(draft: Draft, start: str, end: str, snap: float) -> Draft:
-    """Return the draft with a bar between two joints, its body, and the drive where it is the first crank."""
+    """Return the draft with a bar, from its ground pin if any, its body, and the first one's drive."""
+    if end in draft.of("pins"):
+        start, end = end, start
     way = place_of(draft, end) - place_of(draft, start)
     name = f"{start}–{end}"
     draft = draft.having("bars", name, {"joints": [start, end], "length": round_length(abs(way), snap)})
     draft = draft.having("bodies", body_name(draft), {"joints": [start, end]})
-    pins = [joint for joint in (start, end) if joint in draft.of("pins")]
-    if draft.drive or not pins:
+    if draft.drive or start not in draft.of("pins"):
         return draft
-    moving = end if pins == [start] else start
-    return draft.having(*DRIVE, crank_drive(draft, pins[0], moving, snap))
+    return draft.having(*DRIVE, crank_drive(draft, start, end, snap))
 
 
 def _with_slider(draft: Draft, joint: str, name: str) -> Draft:

@@ -2,38 +2,132 @@
 
 from __future__ import annotations
 
-from linkanim.build.draft import Draft
-from linkanim.build.order import found
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from linkanim.build.draft import Draft, named_in
+from linkanim.build.order import Found, found
+from linkanim.build.places import crank_of
 from linkanim.errors import BadInput
+
+EMPTY = "An empty sheet: click where the first ground pin stands"
+_FREED = {"points": 2, "bars": 1, "sliders": 1, "slots": 1, "yokes": 1, "gears": 1}
+"""How many degrees of freedom each kind takes from the joints that it holds."""
+_OWN = ("points", "sliders", "yokes", "gears")
+_APART = re.compile(r"joint (?P<joint>[^:]+): the bars of .* cannot meet")
 
 
 def missing(draft: Draft) -> str:
     """Return what a draft lacks before its scene can be read; "" where nothing does."""
     if not draft.of("pins"):
-        return "An empty sheet: click where the first ground pin stands"
+        return EMPTY
     if not draft.of("bars") and not draft.of("sliders"):
         return "No bar yet: drag one from a ground pin"
-    if draft.driven is None:
+    driven = draft.driven
+    if driven is None:
         return "Nothing is driven: choose a crank or a slider, and make it the drive"
-    stuck = [name for name in draft.places if name not in draft.of("pins") and name not in found(draft)]
-    free = mobility(draft)
-    if stuck and free > 1:
-        bars = "one more bar" if free == 2 else f"{free - 1} more bars"
-        return f"Mobility {free}: {bars}, or a second drive (a gear pair)"
-    if stuck:
-        return f"{', '.join(stuck)} cannot be found yet"
-    return ""
+    if driven not in draft.of("sliders") and crank_of(draft, driven) is None:
+        return f"{driven} is driven, but no bar joins it to a ground pin: drive a crank or a slider"
+    known = found(draft)
+    return _too_many(draft, known) or _unfound(draft, known)
 
 
 def mobility(draft: Draft) -> int:
-    """Return a draft's degrees of freedom: two of each joint, less what its bars, guides and gears take.
-
-    A point of a body takes both, a bar, a guide, a slot and a gear pair one each.
-    """
-    held = sum(len(draft.of(kind)) for kind in ("bars", "sliders", "slots", "yokes", "gears"))
-    return 2 * (len(draft.places) - len(draft.of("pins")) - len(draft.of("points"))) - held
+    """Return a draft's degrees of freedom: two of each joint, less what its bars, guides and gears take."""
+    return _freedom(draft, {name for name in draft.places if name not in draft.of("pins")})
 
 
 def reworded(draft: Draft, error: BadInput) -> str:
     """Return why reading a draft's document refused it, as a sentence about what was drawn."""
-    return str(error)
+    text = re.sub(r"^draft: (joints: |[a-z-]+: (?=joint ))?", "", str(error))
+    if apart := _APART.search(text):
+        names = [_body_of(draft, {end, apart["joint"]}) for _, end, _ in draft.bars_at(apart["joint"])]
+        return f"Bars {' and '.join(names[:2])} cannot meet: {text.partition(': ')[2]}"
+    return text[:1].upper() + text[1:]
+
+
+def _too_many(draft: Draft, known: Found) -> str:
+    """Say which bar joins what is joined already; "" where each one is needed."""
+    pins = draft.of("pins")
+    for name, table in known.items():
+        if set(table.get("from", ())) <= pins.keys() and isinstance(table.get("from"), list):
+            one, other = table["from"]
+            return f"{one}, {name} and {other}: all three pins in one body, which is the ground; remove a bar"
+    for bar, table in draft.of("bars").items():
+        one, other = table["joints"]
+        both = all(end in known or end in pins for end in (one, other))
+        if both and other not in _ends(known.get(one, {})) and one not in _ends(known.get(other, {})):
+            why = f"{one} and {other} are held without it"
+            if third := _third(draft, one, other):
+                why = f"{', '.join(sorted((one, other, third)))} are all three pins in one body"
+            return f"Bar {_body_of(draft, {one, other})} ({bar}) is one too many: {why}; remove a bar"
+    return ""
+
+
+def _third(draft: Draft, one: str, other: str) -> str | None:
+    """Return a joint that bars or the ground hold to both of two others."""
+    pins = set(draft.of("pins"))
+    near = [
+        {end for _, end, _ in draft.bars_at(joint)} | (pins if joint in pins else set())
+        for joint in (one, other)
+    ]
+    return min((near[0] & near[1]) - {one, other}, default=None)
+
+
+def _unfound(draft: Draft, known: Found) -> str:
+    """Say what is loose, or closes only all at once; "" where every joint is found."""
+    stuck = [name for name in draft.places if name not in known and name not in draft.of("pins")]
+    if not stuck:
+        return ""
+    free = mobility(draft)
+    if free > 1:
+        bars = "one more bar" if free == 2 else f"{free - 1} more bars"
+        hanging = next((name for name in stuck if len(list(draft.bars_at(name))) < 2), stuck[0])
+        return f"Mobility {free}: {bars}, or a second drive (a gear pair); {hanging} is loose"
+    group = _together(draft, stuck)
+    if _freedom(draft, group) < 0 or free < 1:
+        return f"Mobility {free}: {', '.join(sorted(group))} cannot move; remove a bar"
+    begin = next((name for name in stuck if any(end in known for _, end, _ in draft.bars_at(name))), stuck[0])
+    others = ", ".join(name for name in draft.places if name in group and name != begin)
+    return (
+        f"A triad begins at {begin}: it is found only together with {others}, which no chain of dyads can; "
+        "drive another crank"
+    )
+
+
+def _together(draft: Draft, stuck: list[str]) -> set[str]:
+    """Return the joints that hang together with the first one that is not found."""
+    group, more = set[str](), {stuck[0]}
+    while more:
+        group |= more
+        held = (set(names) for _, names in _holds(draft) if names & group)
+        more = {name for names in held for name in names if name in stuck} - group
+    return group
+
+
+def _freedom(draft: Draft, group: set[str]) -> int:
+    """Return the degrees of freedom of some joints, all others held."""
+    return 2 * len(group) - sum(taken for taken, names in _holds(draft) if names & group)
+
+
+def _holds(draft: Draft) -> Iterator[tuple[int, set[str]]]:
+    """Yield everything that holds joints: how many degrees of freedom it takes, and which joints it names."""
+    for kind, taken in _FREED.items():
+        for name, table in draft.of(kind).items():
+            guide = draft.of("guides").get(table.get("guide"), {})
+            bar = draft.of("bars").get(table.get("bar"), {})
+            named = {joint for each in (table, guide, bar) for _, joint in named_in(each)}
+            yield taken, (named | ({name} if kind in _OWN else set())) & draft.places.keys()
+
+
+def _ends(table: Mapping[str, Any]) -> set[str]:
+    """Return the other ends of the bars by which a joint's table finds it."""
+    ends = table.get("from", table.get("crank", table.get("slot", {}).get("pivot", [])))
+    return {ends} if isinstance(ends, str) else set(ends)
+
+
+def _body_of(draft: Draft, joints: set[str]) -> str:
+    """Return the name of the body that joints are on; theirs where it has none."""
+    bodies = ((name, set(body.get("joints", ()))) for name, body in draft.of("bodies").items())
+    return next((name for name, held in bodies if joints <= held), "–".join(sorted(joints)))
