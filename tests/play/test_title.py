@@ -115,3 +115,13 @@ def test_without_games_there_are_none() -> None:
 
 def test_every_game_is_where_the_table_has_it() -> None:
     assert all(game_of(kind).words.startswith(kind) for kind in GAMES)
+
+
+def test_a_mouse_that_moves_before_the_first_picture_does_no_harm() -> None:
+    with display.opened((320, 180)):
+        for kind, more in (
+            (pygame.MOUSEMOTION, {"rel": (0, 0), "buttons": (0, 0, 0)}),
+            (pygame.MOUSEWHEEL, {"y": 1}),
+        ):
+            pygame.event.post(pygame.event.Event(kind, pos=(9, 9), **more))
+        assert Player(titled()).state.game

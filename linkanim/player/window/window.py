@@ -349,7 +349,8 @@ class Window:
         if event.type in _UNCOVERED:
             self.screen.uncovered()
         if event.type in _MOUSE:
-            return self._mouse.actions(event, self.screen)
+            # before the first picture there is nothing under the mouse
+            return self._mouse.actions(event, self.screen) if self._good else ()
         if event.type in PAD_EVENTS:
             return self._pads.actions(event, self.state.mode, self._now)
         if event.type != pygame.KEYDOWN:
