@@ -47,8 +47,9 @@ class Picture:
     small pictures. A `kept` view is zoomed and panned instead of the one that fits, or that of a rectangle
     of the `sheet` that it is built on. With `apart` each joint has a group of its own. What `before`
     measured of the same scene is taken over; names keep their places on one that is zoomed, on its way to
-    another, or `held` by the hand. With a `moment` names stand as is best at that phase alone. Raises
-    BadInput where the look's chart is no quantity of the scene.
+    another, or `held` by the hand; `hurried`, those that they had in a window of another size. With a
+    `moment` names stand as is best at that phase alone. Raises BadInput where the look's chart is no
+    quantity of the scene.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class Picture:
         *,
         listed: bool = False,
         held: bool = False,
+        hurried: bool = False,
         apart: bool = False,
         row: bool = False,
         kept: View | None = None,
@@ -67,7 +69,7 @@ class Picture:
         moment: float | None = None,
     ) -> None:
         self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
-        self.sheet = sheet
+        self.sheet, self.hurried = sheet, hurried
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
         self.type: Type = before.type if before else Type()
@@ -80,6 +82,8 @@ class Picture:
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request
         self._arrange(request, before, held=held)
+        if hurried and before and before.fit.request.table[0]:
+            self._arrange(request._replace(table=self._table_size()), before, held=held)
         self.names: Names | None = self._named(before, held=held) if look.names else None
         if self.names and self.names.unlisted:
             self._arrange(self.fit.request._replace(table=self._table_size()), before, held=False)
@@ -120,8 +124,9 @@ class Picture:
         row: bool = False,
         sheet: Box | None = None,
     ) -> bool:
-        """Return whether it is made for these."""
-        return self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
+        """Return whether it is made for these, and not in a hurry."""
+        same = self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
+        return same and not self.hurried
 
     def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
@@ -365,11 +370,12 @@ class Picture:
     def _named(self, before: Picture | None, *, held: bool) -> Names:
         """Return the names of joints and links, and their dimensions, placed as the scene fits the window.
 
-        Those of a picture `before` keep their places where it differs by its zoom and pan alone, or while
-        the scene is on its way to another.
+        Those of a picture `before` keep their places where it differs by its zoom and pan alone, while the
+        scene is on its way to another, and in a hurry.
         """
         kept = before.names if before and self._moment is None and self._named_as(before, held=held) else None
         if kept:
+            kept = replace(kept, table=None, unlisted=()) if self.hurried else kept
             return kept.measuring(self.drawing.symbols, self.scene.length_unit, self.view.scale)
         from linkanim.picture.labels.candidates import Surroundings
         from linkanim.picture.labels.names import names_of
@@ -407,7 +413,10 @@ class Picture:
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
         """Return whether the names on another picture are this one's."""
-        alike = (self.size, self.theme, self.look.names) == (other.size, other.theme, other.look.names)
+        alike = (self.theme, self.look.names) == (other.theme, other.look.names)
+        if self.hurried:
+            return alike and self.figure.shown == other.figure.shown
+        alike = alike and self.size == other.size and not other.hurried
         same = (self.scene, self.fitted, self.layout) == (other.scene, other.fitted, other.layout)
         follows = held or self.scene.towards is not None
         return alike and (same or (follows and self.figure.shown == other.figure.shown))

@@ -593,6 +593,25 @@ def test_the_picture_follows_the_windows_size(player: Player) -> None:
     assert player.pixels == pixels
 
 
+def test_names_stand_as_in_a_fresh_window_once_its_size_has_stayed_for_a_frame(player: Player) -> None:
+    """In the first frame of a size they keep the places that they had: those are not looked for."""
+    for key in (pygame.K_n, pygame.K_n):
+        player.press(key, text=chr(key))
+    player.settle()
+    before = player.window.screen._framing.last.names
+    pygame.display.set_mode((640, 400), pygame.RESIZABLE)
+    player.tick()
+    hurried = player.window.screen._framing.last.names
+    assert before
+    assert hurried
+    assert [label.spot for label in hurried.labels] == [label.spot for label in before.labels]
+    settled = player.settle()
+    assert player.window.screen._framing.last.names != before
+    fresh = Player(player.state)
+    assert fresh.pixels == settled
+    pygame.display.set_mode(SIZE, pygame.RESIZABLE)
+
+
 def test_a_picture_that_stands_still_is_painted_once(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
     flips: list[int] = []
     monkeypatch.setattr(pygame.display, "flip", lambda: flips.append(1))

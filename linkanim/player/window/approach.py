@@ -70,18 +70,24 @@ class Framing:
         assert picture is not None
         return picture
 
-    def fitting(self, state: State, size: tuple[int, int]) -> Picture:
-        """Return the picture that fits the state; a view other than the last one's, it is approached."""
+    def fitting(self, state: State, size: tuple[int, int], *, hurried: bool = False) -> Picture:
+        """Return the picture that fits the state; a view other than the last one's, it is approached.
+
+        One that is `hurried` keeps the names of the last, where that was of another size: those are placed
+        anew once the size has stayed for a frame.
+        """
         before, sketch, look = self._fitting, state.sketch, self._look(state)
         held = bool(state.held or (sketch and sketch.held is not None) or state.building)
         row, listed = sketch is not None and bool(sketch.answers), state.listed
         home = state.building.home if state.building else None
         if before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home):
             return before
+        stays = before is not None and before.size == size
+        hurried = hurried and before is not None and before.names is not None and not stays
         make = partial(
             Picture, state.shown, size, look, before, listed=listed, held=held, row=row, sheet=home
         )
-        stays = before is not None and before.size == size
+        make = partial(make, hurried=hurried)
         made = make(kept=before.fitted if before and sketch and stays else None)
         if sketch and stays and not held and not _is_in_sight(made, sketch):
             made = make(kept=_seen_whole(made, sketch))
@@ -101,7 +107,7 @@ class Framing:
 
     def at(self, state: State, size: tuple[int, int]) -> Picture:
         """Return the picture for this frame: one on the way to the fitting one while that is approached."""
-        goal, self._passing = self.fitting(state, size), None
+        goal, self._passing = self.fitting(state, size, hurried=True), None
         if self._approach is None or self._approach.over(state.frame):
             self._approach = None
             return goal
@@ -143,7 +149,7 @@ def _box(picture: Picture, sketch: Sketch) -> Box:
 
 def _has_moved(one: Picture, other: Picture) -> bool:
     """Return whether one linkage, of either closure, in one window is fitted into another place of it."""
-    return _are_one(one, other) and one.size == other.size and one.fitted != other.fitted
+    return not one.hurried and _are_one(one, other) and one.size == other.size and one.fitted != other.fitted
 
 
 def _is_framed_alike(one: Picture, other: Picture) -> bool:
