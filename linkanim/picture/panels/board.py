@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import floor
 from typing import NamedTuple
 
@@ -29,6 +29,8 @@ class Board:
     layout: Layout
     type: Type
     theme: Theme
+    _sheets: dict[tuple[int, int], pygame.Surface] = field(default_factory=dict, compare=False)
+    """The last empty panel: a list that changes keeps its size."""
 
     @property
     def margin(self) -> int:
@@ -37,7 +39,14 @@ class Board:
 
     def sheet(self, width: float, height: float) -> pygame.Surface:
         """Return an empty panel: a framed sheet with round corners on nothing."""
-        sheet = pygame.Surface((round(width), round(height)), pygame.SRCALPHA, 32)
+        size = round(width), round(height)
+        if size not in self._sheets:
+            self._sheets.clear()
+            self._sheets[size] = self._empty(size)
+        return self._sheets[size].copy()
+
+    def _empty(self, size: tuple[int, int]) -> pygame.Surface:
+        sheet = pygame.Surface(size, pygame.SRCALPHA, 32)
         middle = complex(sheet.get_width() / 2, sheet.get_height() / 2)
         line, corner = max(1.5 * self.layout.unit, 1.0), 10 * self.layout.unit
         outer = middle + box(sheet.get_width(), sheet.get_height(), corner)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from itertools import product
 from math import ceil
 from typing import Any
@@ -42,7 +42,7 @@ class Panels:
     theme: Theme
     _kept: dict[str, tuple[Any, Any]] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def board(self) -> Board:
         """What the panels are drawn on."""
         return Board(self.layout, self.type, self.theme)

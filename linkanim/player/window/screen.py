@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import ceil, hypot, log10
 from typing import Literal
 
@@ -63,6 +64,8 @@ class Screen:
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
         surface = display.surface()
+        if state.held and state.frame % 2 and over.panel and self._over.panel:
+            over = replace(over, panel=self._over.panel)  # the list follows the hand in every other frame
         self._state, self._over = state, over
         self._point(state)
         self._name(f"{state.scene.title}{' • edited' * (state.place in state.edited)}")
