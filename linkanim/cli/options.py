@@ -40,7 +40,7 @@ def play(parser: Parser) -> None:
     """Add what the window takes."""
     parser.add_argument("scene", nargs="?", metavar="SCENE", help=f"{IN_SCENE}, or of a tape")
     parser.add_argument(
-        "--attract", action="store_true", help="walk through the scenes when no key is pressed for a minute"
+        "--attract", action="store_true", help="for a stand: full screen, back to the title when left alone"
     )
     parser.add_argument("--size", type=values.size, metavar="WxH", help="the window's, in pixels")
     kept = "where best scores are kept (default: the user's data folder)"

@@ -46,6 +46,9 @@ class Arcade:
             case "menu":
                 best = ",".join(f"{name}:{score}" for name, score in scores.best.items())
                 return str(found.having(best=best) if best else found)
+            case "follow":
+                run = f"follow-{found.text('scene')}.{found.text('level', '1')}"
+                return str(found.having(best=scores.best.get(run, 0)))
             case "predict":
                 again = ",".join(map(str, self._again(found, scores)))
                 seeded = found.having(seed=self._random.randrange(_SEEDS))

@@ -93,7 +93,7 @@ class FollowRun:
         """Turn the crank; before and after a run choose another track, or another level."""
         match action:
             case Action("back"):
-                return play(state, "title door=play")
+                return play(state, "lobby row=1")
             case Action("scrub", float() | int() as phase):
                 return self._turned(state, float(phase), 0)
             case Action("turn", int() as steps) if self.stage != "over":

@@ -14,6 +14,7 @@ from linkanim.units import shown
 GAMES: MappingProxyType[str, str] = MappingProxyType(
     {
         "title": "linkanim.play.title",
+        "lobby": "linkanim.play.lobby",
         "menu": "linkanim.play.menu",
         "predict": "linkanim.play.predict",
         "follow": "linkanim.play.follow",

@@ -9,6 +9,7 @@ from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
 from linkanim.play.chapters import ALL, members, titled
+from linkanim.play.choosing import chosen_by
 from linkanim.play.kinds.table import LEVELS
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
@@ -43,7 +44,7 @@ class Menu:
 
     @property
     def covers(self) -> bool:
-        """Esc goes back to the title."""
+        """Esc goes back to the games."""
         return True
 
     def entered(self, state: State) -> State:
@@ -56,22 +57,20 @@ class Menu:
         return state
 
     def carried(self, state: State, action: Action) -> State:
-        """Choose a chapter or a level, begin a round, or go back to the title."""
+        """Choose a chapter or a level, begin a round, or go back."""
         rows = _rows()
         if action.name == "back":
-            return with_effect(state, "begin", "title")
+            return with_effect(state, "begin", "lobby")
         if action.name == "turn" and isinstance(action.value, int):
             level = min(max(self.level + (1 if action.value > 0 else -1), LEVELS[0]), LEVELS[-1])
             return replace(state, game=replace(self, level=level))
-        if action.name == "raise" and isinstance(action.value, int):
-            further = -1 if action.value > 0 else 1
-            at = (rows.index(self.chapter) + further) % len(rows)
-            return replace(state, game=replace(self, chapter=rows[at]))
         if (action.name, action.value) == ("option", len(rows)):
             return replace(state, game=replace(self, level=self.level % LEVELS[-1] + 1))
-        if action.name == "option" and isinstance(action.value, int):
-            return _begun(state, rows[action.value], self.level) if 0 <= action.value < len(rows) else state
-        return _begun(state, self.chapter, self.level) if action.name == "next" else state
+        chosen = chosen_by(action, rows.index(self.chapter), len(rows))
+        if chosen is None:
+            return state
+        state = replace(state, game=replace(self, chapter=rows[chosen.row]))
+        return _begun(state, rows[chosen.row], self.level) if chosen.taken else state
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the chapters."""

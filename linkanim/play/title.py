@@ -7,11 +7,12 @@ from typing import NamedTuple
 
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
+from linkanim.play.choosing import chosen_by
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.handlers.build import build
 from linkanim.player.state.handlers.games import leave, with_scene
-from linkanim.player.state.handlers.pencil import pencil
 from linkanim.player.state.handlers.shelf import open_shelf
 from linkanim.player.state.state import State, with_effect, with_toast
 from linkanim.scenes import load
@@ -32,10 +33,9 @@ class Door(NamedTuple):
 
 DOORS = (
     Door("explore", "Explore", "the shelf of all mechanisms"),
-    Door("build", "Draw a path", "and get the linkage that follows it"),
-    Door("play", "Play", "predict what a linkage does"),
+    Door("build", "Build", "draw a linkage, or with W a path to follow"),
+    Door("play", "Play", "predict, follow"),
 )
-_CHOOSE = {"raise": -1, "turn": 1}
 _IGNORED = frozenset({"scrub", "point", "move", "carry", "drop", "pull"})
 """What a mouse that moves asks for: it goes in by a click."""
 
@@ -71,14 +71,12 @@ class Title:
 
     def carried(self, state: State, action: Action) -> State:
         """Go in by a door, or choose one."""
-        if action.name == "option" and isinstance(action.value, int):
-            return _through(state, action.value) if 0 <= action.value < len(DOORS) else state
-        if action.name in _CHOOSE and isinstance(action.value, int):
-            further = _CHOOSE[action.name] * (1 if action.value > 0 else -1)
-            return replace(state, game=replace(self, door=(self.door + further) % len(DOORS)))
         if action.name == "back":
             return with_toast(state, "Q quits")
-        return state if action.name in _IGNORED else _through(state, self.door)
+        if action.name in _IGNORED or (action.name == "option" and action.value not in range(len(DOORS))):
+            return state
+        door, taken = chosen_by(action, self.door, len(DOORS)) or (self.door, True)
+        return _through(state, door) if taken else replace(state, game=replace(self, door=door))
 
     def aged(self, state: State) -> State:
         """Go on to the next mechanism when one has run for a while."""
@@ -108,9 +106,9 @@ def _through(state: State, door: int) -> State:
     name = DOORS[door].name
     state = with_effect(state, "score", f"door={name}")
     if name == "play":
-        return with_effect(state, "begin", "menu")
+        return with_effect(state, "begin", "lobby")
     state = leave(state)
-    return open_shelf(state, None) if name == "explore" else pencil(state, None)
+    return open_shelf(state, None) if name == "explore" else build(state, None)
 
 
 def read(words: GameWords) -> Title:

@@ -70,7 +70,7 @@ def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
 
 
 def test_from_the_title_enter_alone_begins_a_round_and_a_key_answers(player: Player, tmp_path: Path) -> None:
-    for _ in range(2):
+    for _ in ("Play", "Predict", "all mechanisms"):
         player.press(pygame.K_RETURN)
         player.tick()
     game = round_of(player.state)
@@ -108,8 +108,9 @@ def test_what_is_missed_is_kept_and_comes_first_the_next_time(player: Player, tm
 
 def test_the_menu_chooses_chapter_and_level_and_shows_best_scores(player: Player, tmp_path: Path) -> None:
     Arcade(tmp_path / "scores.json").keep("best=four-bars.2:321")
-    player.press(pygame.K_RETURN)
-    player.tick()
+    for _ in ("Play", "Predict"):
+        player.press(pygame.K_RETURN)
+        player.tick()
     game = player.state.game
     assert isinstance(game, Menu)
     assert dict(game.best) == {"four-bars.2": 321}
@@ -121,10 +122,11 @@ def test_the_menu_chooses_chapter_and_level_and_shows_best_scores(player: Player
     player.press(pygame.K_ESCAPE)
     player.tick()
     assert isinstance(player.state.game, Menu)
-    player.press(pygame.K_ESCAPE)
-    player.tick()
-    assert player.state.game
-    assert player.state.game.words.startswith("title")
+    for kind in ("lobby", "title"):
+        player.press(pygame.K_ESCAPE)
+        player.tick()
+        assert player.state.game
+        assert player.state.game.words.startswith(kind)
 
 
 @pytest.mark.parametrize("token", [FASTEST, CENTRE])

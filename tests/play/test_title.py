@@ -16,10 +16,11 @@ from linkanim.play.games import GAMES, game_of
 from linkanim.play.title import EACH, Title
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance, carried
-from linkanim.player.state.state import State, begin
+from linkanim.player.state.state import ATTRACT_AFTER, State, begin
 from linkanim.player.tape.tape import Tape, resumed, starting
 from linkanim.player.tape.tape_file import read, write
 from linkanim.player.window import display
+from linkanim.player.window.approach import Framing
 from linkanim.scenes import load, names
 
 
@@ -49,9 +50,9 @@ def test_mechanisms_run_behind_it_one_after_the_other() -> None:
 
 # The last door is "build"; any other is chosen first, or by its number.
 WAYS_IN = {
-    "any letter": (((pygame.K_y, 0, "y"),), "pencil"),
-    "Enter": (((pygame.K_RETURN,),), "pencil"),
-    "Space": (((pygame.K_SPACE, 0, " "),), "pencil"),
+    "any letter": (((pygame.K_y, 0, "y"),), "build"),
+    "Enter": (((pygame.K_RETURN,),), "build"),
+    "Space": (((pygame.K_SPACE, 0, " "),), "build"),
     "a number": (((pygame.K_1, 0, "1"),), "shelf"),
     "up, then in": (((pygame.K_UP,), (pygame.K_RETURN,)), "shelf"),
 }
@@ -83,6 +84,57 @@ def test_esc_stays_and_the_theme_goes_along(player: Player) -> None:
     player.press(pygame.K_1)
     assert player.state.look.theme == "dark"
     assert player.state.look.hud
+
+
+def left_alone(state: State, frames: int) -> State:
+    for _ in range(frames):
+        state = advance(state)
+    return state
+
+
+def test_left_alone_on_the_shelf_it_plays_by_itself_with_what_to_watch_for() -> None:
+    state = replace(advance(begin(load("press")), [Action("shelf")]), attract=True)
+    state = left_alone(state, ATTRACT_AFTER - 1)
+    assert (state.mode, state.idle) == ("shelf", None)
+    state = left_alone(state, 1)
+    assert (state.mode, state.idle) == ("play", 0)
+    assert state.scene.name != "press"
+    framing = Framing(captioned=True)
+    assert framing.at(state, (640, 360)).layout.caption
+    state = advance(state, [Action("trace")])
+    assert state.idle is None
+    assert not framing.at(state, (640, 360)).layout.caption
+
+
+# In a kiosk: what a visitor has left, and whether the title comes back.
+LEFT = {
+    "a mechanism": ((), True),
+    "the shelf": ((Action("shelf"),), True),
+    "an edit": ((Action("edit"), Action("nudge", 1)), True),
+    "a question": ((Action("play", "predict seed=1"),), True),
+    "a recording": ((Action("record", "gif"),), False),
+}
+
+
+@pytest.mark.parametrize(("actions", "back"), LEFT.values(), ids=LEFT)
+def test_a_kiosk_goes_back_to_its_title(actions: tuple[Action, ...], back: bool) -> None:
+    state = replace(begin(load("press")), games=game_of, attract=True, kiosk=True)
+    state = left_alone(advance(state, actions), ATTRACT_AFTER - 2)
+    assert not isinstance(state.game, Title)
+    state = left_alone(state, 3)
+    assert isinstance(state.game, Title) == back
+
+
+def test_esc_leaves_full_screen_but_in_a_kiosk(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    filled: list[object] = []
+    monkeypatch.setattr(display, "is_full", lambda: True)
+    monkeypatch.setattr(display, "fill", filled.append)
+    player.window.state = replace(player.state, kiosk=True)
+    player.press(pygame.K_ESCAPE)
+    assert not filled
+    player.window.state = replace(player.state, kiosk=False)
+    player.press(pygame.K_ESCAPE)
+    assert len(filled) == 1
 
 
 def test_a_recording_begun_on_it_begins_there(tmp_path: Path) -> None:

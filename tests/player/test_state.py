@@ -10,8 +10,8 @@ import pytest
 
 from linkanim.picture.look import Look
 from linkanim.player.state.action import Action
-from linkanim.player.state.advance import ATTRACT_AFTER, advance
-from linkanim.player.state.state import State, begin
+from linkanim.player.state.advance import advance
+from linkanim.player.state.state import ATTRACT_AFTER, State, begin
 from linkanim.scenes import load, names
 
 

@@ -17,7 +17,14 @@ from linkanim.player.state.glide import followed
 from linkanim.player.state.handlers import build
 from linkanim.player.state.handlers.games import BESIDE, leave
 from linkanim.player.state.handlers.pencil import come, keep, left
-from linkanim.player.state.state import FADE_FRAMES, FLASH_FRAMES, SHUTTER_FRAMES, State, with_chip
+from linkanim.player.state.state import (
+    ATTRACT_AFTER,
+    FADE_FRAMES,
+    FLASH_FRAMES,
+    SHUTTER_FRAMES,
+    State,
+    with_chip,
+)
 
 _WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
 """What is not done while a path is drawn: its points are in the unit of then, and edits are the scene's."""
@@ -26,7 +33,6 @@ _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"
 """What keeps the answer that the pencil has, and what goes back to the scene before."""
 _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
 """What is not done on a sheet, which is left for it."""
-ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND
 
 _LIVES = {"turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
@@ -85,12 +91,17 @@ def carried(state: State, action: Action) -> State:
 
 
 def settled(state: State) -> State:
-    """Return the state at the end of a frame: left alone for a minute, it walks on through the shelf."""
-    idle = state.frame - state.touched - ATTRACT_AFTER
-    busy = state.recording or state.sketch or state.building or state.editing.open or state.editing.changed
-    if not state.attract or busy or idle < 0 or idle % ATTRACT_EACH:
+    """Return the state at the end of a frame: left alone for a minute, it walks on through the shelf.
+
+    In a kiosk it goes back to the title, whatever was begun; what is recorded goes on.
+    """
+    alone = state.frame - state.touched >= ATTRACT_AFTER and not state.recording
+    if state.kiosk and state.games and alone and (state.game is None or state.game.covers):
+        return replace(carried(state, Action("play", "title")), touched=state.touched)
+    if state.idle is None or state.idle % ATTRACT_EACH:
         return state
-    onward = replace(carried(replace(state, help=False), Action("mechanism", 1)), touched=state.touched)
+    bare = replace(state, help=False, browsing=None, listing=None)
+    onward = replace(carried(bare, Action("mechanism", 1)), touched=state.touched)
     return replace(onward, clock=onward.clock.pause(onward.frame, False))
 
 

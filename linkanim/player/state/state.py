@@ -26,6 +26,7 @@ from linkanim.scenes.scene import Scene
 
 TOAST_FRAMES = 3 * FRAMES_PER_SECOND
 CHIP_FRAMES = 66
+ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 FLASH_FRAMES = FRAMES_PER_SECOND
 FADE_FRAMES = 14
 SHUTTER_FRAMES = 12
@@ -101,6 +102,7 @@ class State:
     `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
     `held` is the joint that is being dragged, `pad` whether a gamepad is plugged in.
     `sounds` says whether the motion is heard, None where nobody has.
+    With `attract` it walks on by itself when left alone; in a `kiosk` it then goes back to the title, too.
     `touched` is the frame of the last action, `arrived` that at
     which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
     list shows it. `effects` is what the last
@@ -137,6 +139,7 @@ class State:
     shot: int | None = None
     recording: Take | None = None
     attract: bool = False
+    kiosk: bool = False
     pad: bool = False
     sounds: bool | None = None
     touched: int = 0
@@ -177,6 +180,13 @@ class State:
         """The places of the shelf whose scenes are not as their files have them."""
         found = (*self.kept, Edited(self.place, self.scene, self.editing))
         return frozenset(one.place for one in found if one.editing.original not in (None, one.scene))
+
+    @property
+    def idle(self) -> int | None:
+        """For how many frames it has walked on by itself, left alone; None where it does not."""
+        busy = self.recording or self.sketch or self.building or self.editing.open or self.editing.changed
+        frames = self.frame - self.touched - ATTRACT_AFTER
+        return frames if self.attract and not (busy or self.game) and frames >= 0 else None
 
     @property
     def is_audible(self) -> bool:

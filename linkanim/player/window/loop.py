@@ -39,9 +39,10 @@ def run(
 ) -> int:
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
-    Without a scene it opens on the title, where a `keeper` has games. With `attract` it walks
-    through the catalogue when left alone for a minute. NoDisplay where there is no screen, or none any more;
-    BadInput as loading raises it. Whatever ends the window, a recording that runs is finished.
+    Without a scene it opens on the title, where a `keeper` has games; left alone for a minute it walks on
+    through the catalogue. With `attract` it fills the screen, Esc does not leave that, and left alone it goes
+    back to the title. NoDisplay where there is no screen, or none any more; BadInput as loading raises it.
+    Whatever ends the window, a recording that runs is finished.
     """
     tape = _tape(scene, keeper)
     state = tape.begun if tape else begin(scene, look=look)
@@ -49,7 +50,10 @@ def run(
     if scene is None and keeper:
         state = carried(state, Action("play", keeper.completed("title")))
     with display.opened(size) as connection:
-        window = Window(replace(state, attract=attract), tape, None if tape else _file(scene), keeper)
+        state = replace(state, attract=attract or scene is None, kiosk=attract)
+        window = Window(state, tape, None if tape else _file(scene), keeper)
+        if attract:
+            window.fill()
         gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame
         try:
             for count in frames(time.monotonic, time.sleep):

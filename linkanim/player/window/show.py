@@ -176,7 +176,7 @@ def _hint_bar(state: State) -> Fading | None:
         or state.mode not in ("play", "paused")
         or state.help
         or state.recording
-        or state.attract
+        or state.idle is not None
     )
     idle = state.frame - state.touched
     if busy or state.toast or state.chip or 0 < state.touched > state.frame - _IDLE:

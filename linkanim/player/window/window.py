@@ -90,6 +90,10 @@ class Window:
         self._show()
         return self._open
 
+    def fill(self) -> None:
+        """Fill the screen, or go back from there."""
+        self._windowed = display.fill(self._windowed)
+
     def close(self) -> None:
         """Finish the recording that runs, and let go of what the window holds; those under way go on."""
         try:
@@ -155,7 +159,7 @@ class Window:
         elif action.name in ("aim", "enter") and self.state.building:
             yield from self._by_keys(self.state.building, action)
         elif action.name == "back" and not self.state.is_covered and display.is_full():
-            yield Action("fullscreen")
+            yield from [] if self.state.kiosk else [Action("fullscreen")]
         elif action.name == "back" and not self.state.is_covered and self.state.recording:
             yield Action("record", self.state.recording.format)
         elif action.name not in RESOLVED:
@@ -300,7 +304,7 @@ class Window:
             case "score" if self._keeper:
                 self._keeper.keep(str(effect.value))
             case "fullscreen":
-                self._windowed = display.fill(self._windowed)
+                self.fill()
             case "quit":
                 self._open = False
 
