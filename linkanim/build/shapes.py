@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import NamedTuple
 
-from linkanim.build.draft import JOINT, Draft, Thing
-from linkanim.build.order import line_of
+from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
+from linkanim.build.order import line_of, place_of
+from linkanim.build.places import crank_of
 from linkanim.mechanics.linkage.joint import Point
 
 
@@ -14,8 +16,9 @@ class Shape(NamedTuple):
     """What is drawn of one thing: its kind says how, `places` where, in the draft's unit.
 
     "pins", "joints": one place; "bars": the two ends, then the points of the same body; "guides": a place on
-    it, and another one 1 unit further; "springs", "dampers", "cylinder": two ends; "gears": the two pivots of
-    the wheels, and where they touch; "slots", "yokes": the joint in the slot. `label` is its name.
+    it, another one 1 unit further, then what slides on it; "springs", "dampers", "cylinder": two ends;
+    "gears": the two pivots of the wheels, and where they touch; "sliders", "slots", "yokes": what slides, and
+    a place further along its guide or slot. `label` is its name.
     """
 
     thing: Thing
@@ -32,8 +35,10 @@ def drawn(draft: Draft) -> tuple[Shape, ...]:
 def _shapes(draft: Draft) -> Iterator[Shape]:
     for name, guide in draft.of("guides").items():
         start, way = line_of(draft, guide)
-        ends = (start, start + way)
-        yield Shape(("guides", name), "guides", tuple((end.real, end.imag) for end in ends), name)
+        on_it = [draft.places[joint] for joint, one in draft.of("sliders").items() if one["guide"] == name]
+        yield Shape(("guides", name), "guides", (_point(start), _point(start + way), *on_it), name)
+    for name, gear in draft.of("gears").items():
+        yield from _wheels(draft, name, gear["with"], float(Fraction(gear["ratio"])))
     for name, table in draft.of("bars").items():
         body = _body(draft, table["joints"])
         points = [end for end in draft.of("points") if draft.of("points")[end]["on"] == table["joints"]]
@@ -42,8 +47,42 @@ def _shapes(draft: Draft) -> Iterator[Shape]:
     for kind in ("springs", "dampers"):
         for name, table in draft.of(kind).items():
             yield Shape((kind, name), kind, tuple(draft.places[end] for end in table["between"]), name)
+    if between := draft.drive.get("cylinder", {}).get("between"):
+        yield Shape(DRIVE, "cylinder", tuple(draft.places[end] for end in between), "cylinder")
+    yield from _blocks(draft)
     for name, place in draft.places.items():
         yield Shape((JOINT, name), "pins" if name in draft.of("pins") else JOINT, (place,), name)
+
+
+def _wheels(draft: Draft, joint: str, mate: str, ratio: float) -> Iterator[Shape]:
+    """Yield the wheels of a gear pair, which roll on each other where their pivots are apart."""
+    pivots = [crank_of(draft, one) for one in (joint, mate)]
+    if None in pivots or pivots[0] == pivots[1]:
+        return
+    own, other = (place_of(draft, str(pivot)) for pivot in pivots)
+    touching = own + (other - own) / (1 + abs(ratio))
+    yield Shape(("gears", joint), "gears", (_point(own), _point(other), _point(touching)), joint)
+
+
+def _blocks(draft: Draft) -> Iterator[Shape]:
+    """Yield what slides along guides and in slots."""
+    for joint, slider in draft.of("sliders").items():
+        way = line_of(draft, draft.of("guides")[slider["guide"]])[1]
+        yield Shape(
+            (JOINT, joint), "sliders", (draft.places[joint], _point(place_of(draft, joint) + way)), joint
+        )
+    for name, slot in draft.of("slots").items():
+        first, second = (place_of(draft, end) for end in draft.of("bars")[slot["bar"]]["joints"])
+        at = place_of(draft, slot["through"])
+        yield Shape(("slots", name), "slots", (_point(at), _point(at + second - first)), name)
+    for joint, yoke in draft.of("yokes").items():
+        pin, own = place_of(draft, yoke["pin"]), place_of(draft, joint)
+        further = pin + (pin - own if pin != own else 1)
+        yield Shape(("yokes", joint), "yokes", (_point(pin), _point(further)), joint)
+
+
+def _point(place: complex) -> Point:
+    return place.real, place.imag
 
 
 def _body(draft: Draft, joints: list[str]) -> str | None:

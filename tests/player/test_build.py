@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pygame
 import pytest
-from playing import CTRL, Player
+from playing import CTRL, SHIFT, Player
 
 from linkanim.player.state.sheet import BuildSheet
 from linkanim.player.state.state import begin
@@ -223,3 +223,95 @@ def test_an_empty_sheet_is_asked_for_twice_where_a_draft_would_be_lost(builder: 
     assert builder.sheet.building.draft.places
     builder.press(pygame.K_n, CTRL)
     assert not builder.sheet.building.draft.places
+
+
+def test_digits_are_the_number_of_what_is_chosen(builder: Builder) -> None:
+    builder.click(0, 0)
+    builder.draw((0, 0), (30, 0))
+    shown = builder.window.screen.built
+    assert shown
+    assert shown.number == "length 30 mm"
+    builder.type("32.5")
+    shown = builder.window.screen.built
+    assert shown
+    assert shown.number == "length 32.5_"
+    builder.press(pygame.K_RETURN)
+    assert builder.sheet.building.draft.of("bars")["O2–A"]["length"] == 32.5
+    builder.type("0")
+    assert builder.sheet.building.typed == ""  # 0 fits the view before something is typed
+    builder.type("40mm")
+    builder.press(pygame.K_ESCAPE)
+    assert builder.sheet.building.draft.of("bars")["O2–A"]["length"] == 32.5
+
+
+def test_del_says_what_went_with_it(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.click(0, 0)
+    builder.press(pygame.K_DELETE)
+    shown = builder.window.screen.built
+    assert shown
+    assert shown.sentence.startswith("Removed joint O2, with ")
+    assert shown.is_warning
+    builder.press(pygame.K_z, CTRL)
+    assert builder.sheet.building.made.scene is builder.state.scene
+
+
+def test_a_double_click_on_a_bar_is_a_point_of_it_drawn_as_plate(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    middle = (50, 53)
+    builder.click(*middle)
+    builder.click(*middle)
+    points = builder.sheet.building.draft.of("points")
+    assert [table["on"] for table in points.values()] == [["A", "B"]]
+
+
+def test_a_tool_draws_what_it_is_called(builder: Builder) -> None:
+    builder.press(pygame.K_l, text="l")
+    builder.draw((-60, 40), (60, 40))
+    assert len(builder.sheet.building.draft.of("guides")) == 1
+    builder.press(pygame.K_b, text="b")
+    builder.click(0, 0)
+    builder.draw((0, 0), (20, 0))
+    builder.draw((20, 0), (80, 40))
+    scene = builder.sheet.building.made.scene
+    assert scene
+    assert scene.info.class_name == "offset slider-crank"
+
+
+def test_a_joint_is_moved_live_and_that_is_one_undo(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    before = builder.sheet.building.draft
+    builder.press(pygame.K_v, text="v")
+    builder.mouse(pygame.MOUSEBUTTONDOWN, builder.at(60, 80), button=1)
+    lengths = []
+    for x in (64, 70, 80):
+        builder.mouse(pygame.MOUSEMOTION, builder.at(x, 80), rel=(0, 0), buttons=(1, 0, 0))
+        lengths.append(builder.state.scene.linkage.joint("B").lengths[0])
+    builder.mouse(pygame.MOUSEBUTTONUP, builder.at(80, 80), button=1)
+    assert lengths == sorted(set(lengths))
+    assert builder.sheet.building.draft.places["B"] == pytest.approx((80, 80), abs=1.0)
+    builder.press(pygame.K_z, CTRL)
+    assert builder.sheet.building.draft.of("bars") == before.of("bars")
+
+
+def test_what_is_chosen_goes_round_with_tab_and_the_drive_and_traces_by_their_keys(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    for _ in range(8):
+        builder.press(pygame.K_TAB)
+        if builder.sheet.building.chosen == ("joints", "B"):
+            break
+    builder.press(pygame.K_t, text="t")
+    assert builder.state.scene.trace == ("B",)
+    builder.press(pygame.K_d, text="d")
+    assert builder.sheet.building.draft.driven == "B"
+
+
+def test_a_scene_of_the_catalogue_is_built_on(builder: Builder) -> None:
+    builder.press(pygame.K_F2)
+    builder.press(pygame.K_F2, SHIFT)
+    assert builder.state.scene.linkage == load("crank-rocker").linkage
+    assert builder.sheet.building.draft.places.keys() == {"O2", "O4", "A", "B", "P"}

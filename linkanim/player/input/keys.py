@@ -112,7 +112,7 @@ KEYS: tuple[KeyRow, ...] = (
         "edit",
         "F2, W (Shift: this one)",
         "build it, or draw its path",
-        _on("f2", "build") + _on("w", "pencil") + _on("shift+w", "own_trace"),
+        _on("f2", "build") + _on("shift+f2", "build_on") + _on("w", "pencil") + _on("shift+w", "own_trace"),
     ),
     KeyRow(
         "edit", "B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")
@@ -218,9 +218,8 @@ def _aims() -> tuple[Bind, ...]:
 
 
 BUILD_KEYS: tuple[KeyRow, ...] = (
-    KeyRow(
-        "in F2", "click, drag", "a ground pin; from a pin or joint a bar, which is joined where it is let go"
-    ),
+    KeyRow("in F2", "click, drag", "a ground pin; from a pin or joint a bar; twice on a bar: a point of it"),
+    KeyRow("in F2", "let go on a joint, line, bar", "joined there, a slider, a slot"),
     KeyRow("in F2", "drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
     *(
         KeyRow("in F2", tool.key, tool.name, _on(tool.key.lower(), tool.action, tool.value))
@@ -229,10 +228,19 @@ BUILD_KEYS: tuple[KeyRow, ...] = (
     ),
     KeyRow(
         "in F2",
+        "digits, Enter",
+        "type what is chosen; Ctrl+↑ ↓ its other numbers",
+        _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
+    ),
+    KeyRow(
+        "in F2",
         "arrows (Shift: fine), Enter",
         "a cursor; press and lift there",
         _aims() + _on("return kp_enter", "enter"),
     ),
+    KeyRow("in F2", "I", "a point of the body at the cursor", _on("i insert", "enter", 2)),
+    KeyRow("in F2", "Tab, Shift+Tab", "choose", _on("tab", "further", 1) + _on("shift+tab", "further", -1)),
+    KeyRow("in F2", "Del", "remove it, and what hangs on it", _on("delete", "remove")),
     KeyRow(
         "in F2",
         "Ctrl+Z, Ctrl+Y",
@@ -272,6 +280,7 @@ _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "list": ("sift", frozenset({"space", "h", "k"})),
     "shelf": ("sift", frozenset({"space", "h", "o"})),
     "paused": ("type_place", frozenset()),
+    "build": ("digits", frozenset()),
 }
 """Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
 
@@ -303,6 +312,8 @@ def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind 
 def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
     if mode not in _TYPED or press.ctrl or not press.text or not press.text.isprintable():
         return False
+    if mode == "build":
+        return typing or press.text in "123456789.-"
     if mode == "paused":
         return press.text in "123456789" or (typing and press.text in "0.")
     return typing or press.key not in _TYPED[mode][1]

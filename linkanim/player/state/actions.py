@@ -220,13 +220,23 @@ ACTIONS: Mapping[str, Rule] = {
     "turn": Rule(_whole, _unused),  # small steps, counterclockwise or to the right
     "raise": Rule(_whole, _unused),  # steps up
     "build": Rule(_nothing, build.build),
+    "build_on": Rule(_nothing, build.build_on),
     "sheet": Rule(_nothing, build.new),
+    "draft": Rule(_text, build.draft),  # a draft as it is stored
     "tool": Rule(_text, build.tool),
     # (x, y) of the sheet, how near counts as on it, the step of what is drawn
     "hand_down": Rule(_numbers(4), build.down),
     "hand_to": Rule(_numbers(4), build.along),
     "hand_up": Rule(_nothing, build.up),
     "cursor": Rule(_numbers(2), build.cursor),  # (x, y) of the sheet
+    "further": Rule(_whole, build.further),
+    "number": Rule(_whole, build.number),
+    "digits": Rule(_text, build.write),
+    "undigit": Rule(_nothing, build.erase),
+    "take_number": Rule(_nothing, build.take),
+    "remove": Rule(_nothing, build.remove),
+    "trace_on": Rule(_nothing, build.trace),
+    "drive_by": Rule(_nothing, build.drive),
     "unbuild": Rule(_nothing, build.undo, answer=_stuck("nothing to undo")),
     "rebuild": Rule(_nothing, build.redo, answer=_stuck("nothing to redo")),
     "back": Rule(_nothing, outside.back),

@@ -17,6 +17,17 @@ class Tool(NamedTuple):
 
 TOOLS = (
     Tool("bar", "pins and bars", "B", "tool", "bar"),
+    Tool("move", "move", "V", "tool", "move"),
+    Tool("line", "line", "L", "tool", "guide"),
+    Tool("slider", "slider", "P", "tool", "slider"),
+    Tool("slot", "slot", "K", "tool", "slot"),
+    Tool("gear", "gear pair", "W", "tool", "gear"),
+    Tool("spring", "spring", "S", "tool", "spring"),
+    Tool("damper", "damper", "A", "tool", "damper"),
+    Tool("cylinder", "cylinder", "Y", "tool", "cylinder"),
+    Tool("trace", "trace of the chosen joint", "T", "trace_on"),
+    Tool("drive", "drive of the chosen crank or slider", "D", "drive_by"),
+    Tool("delete", "remove", "Del", "remove"),
     Tool("undo", "undo", "Ctrl+Z", "unbuild"),
     Tool("redo", "redo", "Ctrl+Y", "rebuild"),
 )

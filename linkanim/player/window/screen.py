@@ -39,7 +39,7 @@ _NEAR = 0.022
 """How near to a thing counts as on it, in the window's height."""
 _PULLED = 6.0
 """How near to a line of the grid counts as on it, in units."""
-_VISIBLE = 2.0
+_VISIBLE = 1.0
 """The least of a step of what is drawn, in pixels."""
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees, hypot
+from math import atan2, degrees, hypot, isnan
 
+from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import JOINT, Draft, Thing
 from linkanim.build.order import line_of, place_of
 from linkanim.build.pointing import under
@@ -40,13 +41,24 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         sentence=sentence,
         facts=facts,
         chosen=next((one for one in shapes if one.thing == building.chosen), None),
-        number=f"{building.typed}_" if building.typed else "",
+        number=_number(sheet, moves=moves and not state.clock.paused),
         rubber=_rubber(seen, sheet, sheet.grip) if sheet.grip and not sheet.grip.is_click else None,
         snap=_snap(seen, sheet, hover),
         cursor=sheet.cursor,
         tools=ToolBar(_SHOWN, tool, hover.tool if hover else None),
         is_warning=bool(building.sentence),
     )
+
+
+def _number(sheet: BuildSheet, *, moves: bool) -> str:
+    """Return the number of what is chosen, as it stands or is typed; nothing while it runs."""
+    building = sheet.building
+    numbers = numbers_of(building.draft, building.chosen)
+    if not numbers or sheet.grip or (moves and not building.typed):
+        return ""
+    one = numbers[building.row % len(numbers)]
+    value = "–" if isnan(one.value) else significant(one.value, 6)
+    return typeset(f"{one.label} {building.typed}_" if building.typed else f"{one.label} {value} {one.unit}")
 
 
 def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:

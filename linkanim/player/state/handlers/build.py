@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import ceil, dist
+from math import ceil, dist, radians, tau
 from typing import Any
 
-from linkanim.build import pointing
+from linkanim.build import building as built
+from linkanim.build import chosen, dimensions, pointing
 from linkanim.build.building import Building
-from linkanim.build.building import redo as redone
-from linkanim.build.building import undo as undone
+from linkanim.build.draft import JOINT
+from linkanim.build.origin import building_of
+from linkanim.build.stored import restored, stored
 from linkanim.picture.figure import figure
 from linkanim.player.state import editing as edit
 from linkanim.player.state.clock import FRAMES_PER_SECOND
@@ -33,6 +35,13 @@ def build(state: State, _: None) -> State:
     if state.sheet is None:
         return _opened(state, Building())
     return left(state) if state.sheet.open else _opened(state, state.sheet.building)
+
+
+def build_on(state: State, _: None) -> State:
+    """Open a sheet with the scene that is on; once more where a draft would be lost."""
+    if state.sheet and state.sheet.open:
+        return left(state)
+    return _anew(state, lambda: building_of(state.scene))
 
 
 def new(state: State, _: None) -> State:
@@ -75,8 +84,26 @@ def left(state: State) -> State:
     return replace(kept, editing=edit.changed(sheet.editing, sheet.before))
 
 
+def draft(state: State, text: str) -> State:
+    """Open the sheet with a draft as it was stored."""
+    import json  # here: the first frame does not wait for it
+
+    building = Building(restored(json.loads(text)))
+    return replace(_opened(state, building), place_typed="")
+
+
+def stored_text(sheet: BuildSheet) -> str:
+    """Return the draft on a sheet as text that `draft` takes."""
+    import json
+
+    return json.dumps(stored(sheet.building.draft), ensure_ascii=False)
+
+
 def _shown(state: State, building: Building, *, live: bool = False) -> State:
-    """Return the state with another building, its linkage running for a period, or standing while `live`."""
+    """Return the state with another building, its linkage running for a period.
+
+    It stands while it is `live` under the hand, and where there is no loop yet: a bar is drawn on from there.
+    """
     sheet = state.sheet
     assert sheet
     same = building.draft is sheet.building.draft
@@ -85,9 +112,10 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
     if scene is None or scene is state.scene:
         return drawn
     found = exchanged(replace(drawn, glide=None), scene)
-    clock = found.clock.go(state.frame, 0.0, paused=live)
+    stands = live or not any(joint.dyad for joint in scene.linkage.joints)
+    clock = found.clock.go(state.frame, 0.0, paused=stands)
     frames = ceil(FRAMES_PER_SECOND * scene.period / abs(clock.speed))
-    rests = state.frame + frames if frames <= _LONGEST and not live else None
+    rests = state.frame + frames if frames <= _LONGEST and not stands else None
     return replace(found, clock=clock, sheet=replace(drawn.sheet, rests=rests))  # type: ignore[type-var]
 
 
@@ -117,7 +145,9 @@ def down(state: State, at: tuple[float, float, float, float]) -> State:
     x, y, reach, snap = at
     base, ran = sheet.building, not state.clock.paused
     if base.made.scene:
-        state = replace(state, clock=state.clock.go(state.frame, 0.0, paused=True))
+        phase = radians(round(state.phase / tau * 360))
+        base = built.posed(base, phase) if phase else base
+        state = replace(state, clock=state.clock.go(state.frame, phase, paused=True))
     cursor = sheet.cursor if sheet.cursor and dist(sheet.cursor, (x, y)) <= reach else None
     return _with(state, grip=Grip((x, y), (x, y), reach, snap, base, ran), cursor=cursor)
 
@@ -169,6 +199,9 @@ def _running(state: State, *, ran: bool) -> State:
 def _clicked(state: State, sheet: BuildSheet, grip: Grip) -> Building:
     """Return the building after a click, the second one at a place after the double click."""
     (x, y), near = grip.begin, {"reach": grip.reach, "snap": grip.snap}
+    frame, before = sheet.clicked or (state.frame - 2 * _DOUBLE, grip.begin)
+    if state.frame - frame <= _DOUBLE and dist(before, grip.begin) <= grip.reach:
+        return pointing.double_click(grip.base, x, y, **near)
     if sheet.tool == "move" and pointing.under(grip.base.draft, x, y, grip.reach) is None:
         return replace(grip.base, chosen=None, sentence="")
     return pointing.click(grip.base, sheet.tool, x, y, **near)
@@ -190,6 +223,16 @@ def cursor(state: State, at: tuple[float, float]) -> State:
     return _with(state, cursor=at)
 
 
+def further(state: State, by: int) -> State:
+    """Choose the next thing, or the one before; the keys' cursor goes to a joint."""
+    state = _changed(chosen.choose)(state, by)
+    sheet = state.sheet
+    thing = sheet.building.chosen if sheet else None
+    if sheet is None or thing is None or thing[0] != JOINT:
+        return state
+    return _with(state, cursor=sheet.seen(state.scene, state.phase).places[thing[1]])
+
+
 def _changed(work: Callable[..., Building]) -> Handler:
     """Make a handler of what changes the building; a value, if there is one, is handed on."""
 
@@ -202,8 +245,15 @@ def _changed(work: Callable[..., Building]) -> Handler:
     return handle
 
 
-undo = _changed(undone)
-redo = _changed(redone)
+number = _changed(dimensions.choose_number)
+write = _changed(dimensions.write)
+erase = _changed(dimensions.erase)
+take = _changed(dimensions.take)
+remove = _changed(chosen.delete)
+trace = _changed(chosen.trace)
+drive = _changed(chosen.drive)
+undo = _changed(built.undo)
+redo = _changed(built.redo)
 
 
 def let_go(state: State) -> State | None:
@@ -214,8 +264,8 @@ def let_go(state: State) -> State | None:
         return off(state, None)
     building = sheet.building
     if building.typed or building.chosen:
-        chosen = building.chosen if building.typed else None
-        return _with(state, building=replace(building, typed="", chosen=chosen, sentence=""))
+        kept = building.chosen if building.typed else None
+        return _with(state, building=replace(building, typed="", chosen=kept, sentence=""))
     return _with(state, tool="bar") if sheet.tool != "bar" else None
 
 
