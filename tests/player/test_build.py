@@ -168,7 +168,7 @@ def test_all_is_done_by_keys_too(builder: Builder) -> None:
     draft = builder.sheet.building.draft
     assert draft.places["O2"] == pytest.approx((x, y))
     assert draft.places["O4"] == pytest.approx((x + 6 * step, y))
-    assert list(draft.of("bars")) == ["O2–A", "A–B", "B–O4"]
+    assert list(draft.of("bars")) == ["O2–A", "A–B", "O4–B"]
     assert builder.sheet.building.made.scene is builder.state.scene
 
 
