@@ -17,7 +17,7 @@ from linkanim.scenes.fields import joints as forms
 from linkanim.scenes.fields import scene_file
 from linkanim.scenes.fields.form import Field, Form, Key
 from linkanim.scenes.fields.table import Context, Table
-from linkanim.scenes.fields.types import LENGTHS
+from linkanim.scenes.fields.types import LENGTHS, OFFSET
 
 _FORMS: Mapping[str, Form] = {
     "bars": Form((forms.CRANK.field("length"),)),
@@ -174,8 +174,8 @@ def _with_polar(draft: Draft, key: Key) -> Draft:
 def _refuse(draft: Draft, key: Key, one: Field, value: object) -> None:
     """Raise where a value cannot stand at a key, with what a scene file's reader says of it."""
     assert one.plain
-    part = str(key[-1])
-    holder = Table("", {part: [value, value] if isinstance(key[-1], int) else value}, (), Context(draft.unit))
-    found = one.plain.read(holder, part)
-    if found is None:
-        raise holder.context.problems[0]
+    part, plain = _label(one, key), OFFSET if isinstance(key[-1], int) else one.plain
+    holder = Table(str(key[1]), {part: value}, (), Context(draft.unit))
+    plain.read(holder, part)
+    if key[-2:-1] == ("at",) and value == 0 and _stated(draft, (*key[:-1], 1 - int(key[-1]))) == 0:
+        raise holder.wrong("lies on the axis' first joint itself; give a place beside it")

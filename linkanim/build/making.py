@@ -15,6 +15,7 @@ from linkanim.scenes.scene import Scene
 
 NAME = "draft"
 """What the scene of a draft is called, and its file, unless it has a name."""
+_FORCE = {"stiffness", "free_length"}
 _AFTER = ("bodies", "springs", "dampers")
 
 
@@ -31,6 +32,7 @@ def document(draft: Draft) -> Mapping[str, Any]:
     stated = {**{key: value for key, value in draft.rest.items() if key != "trace"}, "drive": draft.drive}
     stated |= {"ground": draft.of("pins"), "joints": joints}
     stated |= {kind: draft.of(kind) for kind in _AFTER}
+    stated["springs"] = {name: _whole(spring) for name, spring in draft.of("springs").items()}
     trace = [name for name in draft.trace if name in draft.of("pins") or name in joints]
     stated |= {"trace": {"joints": trace}}
     plain = {key: _plain(value) for key, value in stated.items() if value != {} and value != {"joints": []}}
@@ -46,6 +48,11 @@ def made(draft: Draft, name: str = NAME) -> Made:
     except BadInput as error:
         return Made(None, reworded(draft, error))
     return Made(scene, "")
+
+
+def _whole(spring: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return a spring without its force as long as only half of that is typed."""
+    return spring if spring.keys() >= _FORCE else {key: spring[key] for key in spring.keys() - _FORCE}
 
 
 def _plain(value: Any) -> Any:

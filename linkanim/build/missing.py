@@ -12,10 +12,12 @@ from linkanim.build.places import crank_of
 from linkanim.errors import BadInput
 
 EMPTY = "An empty sheet: click where the first ground pin stands"
+_WORDS = {"sliders": "guide", "yokes": "slot", "gears": "gear pair", "points": "body"}
 _FREED = {"points": 2, "bars": 1, "sliders": 1, "slots": 1, "yokes": 1, "gears": 1}
 """How many degrees of freedom each kind takes from the joints that it holds."""
 _OWN = ("points", "sliders", "yokes", "gears")
-_APART = re.compile(r"joint (?P<joint>[^:]+): the bars of .* cannot meet")
+_APART = re.compile(r"(joint |joints\.)(?P<joint>[^:]+): the bars of (?P<lengths>.*) cannot meet")
+_KEYS = re.compile(r"^draft: (joints: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:]*: )?")
 
 
 def missing(draft: Draft) -> str:
@@ -40,20 +42,26 @@ def mobility(draft: Draft) -> int:
 
 def reworded(draft: Draft, error: BadInput) -> str:
     """Return why reading a draft's document refused it, as a sentence about what was drawn."""
-    text = re.sub(r"^draft: (joints: |[a-z-]+: (?=joint ))?", "", str(error))
+    text = str(error)
     if apart := _APART.search(text):
-        names = [_body_of(draft, {end, apart["joint"]}) for _, end, _ in draft.bars_at(apart["joint"])]
-        return f"Bars {' and '.join(names[:2])} cannot meet: {text.partition(': ')[2]}"
+        joint = apart["joint"]
+        names = [_body_of(draft, {end, joint}) for _, end, _ in draft.bars_at(joint)]
+        return f"Bars {' and '.join(names[:2])} ({apart['lengths']}) cannot meet{text[apart.end() :]}"
+    name = (_KEYS.match(text) or {"name": None})["name"]
+    text = f"{name or ''}: {_KEYS.sub('', text)}".removeprefix(": ")
     return text[:1].upper() + text[1:]
 
 
 def _too_many(draft: Draft, known: Found) -> str:
-    """Say which bar joins what is joined already; "" where each one is needed."""
+    """Say what holds joints that are held already; "" where everything is needed."""
     pins = draft.of("pins")
     for name, table in known.items():
-        if set(table.get("from", ())) <= pins.keys() and isinstance(table.get("from"), list):
-            one, other = table["from"]
-            return f"{one}, {name} and {other}: all three pins in one body, which is the ground; remove a bar"
+        ends = _ends(table) if "from" in table else {name}
+        if ends <= pins.keys() and "on" not in table.get("line", {}):
+            if len(ends) < 2:
+                return f"{name} cannot move: its guide and its bar both stand on the ground; remove one"
+            three = ", ".join(sorted((*ends, name)))
+            return f"{three}: all three pins in one body, which is the ground; remove a bar"
     for bar, table in draft.of("bars").items():
         one, other = table["joints"]
         both = all(end in known or end in pins for end in (one, other))
@@ -62,7 +70,28 @@ def _too_many(draft: Draft, known: Found) -> str:
             if third := _third(draft, one, other):
                 why = f"{', '.join(sorted((one, other, third)))} are all three pins in one body"
             return f"Bar {_body_of(draft, {one, other})} ({bar}) is one too many: {why}; remove a bar"
+    for kind, key in (("sliders", "line"), ("yokes", "slide"), ("gears", "gear"), ("points", "at")):
+        for name in draft.of(kind):
+            table = known.get(name, {})
+            if table and key not in table and not (kind == "sliders" and "slide" in table):
+                return f"The {_WORDS[kind]} of {name} is one too many: it is held without it; remove one"
+    for name, slot in draft.of("slots").items():
+        ends = draft.of("bars")[slot["bar"]]["joints"]
+        if (
+            slot["through"] in {*known, *pins}
+            and known.keys() | pins.keys() >= set(ends)
+            and not _slides(known, slot, ends)
+        ):
+            return f"The slot of {name} is one too many: {slot['through']} is held without it; remove one"
     return ""
+
+
+def _slides(known: Found, slot: Mapping[str, Any], ends: list[str]) -> bool:
+    """Tell whether a joint was found by a slot: as what runs in it, or as the slotted bar's end."""
+    through = slot["through"]
+    line = known.get(through, {}).get("line", {})
+    by_end = any(known.get(end, {}).get("slot", {}).get("through") == through for end in ends)
+    return by_end or line.get("on") == list(ends)
 
 
 def _third(draft: Draft, one: str, other: str) -> str | None:
@@ -90,6 +119,10 @@ def _unfound(draft: Draft, known: Found) -> str:
         return f"Mobility {free}: {', '.join(sorted(group))} cannot move; remove a bar"
     begin = next((name for name in stuck if any(end in known for _, end, _ in draft.bars_at(name))), stuck[0])
     others = ", ".join(name for name in draft.places if name in group and name != begin)
+    if not others:
+        return (
+            f"{begin} is held as no dyad holds it: two bars meet, or a bar and a guide, or a bar and a slot"
+        )
     return (
         f"A triad begins at {begin}: it is found only together with {others}, which no chain of dyads can; "
         "drive another crank"
