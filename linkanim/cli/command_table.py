@@ -131,6 +131,11 @@ COMMANDS = {
         options.play,
         ("linkanim play press", "linkanim play my-linkage.toml --theme dark"),
     ),
+    "new": Command(
+        "open the window with an empty sheet, to build a linkage on",
+        options.new,
+        ("linkanim new", "linkanim new --theme dark"),
+    ),
     "record": Command(
         "write a scene's true period as GIF, MP4 or numbered PNG",
         options.record,

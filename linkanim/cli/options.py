@@ -48,6 +48,14 @@ def play(parser: Parser) -> None:
     _look(parser, "play")
 
 
+def new(parser: Parser) -> None:
+    """Add what a window with an empty sheet takes."""
+    parser.add_argument("--size", type=values.size, metavar="WxH", help="the window's, in pixels")
+    parser.add_argument(
+        "--theme", choices=("light", "dark"), default="light", help="colours (default: light)"
+    )
+
+
 def record(parser: Parser) -> None:
     """Add what a recording takes."""
     parser.add_argument("scene", metavar="SCENE", help=f"{IN_SCENE}, or of a tape")

@@ -8,6 +8,7 @@ from itertools import groupby
 from math import ceil
 from typing import NamedTuple
 
+import numpy as np
 import pygame
 
 from linkanim.picture.layout import layout
@@ -38,6 +39,9 @@ _CHOSEN_TURNS = 2
 _AT_ONCE = 5
 """The chosen picture moves at every second frame; of the others so many at each, in turns."""
 _PER_SECOND = 60
+NEW = -1
+"""The place of an empty sheet, before all mechanisms."""
+_NEW = "New: an empty sheet"
 _NONE = "no mechanism has that in its title or chapter"
 _TITLE = "Mechanisms"
 
@@ -126,6 +130,8 @@ class _Shape:
 
 def _chapter(shelf: Shelf, place: int) -> str:
     """Return what stands over a mechanism: its chapter, in capitals where it begins."""
+    if place == NEW:  # it leads the first chapter
+        return next((_chapter(shelf, n) for n in shelf.found if n != NEW), "Your own")
     entry = shelf.entries[place]
     name = (chapter_of(entry) or "") if isinstance(entry, str) else entry.chapter or "opened"
     return name[:1].upper() + name[1:]
@@ -188,7 +194,7 @@ class ShelfPrinter:
     def _join(self, found: Grid, shelf: Shelf) -> None:
         """Read the next mechanism in sight, the chosen one first."""
         order = sorted(found.cells, key=lambda n: n != shelf.chosen)
-        n = next((n for n in order if n not in self._live), None)
+        n = next((n for n in order if n not in self._live and n != NEW), None)
         if n is not None:
             entry, cell = shelf.entries[n], found.cells[n]
             scene = load(entry) if isinstance(entry, str) else entry
@@ -220,7 +226,11 @@ def _still(size: tuple[int, int], board: Board, found: Grid, shelf: Shelf) -> py
     words, colour = (f"{shelf.sieve}_", board.theme.velocity) if shelf.sieve else (_TITLE, board.theme.ink)
     text, x, y = found.text, found.room.x, 0.7 * found.text
     board.write(still, words, (x, y), size=text, colour=colour, strong=True)
-    count = f"{len(shelf.found)} of {len(shelf.entries)}" if shelf.sieve else f"{len(shelf.entries)}"
+    count = (
+        f"{len([n for n in shelf.found if n != NEW])} of {len(shelf.entries)}"
+        if shelf.sieve
+        else f"{len(shelf.entries)}"
+    )
     hint = count if shelf.sieve else f"type to filter   {count}"
     board.write(still, hint, (found.room.right, y), size=text, colour=board.theme.dim, anchor="right")
     if not shelf.found:
@@ -232,10 +242,20 @@ def _still(size: tuple[int, int], board: Board, found: Grid, shelf: Shelf) -> py
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
     named = titles()
     for n, cell in found.cells.items():
+        if n == NEW:
+            paint(still, [Layer(board.theme.dim, _plus(cell, found.line, board.layout.unit))])
+            _title(still, board, _NEW, cell, found)
+            continue
         entry = shelf.entries[n]
         _title(still, board, named[entry] if isinstance(entry, str) else entry.title, cell, found)
     still.fill(board.theme.background, pygame.Rect(0, int(found.room.bottom), *size))
     return still
+
+
+def _plus(cell: Rect, line: float, unit: float) -> list[Loop]:
+    """Return a cross in the middle of where a picture would be."""
+    middle, reach = cell.middle - 0.5j * line, 0.14 * cell.width
+    return [np.asarray(middle + bar) for bar in (box(2 * reach, 5 * unit), box(5 * unit, 2 * reach))]
 
 
 def _title(surface: pygame.Surface, board: Board, title: str, cell: Rect, found: Grid) -> None:
@@ -304,7 +324,8 @@ def frame_of(cell: Rect, board: Board, by: float) -> Loop:
 def found_among(entries: Sequence[Scene | str], sieve: str) -> tuple[int, ...]:
     """Return the places of the mechanisms that have all the sieve's words in name, title or chapter."""
     words = sieve.casefold().split()
-    return tuple(n for n, text in enumerate(_searched(entries)) if all(word in text for word in words))
+    texts = enumerate((_NEW.casefold(), *_searched(entries)), start=NEW)
+    return tuple(n for n, text in texts if all(word in text for word in words))
 
 
 def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:

@@ -15,6 +15,7 @@ from linkanim.document import Section
 from linkanim.errors import BadInput, LinkanimError, WorkFailed
 from linkanim.intake import Intake
 from linkanim.play.question import Asked
+from linkanim.user_data import kept_as
 
 VERSION = 1
 _MARK = "linkanim_scores"
@@ -51,9 +52,7 @@ class Scores:
 
 def usual_path() -> Path:
     """Return where scores are kept: in the user's data folder."""
-    from platformdirs import user_data_path
-
-    return user_data_path("linkanim", appauthor=False) / "scores.json"
+    return kept_as("scores.json")
 
 
 def load(path: Path) -> Scores:

@@ -65,7 +65,10 @@ class TapeFrames:
 
 def _lasting(over: Overlay) -> Overlay:
     """Return what of an overlay is about the linkage: lists, help, notes; no marks and no short words."""
-    return replace(over, toast=None, chip=None, hint=None, watch=None, paused=False, grip=False, shutter=0)
+    build = over.build and replace(over.build, tools=None)
+    return replace(
+        over, build=build, toast=None, chip=None, hint=None, watch=None, paused=False, grip=False, shutter=0
+    )
 
 
 def _shape(window: tuple[int, int]) -> tuple[int, int]:

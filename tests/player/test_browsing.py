@@ -161,12 +161,12 @@ def test_the_shelf_opens_at_the_mechanism_that_is_on_and_goes_round(press: State
     assert state.browsing is not None
     assert state.browsing.entries == names()
     assert state.browsing.chosen == press.place
-    state = after(state, Action("move", len(names())))
+    state = after(state, Action("move", len(names()) + 1))  # and an empty sheet
     assert state.browsing is not None
     assert state.browsing.chosen == press.place
 
 
-@pytest.mark.parametrize("place", [-1, 999])
+@pytest.mark.parametrize("place", [-2, 999])
 def test_a_place_off_the_shelf_is_not_gone_to(press: State, place: int) -> None:
     state = after(press, "shelf", Action("point", place), Action("put", place))
     assert state.browsing is not None
@@ -242,13 +242,13 @@ def test_the_shelf_opened_and_browsed_within_one_frame_goes_a_row_down(player: P
 
 def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
     player.type("o")
-    cell = _grid(player).cells[2]
+    cell = _grid(player).cells[1]
     middle = (cell.x + cell.width / 2, cell.y + cell.height / 2)
     player.mouse(pygame.MOUSEMOTION, middle, rel=(0, 0), buttons=(0, 0, 0))
     assert player.state.browsing is not None
-    assert player.state.browsing.chosen == 2
+    assert player.state.browsing.chosen == 1
     player.mouse(pygame.MOUSEBUTTONDOWN, middle, button=1)
-    assert player.state.scene.name == names()[2]
+    assert player.state.scene.name == names()[1]
     assert not player.state.is_covered
 
 
@@ -274,7 +274,7 @@ def test_letters_sift_the_shelf(on: str, typed: str, first: str) -> None:
     assert moved.browsing.chosen == state.browsing.chosen
     back = after(state, *["unsift"] * len(typed))
     assert back.browsing
-    assert (back.browsing.sieve, len(back.browsing.found)) == ("", len(names()))
+    assert (back.browsing.sieve, len(back.browsing.found)) == ("", len(names()) + 1)
 
 
 def test_the_shelf_is_sifted_with_keys_and_nothing_is_put_on_where_nothing_is_found(player: Player) -> None:

@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import math
+import signal
+import subprocess
+import sys
 from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
 
 import pygame
 import pytest
 from playing import CTRL, SHIFT, Player
 
-from linkanim.player.state.sheet import BuildSheet
+from linkanim.picture.shelf import NEW
+from linkanim.player.state.sheet import BuildSheet, Grip
 from linkanim.player.state.state import begin
+from linkanim.player.tape.tape import Tape, Taping
+from linkanim.player.tape.tape_file import read, write
 from linkanim.player.window import display
+from linkanim.player.window.drafts import DraftFile
+from linkanim.player.window.show import overlay
+from linkanim.player.window.window import Window
+from linkanim.recorder.tape_frames import _lasting, record_tape
 from linkanim.scenes import load
 
 WINDOW = (640, 360)
@@ -315,3 +327,138 @@ def test_a_scene_of_the_catalogue_is_built_on(builder: Builder) -> None:
     builder.press(pygame.K_F2, SHIFT)
     assert builder.state.scene.linkage == load("crank-rocker").linkage
     assert builder.sheet.building.draft.places.keys() == {"O2", "O4", "A", "B", "P"}
+
+
+def test_a_draft_is_written_as_a_scene_file_once_it_moves(builder: Builder, here: Path) -> None:
+    builder.click(0, 0)
+    builder.press(pygame.K_s, CTRL)
+    builder.tick()
+    assert builder.state.toast
+    assert "what can move" in builder.state.toast.text
+    assert not list(here.glob("*.toml"))
+    builder.press(pygame.K_z, CTRL)
+    builder.four_bar()
+    builder.press(pygame.K_s, CTRL)
+    (path,) = here.glob("*.toml")
+    assert load(path).linkage == builder.state.scene.linkage
+    assert builder.sheet.is_written
+
+
+def test_closing_with_a_draft_in_no_file_asks_once(builder: Builder) -> None:
+    builder.click(0, 0)
+    assert builder.press(pygame.K_q)
+    assert builder.state.toast
+    assert "Ctrl+S" in builder.state.toast.text
+    pygame.event.post(pygame.event.Event(pygame.QUIT))
+    assert not builder.tick()
+
+
+def test_the_shelf_begins_with_an_empty_sheet(builder: Builder) -> None:
+    builder.press(pygame.K_F2)
+    builder.press(pygame.K_o)
+    browsing = builder.state.browsing
+    assert browsing
+    assert browsing.found[0] == NEW
+    builder.type("new")
+    builder.press(pygame.K_RETURN)
+    assert builder.state.mode == "build"
+    assert not builder.sheet.building.draft.places
+
+
+def taped(builder: Builder, *, before: bool) -> Tape:
+    """Return the tape of a four-bar built in the window, begun on the sheet or with its first pin there."""
+    if not before:
+        builder.click(0, 0)
+    taping = Taping(builder.state, WINDOW)
+    window = builder.window
+    window._taping = taping
+    if before:
+        builder.click(0, 0)
+    builder.click(100, 0)
+    builder.draw((0, 0), (30, 0))
+    builder.draw((30, 0), (60, 80))
+    builder.draw((60, 80), (100, 0))
+    builder.type("85")
+    builder.press(pygame.K_RETURN)
+    builder.tick(30)
+    return taping.tape(builder.state.frame)
+
+
+@pytest.mark.parametrize("before", [True, False])
+def test_a_taped_session_builds_the_same_again(builder: Builder, here: Path, *, before: bool) -> None:
+    made = taped(builder, before=before)
+    write(made, here / "four-bar.tape.json")
+    *_, last = read(here / "four-bar.tape.json").states()
+    assert last.building
+    assert last.building.building.draft == builder.sheet.building.draft
+    assert last.scene == builder.state.scene
+    assert last.phase == pytest.approx(builder.state.phase)
+
+
+def test_a_building_tape_is_recorded_with_the_hand_and_without_tools(builder: Builder, here: Path) -> None:
+    write(taped(builder, before=True), here / "four-bar.tape.json")
+    found = record_tape("four-bar.tape.json", "four-bar.gif", size=(160, 90), fps=10)
+    assert found.path.exists()
+    grip = replace(builder.state.building, grip=Grip((0, 0), (9, 9), 1, 1, builder.sheet.building, True))  # type: ignore[type-var]
+    shown = _lasting(overlay(replace(builder.state, sheet=grip))).build
+    assert shown
+    assert (shown.tools, shown.hand) == (None, (9, 9))
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+import pygame
+from test_build import Builder
+from linkanim.player.state.state import begin
+from linkanim.player.window import display
+from linkanim.player.window.drafts import DraftFile
+from linkanim.player.window.window import Window
+from linkanim.scenes import load
+with display.opened((640, 360)):
+    player = Builder(begin(load("crank-rocker")))
+    player.window = Window(player.state, drafts=DraftFile(Path(sys.argv[2])))
+    player.tick()
+    player.press(pygame.K_F2)
+    player.click(0, 0)
+    player.draw((0, 0), (30, 0))
+    player.tick(60)
+    player.draw((30, 0), (60, 80))
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kill -9 is of POSIX")
+def test_what_a_killed_window_had_drawn_is_offered_but_for_the_last_second(here: Path) -> None:
+    kept = here / "data" / "draft.json"
+    command = [sys.executable, "-c", KILLED, str(Path(__file__).parent), str(kept)]
+    assert subprocess.run(command, check=False, capture_output=True).returncode == -signal.SIGKILL
+    with display.opened(WINDOW):
+        player = Builder(begin(load("press")))
+        player.window = Window(player.state, drafts=DraftFile(kept))
+        player.tick()
+        assert player.state.toast
+        assert "F2" in player.state.toast.text
+        player.tick(120)
+        assert kept.exists()
+        assert player.press(pygame.K_q) is False  # it is not asked about: it is kept as it was
+        player.press(pygame.K_F2)
+        assert list(player.sheet.building.draft.of("bars")) == ["O2–A"]
+        for _ in range(2):
+            player.press(pygame.K_n, CTRL)
+        player.tick(60)
+        assert not kept.exists()
+        player.window.close()
+
+
+def test_a_damaged_draft_is_said_and_does_no_harm(here: Path) -> None:
+    (here / "draft.json").write_text('{"draft": {"places": 3}}')
+    with display.opened(WINDOW):
+        player = Builder(begin(load("press")))
+        player.window = Window(player.state, drafts=DraftFile(here / "draft.json"))
+        player.tick(2)
+        assert player.state.toast
+        assert "damaged" in player.state.toast.text
+        assert player.state.sheet is None
+        player.window.close()

@@ -8,6 +8,7 @@ from linkanim.atomic_files import checked_target
 from linkanim.picture.look import Look
 from linkanim.play.arcade import Arcade
 from linkanim.player.window.loop import run as play
+from linkanim.user_data import kept_as
 
 
 def run(options: Namespace) -> None:
@@ -18,4 +19,5 @@ def run(options: Namespace) -> None:
         attract=options.attract,
         size=options.size,
         keeper=Arcade(options.scores and checked_target(options.scores, (".json",))),
+        drafts=kept_as("draft.json"),
     )

@@ -29,6 +29,8 @@ _LIT, _FAINT = 0.45, 0.55
 """How strongly what is chosen is lit, and how much of what the hand draws shows."""
 _BACKING = 0.8
 """How little of what lies under the words shows."""
+_ARROW = (0j, 17j, 4 + 13j, 7 + 20j, 10 + 18.7j, 7 + 12j, 12.5 + 12j)
+"""The corners of a pointer, in units."""
 _ALONG = ("begin", "end")
 """The frame of what is measured along itself."""
 
@@ -80,6 +82,8 @@ def hand(shown: BuildShown, place: SheetView, type_: Type) -> Iterator[Group]:
         yield Group("snap", [*_snap(shown.snap, place)], over=True)
     if shown.cursor:
         yield Group("cursor", [*_crosshair(place.view.place(shown.cursor), place)], over=True)
+    if shown.hand and not shown.tools:
+        yield Group("hand", [*_pointer(place.view.place(shown.hand), place)], over=True)
     yield _words(shown, place, type_)
 
 
@@ -133,6 +137,13 @@ def _snap(snap: Snap, place: SheetView) -> Iterator[Layer]:
 def _crosshair(at: complex, place: SheetView) -> Iterator[Layer]:
     arms = 0.9 * place.gauge.bar * np.array([1, 1j])
     yield Layer(place.theme.velocity, segments(at - arms, at + arms, 1.3 * place.gauge.line))
+
+
+def _pointer(at: complex, place: SheetView) -> Iterator[Layer]:
+    """Yield an arrow such as the mouse's."""
+    arrow = at + 1.4 * place.layout.unit * np.array(_ARROW, np.complex128)
+    yield Layer(place.theme.background, stroke(arrow, 5 * place.layout.unit, closed=True))
+    yield Layer(place.theme.ink, [arrow])
 
 
 def _words(shown: BuildShown, place: SheetView, type_: Type) -> Group:

@@ -60,7 +60,8 @@ class BuildShown:
     """A sheet with what is built on it; `draft` is None while the linkage itself is shown.
 
     `sentence` says what it is or what is missing, as a warning or not, `facts` what it can do. What is
-    `chosen` is lit, with its number in words or as it is typed. The `cursor` is that of the keys.
+    `chosen` is lit, with its number in words or as it is typed. The `cursor` is that of the keys. Where
+    there are no tools, as in a recording, the place of the `hand` is shown.
     """
 
     draft: DraftShown | None = None
@@ -72,4 +73,5 @@ class BuildShown:
     snap: Snap | None = None
     cursor: Point | None = None
     tools: ToolBar | None = None
+    hand: Point | None = None
     is_warning: bool = False

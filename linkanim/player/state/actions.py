@@ -169,7 +169,7 @@ ACTIONS: Mapping[str, Rule] = {
     "go": Rule(_nothing, places.go),
     "mechanism": Rule(_whole, shelf.mechanism, answer=_place),  # places further on the shelf
     "select": Rule(_whole, shelf.select, answer=_place),  # the place in the catalogue, from 0
-    "put": Rule(_whole, shelf.put, answer=_place),  # the place on the shelf, from 0
+    "put": Rule(_whole, build.put, answer=_place),  # the place on the shelf, from 0
     "closure": Rule(_nothing, shelf.closure, answer=_closure),
     **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
     "chart": Rule(_whole, looks.chart, answer=_chart),  # quantities further
@@ -255,7 +255,7 @@ ACTIONS: Mapping[str, Rule] = {
     "save": Rule(_nothing, outside.effect("save"), taped=False),
     "reload": Rule(_nothing, outside.effect("reload"), taped=False),
     "quit": Rule(_nothing, outside.quit_, taped=False),
-    "close": Rule(_nothing, outside.effect("quit"), taped=False),  # the window's own button
+    "close": Rule(_nothing, outside.close, taped=False),  # the window's own button
     "sounds": Rule(_nothing, outside.sounds, taped=False, answer=_sounds),
     "pad": Rule(_text, outside.pad, taped=False),  # what is plugged in is called; empty for nothing
     "note": Rule(_text, outside.note, taped=False),  # something the window has to say, as a toast

@@ -35,6 +35,8 @@ _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
 """What is not done on a sheet, which is left for it."""
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND
 
+_SHEETS = frozenset({"build", "sheet", "draft"})
+"""What opens a sheet, out of a game too."""
 _LIVES = {"turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
 """For how many frames after the one that the state holds something is to be seen."""
 
@@ -77,6 +79,8 @@ def carried(state: State, action: Action) -> State:
         return state
     if state.building and action.name in _WITHOUT_PENCIL:
         return state
+    if state.game and action.name in _SHEETS:
+        state = leave(state)
     if action.name in _OFF_THE_SHEET:
         state = build.left(state)
     if action.name in _KEEPS | _LEAVES:

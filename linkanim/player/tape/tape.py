@@ -11,6 +11,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
 from linkanim.player.state.advance import advance, carried
 from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.handlers.build import stored_text
 from linkanim.player.state.handlers.games import leave
 from linkanim.player.state.state import State
 from linkanim.scenes.scene import Scene
@@ -100,6 +101,8 @@ def resumed(state: State) -> Iterator[Action]:
         yield Action("play", state.game.words)
         return
     sketch = state.sketch
+    if state.building:
+        yield Action("draft", stored_text(state.building))
     if sketch is None:
         return
     yield Action("pencil")

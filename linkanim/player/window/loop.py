@@ -20,6 +20,7 @@ from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
 from linkanim.player.window import display
+from linkanim.player.window.drafts import DraftFile
 from linkanim.player.window.files import SceneFile
 from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.window import Window
@@ -36,13 +37,16 @@ def run(
     attract: bool = False,
     size: tuple[int, int] | None = None,
     keeper: GameKeeper | None = None,
+    drafts: Path | None = None,
+    sheet: bool = False,
 ) -> int:
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
     Without a scene it opens on the title, where a `keeper` has games; left alone for a minute it walks on
     through the catalogue. With `attract` it fills the screen, Esc does not leave that, and left alone it goes
     back to the title. NoDisplay where there is no screen, or none any more; BadInput as loading raises it.
-    Whatever ends the window, a recording that runs is finished.
+    Whatever ends the window, a recording that runs is finished. `drafts` is the file in which a draft is
+    kept; with `sheet` the window opens on an empty one.
     """
     tape = _tape(scene, keeper)
     state = tape.begun if tape else begin(scene, look=look)
@@ -51,7 +55,10 @@ def run(
         state = carried(state, Action("play", keeper.completed("title")))
     with display.opened(size) as connection:
         state = replace(state, attract=attract or scene is None, kiosk=attract)
-        window = Window(state, tape, None if tape else _file(scene), keeper)
+        kept = DraftFile(drafts) if drafts and not tape else None
+        window = Window(state, tape, None if tape else _file(scene), keeper, kept)
+        if sheet:
+            window.state = carried(window.state, Action("sheet"))
         if attract:
             window.fill()
         gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame

@@ -45,6 +45,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         rubber=_rubber(seen, sheet, sheet.grip) if sheet.grip and not sheet.grip.is_click else None,
         snap=_snap(seen, sheet, hover),
         cursor=sheet.cursor,
+        hand=sheet.grip.at if sheet.grip else None,
         tools=ToolBar(_SHOWN, tool, hover.tool if hover else None),
         is_warning=bool(building.sentence),
     )

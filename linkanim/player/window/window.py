@@ -23,11 +23,13 @@ from linkanim.player.state.advance import aged, carried, settled
 from linkanim.player.state.browsing import RESOLVED, Browsing, listed
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import recovered, report
+from linkanim.player.state.handlers.build import offered, written
 from linkanim.player.state.handlers.shelf import renewed
 from linkanim.player.state.sheet import BuildSheet
 from linkanim.player.state.state import State, Take
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.window import display, files
+from linkanim.player.window.drafts import DraftFile
 from linkanim.player.window.files import SceneFile
 from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.screen import Screen
@@ -42,6 +44,7 @@ if TYPE_CHECKING:
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
+_OFFER = "a draft that was in no scene file has been kept: F2 takes it up"
 _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
 
 
@@ -57,9 +60,10 @@ class Window:
         tape: Tape | None = None,
         file: SceneFile | None = None,
         keeper: GameKeeper | None = None,
+        drafts: DraftFile | None = None,
     ) -> None:
         self.state = state
-        self._file = file
+        self._file, self._drafts = file, drafts
         self._keeper, self._begun = keeper, ""
         self._tape = tape
         self._taping: Taping | None = None
@@ -74,6 +78,7 @@ class Window:
         self._now = state.frame
         self._good: State | None = None
         self._reported: set[str] = set()
+        self._offer()
 
     def tick(self, frames: int = 1) -> bool:
         """Go so many frames on, paint and flip; False when the window is to be closed.
@@ -97,6 +102,7 @@ class Window:
     def close(self) -> None:
         """Finish the recording that runs, and let go of what the window holds; those under way go on."""
         try:
+            self._keep_draft()
             if self.state.recording:
                 self._render(self.state.recording.format)
         finally:
@@ -261,6 +267,8 @@ class Window:
 
     def _news(self) -> tuple[Action, ...]:
         """Return, as notes, what was done outside, and how far recordings are."""
+        if self.state.frame % FRAMES_PER_SECOND == 0:
+            self._keep_draft()
         notes, self._notes = self._notes, []
         notes += self._keeper.news() if self._keeper else []
         if self._file and self.state.frame % FRAMES_PER_SECOND == 0:
@@ -294,7 +302,7 @@ class Window:
             case "report":
                 self._report(str(effect.value))
             case "save":
-                self._notes.append(f"{save(self.state.scene, Path())} saved")
+                self._save()
             case "reload":
                 self._reload()
             case "pencil" | "search" | "follow":
@@ -307,6 +315,31 @@ class Window:
                 self.fill()
             case "quit":
                 self._open = False
+
+    def _save(self) -> None:
+        """Write the scene as a new file; a draft on a sheet once it moves."""
+        if self.state.building and (missing := self.state.building.building.made.missing):
+            raise BadInput(f"a scene file holds what can move; the draft is kept. {missing}")
+        self._notes.append(f"{save(self.state.scene, Path())} saved")
+        self.state = written(self.state)
+
+    def _offer(self) -> None:
+        """Offer the draft that was kept of another window."""
+        try:
+            text = self._drafts.found() if self._drafts else None
+            if text:
+                self.state = offered(self.state, text)
+                self._notes.append(_OFFER)
+        except LinkanimError as error:
+            self._notes.append(str(error))
+
+    def _keep_draft(self) -> None:
+        """Keep what is drawn on the sheet, as the hand has left it."""
+        try:
+            if self._drafts and not (self.state.sheet and self.state.sheet.grip):
+                self._drafts.keep(self.state.sheet)
+        except LinkanimError as error:
+            self._notes.append(str(error))
 
     def _reload(self) -> None:
         """Put on what the scene file holds now; what is wrong with it is a note, and the linkage runs on."""

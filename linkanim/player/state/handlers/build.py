@@ -13,11 +13,15 @@ from linkanim.build.building import Building
 from linkanim.build.draft import JOINT
 from linkanim.build.origin import building_of
 from linkanim.build.stored import restored, stored
+from linkanim.errors import BadInput
 from linkanim.picture.figure import figure
+from linkanim.picture.shelf import NEW
+from linkanim.picture.view import Box
 from linkanim.player.state import editing as edit
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.handlers.edits import drop
 from linkanim.player.state.handlers.shelf import exchanged
+from linkanim.player.state.handlers.shelf import put as put_on
 from linkanim.player.state.sheet import HOME, BuildSheet, Grip
 from linkanim.player.state.state import State, with_toast
 
@@ -28,6 +32,7 @@ _DOUBLE = 24
 _LONGEST = 10 * FRAMES_PER_SECOND
 """A linkage that can move runs for a period, if that is no longer."""
 LOST = "the draft is in no scene file: Ctrl+S writes it; once more begins anew"
+_MEANT = "the draft is in no scene file: Ctrl+S writes it; once more closes, and it is offered next time"
 
 
 def build(state: State, _: None) -> State:
@@ -85,18 +90,57 @@ def left(state: State) -> State:
 
 
 def draft(state: State, text: str) -> State:
-    """Open the sheet with a draft as it was stored."""
-    import json  # here: the first frame does not wait for it
+    """Open a sheet as it was stored, seen as it is zoomed; BadInput for what is none."""
+    look, sheet = state.look, _restored(state, text)
+    opened = _opened(replace(state, sheet=sheet), sheet.building)
+    return replace(opened, look=replace(look, unit=None, chart=None))
 
-    building = Building(restored(json.loads(text)))
-    return replace(_opened(state, building), place_typed="")
+
+def offered(state: State, text: str) -> State:
+    """Return the state with a sheet as it was stored, which F2 opens; BadInput for what is none."""
+    sheet = replace(_restored(state, text), open=False, asked=True)
+    return replace(state, sheet=sheet, beneath=state.beneath and replace(state.beneath, sheet=sheet))
 
 
 def stored_text(sheet: BuildSheet) -> str:
-    """Return the draft on a sheet as text that `draft` takes."""
+    """Return a sheet with its draft as text that `draft` takes."""
+    import json  # here: the first frame does not wait for it
+
+    table = {"draft": stored(sheet.building.draft), "home": sheet.home, "tool": sheet.tool}
+    return json.dumps(table, ensure_ascii=False)
+
+
+def _restored(state: State, text: str) -> BuildSheet:
     import json
 
-    return json.dumps(stored(sheet.building.draft), ensure_ascii=False)
+    try:
+        table = json.loads(text)
+        home, tool = Box(*map(float, table["home"])), str(table["tool"])
+        building = Building(restored(table["draft"]))
+    except (ValueError, TypeError, KeyError, RecursionError):
+        raise BadInput("the draft is damaged; it is none of this linkanim's") from None
+    return BuildSheet(state.scene, state.clock, state.editing, building, home, tool=tool)
+
+
+def written(state: State) -> State:
+    """Return the state with its draft known to be in a scene file."""
+    sheet = state.sheet
+    if sheet is None or sheet.building.made.scene is not state.scene:
+        return state
+    return replace(state, sheet=replace(sheet, written=sheet.building.draft, warned=False, asked=False))
+
+
+def closing(state: State) -> State | None:
+    """Return the state that asks whether a draft is to be left in no file; None where that is known."""
+    sheet = state.sheet
+    if sheet is None or sheet.is_written or sheet.asked:
+        return None
+    return with_toast(replace(state, sheet=replace(sheet, asked=True)), _MEANT)
+
+
+def put(state: State, place: int) -> State:
+    """Put on a mechanism of the shelf, or an empty sheet."""
+    return new(replace(state, browsing=None), None) if place == NEW else put_on(state, place)
 
 
 def _shown(state: State, building: Building, *, live: bool = False) -> State:
@@ -107,7 +151,8 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
     sheet = state.sheet
     assert sheet
     same = building.draft is sheet.building.draft
-    drawn = replace(state, sheet=replace(sheet, building=building, warned=sheet.warned and same))
+    warned, asked = sheet.warned and same, sheet.asked and same
+    drawn = replace(state, sheet=replace(sheet, building=building, warned=warned, asked=asked))
     scene = building.made.scene
     if scene is None or scene is state.scene:
         return drawn
@@ -240,7 +285,8 @@ def _changed(work: Callable[..., Building]) -> Handler:
         sheet = state.sheet
         if sheet is None or not sheet.open or sheet.grip:
             return state
-        return _shown(state, work(sheet.building, *(() if value is None else (value,))))
+        building = work(sheet.building, *(() if value is None else (value,)))
+        return _shown(_with(state, clicked=None), building)
 
     return handle
 

@@ -52,7 +52,12 @@ def quit_(state: State, _: None) -> State:
     """Ask for the window's end; while something is recorded, first whether that is meant."""
     if state.recording and (state.toast is None or state.toast.text != _MEANT):
         return with_toast(state, _MEANT)
-    return with_effect(state, "quit")
+    return build.closing(state) or with_effect(state, "quit")
+
+
+def close(state: State, _: None) -> State:
+    """Ask for the window's end by its own button; once more where a draft is in no file."""
+    return build.closing(state) or with_effect(state, "quit")
 
 
 def record(state: State, form: Literal["gif", "mp4"]) -> State:

@@ -1,0 +1,16 @@
+"""`linkanim new`: the window with an empty sheet."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from linkanim.picture.look import Look
+from linkanim.player.window.loop import run as play
+from linkanim.scenes import names
+from linkanim.user_data import kept_as
+
+
+def run(options: Namespace) -> None:
+    """Open the window on an empty sheet, and return when it is closed."""
+    look = Look(theme=options.theme)
+    play(names()[0], look=look, size=options.size, drafts=kept_as("draft.json"), sheet=True)
