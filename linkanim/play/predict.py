@@ -16,9 +16,11 @@ from linkanim.play.sheet import pose_words
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.fault import proved
 from linkanim.player.state.handlers.games import with_scene
 from linkanim.player.state.state import State, with_effect
 from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 
 COUNT = 10
@@ -50,7 +52,8 @@ class Answered(NamedTuple):
 class Predict:
     """A round: of a chapter's scenes, at a level; questions that were missed before come first, as `again`.
 
-    `question` is the one that is asked since frame `since`, None at the end; `chosen` the answer taken.
+    `question` is the one that is asked since frame `since`, None at the end; `chosen` the answer taken, and
+    `coming` the next one with its scene, once it is made.
     """
 
     chapter: str
@@ -61,6 +64,7 @@ class Predict:
     question: QuizQuestion | None = None
     since: int = 0
     chosen: int | None = None
+    coming: tuple[QuizQuestion, Scene] | None = None
 
     @property
     def words(self) -> str:
@@ -111,13 +115,20 @@ class Predict:
         """Ask the next question, or say at the end how it went."""
         if self.is_over:
             return replace(state, game=replace(self, question=None, chosen=None, since=state.frame))
-        question = self._next()
-        scene = replace(question.scene, trace=question.arrows or question.scene.trace)
+        question, scene = self.coming or self._next()
         state = replace(state, look=replace(_BARE, names=question.names, theme=state.look.theme))
         state = with_scene(state, scene, question.phase, paused=True)
-        return replace(state, game=replace(self, question=question, chosen=None, since=state.frame))
+        game = replace(self, question=question, chosen=None, coming=None, since=state.frame)
+        return replace(state, game=game)
 
-    def _next(self) -> QuizQuestion:
+    def _next(self) -> tuple[QuizQuestion, Scene]:
+        """Return the question that is due, and its scene, which has arrows where they explain the answer."""
+        question = self._due()
+        return question, proved(
+            replace(question.scene, trace=question.arrows or question.scene.trace), question.phase
+        )
+
+    def _due(self) -> QuizQuestion:
         """Return the question that is due: one of an earlier round, a new one, or one that was missed."""
         number = len(self.done)
         if number < len(self.again[:COUNT]):
@@ -182,6 +193,8 @@ class Predict:
                 else clock.faster(state.frame, _SLOW)
             )
             return replace(state, clock=slow.pause(state.frame, False))
+        if state.frame == self.since + _HOLD // 2 and not self.is_over:
+            return replace(state, game=replace(self, coming=self._next()))  # while all stands still
         if stops is None or clock.paused or stops == self.question.phase:
             return state
         ahead = (stops - state.phase) * (1 if clock.speed > 0 else -1) % state.scene.period

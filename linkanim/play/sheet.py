@@ -66,7 +66,7 @@ def as_html(round_: Sequence[QuizQuestion], title: str) -> str:
 def _sections(round_: Sequence[QuizQuestion]) -> Iterator[str]:
     for number, question in enumerate(round_, 1):
         drawn = Figured(
-            question.scene, _SIZE, Look(hud=False, names=question.names), question.phase
+            question.scene, _SIZE, Look(hud=False, trace=False, names=question.names), question.phase
         ).document()
         words = pose_words(question)
         curves = question.curves or [()] * len(question.answers)

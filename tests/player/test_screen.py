@@ -449,3 +449,25 @@ def test_a_display_server_that_goes_is_a_line_and_the_recording_is_kept(
     while not (tmp_path / "recordings" / "kite-1.gif").exists():  # needs no display
         assert time.monotonic() < end
         time.sleep(0.1)
+
+
+def test_from_the_title_enter_leads_to_a_question_and_a_key_answers(tmp_path: Path) -> None:
+    screen, scores = Screen(tmp_path, "--scores", "class.json"), tmp_path / "class.json"
+    try:
+        title = screen.picture()
+        screen.until(lambda: screen.picture().tobytes() != title.tobytes(), "a mechanism runs on the title")
+        screen.press("Return")
+        screen.until(scores.is_file, "the door is kept")
+        for _ in ("Predict", "all mechanisms"):
+            time.sleep(0.1)  # between two keys of a hand
+            screen.press("Return")
+        question = screen.still()
+        screen.press("1")
+        screen.until(lambda: screen.picture().tobytes() != question.tobytes(), "the answer is shown")
+        assert '"door": "play"' in scores.read_text(encoding="utf-8")
+        screen.press("q")
+        assert screen.ends() == (0, "")
+    finally:
+        if screen.process.poll() is None:
+            screen.process.kill()
+            screen.process.communicate()

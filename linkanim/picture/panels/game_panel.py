@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from math import floor
 from typing import NamedTuple
 
@@ -33,11 +34,11 @@ _BAR = 0.5
 
 
 class _PanelPart(NamedTuple):
-    """A part of the panel: how high it is, how it is drawn with its top at a height, which answer it is."""
+    """A part: how high it is, how it is drawn with its top at a height, whether it is an answer."""
 
     high: float
     draw: Callable[[pygame.Surface, float], None]
-    answer: int | None = None
+    is_answer: bool = False
 
 
 def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
@@ -49,11 +50,10 @@ def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
     return sheet
 
 
-def answer_at(board: Board, panel: GamePanel, y: float) -> int | None:
-    """Return the answer so far down on the panel's sheet; None above, below and between them."""
+def answer_rows(board: Board, panel: GamePanel) -> tuple[tuple[float, float], ...]:
+    """Return between which heights of the panel's sheet each of its answers stands."""
     size, parts = _fitting(board, panel)
-    found = (part.answer for part, top in _placed(parts, size) if 0 <= y - top < part.high)
-    return next((answer for answer in found if answer is not None), None)
+    return tuple((top, top + part.high) for part, top in _placed(parts, size) if part.is_answer)
 
 
 def mood_colour(theme: Theme, mood: Mood) -> Colour:
@@ -62,8 +62,12 @@ def mood_colour(theme: Theme, mood: Mood) -> Colour:
 
 
 def _fitting(board: Board, panel: GamePanel) -> tuple[int, list[_PanelPart]]:
-    for size in range(board.layout.text_size, _LEAST - 1, -1):
-        parts = [*_parts(board, panel, size)]
+    """Return the largest text at which all fits; at the smallest less and less besides the answers."""
+    least, less = min(_LEAST, board.layout.text_size), replace(panel, hint="", aside="")
+    ways = [(size, panel) for size in range(board.layout.text_size, least - 1, -1)]
+    ways += [(least, less), (least, replace(less, scores=(), lines_after=()))]
+    for size, shown in ways:
+        parts = [*_parts(board, shown, size)]
         if _height(parts, size) <= board.layout.lists.height:
             break
     return size, parts
@@ -175,7 +179,7 @@ def _answer(board: Board, panel: GamePanel, n: int, choice: Choice, size: int) -
         if choice.curve:
             _curve(sheet, board, choice.curve, (left, top + inset, room, body), colour)
 
-    return _PanelPart(high, draw, n)
+    return _PanelPart(high, draw, is_answer=True)
 
 
 def _curve(

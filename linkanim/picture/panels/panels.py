@@ -16,7 +16,7 @@ from linkanim.picture.layout import Layout
 from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.chips import chip, hint_bar, put
 from linkanim.picture.panels.edit_list import edit_list, edit_rows
-from linkanim.picture.panels.game_panel import answer_at, game_panel
+from linkanim.picture.panels.game_panel import answer_rows, game_panel
 from linkanim.picture.panels.help_sheet import help_sheet
 from linkanim.picture.panels.overlay import GamePanel, Overlay, Panel, Quantities
 from linkanim.picture.panels.quantity_list import quantity_list, quantity_rows
@@ -76,11 +76,10 @@ class Panels:
     def row_at(self, overlay: Overlay, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         if overlay.game:
-            drawn = self._game(overlay.game)
+            drawn, rows = self._game(overlay.game), self._keep("answers", overlay.game, self._answers)
             left, top = self._listed(drawn)
-            return (
-                answer_at(self.board, overlay.game, y - top) if left <= x < left + drawn.get_width() else None
-            )
+            inside = left <= x < left + drawn.get_width()
+            return next((n for n, (high, low) in enumerate(rows) if inside and high <= y - top < low), None)
         if overlay.panel:
             drawn, rows = self._edit_list(overlay.panel), edit_rows(self.board, overlay.panel)
         elif overlay.quantities:
@@ -95,6 +94,9 @@ class Panels:
 
     def _game(self, panel: GamePanel) -> pygame.Surface:
         return self._keep("game", panel, partial(game_panel, self.board))  # type: ignore[no-any-return]
+
+    def _answers(self, panel: GamePanel) -> tuple[tuple[float, float], ...]:
+        return answer_rows(self.board, panel)
 
     def _edit_list(self, panel: Panel) -> pygame.Surface:
         return self._keep("panel", panel, partial(edit_list, self.board))  # type: ignore[no-any-return]
