@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from linkanim.build.draft import Draft
 from linkanim.build.missing import missing, reworded
-from linkanim.build.order import found
+from linkanim.build.order import Found, found
 from linkanim.build.shorthand import shortened
 from linkanim.errors import BadInput
 from linkanim.scenes.reading.read import scene_from
@@ -26,9 +26,8 @@ class Made(NamedTuple):
     missing: str
 
 
-def document(draft: Draft) -> Mapping[str, Any]:
-    """Return the document of a scene file that says what is drawn, as far as its joints can be found."""
-    joints = found(draft)
+def document(draft: Draft, joints: Found) -> Mapping[str, Any]:
+    """Return the document of a scene file that says what is drawn, its joints as they are found."""
     stated = {**{key: value for key, value in draft.rest.items() if key != "trace"}, "drive": draft.drive}
     stated |= {"ground": draft.of("pins"), "joints": joints}
     stated |= {kind: draft.of(kind) for kind in _AFTER}
@@ -41,10 +40,11 @@ def document(draft: Draft) -> Mapping[str, Any]:
 
 def made(draft: Draft, name: str = NAME) -> Made:
     """Return the scene that a draft describes, put together; or none, and what it lacks."""
-    if reason := missing(draft):
+    joints = found(draft)
+    if reason := missing(draft, joints):
         return Made(None, reason)
     try:
-        scene = scene_from(document(draft), name=name, where=name)
+        scene = scene_from(document(draft, joints), name=name, where=name)
     except BadInput as error:
         return Made(None, reworded(draft, error))
     return Made(scene, "")

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from linkanim.build.draft import Draft, named_in
-from linkanim.build.order import Found, found
+from linkanim.build.order import Found, plates_of
 from linkanim.build.places import crank_of
 from linkanim.errors import BadInput
 
 EMPTY = "An empty sheet: click where the first ground pin stands"
-_WORDS = {"sliders": "guide", "yokes": "slot", "gears": "gear pair", "points": "body"}
+_WORDS = {"sliders": "guide", "yokes": "slot", "gears": "gear pair"}
 _FREED = {"points": 2, "bars": 1, "sliders": 1, "slots": 1, "yokes": 1, "gears": 1}
 """How many degrees of freedom each kind takes from the joints that it holds."""
 _OWN = ("points", "sliders", "yokes", "gears")
@@ -20,8 +20,8 @@ _APART = re.compile(r"(joint |joints\.)(?P<joint>[^:]+): the bars of (?P<lengths
 _KEYS = re.compile(r"^draft: (joints: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:]*: )?")
 
 
-def missing(draft: Draft) -> str:
-    """Return what a draft lacks before its scene can be read; "" where nothing does."""
+def missing(draft: Draft, known: Found) -> str:
+    """Return what a draft lacks before its scene can be read, its joints as they are found; "" if nothing."""
     if not draft.of("pins"):
         return EMPTY
     if not draft.of("bars") and not draft.of("sliders"):
@@ -31,7 +31,6 @@ def missing(draft: Draft) -> str:
         return "Nothing is driven: choose a crank or a slider, and make it the drive"
     if driven not in draft.of("sliders") and crank_of(draft, driven) is None:
         return f"{driven} is driven, but no bar joins it to a ground pin: drive a crank or a slider"
-    known = found(draft)
     return _too_many(draft, known) or _unfound(draft, known)
 
 
@@ -54,7 +53,7 @@ def reworded(draft: Draft, error: BadInput) -> str:
 
 def _too_many(draft: Draft, known: Found) -> str:
     """Say what holds joints that are held already; "" where everything is needed."""
-    pins = draft.of("pins")
+    pins, plates = draft.of("pins"), plates_of(draft)
     for name, table in known.items():
         ends = _ends(table) if "from" in table else {name}
         if ends <= pins.keys() and "on" not in table.get("line", {}):
@@ -65,12 +64,14 @@ def _too_many(draft: Draft, known: Found) -> str:
     for bar, table in draft.of("bars").items():
         one, other = table["joints"]
         both = all(end in known or end in pins for end in (one, other))
+        if any({one, other} <= plate.keys() for plate in plates):
+            continue
         if both and other not in _ends(known.get(one, {})) and one not in _ends(known.get(other, {})):
             why = f"{one} and {other} are held without it"
             if third := _third(draft, one, other):
                 why = f"{', '.join(sorted((one, other, third)))} are all three pins in one body"
             return f"Bar {_body_of(draft, {one, other})} ({bar}) is one too many: {why}; remove a bar"
-    for kind, key in (("sliders", "line"), ("yokes", "slide"), ("gears", "gear"), ("points", "at")):
+    for kind, key in (("sliders", "line"), ("yokes", "slide"), ("gears", "gear")):
         for name in draft.of(kind):
             table = known.get(name, {})
             if table and key not in table and not (kind == "sliders" and "slide" in table):

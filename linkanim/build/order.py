@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import reduce
 from itertools import combinations
 from math import cos, sin
 from typing import Any
@@ -10,6 +11,8 @@ from typing import Any
 from linkanim import units
 from linkanim.build.draft import Draft
 from linkanim.mechanics.linkage.dyads import RRP, RRR
+from linkanim.mechanics.linkage.joint import Point, RigidBody
+from linkanim.mechanics.linkage.rigid_bodies import Rigid
 
 Found = Mapping[str, Mapping[str, Any]]
 """Tables of joints by their names, in solvable order."""
@@ -22,9 +25,9 @@ def found(draft: Draft) -> dict[str, dict[str, Any]]:
     two bars. Of its two closures it is on the one where it was drawn.
     """
     tables: dict[str, dict[str, Any]] = {}
-    known = set(draft.of("pins"))
+    known, plates = set(draft.of("pins")), plates_of(draft)
     waiting = [name for name in draft.places if name not in known]
-    while table := next(((name, way) for name in waiting for way in _ways(draft, name, known)), None):
+    while table := next(((name, way) for name in waiting for way in _ways(draft, name, known, plates)), None):
         name, tables[table[0]] = table[0], table[1]
         known.add(name)
         waiting.remove(name)
@@ -35,6 +38,20 @@ def sides(draft: Draft) -> dict[str, dict[str, Any]]:
     """Return the closures of a draft's dyads: of which joints each is one, and what it is called."""
     tables = ((name, table) for name, table in found(draft).items() if "side" in table)
     return {name: {"joints": _ends(table), "side": table["side"]} for name, table in tables}
+
+
+def plates_of(draft: Draft) -> list[RigidBody]:
+    """Return the bodies of three joints or more, each in its own frame, along its first bar."""
+    bars = (
+        {first: 0j, second: complex(units.length(table["length"], unit=draft.unit))}
+        for table in draft.of("bars").values()
+        for first, second in [table["joints"]]
+    )
+    points = [
+        Rigid(name, tuple(table["on"]), _at(draft, table)) for name, table in draft.of("points").items()
+    ]
+    bodies = reduce(lambda bodies, point: point.placed(bodies), points, tuple(bars))
+    return [body for body in bodies if len(body) > 2]
 
 
 def line_of(draft: Draft, guide: Mapping[str, Any]) -> tuple[complex, complex]:
@@ -53,7 +70,7 @@ def place_of(draft: Draft, joint: str) -> complex:
     return complex(*draft.places[joint])
 
 
-def _ways(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any]]:
+def _ways(draft: Draft, name: str, known: set[str], plates: list[RigidBody]) -> Iterator[dict[str, Any]]:
     """Yield the ways in which a joint can be found from those that are known."""
     bars = [(end, length) for _, end, length in draft.bars_at(name) if end in known]
     guide = draft.of("guides").get(draft.of("sliders").get(name, {}).get("guide"))
@@ -65,6 +82,13 @@ def _ways(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any]]:
         yield from ({"crank": end, "length": length, "gear": gear} for end, length in bars)
     if point and known.issuperset(point["on"]):
         yield dict(point)
+    held = [(body, [end for end in body if end in known]) for body in plates if name in body]
+    for body, ends in held:
+        bars += [(end, _round(abs(body[end] - body[name]))) for end in ends[:1] if end not in dict(bars)]
+        if ends[1:]:
+            way = (body[name] - body[ends[0]]) * (body[ends[1]] - body[ends[0]]).conjugate()
+            way /= abs(body[ends[1]] - body[ends[0]])
+            yield {"on": ends[:2], "at": [_round(way.real), _round(way.imag)]}
     yield from _slotted(draft, name, known, bars)
     if yoke and line and yoke["pin"] in known:
         yield {"slide": {"pin": yoke["pin"], "line": line, "slot": yoke["slot"]}}
@@ -102,6 +126,16 @@ def _carried(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any
         ends = draft.of("bars")[slot["bar"]]["joints"]
         if slot["through"] == name and known.issuperset(ends):
             yield {"on": list(ends), "through": ends[0], "offset": slot.get("offset", 0)}
+
+
+def _at(draft: Draft, point: Mapping[str, Any]) -> Point:
+    along, left = (units.length(part, unit=draft.unit) for part in point["at"])
+    return along, left
+
+
+def _round(length: float) -> float:
+    """Return a length that follows from others without what rounding left in its last digits."""
+    return round(length, 9)
 
 
 def _base(guide: Mapping[str, Any]) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hand import drawn, gesture
 
@@ -52,3 +53,13 @@ def test_a_draft_that_is_stored_comes_back() -> None:
 def test_what_is_no_draft_is_refused() -> None:
     with pytest.raises(BadInput, match="no draft"):
         restored({"places": {"A": 1}})
+
+
+def test_a_body_is_found_from_whichever_of_its_joints_are_known() -> None:
+    # The coupler's point P is held by a bar before its end B is; B follows as a point of A–P.
+    drawing = drawn(("click 0 0", "click 100 0", "drag 0 0 30 0", "drag 30 0 130 80", "drag 80 40 90 80"))
+    scene = gesture(drawing, "drag 90 80 100 0").made.scene
+    assert scene
+    place = scene.cycle(24).position
+    assert np.ptp(np.hypot(*(place["A"] - place["B"]).T)) < 1e-9
+    assert np.ptp(np.hypot(*(place["P"] - place["B"]).T)) < 1e-9
