@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from linkanim.build.draft import Draft, Thing
-from linkanim.build.making import Made, made
+from linkanim.build.making import Made, made, phase_of
 from linkanim.build.order import sides
 
 _KEPT = 200
@@ -37,7 +37,16 @@ def changed(building: Building, draft: Draft, chosen: Thing | None, sentence: st
     """Return the building with another draft, which undo takes back."""
     settled = draft.having_all("sides", sides(draft))
     past = (*building.past, building.draft)[-_KEPT:]
-    return Building(settled, chosen, past=past, sentence=sentence)
+    after = Building(settled, chosen, past=past, sentence=sentence)
+    scene = after.made.scene
+    if scene and (not building.made.scene or _input(draft) != _input(building.draft)):
+        return replace(after, draft=replace(settled, phase=phase_of(scene, settled.places)))
+    return after
+
+
+def _input(draft: Draft) -> tuple[str | None, object, object]:
+    """Return what drives: the joint, the cylinder, the slider."""
+    return draft.driven, draft.drive.get("cylinder"), draft.drive.get("slider")
 
 
 def refused(building: Building, sentence: str) -> Building:
@@ -54,7 +63,7 @@ def posed(building: Building, phase: float) -> Building:
     if scene is None:
         return building
     places = {**building.draft.places, **scene.pose(phase, 0).position}
-    return replace(building, draft=replace(building.draft, places=places))
+    return replace(building, draft=replace(building.draft, places=places, phase=phase))
 
 
 def let_go(building: Building) -> Building:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from math import floor, log10
 from typing import Any
 
 from linkanim.build.building import Building, changed, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, named_in
-from linkanim.build.gestures import SPEED, crank_drive
+from linkanim.build.gestures import SHARES, SPEED, crank_drive, driven
 from linkanim.build.order import line_of, place_of
 from linkanim.build.places import crank_of, fitted, moved, with_number
 from linkanim.build.rounding import round_number, snapped
@@ -42,7 +43,9 @@ def move(building: Building, x: float, y: float, *, snap: float) -> Building:
     draft, thing = building.draft, building.chosen
     x, y = snapped(x, y, snap)
     if thing and thing[0] == JOINT:
-        return changed(building, moved(draft, thing[1], complex(x, y), snap), thing)
+        scene = building.made.scene
+        phase = draft.phase if scene is None or scene.info.full_turn else None
+        return changed(building, moved(draft, thing[1], complex(x, y), snap, phase), thing)
     if thing and thing[0] == "guides" and (*thing, "offset") not in draft.typed:
         table = {**draft.of("guides")[thing[1]], "offset": 0}
         start, way = line_of(draft, table)
@@ -61,18 +64,21 @@ def trace(building: Building) -> Building:
     return changed(building, replace(draft, rest={**draft.rest, "trace": {"joints": joints}}), thing)
 
 
-def drive(building: Building, *, snap: float = 0.0) -> Building:
+def drive(building: Building) -> Building:
     """Return the building with the chosen thing as the drive: a crank, its bar, or a slider."""
     draft = building.draft
     joint = _drivable(draft, building.chosen)
     if joint is None:
         return refused(building, "Choose a crank (a bar on a ground pin) or a slider to drive it")
+    draft = draft.having("gears", joint, None)
     if joint in draft.of("sliders"):
-        table = _slider_drive(draft, joint, snap)
+        tables = _slider_drives(draft, joint)
     else:
-        table = crank_drive(draft, str(crank_of(draft, joint)), joint, snap)
-    draft = draft.having("gears", joint, None).having(*DRIVE, table)
-    return changed(building, draft, building.chosen, f"{joint} is driven")
+        pivot = str(crank_of(draft, joint))
+        tables = [
+            crank_drive(draft, pivot, joint, abs(place_of(draft, joint) - place_of(draft, pivot)) / 100)
+        ]
+    return driven(building, draft, tables, building.chosen, f"{joint} is driven")
 
 
 def delete(building: Building) -> Building:
@@ -102,15 +108,19 @@ def _drivable(draft: Draft, thing: Thing | None) -> str | None:
     return None
 
 
-def _slider_drive(draft: Draft, joint: str, snap: float) -> dict[str, Any]:
-    """Return the drive of a slider that goes as far to both sides as a quarter of its longest bar."""
+def _slider_drives(draft: Draft, joint: str) -> list[dict[str, Any]]:
+    """Return drives of a slider that goes to both sides by a share of its longest bar."""
     guide = draft.of("guides")[draft.of("sliders")[joint]["guide"]]
     start, way = line_of(draft, {**guide, "offset": 0})
     travel = ((place_of(draft, joint) - start) * way.conjugate()).real
     bars = [abs(place_of(draft, end) - place_of(draft, joint)) for _, end, _ in draft.bars_at(joint)]
-    reach = max(bars, default=abs(travel) or 100.0) / 4
-    limits = {"from": round_number(travel - reach, snap), "to": round_number(travel + reach, snap)}
-    return {"speed": draft.drive.get("speed", SPEED), "slider": {"joint": joint, **limits}}
+    longest = max(bars, default=abs(travel) or 100.0)
+    drives = []
+    for part in SHARES:
+        reach, step = longest * part, 10.0 ** floor(log10(longest * part) - 1)
+        limits = {"from": round_number(travel - reach, step), "to": round_number(travel + reach, step)}
+        drives.append({"speed": draft.drive.get("speed", SPEED), "slider": {"joint": joint, **limits}})
+    return drives
 
 
 def _without(draft: Draft, thing: Thing) -> Draft:

@@ -52,7 +52,7 @@ class Draft:
 
     `rest` is what else the file says. `typed` are the keys of the numbers that were typed: no drag changes
     them. `short` is the shorthand that it came from, by its key, if any; None of a linkage that is to be
-    written joint by joint.
+    written joint by joint. Of one that moves, places are those at `phase`.
     """
 
     places: Mapping[str, Point] = field(default_factory=dict)
@@ -61,6 +61,7 @@ class Draft:
     typed: frozenset[tuple[str | int, ...]] = frozenset()
     photo: Photo | None = None
     short: Mapping[str, Any] | None = field(default_factory=dict)
+    phase: float = 0.0
 
     def of(self, kind: str) -> Mapping[str, Any]:
         """Return all tables of a kind by their names."""

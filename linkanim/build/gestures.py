@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from linkanim.build.building import Building, changed, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
+from linkanim.build.making import made
 from linkanim.build.naming import body_name, joint_name, numbered, pin_name
 from linkanim.build.order import line_of, place_of
 from linkanim.build.places import at_on, crank_of, foot, gear_offset, moved
 from linkanim.build.rounding import round_angle, round_length, round_number, snapped
 
 SPEED = "20 rpm"
-_STROKE = 0.1
-"""How much shorter and longer than it was drawn a new cylinder becomes, in its length."""
+SHARES = (0.25, 0.12, 0.06, 0.03, 0.015)
+"""How far a new slider or cylinder goes to both sides, in the length of its bar or of itself."""
 
 
 def pin(building: Building, x: float, y: float, *, snap: float) -> Building:
@@ -143,11 +145,22 @@ def cylinder(building: Building, start: str, end: str, *, snap: float) -> Buildi
     if fixed not in draft.of("pins") or crank is None or crank[0] == fixed:
         return refused(building, "A cylinder drives a body that turns about a ground pin, from another pin")
     length = abs(place_of(draft, moving) - place_of(draft, fixed))
-    reach = [round_length(length * (1 + part), snap) for part in (-_STROKE, _STROKE)]
-    table = {"between": [fixed, moving], "from": reach[0], "to": reach[1], "joint": crank[1]}
-    start_angle = round_angle(place_of(draft, crank[1]) - place_of(draft, crank[0]), snap)
-    stated = {"speed": draft.drive.get("speed", SPEED), "start": start_angle, "cylinder": table}
-    return changed(building, draft.having(*DRIVE, stated), DRIVE, f"The cylinder drives {crank[1]}")
+    own = crank_drive(draft, *crank, snap)
+    drives = []
+    for part in SHARES:
+        limits = [round_length(length * (1 + sign * part), snap) for sign in (-1, 1)]
+        table = {"between": [fixed, moving], "from": limits[0], "to": limits[1], "joint": own["joint"]}
+        drives.append({"speed": own["speed"], "start": own["start"], "cylinder": table})
+    return driven(building, draft, drives, DRIVE, f"The cylinder drives {crank[1]}")
+
+
+def driven(
+    building: Building, draft: Draft, drives: Sequence[Mapping[str, Any]], chosen: Thing | None, sentence: str
+) -> Building:
+    """Return the building with the first of some drives with which the draft moves, or with the first."""
+    drafts = [draft.having(*DRIVE, table) for table in drives]
+    found = next((one for one in drafts if not drafts[1:] or made(one).scene), drafts[0])
+    return changed(building, found, chosen, sentence)
 
 
 def crank_drive(draft: Draft, pivot: str, joint: str, snap: float) -> dict[str, Any]:

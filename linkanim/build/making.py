@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from cmath import phase, rect
 from collections.abc import Mapping
+from math import pi
 from typing import Any, NamedTuple
 
 from linkanim.build.draft import Draft
@@ -10,6 +12,8 @@ from linkanim.build.missing import missing, reworded
 from linkanim.build.order import Found, found
 from linkanim.build.shorthand import shortened
 from linkanim.errors import BadInput
+from linkanim.mechanics.linkage.joint import Point
+from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -48,6 +52,23 @@ def made(draft: Draft, name: str = NAME) -> Made:
     except BadInput as error:
         return Made(None, reworded(draft, error))
     return Made(scene, "")
+
+
+def phase_of(scene: Scene, places: Mapping[str, Point]) -> float:
+    """Return the phase at which a scene's input is as it was drawn: 0 of one that turns fully.
+
+    Of one that goes there and back it is on its way there, where the closures are those that are named.
+    """
+    if scene.info.full_turn:
+        return 0.0
+    joint = scene.linkage.by_name[scene.linkage.drive.joint]
+    place = complex(*places[joint.name])
+    if isinstance(joint, DrivenSlider):
+        way = rect(1.0, -joint.line.angle)
+        now = ((place - complex(*places[joint.line.through])) * way).real
+    else:
+        now = phase(place - complex(*places[joint.needs[0]]))
+    return scene.mechanism.assembly.path.phase_of(now, pi / 2)
 
 
 def _whole(spring: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cmath import phase, rect
+from cmath import polar, rect
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
@@ -16,15 +16,18 @@ from linkanim.build.rounding import round_angle, round_degrees, round_length, ro
 from linkanim.scenes.editing.edit import replaced
 
 
-def moved(draft: Draft, joint: str, place: complex, snap: float) -> Draft:
-    """Return the draft with a joint at a place, and with the numbers that follow it, but for typed ones."""
+def moved(draft: Draft, joint: str, place: complex, snap: float, phase: float | None = 0.0) -> Draft:
+    """Return the draft with a joint at a place, and with the numbers that follow it, but for typed ones.
+
+    The drive's start follows a crank that has turned by `phase` since; None of one that does not turn fully.
+    """
     if joint in draft.of("sliders"):
         place = foot(draft, draft.of("sliders")[joint]["guide"], place)
     draft = draft.placing(joint, (place.real, place.imag))
     sides = draft.of("sides").items()
     kept = {name: table for name, table in sides if joint != name and joint not in table["joints"]}
     draft = draft.having_all("sides", kept)
-    for key, value in list(_following(draft, joint, snap)):
+    for key, value in list(_following(draft, joint, snap, phase)):
         draft = draft if key in draft.typed else with_number(draft, key, value)
     return fitted(draft)
 
@@ -59,7 +62,7 @@ def gear_offset(draft: Draft, joint: str, gear: Mapping[str, Any], snap: float) 
     """Return the angle of a geared crank where its mate's is 0, as they are drawn."""
     arms = [(one, crank_of(draft, one)) for one in (joint, gear["with"])]
     own, mate = (place_of(draft, one) - place_of(draft, pivot or one) for one, pivot in arms)
-    angle = degrees(phase(own) - float(Fraction(gear["ratio"])) * phase(mate)) % 360
+    angle = degrees(polar(own)[1] - float(Fraction(gear["ratio"])) * polar(mate)[1]) % 360
     return f"{round_degrees(angle - 360 * (angle > 180), abs(own), snap):g} deg"
 
 
@@ -75,7 +78,9 @@ def fitted(draft: Draft) -> Draft:
     return done
 
 
-def _following(draft: Draft, joint: str, snap: float) -> Iterator[tuple[tuple[str | int, ...], Any]]:
+def _following(
+    draft: Draft, joint: str, snap: float, phase: float | None
+) -> Iterator[tuple[tuple[str | int, ...], Any]]:
     """Yield the numbers that follow a joint, by their keys, with what they are where it is drawn."""
     place = place_of(draft, joint)
     pin, point = draft.of("pins").get(joint), draft.of("points").get(joint)
@@ -92,9 +97,10 @@ def _following(draft: Draft, joint: str, snap: float) -> Iterator[tuple[tuple[st
     for name, end, _ in draft.bars_at(joint):
         yield ("bars", name, "length"), round_length(abs(place - place_of(draft, end)), snap)
     driven = draft.driven
-    pivot = crank_of(draft, driven) if driven and "slider" not in draft.drive else None
-    if driven and pivot and joint in (driven, pivot):
-        yield (*DRIVE, "start"), round_angle(place_of(draft, driven) - place_of(draft, pivot), snap)
+    pivot = crank_of(draft, driven) if driven and not draft.drive.keys() & {"cylinder", "slider"} else None
+    if driven and pivot and phase is not None and joint in (driven, pivot):
+        way = (place_of(draft, driven) - place_of(draft, pivot)) * rect(1.0, -phase)
+        yield (*DRIVE, "start"), round_angle(way, snap)
     for name, gear in draft.of("gears").items():
         if {joint} & {name, gear["with"], crank_of(draft, name), crank_of(draft, gear["with"])}:
             yield ("gears", name, "offset"), gear_offset(draft, name, gear, snap)

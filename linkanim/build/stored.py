@@ -18,6 +18,7 @@ def stored(draft: Draft) -> dict[str, Any]:
         "typed": [list(key) for key in sorted(draft.typed, key=repr)],
         "photo": draft.photo and list(draft.photo),
         "short": draft.short,
+        "phase": draft.phase,
     }
 
 
@@ -32,6 +33,7 @@ def restored(tables: Mapping[str, Any], where: str = "draft") -> Draft:
             frozenset(tuple(key) for key in tables["typed"]),
             photo,
             tables["short"],
+            float(tables.get("phase", 0.0)),
         )
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         raise Section(where, {}).wrong(f"is no draft of linkanim: {type(error).__name__}") from None

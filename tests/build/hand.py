@@ -26,7 +26,7 @@ def drawn(text: str | Iterable[str], begin: Building | None = None) -> Building:
 
 
 def gesture(building: Building, line: str, *, reach: float = REACH, snap: float = SNAP) -> Building:
-    """Return the building after one gesture; by the pointer it is made onto the pose at phase 0."""
+    """Return the building after one gesture; by the pointer it is made onto the pose that is drawn."""
     name, *words = line.split()
     if name == "type":
         return take(write(building, " ".join(words)))
@@ -36,7 +36,7 @@ def gesture(building: Building, line: str, *, reach: float = REACH, snap: float 
         return choose_number(building, int(words[0]))
     if name in _PLAIN:
         return _PLAIN[name](building)
-    building = posed(building, 0.0)
+    building = posed(building, building.draft.phase)
     if name == "move":
         return move(building, *map(float, words), snap=snap)
     if name == "double":

@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 from hand import drawn, gesture
 
-from linkanim.build.building import Building, redo, undo
+from linkanim.build.building import Building, posed, redo, undo
+from linkanim.build.chosen import choose_thing
 from linkanim.build.draft import Photo
 from linkanim.build.stored import restored, stored
 from linkanim.errors import BadInput
 
 FOUR_BAR = ("click 0 0", "click 100 0", "drag 0 0 50 0", "drag 50 0 68 83", "drag 68 83 100 0")
+SLIDES = ("choose joints A", "drive", "number 2", "type 70", "type 82")
 
 
 def test_a_four_bar_moves_after_its_last_bar() -> None:
@@ -63,3 +65,36 @@ def test_a_body_is_found_from_whichever_of_its_joints_are_known() -> None:
     place = scene.cycle(24).position
     assert np.ptp(np.hypot(*(place["A"] - place["B"]).T)) < 1e-9
     assert np.ptp(np.hypot(*(place["P"] - place["B"]).T)) < 1e-9
+
+
+@pytest.mark.parametrize("phase", [0.0, 1.0, 4.0])
+@pytest.mark.parametrize("joint", ["O2", "O4", "A", "B"])
+def test_a_dragged_joint_stays_under_the_hand(joint: str, phase: float) -> None:
+    building = posed(drawn(FOUR_BAR), phase)
+    x, y = building.draft.places[joint]
+    building = gesture(choose_thing(building, "joints", joint), f"move {x + 3} {y - 2}", snap=0.001)
+    scene = building.made.scene
+    assert scene
+    found = scene.pose(building.draft.phase, 0).position[joint]
+    assert np.hypot(found[0] - x - 3, found[1] - y + 2) < 0.01
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        pytest.param(("drag 0 0 35 35", "drag 35 35 80 60", "drag 80 60 100 0"), id="a rocker"),
+        pytest.param(("drag 0 0 60 20", "drag 30 10 40 30", "drag cylinder 100 0 40 30"), id="a cylinder"),
+        pytest.param(
+            ("drag guide 0 0 0 9", "click slider 0 80", "drag 0 80 60 20", "drag 60 20 100 0", *SLIDES),
+            id="a slider",
+        ),
+    ],
+)
+def test_an_input_that_swings_begins_where_it_is_drawn(lines: tuple[str, ...]) -> None:
+    building = drawn(("click 0 0", "click 100 0", *lines))
+    scene, draft = building.made.scene, building.draft
+    assert scene
+    assert not scene.info.full_turn
+    assert 0.0 < draft.phase < np.pi
+    pose = scene.pose(draft.phase, 0).position
+    assert max(np.hypot(*np.subtract(pose[name], draft.places[name])) for name in pose) < 1.5

@@ -158,7 +158,7 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
         return drawn
     found = exchanged(replace(drawn, glide=None), scene)
     stands = live or not any(joint.dyad for joint in scene.linkage.joints)
-    clock = found.clock.go(state.frame, 0.0, paused=stands)
+    clock = found.clock.go(state.frame, building.draft.phase, paused=stands)
     frames = ceil(FRAMES_PER_SECOND * scene.period / abs(clock.speed))
     rests = state.frame + frames if frames <= _LONGEST and not stands else None
     return replace(found, clock=clock, sheet=replace(drawn.sheet, rests=rests))  # type: ignore[type-var]
@@ -173,7 +173,7 @@ def rested(state: State) -> State:
         return replace(state, sheet=replace(sheet, rests=None))
     if state.frame < sheet.rests:
         return state
-    clock = state.clock.go(state.frame, 0.0, paused=True)
+    clock = state.clock.go(state.frame, sheet.building.draft.phase, paused=True)
     return replace(state, clock=clock, sheet=replace(sheet, rests=None))
 
 
