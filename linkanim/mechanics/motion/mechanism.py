@@ -202,7 +202,8 @@ class Mechanism:
         varying = {**dict.fromkeys(trace.names, True), **dict.fromkeys(rates, variant.varying_rate)}
         pins = {joint.name: joint.position for joint in self.linkage.pins}
         places = layout({kind: trace.rows[kind] for kind in kinds}, pins, VECTORS[:3])
-        return batch(varying, places.outputs), places
+        known = (program for program, laid in self._programs[variant].values() if laid.kinds == places.kinds)
+        return next(known, None) or batch(varying, places.outputs), places
 
 
 def _scalar(trace: Traced, derivatives: int) -> Callable[..., dict[str, Any]]:
