@@ -18,7 +18,7 @@ from linkanim.picture.labels.dimensions import Measurement
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.parts.dimension_lines import AngleArc, MeasureLine
 from linkanim.picture.parts.fittings import Bench, fittings, rail_reach, rails_of
-from linkanim.picture.parts.ground import pedestal_corners
+from linkanim.picture.parts.ground import pedestal_corners, rails_under
 from linkanim.picture.parts.turning import Sliding, Turning
 from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Solid
 from linkanim.picture.raster.directions import directions, lengths
@@ -329,7 +329,7 @@ class Surroundings:
                 turn = way / np.where(way == 0, 1, np.abs(way)) + (way == 0)
                 solid = Solid(self._paths[part.at][:, None] + turn[:, None] * corners, 0.0)
                 yield Thing(frozenset((part.at, part.tail, part.head)), solid, part.tail != part.head)
-        for loops in rails_of(bench):
+        for loops in (*rails_of(bench), *rails_under(self.figure, self.view, self.gauge)):
             yield Thing(frozenset(), Solid(framed(np.concatenate(loops))[None], 0.0))
 
     def _standing(self) -> Iterator[Thing]:

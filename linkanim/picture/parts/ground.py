@@ -19,14 +19,16 @@ from linkanim.picture.view import View
 def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
     """Return pedestals and guides."""
     lines = [loop for loops in rails_of(Bench(figure, view, gauge, theme)) for loop in loops]
-    layers = [Layer(theme.ground, [*lines, *_rails_under(figure, view, gauge)])]
+    layers = [
+        Layer(theme.ground, [*lines, *(loop for rail in rails_under(figure, view, gauge) for loop in rail)])
+    ]
     for name in figure.fixed:
         layers += pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)
     return layers
 
 
-def _rails_under(figure: Figure, view: View, gauge: Gauge) -> Iterator[Loop]:
-    """Yield the rails that wheels on fixed pins stand on, one under all of a level."""
+def rails_under(figure: Figure, view: View, gauge: Gauge) -> Iterator[list[Loop]]:
+    """Yield the outlines of each rail that wheels on fixed pins stand on, one under all of a level."""
     feet: dict[float, list[complex]] = {}
     for body in figure.bodies:
         if figure.scene.style(body.name).outline == "railwheel" and body.joints[0] in figure.fixed:
@@ -34,7 +36,7 @@ def _rails_under(figure: Figure, view: View, gauge: Gauge) -> Iterator[Loop]:
             foot = _pixel(figure, view, body.joints[0]) + 1j * radius
             feet.setdefault(round(foot.imag, 3), []).extend((foot - radius, foot + radius))
     for ends in feet.values():
-        yield from hatched(min(ends, key=np.real), max(ends, key=np.real), gauge, 1)
+        yield list(hatched(min(ends, key=np.real), max(ends, key=np.real), gauge, 1))
 
 
 def _pixel(figure: Figure, view: View, name: str) -> complex:
