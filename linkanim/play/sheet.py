@@ -81,7 +81,10 @@ def _sections(round_: Sequence[QuizQuestion]) -> Iterator[str]:
 
 def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
     yield f"<div class='key'><h1>Key: {escape(title)}</h1><ol>"
-    yield from (f"<li>{escape(_key(question))}</li>" for question in round_)
+    yield from (
+        f"<li>{escape(_key(question))}<br><small>{escape(_slips(question))}</small></li>"
+        for question in round_
+    )
     yield "</ol></div>"
 
 
@@ -102,6 +105,12 @@ def _drawn(curve: Sequence[float]) -> str:
         f"<br><svg class='curve' width='{wide}' height='{high}' fill='none' stroke='currentColor'>"
         f"<path d='M0 {high / 2}H{wide}' stroke-width='.4'/><polyline points='{points}'/></svg>"
     )
+
+
+def _slips(question: QuizQuestion) -> str:
+    """Return from which misconceptions the wrong answers come."""
+    slips = [f"{letter}) {slip}" for letter, slip in zip(LETTERS, question.slips, strict=False) if slip]
+    return "; ".join(slips)
 
 
 def _key(question: QuizQuestion) -> str:

@@ -137,6 +137,16 @@ def test_esc_leaves_full_screen_but_in_a_kiosk(player: Player, monkeypatch: pyte
     assert len(filled) == 1
 
 
+def test_esc_and_f3_lead_back_to_it(player: Player) -> None:
+    player.window.state = replace(begin(load("press")), games=game_of)
+    player.press(pygame.K_ESCAPE)
+    assert player.state.toast
+    player.press(pygame.K_F3)
+    assert type(player.state.game) is Title
+    player.window.state = replace(begin(load("press")), games=game_of, attract=True)
+    assert carried(player.state, Action("back")).effects == (Action("begin", "title"),)
+
+
 def test_a_recording_begun_on_it_begins_there(tmp_path: Path) -> None:
     state = titled()
     for _ in range(EACH + 1):

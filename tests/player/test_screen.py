@@ -79,6 +79,10 @@ class Screen:
     def picture(self) -> Image.Image:
         return ImageGrab.grab(self.box(), xdisplay="")
 
+    def moves(self) -> bool:
+        """Return whether the picture is another one a moment later."""
+        return self.picture().tobytes() != self.picture().tobytes()
+
     def still(self) -> Image.Image:
         """Return the picture once it has stood still for a while."""
         pictures: list[Image.Image] = []
@@ -454,12 +458,11 @@ def test_a_display_server_that_goes_is_a_line_and_the_recording_is_kept(
 def test_from_the_title_enter_leads_to_a_question_and_a_key_answers(tmp_path: Path) -> None:
     screen, scores = Screen(tmp_path, "--scores", "class.json"), tmp_path / "class.json"
     try:
-        title = screen.picture()
-        screen.until(lambda: screen.picture().tobytes() != title.tobytes(), "a mechanism runs on the title")
+        screen.until(screen.moves, "a mechanism runs on the title")
         screen.press("Return")
         screen.until(scores.is_file, "the door is kept")
         for _ in ("Predict", "all mechanisms"):
-            time.sleep(0.1)  # between two keys of a hand
+            screen.until(screen.moves, "a mechanism runs behind it")
             screen.press("Return")
         question = screen.still()
         screen.press("1")

@@ -78,6 +78,7 @@ KEYS: tuple[KeyRow, ...] = (
         _on("tab", "mechanism", 1) + _on("shift+tab", "mechanism", -1) + _DIGITS,
     ),
     KeyRow("play", "O", "the shelf: all mechanisms", _on("o", "shelf")),
+    KeyRow("play", "F3", "the title, and what there is to play", _on("f3", "play", "title door=play")),
     KeyRow("play", "drag the crank pin", "move the crank; so does the chart's cursor"),
     *_looks("look"),
     KeyRow(

@@ -32,7 +32,10 @@ def pad(state: State, name: str) -> State:
 
 
 def back(state: State, _: None) -> State:
-    """Let go of what lies on top: the help, a list, a value begun; never of the window."""
+    """Let go of what lies on top: the help, a list, a value begun; never of the window.
+
+    From a mechanism it leads back to the title, where the window opened on that.
+    """
     if state.help:
         return replace(state, help=False)
     if state.listing or state.browsing:
@@ -45,7 +48,13 @@ def back(state: State, _: None) -> State:
         return replace(state, editing=edit_.let_go(state.editing))
     if state.place_typed:
         return replace(state, place_typed="", chip=None)
-    return edit(state, None) if state.editing.open else with_toast(state, "Q quits")
+    if state.editing.open:
+        return edit(state, None)
+    return (
+        with_effect(state, "begin", "title")
+        if state.attract and state.games
+        else with_toast(state, "Q quits")
+    )
 
 
 def quit_(state: State, _: None) -> State:
