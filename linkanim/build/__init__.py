@@ -23,6 +23,9 @@ On the chosen thing, also by keys (`chosen.py`, `dimensions.py`, `building.py`):
     choose_number(building, further)                                    the next number of it
     undo(building), redo(building), let_go(building)
 
+A photograph behind it (`gestures.py`): `lay_photo(building, file, x, y, width)`, `move_photo(building, x, y,
+to_x, to_y)`, `fit_photo(building, x, y, to_x, to_y, x2, y2, to_x2, to_y2)`, by two known points.
+
 `numbers_of(draft, chosen)` are its numbers (label, value, unit), `row` the one that digits are for.
 
 What comes of it: `building.made.scene` (a Scene, or None) and `building.made.missing` (why there is none).

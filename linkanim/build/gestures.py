@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from linkanim.build.building import Building, changed, refused
-from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
+from linkanim.build.draft import DRIVE, JOINT, Draft, Photo, Thing
 from linkanim.build.making import made
 from linkanim.build.naming import body_name, joint_name, numbered, pin_name
 from linkanim.build.order import line_of, place_of
+from linkanim.build.photo import fitted_photo
 from linkanim.build.places import at_on, crank_of, foot, gear_offset, moved
 from linkanim.build.rounding import round_angle, round_length, round_number, snapped
 
@@ -161,6 +163,39 @@ def driven(
     drafts = [draft.having(*DRIVE, table) for table in drives]
     found = next((one for one in drafts if not drafts[1:] or made(one).scene), drafts[0])
     return changed(building, found, chosen, sentence)
+
+
+def lay_photo(building: Building, file: str, x: float, y: float, width: float) -> Building:
+    """Return the building with a photograph behind it, its lower left corner at a point; "" takes it away."""
+    return _photographed(building, Photo(file, (x, y), width) if file else None)
+
+
+def move_photo(building: Building, x: float, y: float, to_x: float, to_y: float) -> Building:
+    """Return the building with its photograph moved as from one point to another."""
+    return _fitted(building, 1 + 0j, complex(to_x - x, to_y - y))
+
+
+def fit_photo(building: Building, *points: float) -> Building:
+    """Return the building with its photograph scaled and turned, so that two points of it come to two others.
+
+    `points` are x and y of the first where it lies now and of where it belongs, then of the second likewise.
+    """
+    one, there, other, beyond = (complex(*points[n : n + 2]) for n in (0, 2, 4, 6))
+    if one == other or there == beyond:
+        return refused(building, "Two points fit a photograph: take them apart from each other")
+    scale = (beyond - there) / (other - one)
+    return _fitted(building, scale, there - scale * one)
+
+
+def _fitted(building: Building, scale: complex, shift: complex) -> Building:
+    photo = building.draft.photo
+    if photo is None:
+        return refused(building, "There is no photograph: drop one on the window")
+    return _photographed(building, fitted_photo(photo, scale, shift))
+
+
+def _photographed(building: Building, photo: Photo | None) -> Building:
+    return changed(building, replace(building.draft, photo=photo), building.chosen)
 
 
 def crank_drive(draft: Draft, pivot: str, joint: str, snap: float) -> dict[str, Any]:

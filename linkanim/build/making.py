@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from linkanim.build.draft import Draft
 from linkanim.build.missing import missing, reworded
 from linkanim.build.order import Found, found
+from linkanim.build.photo import photo_table
 from linkanim.build.shorthand import shortened
 from linkanim.errors import BadInput
 from linkanim.mechanics.linkage.joint import Point
@@ -38,6 +39,7 @@ def document(draft: Draft, joints: Found) -> Mapping[str, Any]:
     stated["springs"] = {name: _whole(spring) for name, spring in draft.of("springs").items()}
     trace = [name for name in draft.trace if name in draft.of("pins") or name in joints]
     stated |= {"trace": {"joints": trace}}
+    stated |= {"photo": photo_table(draft.photo) if draft.photo else {}}
     plain = {key: _plain(value) for key, value in stated.items() if value != {} and value != {"joints": []}}
     return shortened(draft, plain)
 

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from linkanim.build.building import Building
 from linkanim.build.draft import DRIVE, Draft
 from linkanim.build.naming import numbered
+from linkanim.build.photo import photo_of
 from linkanim.build.shorthand import table_of
 from linkanim.mechanics.linkage.dyads import RRP, RRR
 from linkanim.scenes.fields.shorthands import SHORTHANDS
 from linkanim.scenes.scene import Scene
 
-_DRAWN = ("ground", "joints", "bodies", "springs", "dampers", "drive", *SHORTHANDS)
+_DRAWN = ("ground", "joints", "bodies", "springs", "dampers", "drive", "photo", *SHORTHANDS)
 
 _JUST_AFTER = 0.01
 
@@ -24,8 +26,9 @@ def building_of(scene: Scene) -> Building:
 
 
 def draft_of(scene: Scene) -> Draft:
-    """Return the draft of a scene, its joints where they stand just after phase 0, which may be a limit.
+    """Return the draft of a scene, its joints where they stand at phase 0.
 
+    Where another joint's side names a closure they stand just after: that does not show at a limit.
     Numbers stay as its file writes them; those that a shorthand gives are in the scene's unit.
     """
     document = scene.document
@@ -34,7 +37,10 @@ def draft_of(scene: Scene) -> Draft:
     rest |= {"title": scene.title, "length_unit": scene.length_unit}
     if scene.trace:
         rest["trace"] = {"joints": list(scene.trace)}
-    draft = Draft(dict(scene.pose(_JUST_AFTER, 0).position), rest=rest, short=short or None)
+    phase = _JUST_AFTER if any(getattr(joint, "side_of", None) for joint in scene.linkage.joints) else 0.0
+    draft = Draft(dict(scene.pose(phase, 0).position), rest=rest, short=short or None, phase=phase)
+    if "photo" in document:
+        draft = replace(draft, photo=photo_of(document["photo"], scene.length_unit))
     for joint in scene.linkage.joints:
         section = document.get("ground" if joint.fixed else "joints", {})
         draft = _apart(draft, joint.name, section.get(joint.name) or table_of(joint))

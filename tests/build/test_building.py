@@ -12,8 +12,13 @@ from hand import drawn, gesture
 from linkanim.build.building import Building, posed, redo, undo
 from linkanim.build.chosen import choose_thing
 from linkanim.build.draft import Photo
+from linkanim.build.gestures import fit_photo, lay_photo, move_photo
+from linkanim.build.origin import draft_of
 from linkanim.build.stored import restored, stored
 from linkanim.errors import BadInput
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.editing.write import text
+from linkanim.scenes.reading.read import scene_from
 
 FOUR_BAR = ("click 0 0", "click 100 0", "drag 0 0 50 0", "drag 50 0 68 83", "drag 68 83 100 0")
 SLIDES = ("choose joints A", "drive", "number 2", "type 70", "type 82")
@@ -98,3 +103,27 @@ def test_an_input_that_swings_begins_where_it_is_drawn(lines: tuple[str, ...]) -
     assert 0.0 < draft.phase < np.pi
     pose = scene.pose(draft.phase, 0).position
     assert max(np.hypot(*np.subtract(pose[name], draft.places[name])) for name in pose) < 1.5
+
+
+def test_a_photograph_comes_to_two_known_points_and_into_the_file() -> None:
+    building = lay_photo(drawn(FOUR_BAR), "digger.jpg", -10, -10, 200)
+    assert fit_photo(building, 0, 0, 1, 1, 0, 0, 2, 2).sentence.startswith("Two points fit")
+    building = fit_photo(building, -10, -10, 0, 0, 90, -10, 0, 50)
+    photo = building.draft.photo
+    assert photo
+    assert (photo.place, photo.width, photo.turn) == (
+        (0.0, 0.0),
+        pytest.approx(100),
+        pytest.approx(np.pi / 2),
+    )
+    moved = move_photo(building, 0, 0, 5, 6).draft.photo
+    assert moved
+    assert moved.place == (5.0, 6.0)
+    scene = building.made.scene
+    assert scene
+    again = draft_of(scene_from(parse(text(scene), "a"), name="a", where="a")).photo
+    assert again
+    assert (again.file, again.place, again.width) == (photo.file, photo.place, photo.width)
+    assert again.turn == pytest.approx(photo.turn)
+    assert undo(undo(building)).draft.photo is None
+    assert move_photo(Building(), 0, 0, 5, 6).sentence == "There is no photograph: drop one on the window"

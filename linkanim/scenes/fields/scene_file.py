@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple, get_args
 
 from linkanim import units
@@ -155,6 +156,14 @@ DRIVE = form(
         "returns", choice("other", "same"), "the closure on which an input that swings comes back", "other"
     ),
 )
+PHOTO = form(
+    "a photograph to build over, behind the sheet",
+    dict,
+    Field("file", TEXT, "its path from the scene file's folder"),
+    Field("place", replace(POINT, measure=None), "x and y of its lower left corner"),
+    Field("width", replace(LENGTH, measure=None), "how wide it is"),
+    Field("turn", replace(ANGLE, measure=None), "by what angle it is turned about that corner", "0 deg"),
+)
 TRACE = form("the curves", dict, Field("joints", MEMBERS, "the joints whose curves are drawn", None))
 
 SCENE_FILE = form(
@@ -175,6 +184,7 @@ SCENE_FILE = form(
     Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
     Field("drive", DRIVE, "the input", {}),
     Field("trace", TRACE, "the curves", {}),
+    Field("photo", PHOTO, "a photograph to build over", None),
 )
 """The form of a scene file."""
 SECTIONS: Mapping[str, Field] = {one.key: one for one in SCENE_FILE.fields}

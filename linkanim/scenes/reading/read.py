@@ -51,6 +51,8 @@ def read(
         **{key: _part(top, key) for key in ("source", "chapter", "look_at", "notes")},
         "trace": _trace(top, short),
     }
+    if "photo" in top:
+        _part(top, "photo")
     if any(part is None for part in parts.values()):
         return None, top.context.problems
     styles = tuple((name, one.style) for name, one in bodies.items() if one and one.style != FREE_STYLE)
