@@ -12,10 +12,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from linkanim.picture.arrangement.sweep import Sweep
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.picture.arrangement.sweep import Numbers, Sweep
 from linkanim.picture.layout import Gauge, Layout, gauge
 from linkanim.picture.panels.hud import WordBlock
-from linkanim.picture.view import Box, Rect, View
+from linkanim.picture.view import Rect, View
 
 HIGH, WIDE = 0.86, 0.7
 """The least share of the stage that a scene takes, of its height or of its width."""
@@ -26,6 +29,8 @@ _LINE = 0.03
 """What each further line of the title costs."""
 _AWAY = (0.0, 0.25, 0.5)
 """How far the scene gives way to the words, in shares of the room that it leaves."""
+_WAYS = tuple(sorted(product(_AWAY, _AWAY), key=sum))
+"""Across and down, the middle of the stage first."""
 _MARKS = (7.2, 2.5)
 """How wide and high the marks are, in sizes of the text."""
 _HINTS = (27.0, 19.0, 13.0, 5.4)
@@ -34,6 +39,11 @@ _THINNEST = 0.68
 """What is drawn is no thinner than this on a small stage, in thicknesses of the whole window's."""
 _EDGE = 9.0
 """From the stage's edge to what is drawn, in units."""
+
+
+Corner = tuple[int, int]
+Views = tuple[Numbers, Numbers, Numbers]
+"""Scales of views, and x and y of their origins, all of one shape."""
 
 
 @dataclass(frozen=True)
@@ -59,9 +69,9 @@ def arranged(
     `shapes` are those of the sentence that is shown for a while, the best first.
     """
     ways_ = _WaysToArrange(parts, sweep, shortest)
-    found = (ways_.placed(*way[1:]) for group in blocks for way in ways_.ways(group))
+    found = (one for group in blocks for one in ways_.placed(group))
     bare = Arrangement(parts, ways_.view(ways_.largest, (0.5, 0.5)), ways_.gauge, None)
-    arrangement = next((one for one in found if one), bare)
+    arrangement = next(found, bare)
     marked = replace(arrangement, layout=replace(arrangement.layout, marks=ways_.marks(arrangement)))
     hinted = replace(marked, layout=replace(marked.layout, hint=ways_.hint(marked)))
     return replace(hinted, layout=replace(hinted.layout, passing=ways_.free(hinted, shapes)))
@@ -82,29 +92,37 @@ class _WaysToArrange:
         self._reaches = [(box, self.gauge.around[kind]) for box, kind in sweep.parts]
         self.largest = self._largest(bare)
         self.least = min(HIGH * parts.stage.height / self._high, WIDE * parts.stage.width / self._wide)
-
-    def ways(self, group: Sequence[WordBlock]) -> list[tuple[float, float, WordBlock, tuple[int, int]]]:
-        """Return cost, scale, words and corner, the cheapest first."""
         share = min(self.least / self.largest, 1.0)
-        scales = [1.0 - (1.0 - share) * step / _STEPS for step in range(_STEPS + 1)]
-        ways = [
-            (1.0 - scale + price + _LINE * block.turns, scale * self.largest, block, corner)
-            for scale, block, (corner, price) in product(scales, group, _CORNERS)
-        ]
-        return sorted(ways, key=lambda way: way[0])
+        self._shares = [1.0 - (1.0 - share) * step / _STEPS for step in range(_STEPS + 1)]
+        self._scales = [share * self.largest for share in self._shares]
 
-    def placed(self, scale: float, block: WordBlock, corner: tuple[int, int]) -> Arrangement | None:
-        """Return the arrangement with the words in a corner, None where they would lie on the scene."""
-        place = self._corner(block, corner)
-        if place is None:
-            return None
-        for view in self._views(scale, corner):
-            if not any(self._drawn_in(rect, view, block.size) for rect in block.rects_at(place)):
+    def placed(self, group: Sequence[WordBlock]) -> Iterator[Arrangement]:
+        """Yield arrangements with one of the group's words in a corner, off the scene, the cheapest first."""
+        clear: dict[tuple[int, Corner], NDArray[np.bool_]] = {}
+        for _, step, turn, corner in self._ways(group):
+            place, block = self._corner(group[turn], corner), group[turn]
+            if place is None:
+                continue
+            if (turn, corner) not in clear:
+                drawn = self._drawn_in([*block.rects_at(place)], self._views(corner), block.size)
+                clear[turn, corner] = np.logical_not(drawn.any(axis=-1))
+            views = clear[turn, corner][step]
+            if views.any():
                 hud, legend = block.parts_at(place)
                 words = tuple(block.rects_at(place))
                 parts = replace(self.parts, hud=hud, legend=legend, words=words)
-                return Arrangement(parts, view, self.gauge, block)
-        return None
+                view = self.view(self._scales[step], _places(corner)[int(views.argmax())])
+                yield Arrangement(parts, view, self.gauge, block)
+
+    def _ways(self, group: Sequence[WordBlock]) -> list[tuple[float, int, int, Corner]]:
+        """Return cost, number of the scale and of the words, and corner, the cheapest first."""
+        ways = [
+            (1.0 - share + price + _LINE * block.turns, step, turn, corner)
+            for (step, share), (turn, block), (corner, price) in product(
+                enumerate(self._shares), enumerate(group), _CORNERS
+            )
+        ]
+        return sorted(ways, key=lambda way: way[0])
 
     def marks(self, arrangement: Arrangement) -> Rect:
         """Return where the marks stand: in the first corner without words, off the scene if there is one."""
@@ -125,8 +143,7 @@ class _WaysToArrange:
             for rect in corners
             if not any(rect.meets(words) for words in (parts.hud, parts.legend) if words)
         ]
-        clear = (rect for rect in free if not self._drawn_in(rect, arrangement.view, high))
-        return next(clear, (free or corners)[0])
+        return self._clear(free, arrangement.view, high) or (free or corners)[0]
 
     def hint(self, arrangement: Arrangement) -> Rect:
         """Return where the hint bar stands: at the stage's foot or head, on nothing, as wide as it can be.
@@ -141,13 +158,24 @@ class _WaysToArrange:
         """Return the first of some shapes at the stage's foot or head that lies on nothing; None for none."""
         parts, stage = arrangement.layout, self._edges(arrangement)
         others = [one for one in (parts.hud, parts.legend, parts.marks) if one]
-        for (wide, high), low, right in product(shapes, (1, 0), (1.0, 0.0, 0.5)):
-            at = stage.x + right * (stage.width - wide), stage.y + low * (stage.height - high)
-            rect, beyond = Rect(*at, wide, high), wide > stage.width or high > stage.height
-            taken = beyond or any(rect.meets(one) for one in others)
-            if not (taken or self._drawn_in(rect, arrangement.view, 0)):
-                return rect
+        for wide, high in shapes:
+            if wide > stage.width or high > stage.height:
+                continue
+            across, down = stage.width - wide, stage.height - high
+            rects = (
+                Rect(stage.x + right * across, stage.y + low * down, wide, high)
+                for low, right in product((1, 0), (1.0, 0.0, 0.5))
+            )
+            free = [rect for rect in rects if not any(rect.meets(one) for one in others)]
+            if clear := self._clear(free, arrangement.view, 0):
+                return clear
         return None
+
+    def _clear(self, rects: Sequence[Rect], view: View, size: int) -> Rect | None:
+        """Return the first rectangle in which nothing is drawn; None for none."""
+        views = np.array(view.scale), np.array(view.x), np.array(view.y)
+        drawn = self._drawn_in(rects, views, size) if rects else ()
+        return next((rect for rect, taken in zip(rects, drawn, strict=True) if not taken), None)
 
     def _edges(self, arrangement: Arrangement) -> Rect:
         return arrangement.layout.stage.inset(6 * arrangement.layout.unit)
@@ -158,23 +186,29 @@ class _WaysToArrange:
         x = self.room.x - left + at[0] * (self.room.width - (right - left))
         return View(scale, x, self.room.y - top + at[1] * (self.room.height - (bottom - top)))
 
-    def _views(self, scale: float, corner: tuple[int, int]) -> Iterator[View]:
-        """Yield views that give way to what is in a corner, the middle of the stage first."""
-        for across, down in sorted(product(_AWAY, _AWAY), key=sum):
-            away = (across * (1 - 2 * corner[0]), down * (1 - 2 * corner[1]))
-            yield self.view(scale, (0.5 + away[0], 0.5 + away[1]))
+    def _views(self, corner: Corner) -> Views:
+        """Return the views (scales, places) that give way to what is in a corner."""
+        extents = np.array([self._extent(scale) for scale in self._scales])
+        left, top, right, bottom = extents.T[:, :, None]
+        across, down = np.array(_places(corner)).T
+        x = self.room.x - left + across * (self.room.width - (right - left))
+        y = self.room.y - top + down * (self.room.height - (bottom - top))
+        return np.array(self._scales)[:, None], x, y
 
-    def _corner(self, block: WordBlock, corner: tuple[int, int]) -> tuple[float, float] | None:
+    def _corner(self, block: WordBlock, corner: Corner) -> tuple[float, float] | None:
         stage, wide, high = self.parts.stage.inset(self.parts.margin), block.width, block.height
         if wide > stage.width or high > stage.height:
             return None
         return stage.x + corner[0] * (stage.width - wide), stage.y + corner[1] * (stage.height - high)
 
-    def _drawn_in(self, rect: Rect, view: View, size: int) -> bool:
-        low, high = view.to_world(rect.x, rect.bottom), view.to_world(rect.right, rect.y)
+    def _drawn_in(self, rects: Sequence[Rect], views: Views, size: int) -> NDArray[np.bool_]:
+        """Return whether anything is drawn in rectangles, in each view (..., rectangles)."""
+        left, top, right, bottom = np.array([(one.x, one.y, one.right, one.bottom) for one in rects]).T
+        scale, x, y = (one[..., None] for one in views)
         gap = 0.5 * size
         _, bar, foot = (reach + gap for reach in self.gauge.around)
-        return self.sweep.touches(Box(*low, *high), bar / view.scale, foot / view.scale)
+        sides = (left - x) / scale, (y - bottom) / scale, (right - x) / scale, (y - top) / scale
+        return self.sweep.touches(sides, bar / scale, foot / scale)
 
     def _extent(self, scale: float) -> tuple[float, float, float, float]:
         """Return left, top, right and bottom of what is drawn, in pixels from the scene's origin."""
@@ -197,3 +231,8 @@ class _WaysToArrange:
                 if length > 0:
                     scale = min(scale, max(room - around, 1.0) / length)
         return scale
+
+
+def _places(corner: Corner) -> list[tuple[float, float]]:
+    """Return how far to the right and down a scene stands that gives way to a corner, the middle first."""
+    return [(0.5 + across * (1 - 2 * corner[0]), 0.5 + down * (1 - 2 * corner[1])) for across, down in _WAYS]

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
-from math import ceil, floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +22,9 @@ _CELLS = 160
 _ROUND = np.exp(2j * np.pi * np.arange(240) / 240)
 
 Points = NDArray[np.complex128]
+Numbers = NDArray[np.float64]
+Sides = tuple[Numbers, Numbers, Numbers, Numbers]
+"""Left, low, right and high of rectangles, in the scene's unit."""
 
 
 @dataclass(frozen=True)
@@ -52,10 +54,9 @@ class Sweep:
             whole = joined(whole, box)
         return whole
 
-    def touches(self, box: Box, bar: float, foot: float) -> bool:
-        """Whether anything is drawn in a rectangle: a bar's half width or a foot about the points."""
-        near = (self._bars, bar), (self._feet, foot), (self._rims, 0.0)
-        return any(grid.holds(_widened(box, by)) for grid, by in near)
+    def touches(self, sides: Sides, bar: Numbers, foot: Numbers) -> NDArray[np.bool_]:
+        """Return whether anything is drawn in rectangles: a bar's half width or a foot about the points."""
+        return self._bars.holds(sides, bar) | self._feet.holds(sides, foot) | self._rims.holds(sides, 0.0)
 
     @cached_property
     def _bars(self) -> _Grid:
@@ -95,18 +96,19 @@ class _Grid:
         held[tuple(place)] = 1
         return cls(box, (cell[0], cell[1]), held.cumsum(axis=0).cumsum(axis=1))
 
-    def holds(self, box: Box) -> bool:
-        """Whether a point lies in a rectangle, or in a cell at its edge."""
-        left, right = self._cells(box.left - self.box.left, box.right - self.box.left, self.cell[0])
-        low, high = self._cells(box.low - self.box.low, box.high - self.box.low, self.cell[1])
-        if left >= right or low >= high:
-            return False
+    def holds(self, sides: Sides, around: Numbers | float) -> NDArray[np.bool_]:
+        """Return whether a point lies in or around rectangles, or in a cell at their edges."""
+        left, low, right, high = sides
+        west, east = self._cells(left - around - self.box.left, right + around - self.box.left, self.cell[0])
+        south, north = self._cells(low - around - self.box.low, high + around - self.box.low, self.cell[1])
         sums = self.sums
-        return bool(sums[right, high] - sums[left, high] - sums[right, low] + sums[left, low])
+        count = sums[east, north] - sums[west, north] - sums[east, south] + sums[west, south]
+        return np.asarray((west < east) & (south < north) & (count != 0))
 
     @staticmethod
-    def _cells(near: float, far: float, cell: float) -> tuple[int, int]:
-        return max(floor(near / cell), 0), min(max(ceil(far / cell), 0), _CELLS)
+    def _cells(near: Numbers, far: Numbers, cell: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        first, last = np.floor(near / cell), np.ceil(far / cell)
+        return np.clip(first, 0, _CELLS).astype(np.intp), np.clip(last, 0, _CELLS).astype(np.intp)
 
 
 def sweep_of(figure: Figure) -> Sweep:
@@ -186,7 +188,3 @@ def _path(figure: Figure, name: str, every: int = 0) -> Points:
 def _box(points: Points) -> Box:
     x, y = points.real, points.imag
     return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
-
-
-def _widened(box: Box, by: float) -> Box:
-    return Box(box.left - by, box.low - by, box.right + by, box.high + by)
