@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import atexit
+import gc
 import os
 import shutil
 import signal
 import tempfile
+from functools import cache
 
 import pytest
 from hypothesis import settings
 from withstood import MARK, table
+
+from linkanim import scenes
+from linkanim.scenes import Scene, files
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
@@ -27,6 +32,24 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 settings.register_profile("linkanim", deadline=None, derandomize=True, database=None)
 settings.load_profile("linkanim")
+
+
+@cache
+def _scene(name: str) -> Scene:
+    return files.load(name)
+
+
+def _read_once(name_or_path: str | os.PathLike[str]) -> Scene:
+    """Return a scene as `load` does, the catalogue's always the same: tests ask thousands of times.
+
+    A scene is frozen; one that is to be read anew comes from `linkanim.scenes.files.load`.
+    """
+    known = isinstance(name_or_path, str) and scenes.chapter_of(name_or_path) is not None
+    return _scene(str(name_or_path)) if known else files.load(name_or_path)
+
+
+# before any test, or any module under test, has taken its name from there
+scenes.load = _read_once
 
 SAMPLE = {
     "crank-rocker",
@@ -73,6 +96,12 @@ def _mark_quick(items: list[pytest.Item]) -> None:
         if test not in seen and not {"slow", "long", "window"} & marks and "/bench/" not in test:
             item.add_marker(pytest.mark.quick)
         seen.add(test)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_finish() -> None:
+    """Have what has been collected left out of all later searches for garbage: it stays until the end."""
+    gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
