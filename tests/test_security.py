@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 import numpy as np
 import pytest
@@ -102,7 +103,11 @@ NEVER = {"socket", "ssl", "http", "urllib", "ftplib", "smtplib", "requests", "we
 
 
 def ways_out(path: Path) -> Iterator[str]:
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    # as Python reads names; what none of the words is in need not be taken apart
+    text = normalize("NFKC", path.read_text(encoding="utf-8"))
+    if not any(word in text for word in {*NEVER, "eval", "exec", "shell"}):
+        return
+    for node in ast.walk(ast.parse(text)):
         match node:
             case ast.Import(names=names):
                 yield from {name.name.split(".")[0] for name in names} & NEVER
