@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.arrangement.fit import FitRequest, SceneFit, fitted, request_of
 from linkanim.picture.arrangement.words import caption_lines
-from linkanim.picture.building.sheet import SheetView, drafted, hand, home_view, paper
+from linkanim.picture.building.sheet import SheetView, drafted, hand, home_view, loose, paper
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.drawing import Drawing, DrawSetting
@@ -88,6 +88,12 @@ class Picture:
         if self.names and self.names.unlisted:
             self._arrange(self.fit.request._replace(table=self._table_size()), before, held=False)
             self.names = self._named(None, held=False)
+        if (
+            before
+            and self.sheet
+            and (before.view, before.size, before.theme) == (self.view, size, self.theme)
+        ):
+            self._paper = before._paper
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
 
     def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:
@@ -305,6 +311,8 @@ class Picture:
     def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
         """Yield what is there for the hand: the chosen bar, and the joint to be dragged."""
         if overlay.build:
+            if overlay.build.loose:
+                yield from loose(overlay.build.loose, self._sheet_view)
             yield from hand(overlay.build, self._sheet_view, self.type)
         for shown in overlay.measured:
             at, head = map(self.view.place, (pose.position[name] for name in shown.frame))

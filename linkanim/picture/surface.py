@@ -11,6 +11,7 @@ from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.items import Caption, Group, flat
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.panels.panels import Panels
+from linkanim.picture.panels.path import SHEET
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.raster import Cover, cover, is_clear, keep_memory, paints
 from linkanim.picture.text.lettering import Lettering
@@ -35,6 +36,7 @@ class SurfacePrinter:
         self._covers: dict[Hashable, tuple[tuple[Group, ...], Cover]] = {}
         self._labels = _Labels()
         self._panels: Panels | None = None
+        self._paper: tuple[Group, pygame.Surface] | None = None
 
     def print(
         self, surface: pygame.Surface, picture: Picture, phase: float, speed: float, overlay: Overlay
@@ -93,9 +95,20 @@ class SurfacePrinter:
         filled = picture.look.background
         bitmap = pygame.Surface(picture.size, 0 if filled else pygame.SRCALPHA, 32)
         bitmap.fill((*picture.theme.background, 255 if filled else 0))
+        if still and still[0].name == SHEET:
+            bitmap.blit(self._papered(still[0], bitmap), (0, 0))
+            still = still[1:]
         _cover(bitmap, still).put(bitmap)
         self._words(bitmap, picture.type, still)
         return bitmap
+
+    def _papered(self, paper: Group, bare: pygame.Surface) -> pygame.Surface:
+        """Return the sheet that a linkage is built on, drawn once while that changes under the hand."""
+        if self._paper is None or self._paper[0] is not paper:
+            drawn = bare.copy()
+            _cover(drawn, [paper]).put(drawn)
+            self._paper = paper, drawn
+        return self._paper[1]
 
     def _shapes(self, canvas: pygame.Surface, picture: Picture, run: tuple[Group, ...], n: int) -> None:
         """Fill the shapes of groups that lie over each other in their order."""

@@ -209,6 +209,12 @@ class Info:
             return "crank"
         return self.link_names[body.name] if body and not body.name.isdecimal() else "rocker"
 
+    @property
+    def input_words(self) -> str:
+        """How far the input goes, in words."""
+        moves = self.mechanism.linkage.drive.actuator.moves
+        return "turns fully" if self.full_turn else f"{moves} {_places(self, self.input_range, '…')}"
+
     @cached_property
     def lines(self) -> tuple[tuple[str, str], ...]:
         """Label and value of each fact, in words."""
@@ -303,9 +309,7 @@ def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
     yield "links, joints", f"{links}, {joints}; mobility {mobility}"
     if info.grashof:
         yield "Grashof", info.grashof
-    moves = info.mechanism.linkage.drive.actuator.moves
-    across = _places(info, info.input_range, "…")
-    yield "input", "turns fully" if info.full_turn else f"{moves} {across}"
+    yield "input", info.input_words
     if info.mechanism.retraced:
         yield "returns", "on the same closure; velocities change sign at the limits"
     if info.turning_links:

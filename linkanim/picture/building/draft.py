@@ -131,7 +131,8 @@ class DraftDrawing:
     def _names(self, size: int) -> Iterator[Caption]:
         halo = Halo(self._theme.background, 0.12 * size)
         for joint in self._of("pins", "joints"):
-            at = self._view.place(joint.places[0]) + self._gauge.bar * (1.3 - 1.3j)
+            aside = 2.6 + 1.9j if joint.kind == "pins" else 1.3 - 1.3j
+            at = self._view.place(joint.places[0]) + self._gauge.bar * aside
             words = subscripted(joint.label)
             yield Caption(words, (at.real, at.imag - size), size, self._theme.dim, halo=halo)
 
@@ -144,7 +145,7 @@ def lit(shape: Shape, view: View, reach: float) -> Iterator[Loop]:
     places = [view.place(point) for point in shape.places[:2]]
     if shape.kind == "guides":
         along = 300 * reach * unit(places[1] - places[0])
-        yield from segments(places[0] - along, places[0] + along, reach)
+        yield from segments(places[0] - along, places[0] + along, 0.5 * reach)
         return
     if len(places) > 1:
         yield from segments(places[0], places[1], 2 * reach)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -61,7 +62,8 @@ def paper(place: SheetView) -> Group:
     if not -20 * layout.unit < level < height:
         return grid
     faint = mixed(theme.ground, theme.background, 0.62)
-    ground = Layer(faint, [*hatched(complex(0, level), complex(width, level), gauge, 1)])
+    coarse = replace(gauge, bar=2 * gauge.bar)
+    ground = Layer(faint, [*hatched(complex(0, level), complex(width, level), coarse, 1)])
     return grid._replace(layers=[*grid.layers, ground])
 
 
@@ -71,6 +73,11 @@ def drafted(shown: BuildShown, draft: DraftShown, place: SheetView, type_: Type)
     drawing = DraftDrawing(draft, place.view, thick, place.theme)
     yield from drawing.groups(place.layout.small_size)
     yield from hand(shown, place._replace(gauge=thick), type_)
+
+
+def loose(draft: DraftShown, place: SheetView) -> Iterator[Group]:
+    """Yield what is drawn beside a linkage that moves: guides and pins that nothing holds on to yet."""
+    yield from DraftDrawing(draft, place.view, place.gauge, place.theme).groups(place.layout.small_size)
 
 
 def hand(shown: BuildShown, place: SheetView, type_: Type) -> Iterator[Group]:

@@ -211,12 +211,12 @@ def _trace_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
 
 def _drive_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     pivot, pin = gauge.line * (-4 + 5j), gauge.line * (4 - 1j)
-    small = Gauge(bar=1.3 * gauge.line, outline=gauge.outline, pin=gauge.pin, line=0.75 * gauge.line)
+    small = Gauge(bar=0.7 * gauge.line, outline=gauge.outline, pin=gauge.pin, line=0.75 * gauge.line)
     bar = lined([pivot, pin], gauge.bar, gauge.outline, (theme.outline, theme.bodies[0]))
     return [
         *bar,
         *pin_stamp(gauge, theme).at([pivot, pin]),
-        *turning_arrow(pivot, pivot + 1.35 * (pin - pivot), small, theme),
+        *turning_arrow(pivot, pivot + 0.95 * (pin - pivot), small, theme),
     ]
 
 

@@ -57,7 +57,7 @@ class DraftShown:
 
 @dataclass(frozen=True)
 class BuildShown:
-    """A sheet with what is built on it; `draft` is None while the linkage itself is shown.
+    """A sheet with what is built on it: the `draft`, or the linkage itself and what is `loose` beside it.
 
     `sentence` says what it is or what is missing, as a warning or not, `facts` what it can do. What is
     `chosen` is lit, with its number in words or as it is typed. The `cursor` is that of the keys. Where
@@ -65,6 +65,7 @@ class BuildShown:
     """
 
     draft: DraftShown | None = None
+    loose: DraftShown | None = None
     sentence: str = ""
     facts: tuple[str, ...] = ()
     chosen: Shape | None = None

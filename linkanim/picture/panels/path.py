@@ -17,6 +17,8 @@ from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.view import View
 
 HINT = "draw a path in one stroke"
+SHEET = "sheet"
+"""The name of the group that is drawn on."""
 _GRID = 36
 """The least distance of the sheet's lines, in units."""
 _DASH, _GAP = 3.2, 2.2
@@ -31,7 +33,7 @@ def sheet(view: View, layout: Layout, theme: Theme) -> Group:
     step = view.scale * grid_step(view, layout)
     x, y = (np.arange(start % step, end, step) for start, end in ((view.x, width), (view.y, height)))
     lines = [*segments(x, x + 1j * height, 1.0), *segments(1j * y, width + 1j * y, 1.0)]
-    return Group("sheet", [Layer(mixed(theme.rule, theme.background, 0.4), lines)], still=True)
+    return Group(SHEET, [Layer(mixed(theme.rule, theme.background, 0.4), lines)], still=True)
 
 
 def grid_step(view: View, layout: Layout) -> float:

@@ -38,6 +38,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
     tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet.tool), 0)
     return BuildShown(
         draft=None if moves else _draft(seen, shapes),
+        loose=_loose(seen, shapes) if moves else None,
         sentence=sentence,
         facts=facts,
         chosen=next((one for one in shapes if one.thing == building.chosen), None),
@@ -69,11 +70,21 @@ def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:
         missing = building.made.missing
         return building.sentence or missing, (missing,) if building.sentence else ()
     info = state.scene.info
-    lines = dict(info.lines)
-    facts = tuple(filter(None, (info.grashof, f"input {lines['input']}" if "input" in lines else None)))
+    facts = (*filter(None, [info.grashof]), f"input {info.input_words}")
     if building.sentence:
         return building.sentence, (info.class_name, *facts)
     return info.class_name[:1].upper() + info.class_name[1:], facts
+
+
+def _loose(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown | None:
+    """Return what the linkage that moves does not show: guides that nothing slides on, pins without a bar."""
+    held = {joint for table in seen.of("bars").values() for joint in table["joints"]}
+    held |= {
+        end for kind in ("springs", "dampers") for one in seen.of(kind).values() for end in one["between"]
+    }
+    free = [one for one in shapes if one.kind == "pins" and one.label not in held]
+    free += [one for one in shapes if one.kind == "guides" and len(one.places) == 2]
+    return DraftShown(tuple(free)) if free else None
 
 
 def _draft(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown:

@@ -61,14 +61,13 @@ def overlay(
     What is under the mouse: `hover` the joint, `row` the row of a list, `over` the place of a sheet.
     """
     items = _items(state)
-    lists = _kept(state, items)
+    lists = _kept(state, items, over)
     return replace(
         lists,
         panel=lists.panel and replace(lists.panel, pointed=row),
         quantities=lists.quantities and replace(lists.quantities, pointed=row),
         toast=state.toast.text if state.toast else None,
         chip=_chip(state),
-        build=built(state, state.building, over) if state.building and over else lists.build,
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
         measured=tuple(_measured(state, items)),
@@ -89,7 +88,7 @@ def _items(state: State) -> tuple[Dimension, ...]:
     return dimensions(in_unit(state.scene, state.look.unit)) if state.editing.open else ()
 
 
-def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
+def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None) -> Overlay:
     found = Overlay(
         paused=state.clock.paused and not (state.game or state.building),
         noted=True,
@@ -100,7 +99,7 @@ def _kept(state: State, items: tuple[Dimension, ...]) -> Overlay:
         shelf=shelf_of(state, state.browsing) if state.browsing else None,
         path=_path(state.sketch) if state.sketch else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
-        build=built(state, state.building) if state.building else None,
+        build=built(state, state.building, over) if state.building else None,
     )
     return state.game.shown(state, found) if state.game else found
 

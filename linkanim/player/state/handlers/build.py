@@ -156,8 +156,9 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
     scene = building.made.scene
     if scene is None or scene is state.scene:
         return drawn
+    known = scene.linkage == state.scene.linkage and state.clock.paused and not live
     found = exchanged(replace(drawn, glide=None), scene)
-    stands = live or not any(joint.dyad for joint in scene.linkage.joints)
+    stands = live or known or not any(joint.dyad for joint in scene.linkage.joints)
     clock = found.clock.go(state.frame, building.draft.phase, paused=stands)
     frames = ceil(FRAMES_PER_SECOND * scene.period / abs(clock.speed))
     rests = state.frame + frames if frames <= _LONGEST and not stands else None
