@@ -15,6 +15,7 @@ import pygame
 import pytest
 from playing import CTRL, SHIFT, SIZE, Player, fake_start
 
+from linkanim.picture.panels.overlay import Quantities
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import carried
 from linkanim.player.state.clock import STEP
@@ -22,8 +23,10 @@ from linkanim.player.state.glide import FRAMES
 from linkanim.player.state.state import TOAST_FRAMES, State, begin
 from linkanim.player.tape.tape_file import read
 from linkanim.player.window import display, rendering
+from linkanim.player.window.show import _FILES_HINT, overlay
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
+from linkanim.scenes.editing.write import save
 
 Key = tuple[int, int, str]
 
@@ -620,3 +623,37 @@ def test_a_picture_that_stands_still_is_painted_once(player: Player, monkeypatch
     pygame.event.post(pygame.event.Event(pygame.WINDOWEXPOSED))
     player.tick()
     assert flips == [1]
+
+
+def test_ctrl_o_lists_the_scene_files_here_and_opens_one(player: Player, here: Path) -> None:
+    player.press(pygame.K_o, CTRL)
+    player.tick()
+    assert player.state.toast
+    assert "no scene file" in player.state.toast.text
+    for name in ("press", "hart"):
+        save(replace(load(name), name=f"my-{name}"), here)
+    player.press(pygame.K_o, CTRL)
+    player.type("pr")
+    assert overlay(player.state).quantities == Quantities(
+        (("my-press.toml", ""),), 0, "pr", _FILES_HINT, title="Scene files here"
+    )
+    player.press(pygame.K_RETURN)
+    assert (player.state.listing, player.state.scene.name) == (None, "my-press")
+    (here / "my-press.toml").write_text("title = 3")
+    player.press(pygame.K_F5)
+    player.tick()
+    assert player.state.toast
+    assert "my-press.toml" in player.state.toast.text
+
+
+def test_a_file_that_is_dropped_is_opened_or_refused_in_a_sentence(player: Player, here: Path) -> None:
+    save(load("press"), here)
+    (here / "notes.txt").write_text("no scene")
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(here / "press.toml")))
+    player.tick()
+    assert player.state.scene == load("press")
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(here / "notes.txt")))
+    player.tick(2)
+    assert player.state.scene == load("press")
+    assert player.state.toast
+    assert "notes.txt" in player.state.toast.text

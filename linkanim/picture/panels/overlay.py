@@ -47,7 +47,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Quantities:
-    """The list of quantities: rows of words and symbol, the chosen one's number, the letters that sift.
+    """A list, as of quantities: rows of words and symbol, the chosen one's number, what has been typed.
 
     The mouse is over the row `pointed`.
     """
@@ -57,6 +57,7 @@ class Quantities:
     sieve: str = ""
     hint: str = ""
     pointed: int | None = None
+    title: str = "Quantities"
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ from linkanim.picture.theme import mixed
 
 _FRAME = 2.6
 """How many lines high the list is without its rows and hint."""
-_TITLE = "Quantities"
 
 
 def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
@@ -24,7 +23,7 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
         _row(board, sheet, shown, row, size, (0.9 + STEP * (n + 1)) * size)
     if not shown.rows:
         at = (1.2 * size, (0.9 + STEP) * size)
-        board.write(sheet, "no quantity has that in its name", at, size=size, colour=board.theme.warning)
+        board.write(sheet, "nothing here has that in its name", at, size=size, colour=board.theme.warning)
     for n, line in enumerate(hint, start=max(len(rows), 1) + 1):
         at = (1.2 * size, (1.1 + STEP * n) * size)
         board.write(sheet, line, at, size=size, colour=board.theme.dim)
@@ -50,7 +49,7 @@ def _head(board: Board, sheet: pygame.Surface, shown: Quantities, size: int) -> 
     """Draw the title or what has been typed, and where in the list the chosen row is."""
     at, right = (1.2 * size, 0.7 * size), (sheet.get_width() - 1.2 * size, 0.7 * size)
     typed = shown.sieve != ""
-    words, colour = (f"{shown.sieve}_", board.theme.velocity) if typed else (_TITLE, board.theme.ink)
+    words, colour = (f"{shown.sieve}_", board.theme.velocity) if typed else (shown.title, board.theme.ink)
     board.write(sheet, words, at, size=size, colour=colour, strong=True)
     count = f"{shown.chosen + 1} of {len(shown.rows)}" if shown.rows else "0"
     board.write(sheet, count, right, size=size, colour=board.theme.dim, anchor="right")

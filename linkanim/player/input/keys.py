@@ -132,7 +132,12 @@ KEYS: tuple[KeyRow, ...] = (
         _on("g", "record", "gif") + _on("m", "record", "mp4"),
     ),
     KeyRow("keep", "Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
-    KeyRow("keep", "Ctrl+S", "write the scene as a new file", _on("ctrl+s", "save")),
+    KeyRow(
+        "keep",
+        "Ctrl+S, O",
+        "write the scene as a new file; open one",
+        _on("ctrl+s", "save") + _on("ctrl+o", "files_here"),
+    ),
     KeyRow("keep", "F5", "reloads a scene opened from a file", _on("f5", "reload")),
 )
 """Every key of the window, by subject, in the order in which the help shows them."""

@@ -242,6 +242,8 @@ ACTIONS: Mapping[str, Rule] = {
     "back": Rule(_nothing, outside.back),
     "list": Rule(_nothing, shelf.list_, taped=False),
     "shelf": Rule(_nothing, shelf.open_shelf, taped=False),
+    "files": Rule(_text, shelf.files, taped=False),  # scene files, one a line
+    "open_file": Rule(_text, outside.open_file, taped=False),
     "move": Rule(_whole, shelf.move, taped=False),  # rows of the list, or places on the shelf
     "point": Rule(_whole, shelf.point, taped=False),  # the place on the shelf
     "top": Rule(_whole, shelf.top, taped=False),  # the shelf's row that is the first in sight

@@ -13,16 +13,24 @@ from linkanim.picture.diagrams.quantities import quantities, quantity, telling
 from linkanim.picture.shelf import found_among
 from linkanim.scenes.scene import Scene
 
-RESOLVED = frozenset({"pick", "row", "scroll"})
+RESOLVED = frozenset({"pick", "row", "scroll", "files_here"})
 """What a key asks for in an open list or shelf; the window asks for what it means there instead."""
 
 
 @dataclass(frozen=True)
 class Listing:
-    """The open list of quantities: the row that is chosen, and the letters that sift it."""
+    """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `files`."""
 
     chosen: int
     sieve: str = ""
+    files: tuple[str, ...] | None = None
+
+    def found(self, scene: Scene) -> tuple[str, ...]:
+        """Return the files, or a scene's quantities by their tokens, that have all the sieve's words."""
+        if self.files is None:
+            return listed(scene, self.sieve)
+        words = self.sieve.casefold().split()
+        return tuple(name for name in self.files if all(word in name.casefold() for word in words))
 
 
 @dataclass(frozen=True)

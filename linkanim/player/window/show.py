@@ -25,7 +25,7 @@ from linkanim.picture.panels.overlay import (
 )
 from linkanim.picture.text.text import subscripted
 from linkanim.player.input.keys import help_groups
-from linkanim.player.state.browsing import Browsing, Listing, listed
+from linkanim.player.state.browsing import Browsing, Listing
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.sketch import Sketch
 from linkanim.player.state.state import FLASH_FRAMES, SHUTTER_FRAMES, State
@@ -39,6 +39,8 @@ _HINT = (
     "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
     "Ctrl+S save   Esc closes"
 )
+_FILES = "Scene files here"
+_FILES_HINT = "↑ ↓ choose   type to filter   Enter opens   Esc closes"
 _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
 _BAR = "Space pause · Tab next · drag the crank pin · H keys"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
@@ -106,7 +108,10 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
 
 def _quantities(state: State, listing: Listing) -> Quantities:
     scene = state.displayed
-    found = [quantity(scene, token) for token in listed(scene, listing.sieve)]
+    if listing.files is not None:
+        rows = tuple((name, "") for name in listing.found(scene))
+        return Quantities(rows, listing.chosen, listing.sieve, _FILES_HINT, title=_FILES)
+    found = [quantity(scene, token) for token in listing.found(scene)]
     # Four times a second while it runs: values that change faster are not read, and each costs its drawing.
     pose = scene.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
     near = range(listing.chosen - _NEAR, listing.chosen + _NEAR)

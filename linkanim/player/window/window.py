@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import pygame
 from pygame.event import Event
 
+from linkanim import intake
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.player.input.keyboard import Keyboard
 from linkanim.player.input.keys import bind_of
@@ -20,10 +21,11 @@ from linkanim.player.sound.cues import cues
 from linkanim.player.sound.speaker import Speaker
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import aged, carried, settled
-from linkanim.player.state.browsing import RESOLVED, Browsing, listed
+from linkanim.player.state.browsing import RESOLVED, Browsing
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import recovered, report
-from linkanim.player.state.handlers.build import offered, written
+from linkanim.player.state.handlers.build import left, offered, written
+from linkanim.player.state.handlers.games import leave
 from linkanim.player.state.handlers.shelf import renewed
 from linkanim.player.state.sheet import BuildSheet
 from linkanim.player.state.state import State, Take
@@ -35,6 +37,7 @@ from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.screen import Screen
 from linkanim.player.window.sheet import Hover
 from linkanim.player.window.show import kept, overlay
+from linkanim.scenes import load
 from linkanim.scenes.editing.write import save
 
 if TYPE_CHECKING:
@@ -44,6 +47,7 @@ if TYPE_CHECKING:
 _MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
+_NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
 _OFFER = "a draft that was in no scene file has been kept: F2 takes it up"
 _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
 
@@ -158,8 +162,14 @@ class Window:
             yield from self._in_sight()
         elif action.name == "pick" and browsing:
             yield from [Action("put", browsing.chosen)] * (browsing.chosen in browsing.found)
+        elif action.name == "files_here":
+            yield from self._files()
+        elif action.name == "pick" and listing and listing.files is not None:
+            row = action.value if isinstance(action.value, int) else listing.chosen
+            yield Action("back")
+            yield from (Action("open_file", name) for name in listing.found(self.state.scene)[row : row + 1])
         elif action.name == "pick" and listing:
-            tokens = listed(self.state.scene, listing.sieve)
+            tokens = listing.found(self.state.scene)
             row = action.value if isinstance(action.value, int) else listing.chosen
             yield from (Action("plot", token) for token in tokens[row : row + 1])
         elif action.name in ("aim", "enter") and self.state.building:
@@ -210,6 +220,11 @@ class Window:
             seen = [n for n in free.cells if free.whole(n)]
             near = [n for row in free.rows for n in row if n in seen]
             yield Action("point", near[0] if rows > 0 else near[-1])
+
+    def _files(self) -> Iterator[Action]:
+        """Yield what opens the list of the scene files in the current folder."""
+        names = sorted(path.name for path in Path().glob("*.toml") if path.name.isprintable())
+        yield Action("files", "\n".join(names)) if names else Action("note", _NO_FILES)
 
     def _by_keys(self, sheet: BuildSheet, action: Action) -> Iterator[Action]:
         """Yield what arrows and Enter mean on a sheet: its cursor goes on, the hand goes down or up there."""
@@ -303,6 +318,8 @@ class Window:
                 self._report(str(effect.value))
             case "save":
                 self._save()
+            case "open":
+                self._open_file(Path(str(effect.value)))
             case "reload":
                 self._reload()
             case "pencil" | "search" | "follow":
@@ -340,6 +357,16 @@ class Window:
                 self._drafts.keep(self.state.sheet)
         except LinkanimError as error:
             self._notes.append(str(error))
+
+    def _open_file(self, path: Path) -> None:
+        """Put on the scene of a file, which is watched from now on."""
+        if self.state.recording:
+            raise BadInput("a recording keeps to the scenes it began with; stop it, then open the file")
+        if path.suffix.lower() != ".toml":
+            raise BadInput(f"{intake.named(path)}: is no scene file, whose name ends in .toml")
+        scene = load(path)
+        self._file = SceneFile(path)
+        self.state = renewed(left(leave(self.state)), scene)
 
     def _reload(self) -> None:
         """Put on what the scene file holds now; what is wrong with it is a note, and the linkage runs on."""
@@ -381,6 +408,8 @@ class Window:
 
     def _meant(self, event: Event) -> tuple[Action, ...]:
         """Return what an event asks for in the state as it is."""
+        if event.type == pygame.DROPFILE:
+            return (Action("open_file", event.file),)
         if event.type == pygame.QUIT:
             return (Action("close"),)
         if event.type in _UNCOVERED:

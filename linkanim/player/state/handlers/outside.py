@@ -81,6 +81,11 @@ def screenshot(state: State, _: None) -> State:
     return replace(with_effect(state, "screenshot"), shot=state.frame)
 
 
+def open_file(state: State, name: str) -> State:
+    """Ask for a file to be opened."""
+    return with_effect(state, "open", name)
+
+
 def svg(state: State, _: None) -> State:
     """Ask for the picture as an SVG, the shutter going."""
     return replace(with_effect(state, "svg"), shot=state.frame)

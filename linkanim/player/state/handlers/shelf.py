@@ -121,7 +121,7 @@ def move(state: State, further: int) -> State:
         return replace(state, browsing=replace(state.browsing, chosen=chosen))
     if state.listing is None:
         return state
-    last = max(len(listed(state.scene, state.listing.sieve)) - 1, 0)
+    last = max(len(state.listing.found(state.scene)) - 1, 0)
     chosen = min(max(state.listing.chosen + further, 0), last)
     return replace(state, listing=replace(state.listing, chosen=chosen))
 
@@ -143,14 +143,24 @@ def sift(state: State, text: str) -> State:
     if state.browsing:
         longer = (state.browsing.sieve + text)[:_LONGEST]
         return replace(state, browsing=state.browsing.sifted(longer))
-    return replace(state, listing=state.listing and Listing(0, (state.listing.sieve + text)[:_LONGEST]))
+    return _relisted(state, state.listing.sieve + text) if state.listing else state
 
 
 def unsift(state: State, _: None) -> State:
     """Take the last letter off the sieve of the list, and go to its top, or off that of the shelf."""
     if state.browsing:
         return replace(state, browsing=state.browsing.sifted(state.browsing.sieve[:-1]))
-    return replace(state, listing=state.listing and Listing(0, state.listing.sieve[:-1]))
+    return _relisted(state, state.listing.sieve[:-1]) if state.listing else state
+
+
+def _relisted(state: State, sieve: str) -> State:
+    assert state.listing
+    return replace(state, listing=replace(state.listing, chosen=0, sieve=sieve[:_LONGEST]))
+
+
+def files(state: State, names: str) -> State:
+    """Open the list of files, one name a line."""
+    return replace(state, listing=Listing(0, files=tuple(names.splitlines())), browsing=None)
 
 
 def plot(state: State, token: str) -> State:
