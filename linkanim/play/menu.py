@@ -14,7 +14,7 @@ from linkanim.play.kinds.table import LEVELS
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.state import State, with_effect
-from linkanim.scenes import chapters
+from linkanim.scenes import chapters, names
 from linkanim.units import shown
 
 _ABOUT = MappingProxyType(
@@ -58,7 +58,7 @@ class Menu:
 
     def carried(self, state: State, action: Action) -> State:
         """Choose a chapter or a level, begin a round, or go back."""
-        rows = _rows()
+        rows = self._rows(state)
         if action.name == "back":
             return with_effect(state, "begin", "lobby")
         if action.name == "turn" and isinstance(action.value, int):
@@ -72,6 +72,12 @@ class Menu:
         state = replace(state, game=replace(self, chapter=rows[chosen.row]))
         return _begun(state, rows[chosen.row], self.level) if chosen.taken else state
 
+    def _rows(self, state: State) -> tuple[str, ...]:
+        """Return what a round can be about: all, a chapter, and the mechanism that was on before."""
+        before = state.beneath.scene.name if state.beneath else ""
+        own = (name for name in (self.chapter, before) if name in names())
+        return tuple(dict.fromkeys((ALL, *chapters(), *own)))
+
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the chapters."""
         best = dict(self.best)
@@ -79,7 +85,7 @@ class Menu:
             Choice(
                 f"{n}", titled(chapter), below=_best(best.get(f"{chapter.replace(' ', '_')}.{self.level}"))
             )
-            for n, chapter in enumerate(_rows(), 1)
+            for n, chapter in enumerate(self._rows(state), 1)
         )
         level = Choice(f"{len(choices) + 1}", f"Level {self.level}", below=_ABOUT[self.level])
         panel = GamePanel(
@@ -87,13 +93,9 @@ class Menu:
             lines=("Ten questions, before it moves.",),
             choices=(*choices, level),
             hint="Enter begins   ↑ ↓ chapter   ← → level   Esc goes back",
-            chosen=_rows().index(self.chapter),
+            chosen=self._rows(state).index(self.chapter),
         )
         return replace(over, game=panel)
-
-
-def _rows() -> tuple[str, ...]:
-    return (ALL, *chapters())
 
 
 def _best(score: int | None) -> str:

@@ -129,6 +129,18 @@ def test_the_menu_chooses_chapter_and_level_and_shows_best_scores(player: Player
         assert player.state.game.words.startswith(kind)
 
 
+def test_a_round_can_be_about_the_mechanism_that_was_on() -> None:
+    state = carried(playing("menu"), Action("raise", 1))  # from the first row to the last
+    assert isinstance(state.game, Menu)
+    assert state.game.chapter == "press"
+    state = carried(state, Action("next"))
+    (begun,) = state.effects
+    state = carried(state, Action("play", str(begun.value)))
+    for _ in range(3):
+        assert state.scene.name == "press"
+        state = answered(state, well=True)
+
+
 @pytest.mark.parametrize("token", [FASTEST, CENTRE])
 def test_a_click_on_a_spot_in_the_picture_answers(player: Player, token: str) -> None:
     player.window.state = playing(f"predict chapter=all level=3 again={token}")

@@ -41,7 +41,7 @@ def leave(state: State) -> State:
     look = replace(under.look, theme=state.look.theme)
     clock = under.clock.go(state.frame, under.phase)
     kept = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
-    kept = replace(kept, sounds=state.sounds, pad=state.pad)
+    kept = replace(kept, sounds=state.sounds, pad=state.pad, attract=state.attract, kiosk=state.kiosk)
     return replace(kept, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
