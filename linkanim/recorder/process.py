@@ -24,7 +24,8 @@ _PATIENCE = 0.5
 """Seconds after which an encoder that tells of no frame gets one more all the same."""
 _LAST_WORDS = 8
 _WIDTH = 1 << 20
-_ROOM_FOR_ALL = 1_000_000
+_ROOM = 100
+"""Frames that an encoder gets once it is gone: one finds it out; each further one costs threading time."""
 
 
 class _GoneError(Exception):
@@ -101,7 +102,7 @@ def _widen(pipe: IO[bytes]) -> None:
 def _making_room(stdout: IO[bytes], room: Semaphore) -> None:
     for _ in stdout:
         room.release()
-    room.release(_ROOM_FOR_ALL)  # the encoder is gone: whoever waits is to find out
+    room.release(_ROOM)  # the encoder is gone: whoever waits is to find out
 
 
 def _refuse_failure(code: int, words: Iterable[bytes]) -> None:
