@@ -33,7 +33,9 @@ class Made(NamedTuple):
 
 def document(draft: Draft, joints: Found) -> Mapping[str, Any]:
     """Return the document of a scene file that says what is drawn, its joints as they are found."""
-    stated = {**{key: value for key, value in draft.rest.items() if key != "trace"}, "drive": draft.drive}
+    # The one crank that no gear turns is driven without being named.
+    drive = {key: value for key, value in draft.drive.items() if key != "joint"}
+    stated = {**{key: value for key, value in draft.rest.items() if key != "trace"}, "drive": drive}
     stated |= {"ground": draft.of("pins"), "joints": joints}
     stated |= {kind: draft.of(kind) for kind in _AFTER}
     stated["springs"] = {name: _whole(spring) for name, spring in draft.of("springs").items()}

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from itertools import count
 from pathlib import Path
+from typing import Any
 
 from linkanim import atomic_files
 from linkanim.errors import SceneError
 from linkanim.scenes.scene import Scene
 
+_SECTIONED = ("joints", "springs", "dampers")
+"""The tables of whose tables each has a head of its own."""
+_MARK = "\x01"
+_INLINE = re.compile(r'"\\u0001(\d+)"')
 _LIST = re.compile(r" = \[\n((?:    .*,\n)+)\]$", re.MULTILINE)
 
 
@@ -21,9 +27,9 @@ def text(scene: Scene) -> str:
     """
     if not scene.document:
         raise SceneError(f"{scene.name}: has no scene file behind it that could be written; load it from one")
-    import tomli_w
-
-    return _LIST.sub(_on_one_line, tomli_w.dumps(dict(scene.document)))
+    inline: list[str] = []
+    document = {key: _section(key, value, inline) for key, value in scene.document.items()}
+    return _INLINE.sub(lambda found: inline[int(found[1])], _lines(document))
 
 
 def save(scene: Scene, folder: Path) -> Path:
@@ -34,6 +40,40 @@ def save(scene: Scene, folder: Path) -> Path:
     """
     numbered = (folder / f"{scene.name}-{number}.toml" for number in count(2))
     return atomic_files.add(text(scene).encode("utf-8"), folder / f"{scene.name}.toml", numbered)
+
+
+def _section(key: str, value: Any, inline: list[str]) -> Any:
+    """Return a table with the tables in it on a line each, as marks that tell which one of `inline` it is."""
+    if not isinstance(value, Mapping):
+        return value
+    return {
+        name: _section("", entry, inline) if key in _SECTIONED else _marked(entry, inline)
+        for name, entry in value.items()
+    }
+
+
+def _marked(value: Any, inline: list[str]) -> Any:
+    if not isinstance(value, Mapping):
+        return value
+    inline.append(_on_a_line(value))
+    return f"{_MARK}{len(inline) - 1}"
+
+
+def _on_a_line(table: Mapping[str, Any]) -> str:
+    """Return a table as people write a short one: { through = "O2", angle = "90 deg" }."""
+    parts = (
+        f"{_lines({key: 0}).partition(' = ')[0]} = {_on_a_line(value)}"
+        if isinstance(value, Mapping)
+        else _lines({key: value}).strip()
+        for key, value in table.items()
+    )
+    return f"{{ {', '.join(parts)} }}"
+
+
+def _lines(document: Mapping[str, Any]) -> str:
+    import tomli_w
+
+    return _LIST.sub(_on_one_line, tomli_w.dumps(document))
 
 
 def _on_one_line(found: re.Match[str]) -> str:
