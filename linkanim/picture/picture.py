@@ -226,7 +226,7 @@ class Picture:
         return self._behind[2]
 
     def _still_behind(self, speed: float, path: PathShown | None) -> Iterator[Group]:
-        if self.sheet:
+        if self.sheet and path is None:
             yield self._paper
         yield from self._within([self._discs])
         if path and path.curve:
@@ -320,7 +320,7 @@ class Picture:
             begin, end = (at + place.conjugate() * way for place in (shown.begin, shown.end))
             line = MeasuredLine(begin, end, shown)
             yield from measure(self.type, self.layout, self.theme, self.gauge, line)
-        if overlay.path and overlay.path.curve:
+        if overlay.path and overlay.path.curve and overlay.path.marked:
             marks = list(handles(self.view, self.gauge, self.theme, overlay.path))
             yield from self._within([Group("handles", marks, over=True)])
         for layers, words in spots(self.view, overlay.spots, self.theme, self.layout):

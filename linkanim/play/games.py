@@ -18,6 +18,7 @@ GAMES: MappingProxyType[str, str] = MappingProxyType(
         "menu": "linkanim.play.menu",
         "predict": "linkanim.play.predict",
         "follow": "linkanim.play.follow",
+        "match": "linkanim.play.match.game",
     }
 )
 """Where each kind lives, imported when it is first played: a module with `read(words)`."""

@@ -83,8 +83,8 @@ class Shelf:
 class PathShown:
     """A path that is drawn: the `pen`'s points while it is down, then the curve that was meant, as x + yi.
 
-    While it is `blank` no linkage is shown. `off` says how far off the shown one is; of the curve's points
-    one may be `held`, and so may fixed `pins`.
+    While it is `blank` no linkage is shown. `off` says how far off the shown one is; of the curve's points,
+    which are `marked` where they can be dragged, one may be `held`, and so may fixed `pins`.
     """
 
     curve: DrawnCurve | None
@@ -93,6 +93,7 @@ class PathShown:
     off: str | None = None
     held: int | None = None
     pins: tuple[Point, ...] = ()
+    marked: bool = True
 
 
 @dataclass(frozen=True)
@@ -219,10 +220,10 @@ class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
     Answers that are places have `spots` on the picture, in their order, a ram that is followed its `lane`.
-    With `noted` the HUD says where a limit or a change point is near. `chip` answers a key, `hint` says
-    what there is to press, `watch` what to watch for. `measured` is what the chosen dimension and those
-    beside it measure, `glow` the joint under the mouse; with `grip` the chart's cursor has one. `shutter`
-    is how white the picture is, in eighths.
+    The joints `handles` can be dragged. With `noted` the HUD says where a limit or a change point is near.
+    `chip` answers a key, `hint` says what there is to press, `watch` what to watch for. `measured` is what
+    the chosen dimension and those beside it measure, `glow` the joint under the mouse; with `grip` the
+    chart's cursor has one. `shutter` is how white the picture is, in eighths.
     """
 
     paused: bool = False
@@ -238,6 +239,7 @@ class Overlay:
     game: GamePanel | None = None
     spots: tuple[Spot, ...] = ()
     lane: Lane | None = None
+    handles: tuple[str, ...] = ()
     chip: Fading | None = None
     hint: Fading | None = None
     watch: Fading | None = None

@@ -163,7 +163,8 @@ class Mouse:
             return ()
         self._at = event.pos
         option = target.option_at(*self._at)
-        if option is None and self._is_at_pin(target):
+        reach = _REACH * target.size[1]
+        if option is None and (self._is_at_pin(target) or target.handle_at(*self._at, reach)):
             return ()
         return (Action("next") if option is None else Action("option", option),)
 

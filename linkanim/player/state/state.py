@@ -13,6 +13,7 @@ from typing import Literal, NamedTuple, Protocol
 
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.view import Box
 from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.browsing import Browsing, Listing
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
@@ -101,6 +102,7 @@ class State:
     `place_typed` is the input's angle, or travel, that is being typed while paused.
     `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
     `held` is the joint that is being dragged, `pad` whether a gamepad is plugged in.
+    `home` is what of the scene's plane a game keeps in sight, where that is not the scene as it fits.
     `sounds` says whether the motion is heard, None where nobody has.
     With `attract` it walks on by itself when left alone; in a `kiosk` it then goes back to the title, too.
     `touched` is the frame of the last action, `arrived` that at
@@ -142,6 +144,7 @@ class State:
     kiosk: bool = False
     pad: bool = False
     sounds: bool | None = None
+    home: Box | None = None
     touched: int = 0
     effects: tuple[Action, ...] = ()
 

@@ -77,9 +77,9 @@ class Framing:
         anew once the size has stayed for a frame.
         """
         before, sketch, look = self._fitting, state.sketch, self._look(state)
-        held = bool(state.held or (sketch and sketch.held is not None) or state.building)
+        held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
         row, listed = sketch is not None and bool(sketch.answers), state.listed
-        home = state.building.home if state.building else None
+        home = state.building.home if state.building else state.home
         if before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home):
             return before
         stays = before is not None and before.size == size

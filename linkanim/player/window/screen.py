@@ -130,13 +130,16 @@ class Screen:
         return self._framing.last.crank_pin_px(self.scene.pose(self.phase, 0))
 
     def handle_at(self, x: float, y: float, reach: float) -> str | None:
-        """Return the joint under a pixel that can be dragged while the list is open; None elsewhere."""
-        if not self._state.editing.open:
+        """Return the joint under a pixel that can be dragged, in the list or in a game; None elsewhere."""
+        if not (self._state.editing.open or self._over.handles):
             return None
         places = self.scene.pose(self.phase, 0).position.items()
         away = {name: max(map(abs, self._from(place, x, y))) for name, place in places}
         near = sorted((far, name) for name, far in away.items() if far <= reach)
-        return next((name for _, name in near if handles(self.scene, name)), None)
+        free = self._over.handles
+        return next(
+            (name for _, name in near if name in free or (not free and handles(self.scene, name))), None
+        )
 
     def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
         px, py = self.pixel(*place)

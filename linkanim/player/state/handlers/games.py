@@ -28,7 +28,9 @@ def play(state: State, words: str) -> State:
     if state.beneath is None:
         state = drop(left(state), None)
         state = replace(state, beneath=replace(state, help=False, listing=None, browsing=None))
-    bare = replace(state, listing=None, browsing=None, glide=None, place_typed="", chip=None, toast=None)
+    bare = replace(
+        state, listing=None, browsing=None, glide=None, home=None, place_typed="", chip=None, toast=None
+    )
     editing = Editing()
     return game.entered(replace(bare, game=game, editing=editing, help=False, faded=state.frame))
 
