@@ -45,6 +45,8 @@ def play(parser: Parser) -> None:
     parser.add_argument("--size", type=values.size, metavar="WxH", help="the window's, in pixels")
     kept = "where best scores are kept (default: the user's data folder)"
     parser.add_argument("--scores", type=Path, metavar="FILE.json", help=kept)
+    at_once = 'begin with a game: "match level=mine.toml", "follow scene=press", "predict level=2"'
+    parser.add_argument("--game", metavar="WORDS", help=at_once)
     _look(parser, "play")
 
 

@@ -47,8 +47,15 @@ class Arcade:
                 best = ",".join(f"{name}:{score}" for name, score in scores.best.items())
                 return str(found.having(best=best) if best else found)
             case "follow":
-                run = f"follow-{found.text('scene')}.{found.text('level', '1')}"
-                return str(found.having(best=scores.best.get(run, 0)))
+                from linkanim.play.follow import read as run_of
+
+                return str(found.having(best=scores.best.get(run_of(found).kept_as, 0)))
+            case "match":
+                from linkanim.play.match.game import first_unsolved
+                from linkanim.play.match.game import read as level_of
+
+                found = found if "level" in found.fields else found.having(level=first_unsolved(scores.best))
+                return str(found.having(best=scores.best.get(level_of(found).kept_as, 0)))
             case "predict":
                 again = ",".join(map(str, self._again(found, scores)))
                 seeded = found.having(seed=self._random.randrange(_SEEDS))

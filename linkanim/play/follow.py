@@ -93,7 +93,7 @@ class FollowRun:
         """Turn the crank; before and after a run choose another track, or another level."""
         match action:
             case Action("back"):
-                return play(state, "lobby row=1")
+                return play(state, "lobby row=2")
             case Action("scrub", float() | int() as phase):
                 return self._turned(state, float(phase), 0)
             case Action("turn", int() as steps) if self.stage != "over":
@@ -151,9 +151,14 @@ class FollowRun:
 
     def _ended(self, state: State) -> State:
         """Return the state with the run over, its score handed on."""
-        kept = f"best=follow-{self.scene}.{self.level}:{self.passed // 1_000}"
+        kept = f"best={self.kept_as}:{self.passed // 1_000}"
         state = with_effect(with_effect(state, "score", kept), "sound", "right" if self.is_best else "wrong")
         return replace(state, game=replace(self, stage="over", notch=0))
+
+    @property
+    def kept_as(self) -> str:
+        """What its best score is kept under."""
+        return f"follow-{self.scene}.{self.level}"
 
     @property
     def is_best(self) -> bool:

@@ -23,6 +23,7 @@ class Offer(NamedTuple):
 
 OFFERS = (
     Offer("menu", "Predict", "say what a linkage does before it moves"),
+    Offer("match", "Match", "drag a four-bar until it draws the dotted curve"),
     Offer("follow", "Follow", "turn the crank, keep the ram between two lines"),
 )
 

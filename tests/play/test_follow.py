@@ -157,7 +157,7 @@ def test_words_that_make_no_sense_are_refused(words: str) -> None:
 def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     monkeypatch.chdir(tmp_path)
     with display.opened((2 * SIZE[0], 2 * SIZE[1])):
-        player = Player(on("follow scene=slider-crank"), keeper=Arcade())
+        player = Player(on("follow scene=slider-crank"), keeper=Arcade(tmp_path / "scores.json"))
         yield player
         player.window.close()
 

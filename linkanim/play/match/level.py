@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from importlib.resources import files
 from pathlib import Path
 from random import Random
@@ -43,6 +43,11 @@ class Level:
     fixed: frozenset[str]
     full: Worth
     answer: Linkage4 | None
+
+    @cached_property
+    def worth_of_answer(self) -> Worth:
+        """What the answer is worth; nothing where there is none."""
+        return worth(self.answer, self.curve) if self.answer else Worth(math.inf, math.inf, 0.0)
 
 
 @lru_cache(maxsize=1)

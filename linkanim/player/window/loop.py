@@ -39,6 +39,7 @@ def run(
     keeper: GameKeeper | None = None,
     drafts: Path | None = None,
     sheet: bool = False,
+    game: str | None = None,
 ) -> int:
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
@@ -46,13 +47,16 @@ def run(
     through the catalogue. With `attract` it fills the screen, Esc does not leave that, and left alone it goes
     back to the title. NoDisplay where there is no screen, or none any more; BadInput as loading raises it.
     Whatever ends the window, a recording that runs is finished. `drafts` is the file in which a draft is
-    kept; with `sheet` the window opens on an empty one.
+    kept; with `sheet` the window opens on an empty one. `game` are the words of one to begin with.
     """
     tape = _tape(scene, keeper)
     state = tape.begun if tape else begin(scene, look=look)
     state = replace(state, games=keeper.game_of if keeper else None)
-    if scene is None and keeper:
-        state = carried(state, Action("play", keeper.completed("title")))
+    opening = game or ("title" if scene is None else None)
+    if opening and keeper:
+        words = keeper.completed(opening)
+        keeper.game_of(words)  # which says what is wrong with them before a window opens
+        state = carried(state, Action("play", words))
     with display.opened(size) as connection:
         state = replace(state, attract=attract or scene is None, kiosk=attract)
         kept = DraftFile(drafts) if drafts and not tape else None
