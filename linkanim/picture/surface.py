@@ -65,7 +65,7 @@ class SurfacePrinter:
         first, *others = _runs(picture.groups(pose, overlay, faint=faint))
         canvas = self._on_still(surface, picture, first)
         for n, run in enumerate(others):
-            self._shapes(canvas, picture, run, n)
+            self._shapes(canvas, run, n)
             self._words(canvas, picture.type, run)
         self._labels.let_go()
         self._panels_of(picture).draw(canvas, overlay)
@@ -110,21 +110,19 @@ class SurfacePrinter:
             self._paper = paper, drawn
         return self._paper[1]
 
-    def _shapes(self, canvas: pygame.Surface, picture: Picture, run: tuple[Group, ...], n: int) -> None:
+    def _shapes(self, canvas: pygame.Surface, run: tuple[Group, ...], n: int) -> None:
         """Fill the shapes of groups that lie over each other in their order."""
         if run[0].still:
-            self._kept(canvas, picture, n, run).put(canvas)
+            self._kept(canvas, n, run).put(canvas)
             return
         for key, groups in groupby(run, key=lambda group: group.key):
             some = tuple(groups)
             if key is None:
                 _cover(canvas, some).put(canvas)
             else:
-                self._kept(canvas, picture, key, some).put(canvas)
+                self._kept(canvas, key, some).put(canvas)
 
-    def _kept(
-        self, canvas: pygame.Surface, picture: Picture, key: Hashable, groups: tuple[Group, ...]
-    ) -> Cover:
+    def _kept(self, canvas: pygame.Surface, key: Hashable, groups: tuple[Group, ...]) -> Cover:
         """Return what groups do to the canvas, worked out once for each key."""
         if key not in self._covers:
             found = _cover(canvas, groups)

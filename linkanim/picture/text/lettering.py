@@ -23,7 +23,7 @@ class Lettering:
 
     def __init__(self, text: str, kind: Type, size: int, colours: tuple[Colour, Colour], halo: float) -> None:
         ink, back = colours
-        self.text, self.line_height, self.ink, self.halo = text, size, ink, (back, halo)
+        self.ink, self.halo = ink, (back, halo)
         self._cover, above = _letters(text, kind, size)
         high, wide = self._cover.shape
         self.drop = (above + high / 2) / _FINE
