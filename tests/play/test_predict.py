@@ -174,6 +174,19 @@ def test_keys_that_would_show_the_answer_do_nothing() -> None:
     assert (same.look, same.phase, same.game) == (state.look, state.phase, state.game)
 
 
+def test_under_the_help_nothing_is_answered_and_no_other_mechanism_comes() -> None:
+    state = carried(playing(BEGUN), Action("help"))
+    for name, value in (("option", 0), ("mechanism", 1), ("vectors", "v"), ("next", None)):
+        state = carried(state, Action(name, value))
+    assert state.help
+    state = carried(state, Action("back"))
+    assert (state.help, state.game, state.scene.name) == (
+        False,
+        playing(BEGUN).game,
+        playing(BEGUN).scene.name,
+    )
+
+
 def test_a_round_asks_ten_and_then_what_was_missed() -> None:
     state = playing(BEGUN)
     for n in range(COUNT):

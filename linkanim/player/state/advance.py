@@ -22,6 +22,7 @@ from linkanim.player.state.state import (
     FADE_FRAMES,
     FLASH_FRAMES,
     SHUTTER_FRAMES,
+    Game,
     State,
     with_chip,
 )
@@ -75,6 +76,8 @@ def carried(state: State, action: Action) -> State:
     rule = ACTIONS[action.name]
     if action.name != "note":
         state = replace(state, touched=state.frame)
+    if state.game and action.name not in BESIDE | _SHEETS:
+        return _in_a_game(state, state.game, action)
     if state.sketch and action.name in _WITHOUT_PENCIL:
         return state
     if state.building and action.name in _WITHOUT_PENCIL:
@@ -86,8 +89,6 @@ def carried(state: State, action: Action) -> State:
     if action.name in _KEEPS | _LEAVES:
         state = keep(state, None) if action.name in _KEEPS else left(state)
     try:
-        if state.game and not (action.name in BESIDE or state.help):
-            return state.game.carried(state, action)
         after = rule.handle(state, action.value)
         return with_chip(after, rule.answer(state, after)) if rule.answer else after
     except Exception as error:
@@ -107,6 +108,16 @@ def settled(state: State) -> State:
     bare = replace(state, help=False, browsing=None, listing=None)
     onward = replace(carried(bare, Action("mechanism", 1)), touched=state.touched)
     return replace(onward, clock=onward.clock.pause(onward.frame, False))
+
+
+def _in_a_game(state: State, game: Game, action: Action) -> State:
+    """Return the state with an action handed to its game; under the help there is nothing but a way back."""
+    if state.help:
+        return replace(state, help=False) if action.name == "back" else state
+    try:
+        return game.carried(state, action)
+    except Exception as error:
+        return refused(state, action, error)
 
 
 def _played(state: State) -> State:
