@@ -38,7 +38,7 @@ def choose_thing(building: Building, kind: str, name: str) -> Building:
 def move(building: Building, x: float, y: float, *, snap: float) -> Building:
     """Return the building with what is chosen at a point: a joint, or a guide that then runs through it.
 
-    Numbers follow, but for typed ones. BadInput is never raised; what cannot move says so.
+    Numbers follow, but for typed ones.
     """
     draft, thing = building.draft, building.chosen
     x, y = snapped(x, y, snap)

@@ -8,7 +8,6 @@ from typing import Any
 
 from linkanim.build.draft import Draft, named_in
 from linkanim.build.order import Found, plates_of
-from linkanim.build.places import crank_of
 from linkanim.errors import BadInput
 
 EMPTY = "An empty sheet: click where the first ground pin stands"
@@ -26,11 +25,8 @@ def missing(draft: Draft, known: Found) -> str:
         return EMPTY
     if not draft.of("bars") and not draft.of("sliders"):
         return "No bar yet: drag one from a ground pin"
-    driven = draft.driven
-    if driven is None:
+    if draft.driven is None:
         return "Nothing is driven: choose a crank or a slider, and make it the drive"
-    if driven not in draft.of("sliders") and crank_of(draft, driven) is None:
-        return f"{driven} is driven, but no bar joins it to a ground pin: drive a crank or a slider"
     return _too_many(draft, known) or _unfound(draft, known)
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from random import Random
 
 import pytest
-from hand import gesture
+from hand import drawn as drawn_so_far
+from hand import gesture, gestures
+from test_sessions import SESSIONS
 
 from linkanim.build.building import Building, undo
 from linkanim.build.missing import EMPTY
@@ -67,7 +69,9 @@ def somewhere(random: Random, building: Building) -> str:
 
 def after(seed: int, steps: int) -> None:
     """Make so many gestures, and look at what comes of each."""
-    random, building = Random(seed), Building()
+    random = Random(seed)
+    session = gestures(random.choice(SESSIONS).lines) if seed % 2 else []
+    building = drawn_so_far(session[: random.randint(0, len(session))])
     for _ in range(steps):
         line = any_gesture(random, building)
         building = gesture(building, line)

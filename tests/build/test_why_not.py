@@ -41,6 +41,15 @@ MISSING = (
         f"{GUIDED}; drag slider 30 0 60 40",
         "The guide of A is one too many: it is held without it; remove one",
     ),
+    (
+        f"{FOUR_BAR}; drag slot 100 0 25 0",
+        "The slot of O4 in O2–A is one too many: O4 is held without it; remove one",
+    ),
+    (f"{TERNARY}; drag 150 150 60 100", "Mobility 0: B, C, P cannot move; remove a bar"),
+    (
+        f"{FOUR_BAR}; drag guide 0 60 100 60; click slider 60 60; drag slot 60 60 91 39",
+        "C is held as no dyad holds it: two bars meet, or a bar and a guide, or a bar and a slot",
+    ),
     # Lengths that do not go together.
     (f"{FOUR_BAR}; type 400", "Bars 3 and 4 (85 and 400 mm) cannot meet at any angle of the input: A–O4 is"),
     (f"{GUIDED}; drag 30 0 60 40; type 9", "Joint B: the bar of 9 mm cannot reach its line of travel from A"),
@@ -56,6 +65,7 @@ REFUSED = (
     (CRANK, "drag 70 90 10 10", "Begin a bar at a pin or a joint; a click sets a ground pin"),
     (CRANK, "double 70 90", "A point lies on a body: double-click on a bar"),
     (CRANK, "double 1 0", "A point lies on a body: double-click on a bar"),
+    (CRANK, "drag 25 0 0.3 0", "That is O2 itself: a point of a body lies beside its joints"),
     (CRANK, "drag guide 50 0 50 0", "A guide needs a direction: drag along it"),
     (CRANK, "drag slider 50 0 70 70", "Let the slider go on a guide"),
     (CRANK, "drag slot 50 0 70 70", "Let the slot go on a bar, or on a slider"),
