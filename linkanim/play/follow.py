@@ -34,6 +34,7 @@ _COARSE = 3
 _AHEAD, _BEHIND, _EVERY = 200, 40, 4
 """How much of the paper is in sight before the ram and behind it, in mm, and how close its points."""
 _WIDTHS = ("wide, slow", "narrower, faster", "narrow, fast")
+_FIRST = "slider-crank"
 _HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's stick"
 
 
@@ -219,7 +220,7 @@ def _begun(state: State, scene: str, level: int) -> State:
 
 def read(words: GameWords) -> FollowRun:
     """Return the run that words begin; BadInput where they do not."""
-    scene = words.text("scene", tracks()[0])
+    scene = words.text("scene", _FIRST)
     if scene not in tracks():
         raise BadInput(f"follow: scene={shown(scene)} is no track; there are {', '.join(tracks())}")
     stage = words.text("stage", "ready")

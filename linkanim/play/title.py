@@ -34,7 +34,7 @@ class Door(NamedTuple):
 DOORS = (
     Door("explore", "Explore", "the shelf of all mechanisms"),
     Door("build", "Build", "draw a linkage, or with W a path to follow"),
-    Door("play", "Play", "predict, follow"),
+    Door("play", "Play", "predict, match, follow"),
 )
 _IGNORED = frozenset({"scrub", "point", "move", "carry", "drop", "pull"})
 """What a mouse that moves asks for: it goes in by a click."""

@@ -223,7 +223,12 @@ def test_it_is_played_by_the_mouse(player: Player) -> None:
     assert complex(round(x), round(y)) == after.joints.P
     # the curve stays where it is under the hand
     assert player.window.screen._framing.last.view == view
+    # a click beside the joints is no key: it stands still
+    player.mouse(pygame.MOUSEBUTTONDOWN, (500, 20), button=1)
+    player.mouse(pygame.MOUSEBUTTONUP, (500, 20), button=1)
+    player.tick(5)
     before = player.state.phase
+    assert player.state.clock.paused
     player.press(pygame.K_SPACE, 0, " ")
     player.tick(10)
     assert player.state.phase != before

@@ -54,6 +54,10 @@ class MouseTarget(Protocol):
     def handle_at(self, x: float, y: float, reach: float) -> str | None:
         """Return the joint under a pixel that can be dragged while the list is open; None elsewhere."""
 
+    @property
+    def has_handles(self) -> bool:
+        """Whether a game has joints to drag: a click beside them is none to go on."""
+
     def world(self, x: float, y: float) -> tuple[float, float]:
         """Return the point of the scene under a pixel."""
 
@@ -163,8 +167,7 @@ class Mouse:
             return ()
         self._at = event.pos
         option = target.option_at(*self._at)
-        reach = _REACH * target.size[1]
-        if option is None and (self._is_at_pin(target) or target.handle_at(*self._at, reach)):
+        if option is None and (target.has_handles or self._is_at_pin(target)):
             return ()
         return (Action("next") if option is None else Action("option", option),)
 

@@ -141,6 +141,11 @@ class Screen:
             (name for _, name in near if name in free or (not free and handles(self.scene, name))), None
         )
 
+    @property
+    def has_handles(self) -> bool:
+        """Whether a game has joints to drag."""
+        return bool(self._over.handles)
+
     def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
         px, py = self.pixel(*place)
         return px - x, py - y
