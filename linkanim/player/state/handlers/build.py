@@ -148,8 +148,7 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
 
     It stands while it is `live` under the hand, and where there is no loop yet: a bar is drawn on from there.
     """
-    sheet = state.sheet
-    assert sheet
+    sheet = sheet_of(state)
     same = building.draft is sheet.building.draft
     warned, asked = sheet.warned and same, sheet.asked and same
     drawn = replace(state, sheet=replace(sheet, building=building, warned=warned, asked=asked))
@@ -158,11 +157,24 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
         return drawn
     known = scene.linkage == state.scene.linkage and state.clock.paused and not live
     found = exchanged(replace(drawn, glide=None), scene)
+    clock = found.clock.go(state.frame, building.draft.phase, paused=True)
     stands = live or known or not any(joint.dyad for joint in scene.linkage.joints)
-    clock = found.clock.go(state.frame, building.draft.phase, paused=stands)
-    frames = ceil(FRAMES_PER_SECOND * scene.period / abs(clock.speed))
-    rests = state.frame + frames if frames <= _LONGEST and not stands else None
-    return replace(found, clock=clock, sheet=replace(drawn.sheet, rests=rests))  # type: ignore[type-var]
+    found = replace(found, clock=clock, sheet=replace(sheet_of(drawn), rests=None))
+    return found if stands else _once(found)
+
+
+def sheet_of(state: State) -> BuildSheet:
+    """Return the sheet of a state that has one."""
+    assert state.sheet
+    return state.sheet
+
+
+def _once(state: State) -> State:
+    """Return the state with its linkage running for a period, or on, if that is long."""
+    clock = state.clock.pause(state.frame, False)
+    frames = ceil(FRAMES_PER_SECOND * state.scene.period / abs(clock.speed))
+    rests = state.frame + frames if frames <= _LONGEST else None
+    return replace(state, clock=clock, sheet=replace(sheet_of(state), rests=rests))
 
 
 def rested(state: State) -> State:
@@ -227,7 +239,9 @@ def up(state: State, _: None) -> State:
     if building.draft is grip.base.draft:
         kept = replace(building, draft=sheet.building.draft) if sheet.tool != "move" else building
         return _running(_shown(state, kept), ran=grip.ran)
-    return _shown(state, building)
+    state = _shown(state, building)
+    moved = sheet.tool == "move" and building.made.scene is not None
+    return _once(state) if moved else state
 
 
 def off(state: State, _: None) -> State:
