@@ -134,7 +134,7 @@ COMMANDS = {
     "new": Command(
         "open the window with an empty sheet, to build a linkage on",
         options.new,
-        ("linkanim new", "linkanim new --theme dark"),
+        ("linkanim new", "linkanim new --photo digger.jpg"),
     ),
     "record": Command(
         "write a scene's true period as GIF, MP4 or numbered PNG",

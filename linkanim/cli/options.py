@@ -52,6 +52,7 @@ def play(parser: Parser) -> None:
 
 def new(parser: Parser) -> None:
     """Add what a window with an empty sheet takes."""
+    parser.add_argument("--photo", type=Path, metavar="FILE", help="a photograph to build over")
     parser.add_argument("--size", type=values.size, metavar="WxH", help="the window's, in pixels")
     parser.add_argument(
         "--theme", choices=("light", "dark"), default="light", help="colours (default: light)"
@@ -70,6 +71,7 @@ def record(parser: Parser) -> None:
     parser.add_argument(
         "--noted", action="store_true", help="have the text say where a limit or a change point is near"
     )
+    parser.add_argument("--photo", action="store_true", help="with a tape's photograph behind what is built")
     parser.add_argument("--progress", action="store_true", help="show it also where stderr is no terminal")
 
 

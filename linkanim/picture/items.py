@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
+
+import pygame
 
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import cut
 from linkanim.picture.text.text import Anchor
 from linkanim.picture.view import Rect
+
+
+class Underlay(Protocol):
+    """What lies below the shapes of a sheet on surfaces, such as a photograph."""
+
+    def draw(self, surface: pygame.Surface) -> None:
+        """Draw it on a surface of the picture's size."""
 
 
 class Halo(NamedTuple):
@@ -43,7 +52,8 @@ class Group(NamedTuple):
     Groups lie over each other in their order, but that words lie over the shapes of all groups up to the
     next that is `over` them. A `still` group is the same object at every frame. Nothing of a group shows
     outside of what it is `within`. Groups of one picture with equal keys have equal shapes. `made_of` is
-    what puts the shapes where a pose has them, for printers of all poses at once.
+    what puts the shapes where a pose has them, for printers of all poses at once. What lies `under`
+    a sheet is on surfaces alone.
     """
 
     name: str
@@ -54,6 +64,7 @@ class Group(NamedTuple):
     within: Rect | None = None
     key: Hashable = None
     made_of: object = None
+    under: Underlay | None = None
 
 
 def grouped(name: str, items: Iterable[Item], *, still: bool = False) -> Group:

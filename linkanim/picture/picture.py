@@ -34,6 +34,7 @@ from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
+    from linkanim.build.draft import Photo
     from linkanim.picture.diagrams.polygons import Polygon
     from linkanim.picture.labels.names import LabelStyle, Names
     from linkanim.synthesis.curves.drawn import DrawnCurve
@@ -68,6 +69,7 @@ class Picture:
         sheet: Box | None = None,
         moment: float | None = None,
     ) -> None:
+        self._papered: tuple[Photo | None, Group] | None = None
         self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
         self.sheet, self.hurried = sheet, hurried
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
@@ -93,7 +95,7 @@ class Picture:
             and self.sheet
             and (before.view, before.size, before.theme) == (self.view, size, self.theme)
         ):
-            self._paper = before._paper
+            self._papered = before._papered
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
 
     def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:
@@ -161,9 +163,11 @@ class Picture:
             return
         build = overlay.build
         if build and build.draft:
-            yield self._paper
+            yield self._paper(build.photo)
             yield from drafted(build, build.draft, self._sheet_view, self.type)
             return
+        if self.sheet and path is None:
+            yield self._paper(build.photo if build else None)
         yield from self._behind_at(pose.input_speed, path)
         if overlay.lane:
             yield self._lane(overlay.lane)
@@ -213,9 +217,11 @@ class Picture:
     def _sheet_view(self) -> SheetView:
         return SheetView(self.view, self.layout, self.gauge, self.theme)
 
-    @cached_property
-    def _paper(self) -> Group:
-        return paper(self._sheet_view)
+    def _paper(self, photo: Photo | None) -> Group:
+        """Return the sheet that it is built on, the same one while nothing of it changes."""
+        if self._papered is None or self._papered[0] != photo:
+            self._papered = photo, paper(self._sheet_view, photo)
+        return self._papered[1]
 
     def _behind_at(self, speed: float, path: PathShown | None) -> tuple[Group, ...]:
         """Return what stands still behind all that moves; the chart and the key go by the speed."""
@@ -226,8 +232,6 @@ class Picture:
         return self._behind[2]
 
     def _still_behind(self, speed: float, path: PathShown | None) -> Iterator[Group]:
-        if self.sheet and path is None:
-            yield self._paper
         yield from self._within([self._discs])
         if path and path.curve:
             yield from self._within([dashed(self.view, self.gauge, self.theme, path)])

@@ -106,6 +106,8 @@ class SurfacePrinter:
         """Return the sheet that a linkage is built on, drawn once while that changes under the hand."""
         if self._paper is None or self._paper[0] is not paper:
             drawn = bare.copy()
+            if paper.under:
+                paper.under.draw(drawn)
             _cover(drawn, [paper]).put(drawn)
             self._paper = paper, drawn
         return self._paper[1]

@@ -34,12 +34,12 @@ _LONGER = 1280
 class TapeFrames:
     """Pictures of what a tape does. Drawn in their order each costs one; going back starts anew."""
 
-    def __init__(self, tape: Tape, fps: float, size: tuple[int, int]) -> None:
+    def __init__(self, tape: Tape, fps: float, size: tuple[int, int], *, photo: bool = False) -> None:
         self.size = size
         self.alpha = not tape.start.look.background
         self.colours = tuple(colour for theme in _themes(tape) for colour in theme_colours(theme))
         self._tape = tape
-        self._fps = fps
+        self._fps, self._photo = fps, photo
         self._surface = offscreen(size, alpha=self.alpha)
         self._framing = Framing()
         self._printer, self._row = SurfacePrinter(), RowPrinter(at_once=True)
@@ -49,7 +49,7 @@ class TapeFrames:
     def draw(self, frame: int) -> Frame:
         """Return the bytes of a frame, to be let go before the next is drawn in their place."""
         state, phase = self._at(frame)
-        picture, over = self._framing.at(state, self.size), _lasting(overlay(state))
+        picture, over = self._framing.at(state, self.size), _lasting(overlay(state), photo=self._photo)
         self._printer.print(self._surface, picture, phase, state.clock.speed, over)
         self._row.draw(self._surface, picture.layout, over.row)
         return pixel_view(self._surface)
@@ -63,9 +63,9 @@ class TapeFrames:
         return next(self._ahead)
 
 
-def _lasting(over: Overlay) -> Overlay:
+def _lasting(over: Overlay, *, photo: bool = False) -> Overlay:
     """Return what of an overlay is about the linkage: lists, help, notes; no marks and no short words."""
-    build = over.build and replace(over.build, tools=None)
+    build = over.build and replace(over.build, tools=None, photo=over.build.photo if photo else None)
     return replace(
         over, build=build, toast=None, chip=None, hint=None, watch=None, paused=False, grip=False, shutter=0
     )
@@ -90,10 +90,12 @@ def record_tape(
     size: tuple[int, int] | None = None,
     fps: float = 25.0,
     progress: Progress | None = None,
+    photo: bool = False,
 ) -> Recording:
     """Record what a tape does, at any size; a tape in which nothing is done, as the scene's loop.
 
-    Without a size it is of the window's shape, so that all stands where it was seen.
+    Without a size it is of the window's shape, so that all stands where it was seen. A `photo` behind what is
+    built is in it if that is asked for.
 
     The loop starts at the phase at which the tape does. Errors as `record`, and `BadInput` for a
     file that is not a tape of this version.
@@ -110,4 +112,4 @@ def record_tape(
     clip = Clip(state.clock.speed, state.scene.period, fps, seconds=max(played.seconds, 1.0 / fps))
     plan = make_plan(clip, form)
     plan = replace(plan, frames=max(1, round(played.seconds * float(plan.rate))))
-    return write(TapeFrames(played, float(plan.rate), size), plan, path, progress)
+    return write(TapeFrames(played, float(plan.rate), size, photo=photo), plan, path, progress)

@@ -14,6 +14,7 @@ import pygame
 import pytest
 from playing import CTRL, SHIFT, Player
 
+from linkanim.build.draft import Photo
 from linkanim.picture.shelf import NEW
 from linkanim.player.state.sheet import BuildSheet, Grip
 from linkanim.player.state.state import begin
@@ -462,3 +463,72 @@ def test_a_damaged_draft_is_said_and_does_no_harm(here: Path) -> None:
         assert "damaged" in player.state.toast.text
         assert player.state.sheet is None
         player.window.close()
+
+
+@pytest.fixture
+def photograph(here: Path) -> Path:
+    """A picture of four fields of other colours, 200 by 100."""
+    picture = pygame.Surface((200, 100))
+    fields = (("red", (0, 0)), ("lime", (100, 0)), ("blue", (0, 50)), ("black", (100, 50)))
+    for colour, at in fields:
+        picture.fill(colour, (*at, 100, 50))
+    pygame.image.save(picture, here / "digger.png")
+    return here / "digger.png"
+
+
+def photo_of(builder: Builder) -> Photo:
+    found = builder.sheet.building.draft.photo
+    assert found
+    return found
+
+
+def seen_at(builder: Builder, x: float, y: float) -> tuple[int, ...]:
+    at = builder.at(x, y)
+    return tuple(display.surface().get_at((round(at[0]), round(at[1]))))[:3]
+
+
+def test_a_photograph_that_is_dropped_is_fitted_by_two_known_points(
+    builder: Builder, photograph: Path
+) -> None:
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
+    builder.tick()
+    laid = photo_of(builder)
+    assert (laid.file, laid.place, laid.width) == ("digger.png", (-100, -40), 300)
+    red, green, blue = seen_at(builder, -63, 73)
+    assert red > green == pytest.approx(blue, abs=12)
+    builder.draw((-100, -40), (0, 0))
+    assert photo_of(builder).place == pytest.approx((0, 0), abs=1)
+    builder.draw((100, 0), (0, 100))
+    fitted = photo_of(builder)
+    assert (fitted.turn, fitted.width) == pytest.approx((math.pi / 2, 300), rel=0.02)
+    assert fitted.place == pytest.approx((0, 0), abs=1)
+    builder.press(pygame.K_z, CTRL)
+    assert photo_of(builder).turn == 0
+
+
+def test_a_scene_file_names_its_photograph_and_a_recording_leaves_it_out(
+    builder: Builder, photograph: Path, here: Path
+) -> None:
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
+    builder.tick()
+    builder.press(pygame.K_b, text="b")
+    builder.four_bar()
+    builder.press(pygame.K_s, CTRL)
+    (path,) = here.glob("*.toml")
+    assert load(path).document["photo"]["file"] == "digger.png"
+    over = overlay(builder.state)
+    for photo in (False, True):
+        shown = _lasting(over, photo=photo).build
+        assert shown
+        assert (shown.photo is not None) is photo
+
+
+def test_a_photograph_that_is_gone_or_none_does_no_harm(builder: Builder, here: Path) -> None:
+    builder.tick(30)
+    bare = builder.pixels
+    (here / "broken.jpg").write_bytes(b"no picture")
+    for name in ("broken.jpg", "gone.png"):
+        pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(here / name)))
+        builder.tick()
+        builder.press(pygame.K_b, text="b")
+        assert builder.pixels == bare

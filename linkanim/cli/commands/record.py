@@ -48,6 +48,8 @@ def _stem(source: str) -> str:
 
 
 def _of_scene(options: Namespace) -> Callable[..., Recording]:
+    if options.photo:
+        raise BadInput("--photo is for a tape, whose sheet has a photograph behind it")
     scene = load(options.scene)
     return partial(
         record,
@@ -69,7 +71,7 @@ def _of_tape(options: Namespace) -> Callable[..., Recording]:
         if found != getattr(usual, name, None):
             word = _word(name, found)
             raise BadInput(f"{word} is for a scene; a tape keeps its own (--size, --fps and --for are free)")
-    return partial(record_tape, options.scene)
+    return partial(record_tape, options.scene, photo=options.photo)
 
 
 def _word(name: str, found: object) -> str:

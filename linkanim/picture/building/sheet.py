@@ -8,7 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from linkanim.build.draft import Photo
 from linkanim.picture.building.draft import DraftDrawing, draft_gauge, lit
+from linkanim.picture.building.photograph import Photograph
 from linkanim.picture.building.tools import tool_cells
 from linkanim.picture.items import Caption, Group
 from linkanim.picture.layout import Gauge, Layout
@@ -54,17 +56,18 @@ class SheetView(NamedTuple):
     theme: Theme
 
 
-def paper(place: SheetView) -> Group:
-    """Return the empty sheet: a light grid, and the ground line through the origin."""
+def paper(place: SheetView, photo: Photo | None) -> Group:
+    """Return the empty sheet: a light grid over a photograph, and the ground line through the origin."""
     view, layout, gauge, theme = place
+    laid = photo and Photograph(photo, view, theme.background)
     grid, (_, level) = sheet(view, layout, theme), view.to_pixel(0.0, 0.0)
     width, height = layout.size
     if not -20 * layout.unit < level < height:
-        return grid
+        return grid._replace(under=laid)
     faint = mixed(theme.ground, theme.background, 0.62)
     coarse = replace(gauge, bar=2 * gauge.bar)
     ground = Layer(faint, [*hatched(complex(0, level), complex(width, level), coarse, 1)])
-    return grid._replace(layers=[*grid.layers, ground])
+    return grid._replace(layers=[*grid.layers, ground], under=laid)
 
 
 def drafted(shown: BuildShown, draft: DraftShown, place: SheetView, type_: Type) -> Iterator[Group]:
@@ -87,6 +90,8 @@ def hand(shown: BuildShown, place: SheetView, type_: Type) -> Iterator[Group]:
         yield from _rubber(shown.rubber, place, type_)
     if shown.snap:
         yield Group("snap", [*_snap(shown.snap, place)], over=True)
+    if shown.anchor:
+        yield Group("anchor", [*_crosshair(place.view.place(shown.anchor), place)], over=True)
     if shown.cursor:
         yield Group("cursor", [*_crosshair(place.view.place(shown.cursor), place)], over=True)
     if shown.hand and not shown.tools:

@@ -198,6 +198,20 @@ def _strut(gauge: Gauge, theme: Theme, *, drives: bool) -> list[Layer]:
     return [wall, fill, Layer(theme.outline, rods)]
 
 
+def _photo_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
+    line = gauge.line
+    frame = [
+        Layer(theme.outline, [box(17 * line, 13 * line, line)]),
+        Layer(theme.pin, [box(15 * line, 11 * line)]),
+    ]
+    hill = line * np.array([-7.5 + 5.5j, -2 - 2.5j, 1.5 + 2.5j, 4 - 0.5j, 7.5 + 5.5j], np.complex128)
+    return [
+        *frame,
+        Layer(theme.bodies[4], [hill]),
+        Layer(theme.bodies[3], [line * (3.5 - 3j) + disc(1.4 * line)]),
+    ]
+
+
 def _trace_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     turn = np.linspace(0, 2 * np.pi, 48)
     curve = gauge.line * np.asarray(7 * np.cos(turn) + 1j * (4.6 * np.sin(turn) - 2.2 * np.cos(2 * turn)))
@@ -254,6 +268,7 @@ ICONS: Mapping[str, Icon] = {
     "spring": _spring_icon,
     "damper": lambda gauge, theme: _strut(gauge, theme, drives=False),
     "cylinder": lambda gauge, theme: _strut(gauge, theme, drives=True),
+    "photo": _photo_icon,
     "trace": _trace_icon,
     "drive": _drive_icon,
     "delete": _delete_icon,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from linkanim.build.draft import Photo
 from linkanim.build.shapes import Shape
 from linkanim.mechanics.linkage.joint import Point
 
@@ -61,7 +62,8 @@ class BuildShown:
 
     `sentence` says what it is or what is missing, as a warning or not, `facts` what it can do. What is
     `chosen` is lit, with its number in words or as it is typed. The `cursor` is that of the keys. Where
-    there are no tools, as in a recording, the place of the `hand` is shown.
+    there are no tools, as in a recording, the place of the `hand` is shown. A `photo` lies
+    behind, and its `anchor` stays where it is.
     """
 
     draft: DraftShown | None = None
@@ -75,4 +77,6 @@ class BuildShown:
     cursor: Point | None = None
     tools: ToolBar | None = None
     hand: Point | None = None
+    photo: Photo | None = None
+    anchor: Point | None = None
     is_warning: bool = False

@@ -224,6 +224,7 @@ ACTIONS: Mapping[str, Rule] = {
     "sheet": Rule(_nothing, build.new),
     "draft": Rule(_text, build.draft),  # a draft as it is stored
     "tool": Rule(_text, build.tool),
+    "photo": Rule(_text, build.photo),  # a picture's file, "" for none
     # (x, y) of the sheet, how near counts as on it, the step of what is drawn
     "hand_down": Rule(_numbers(4), build.down),
     "hand_to": Rule(_numbers(4), build.along),

@@ -36,7 +36,7 @@ _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
 """What is not done on a sheet, which is left for it."""
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND
 
-_SHEETS = frozenset({"build", "sheet", "draft"})
+_SHEETS = frozenset({"build", "sheet", "draft", "photo"})
 """What opens a sheet, out of a game too."""
 _LIVES = {"turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
 """For how many frames after the one that the state holds something is to be seen."""

@@ -42,10 +42,11 @@ class BuildSheet:
     """What is built over the scene `before`, which comes back, with its clock and editing, if it cannot move.
 
     `home` is the part of the plane that is seen unless it is zoomed. `tool` is what is in hand, `grip` what
-    the hand does, `clicked` the frame and place of its last click; `cursor` is the place of the keys' own.
-    `rests` is the frame at which a linkage that runs by itself has shown one period. `written` is the draft
-    as a scene file has it, `warned` tells that a second asking lets go of what is in none, and `asked` that
-    closing the window has been. While it is not
+    the hand does, `clicked` the frame and place of its last click; `cursor` is the place of the keys' own,
+    `anchor` the point of a photograph that is put where it belongs. `rests` is the
+    frame at which a linkage that runs by itself has shown one period. `written` is the draft as a scene file
+    has it, `warned` tells that a second asking lets go of what is in none, and `asked` that closing the
+    window has been. While it is not
     `open` the sheet is kept, to be gone on with.
     """
 
@@ -59,6 +60,7 @@ class BuildSheet:
     grip: Grip | None = None
     clicked: tuple[int, Point] | None = None
     cursor: Point | None = None
+    anchor: Point | None = None
     rests: int | None = None
     written: Draft = field(default_factory=Draft)
     warned: bool = False

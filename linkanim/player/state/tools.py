@@ -25,6 +25,7 @@ TOOLS = (
     Tool("spring", "spring", "S", "tool", "spring"),
     Tool("damper", "damper", "A", "tool", "damper"),
     Tool("cylinder", "cylinder", "Y", "tool", "cylinder"),
+    Tool("photo", "photograph: a point of it to its place, then another", "F", "tool", "photo"),
     Tool("trace", "trace of the chosen joint", "T", "trace_on"),
     Tool("drive", "drive of the chosen crank or slider", "D", "drive_by"),
     Tool("delete", "remove", "Del", "remove"),

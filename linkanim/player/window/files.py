@@ -61,6 +61,12 @@ def _added(data: bytes, name: str, suffix: str) -> Path:
     return atomic_files.add(data, first, others)
 
 
+def beside(file: str) -> str:
+    """Return a file's path from the current folder, where scene files are written, if it lies in there."""
+    path, here = Path(file).absolute(), Path.cwd()
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)
+
+
 class SceneFile:
     """A scene file, and how it was when it was last looked at."""
 

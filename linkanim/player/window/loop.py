@@ -21,7 +21,7 @@ from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
 from linkanim.player.window import display
 from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.files import SceneFile
+from linkanim.player.window.files import SceneFile, beside
 from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.window import Window
 from linkanim.scenes.files import path_of
@@ -40,6 +40,7 @@ def run(
     drafts: Path | None = None,
     sheet: bool = False,
     game: str | None = None,
+    photo: Path | None = None,
 ) -> int:
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
@@ -47,7 +48,8 @@ def run(
     through the catalogue. With `attract` it fills the screen, Esc does not leave that, and left alone it goes
     back to the title. NoDisplay where there is no screen, or none any more; BadInput as loading raises it.
     Whatever ends the window, a recording that runs is finished. `drafts` is the file in which a draft is
-    kept; with `sheet` the window opens on an empty one. `game` are the words of one to begin with.
+    kept; with `sheet` the window opens on an empty one, on a `photo` if there is one. `game` are the words of
+    one to begin with.
     """
     tape = _tape(scene, keeper)
     state = tape.begun if tape else begin(scene, look=look)
@@ -63,6 +65,8 @@ def run(
         window = Window(state, tape, None if tape else _file(scene), keeper, kept)
         if sheet:
             window.state = carried(window.state, Action("sheet"))
+        if photo:
+            window.state = carried(window.state, Action("photo", beside(str(photo))))
         if attract:
             window.fill()
         gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame

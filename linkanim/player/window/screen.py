@@ -178,6 +178,8 @@ class Screen:
         sheet = self._state.building
         assert sheet
         near, *_ = self._under(x, y)
+        if sheet.tool == "photo":
+            return "hand"
         if near is None:
             return "paper" if sheet.tool in ("bar", "move") else "hand"
         moves = sheet.building.made.scene is not None and sheet.tool in ("bar", "move")

@@ -47,6 +47,8 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         snap=_snap(seen, sheet, hover),
         cursor=sheet.cursor,
         hand=sheet.grip.at if sheet.grip else None,
+        photo=building.draft.photo,
+        anchor=sheet.anchor,
         tools=ToolBar(_SHOWN, tool, hover.tool if hover else None),
         is_warning=bool(building.sentence),
     )
@@ -99,7 +101,7 @@ def _draft(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown:
 def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
     """Return what the hand draws, from the joint it began at to the thing or place that it is at."""
     start = under(seen, *grip.begin, grip.reach)
-    if sheet.tool == "move" or (sheet.tool in _STRETCHED and (start is None or start[0] != JOINT)):
+    if sheet.tool in ("move", "photo") or (sheet.tool in _STRETCHED and (start is None or start[0] != JOINT)):
         return None
     begin = seen.places[start[1]] if start and start[0] == JOINT else grip.begin
     end = _met(seen, under(seen, *grip.at, grip.reach), grip.at) or snapped(*grip.at, grip.snap)
@@ -127,7 +129,7 @@ def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
         return None
     at, reach = (grip.at, grip.reach) if grip else (hover.place, hover.reach)  # type: ignore[union-attr]
     thing = under(seen, at[0], at[1], reach)
-    if thing is None or (grip and sheet.tool == "move"):
+    if thing is None or sheet.tool == "photo" or (grip and sheet.tool == "move"):
         return None
     if thing[0] == "bars":
         one, other = (seen.places[joint] for joint in seen.of("bars")[thing[1]]["joints"])

@@ -12,6 +12,7 @@ from pygame.event import Event
 
 from linkanim import intake
 from linkanim.errors import BadInput, LinkanimError
+from linkanim.picture.building.photograph import SUFFIXES
 from linkanim.player.input.keyboard import Keyboard
 from linkanim.player.input.keys import bind_of
 from linkanim.player.input.mouse import Mouse, latest
@@ -409,7 +410,10 @@ class Window:
     def _meant(self, event: Event) -> tuple[Action, ...]:
         """Return what an event asks for in the state as it is."""
         if event.type == pygame.DROPFILE:
-            return (Action("open_file", event.file),)
+            picture = event.file.lower().endswith(SUFFIXES)
+            return (
+                Action("photo", files.beside(event.file)) if picture else Action("open_file", event.file),
+            )
         if event.type == pygame.QUIT:
             return (Action("close"),)
         if event.type in _UNCOVERED:

@@ -8,7 +8,7 @@ from math import ceil, dist, radians, tau
 from typing import Any
 
 from linkanim.build import building as built
-from linkanim.build import chosen, dimensions, pointing
+from linkanim.build import chosen, dimensions, gestures, pointing
 from linkanim.build.building import Building
 from linkanim.build.draft import JOINT
 from linkanim.build.origin import building_of
@@ -31,6 +31,8 @@ _DOUBLE = 24
 """Frames within which a second click at a place makes a double one."""
 _LONGEST = 10 * FRAMES_PER_SECOND
 """A linkage that can move runs for a period, if that is no longer."""
+_LIVE = ("move", "photo")
+"""The tools that change what is built while the hand moves."""
 LOST = "the draft is in no scene file: Ctrl+S writes it; once more begins anew"
 _MEANT = "the draft is in no scene file: Ctrl+S writes it; once more closes, and it is offered next time"
 
@@ -192,7 +194,16 @@ def rested(state: State) -> State:
 
 def tool(state: State, name: str) -> State:
     """Take a tool."""
-    return _with(state, tool=name, grip=None)
+    return _with(state, tool=name, grip=None, anchor=None)
+
+
+def photo(state: State, file: str) -> State:
+    """Lay a photograph behind the sheet, as wide as that is seen, and take the tool that fits it."""
+    state = state if state.building else build(state, None)
+    home = sheet_of(state).home
+    width = home.right - home.left
+    laid = gestures.lay_photo(sheet_of(state).building, file, home.left, home.low, width)
+    return tool(_shown(state, laid), "photo" if file else "bar")
 
 
 def down(state: State, at: tuple[float, float, float, float]) -> State:
@@ -219,7 +230,7 @@ def along(state: State, at: tuple[float, float, float, float]) -> State:
     grip = replace_grip(sheet.grip, x, y, snap)
     state = _with(state, grip=grip)
     return (
-        _shown(state, _drawn(sheet, grip), live=True) if sheet.tool == "move" and not grip.is_click else state
+        _shown(state, _drawn(sheet, grip), live=True) if sheet.tool in _LIVE and not grip.is_click else state
     )
 
 
@@ -237,9 +248,13 @@ def up(state: State, _: None) -> State:
     state = _with(state, grip=None, clicked=(state.frame, grip.begin) if grip.is_click else None)
     building = _clicked(state, sheet, grip) if grip.is_click else _drawn(sheet, grip)
     if building.draft is grip.base.draft:
-        kept = replace(building, draft=sheet.building.draft) if sheet.tool != "move" else building
+        kept = replace(building, draft=sheet.building.draft) if sheet.tool not in _LIVE else building
         return _running(_shown(state, kept), ran=grip.ran)
-    state = _shown(state, building)
+    state = (
+        _with(_shown(state, building), anchor=sheet.anchor or grip.at)
+        if sheet.tool == "photo"
+        else _shown(state, building)
+    )
     moved = sheet.tool == "move" and building.made.scene is not None
     return _once(state) if moved else state
 
@@ -262,6 +277,8 @@ def _clicked(state: State, sheet: BuildSheet, grip: Grip) -> Building:
     frame, before = sheet.clicked or (state.frame - 2 * _DOUBLE, grip.begin)
     if state.frame - frame <= _DOUBLE and dist(before, grip.begin) <= grip.reach:
         return pointing.double_click(grip.base, x, y, **near)
+    if sheet.tool == "photo":
+        return grip.base
     if sheet.tool == "move" and pointing.under(grip.base.draft, x, y, grip.reach) is None:
         return replace(grip.base, chosen=None, sentence="")
     return pointing.click(grip.base, sheet.tool, x, y, **near)
@@ -270,6 +287,9 @@ def _clicked(state: State, sheet: BuildSheet, grip: Grip) -> Building:
 def _drawn(sheet: BuildSheet, grip: Grip) -> Building:
     """Return the building after a drag."""
     ends = (*grip.begin, *grip.at)
+    if sheet.tool == "photo":
+        held = sheet.anchor and (*sheet.anchor, *sheet.anchor)
+        return gestures.fit_photo(grip.base, *held, *ends) if held else gestures.move_photo(grip.base, *ends)
     return pointing.drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
 
 
