@@ -127,11 +127,11 @@ class Mechanism:
 
     def _program_of_poses(self, key: tuple[int, bool, bool]) -> Callable[..., dict[str, Any]]:
         derivatives, accelerates, per_input = key
-        trace = self._trace(Variant(True, accelerates, per_input=per_input))
+        trace = self.trace(Variant(True, accelerates, per_input=per_input))
         found = self._poses[key] = _scalar(trace, derivatives)
         return found
 
-    def _trace(self, variant: Variant) -> Traced:
+    def trace(self, variant: Variant) -> Traced:
         """Record the formulas of all quantities, lengths in the scene's unit."""
         found = self._traces.get(variant)
         if found is None:
@@ -197,7 +197,7 @@ class Mechanism:
         return Programs(self.assembly.path, variant, partial(self._compiled, variant), found)
 
     def _compiled(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
-        trace = self._trace(variant)
+        trace = self.trace(variant)
         rates = ("w", "a") if variant.accelerates else ("w",)
         varying = {**dict.fromkeys(trace.names, True), **dict.fromkeys(rates, variant.varying_rate)}
         pins = {joint.name: joint.position for joint in self.linkage.pins}
@@ -279,7 +279,9 @@ def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:
 @lru_cache(maxsize=8)
 def mechanism(linkage: Linkage) -> Mechanism:
     """Return the linkage made ready; AssemblyError where it cannot be put together."""
-    return Mechanism(linkage, restricted(assemble(linkage), linkage))
+    found = Mechanism(linkage, restricted(assemble(linkage), linkage))
+    found.trace(Variant(True, False))  # which a pose needs, and says what is not one rigid body
+    return found
 
 
 def passing(linkage: Linkage) -> Mechanism:
