@@ -32,7 +32,7 @@ the scene that it comes to (`making`), and what is `missing` before it comes to 
 `explain`: a pose worked out by hand: `expression` and `lines` are what it consists of, `kinds/` the steps
 of each kind of joint, `solution` puts them in order, `documents` prints it.
 
-`play`: what is asked about linkages: a `question`, its `kinds`, a `round` of them, a printed `sheet`.
+`play`: what is asked about linkages, printed or played, and other games: pure values over the player's state.
 """
 
 import os

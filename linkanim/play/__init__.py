@@ -22,6 +22,7 @@ The frame for games lies below, in the player, which knows no game by name:
 - What is shown is `picture.panels.overlay.GamePanel` (heading, scores, lines, answers, bars, a verdict) in
   the room of a list, and `Spot`s on the picture; curves can be had from `Overlay.path`.
 
-From the ground up: `words`, `question`, its `kinds`, a `round` of them, a printed `sheet`; then what is
-played, `title` and the others; `games`, the table of them; `arcade`, what of them is kept.
+From the ground up: `words` and `choosing`; `question`, its `kinds`, a `round` of them, a printed `sheet`,
+`chapters`; then the pages, `title`, `lobby` and `menu`, and what is played, `predict`, `match`, `follow`;
+`games`, the table of them; `scores`, the file, and `arcade`, what a window is given of both.
 """
