@@ -7,6 +7,7 @@ look at every one before it is kept.
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ import pytest
 from PIL import Image
 from playing import Player
 
+from linkanim.play.games import game_of
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import carried
 from linkanim.player.state.state import begin
@@ -69,6 +71,14 @@ def _shelf(player: Player) -> None:
         player.tick()
 
 
+def _predict(player: Player) -> None:
+    words = "predict chapter=four-bars level=3 seed=3 again=instant_centre@crank-rocker@4.6593@coupler"
+    player.window.state = carried(replace(player.state, games=game_of), Action("play", words))
+    player.tick(40)
+    player.type("1")
+    player.tick(40)
+
+
 SHOTS = {
     "press": ("press", _press),
     "double-rocker": ("double-rocker", _double_rocker),
@@ -76,6 +86,7 @@ SHOTS = {
     "edit": ("crank-rocker", _edit),
     "names": ("six-bar", _names),
     "shelf": ("whitworth", _shelf),
+    "predict": ("crank-rocker", _predict),
 }
 
 
