@@ -312,6 +312,7 @@ MUCH_ALIKE = {
     "text",
     [pytest.param(HEAVY[name], id=name, marks=[pytest.mark.long] * (name in MUCH_ALIKE)) for name in HEAVY],
 )
+@pytest.mark.slow
 def test_a_file_as_heavy_as_can_be(
     tmp_path: Path, text: str, record_property: Record, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -52,6 +52,7 @@ def calls(work: Callable[[], object]) -> int:
 
 
 @pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.slow
 def test_what_is_said_of_a_linkage_takes_as_many_more_calls_as_it_has_more_joints(shape: str) -> None:
     few, many = (calls(partial(facts, SHAPES[shape](dyads))) for dyads in (FEW, MANY))
     assert many <= LINEAR * few

@@ -213,6 +213,7 @@ print("done")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="kills")
+@pytest.mark.slow
 def test_a_run_that_is_killed_at_any_move_leaves_whole_files_and_the_next_one_goes_on(files: FileSet) -> None:
     killed = 0
     for moves in range(1, 10):

@@ -46,6 +46,7 @@ def texts(page: ElementTree.Element, tag: str) -> list[str]:
 
 
 @pytest.mark.parametrize("name", ["press", "double-rocker", "scotch-yoke"])
+@pytest.mark.slow
 def test_a_scene_shows_the_page_that_moves_beside_its_facts(name: str, shown: Shown) -> None:
     """Where the notebook is not trusted the frame and the style are left out, and the figure shows."""
     scene = load(name)

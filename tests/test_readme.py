@@ -79,6 +79,7 @@ def test_every_scene_shown_is_one_that_runs(text: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("snippet", blocks("python"))
+@pytest.mark.slow
 def test_every_snippet_runs(snippet: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     exec(compile(snippet.replace("(1280, 720)", "(160, 90)"), "README.md", "exec"), {})

@@ -212,6 +212,7 @@ def test_a_typed_travel_is_in_the_unit_that_is_shown() -> None:
     assert scene.pose(state.phase, 0).coordinate == pytest.approx((low + high) / 2, abs=0.01)
 
 
+@pytest.mark.slow
 def test_a_worked_solution_a_hand_out_and_a_page_take_a_unit(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

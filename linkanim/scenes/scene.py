@@ -188,6 +188,10 @@ class Scene:
             phase, rate, acceleration = _as_floats(phase, rate, acceleration)
         return self.mechanism.pose(phase, rate, acceleration, derivatives)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a pickle keeps: all but the quantities, which are read by functions and made anew."""
+        return {name: value for name, value in vars(self).items() if name != "quantities"}
+
     def _repr_html_(self) -> str:
         """Return the scene's title and what is told of its linkage, as a notebook shows it."""
         from html import escape

@@ -206,6 +206,7 @@ BUFFERED = {name: value for name, value in os.environ.items() if name != "PYTHON
 
 # in the middle of a long table, or before anything is there
 @pytest.mark.parametrize(("words", "lines"), [(SWEEP, 1), (["scenes"], 0)], ids=["table", "list"])
+@pytest.mark.slow
 def test_a_reader_that_leaves_early_is_not_a_failure(words: list[str], lines: int) -> None:
     pipe = subprocess.PIPE
     with subprocess.Popen([*LINKANIM, *words], stdout=pipe, stderr=pipe, text=True, env=BUFFERED) as process:
@@ -249,6 +250,7 @@ def test_a_recording_needs_no_standard_streams(tmp_path: Path, closed: str) -> N
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")
+@pytest.mark.slow
 def test_a_table_for_a_closed_stdout_goes_nowhere() -> None:
     words = shlex.join([*LINKANIM, "solve", "kite", "--sweep", "0:9:3", "--csv", "-"])
     done = subprocess.run(["sh", "-c", f"{words} >&-"], check=False, stderr=subprocess.PIPE)

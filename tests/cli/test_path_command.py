@@ -48,6 +48,7 @@ def test_each_answer_is_a_scene_that_runs_along_the_curve(
         assert scene.source == "linkanim path for oval.csv"
 
 
+@pytest.mark.slow
 def test_the_table_has_a_line_for_each_answer_and_a_shorter_one_leaves_no_old_file(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -214,6 +214,7 @@ def test_a_gallery_that_cannot_be_is_refused(tmp_path: Path, capsys: pytest.Capt
     assert files(tmp_path) == ["taken"]
 
 
+@pytest.mark.slow
 def test_a_gallery_is_a_gif_for_each_scene_and_a_sheet(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

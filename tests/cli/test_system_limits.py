@@ -31,6 +31,7 @@ RECORD = ("record", "kite", "--size", "64x36", "--seconds", "0.1", "-o")
         pytest.param("RLIMIT_AS", 130_000_000, ("info", "kite"), "memory", id="threads"),
     ],
 )
+@pytest.mark.slow
 def test_what_the_system_limits_is_said_in_one_line(
     limit: str, value: int, words: tuple[str, ...], message: str, tmp_path: Path
 ) -> None:

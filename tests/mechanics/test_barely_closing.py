@@ -25,6 +25,7 @@ def check(count: int, seed: int) -> None:
             assert error.rate <= RATE, case
 
 
+@pytest.mark.slow
 def test_random_dyads_that_barely_close_are_right_to_the_last_digits() -> None:
     check(8, 7)
 

@@ -48,6 +48,7 @@ def check(make: Make, count: int) -> None:
 
 
 @every_kind
+@pytest.mark.slow
 def test_a_joint_is_right_to_many_digits(make: Make) -> None:
     check(make, 1 if make in SLOW else 5)
 

@@ -352,9 +352,11 @@ def test_a_used_scene_and_a_motion_go_through_a_pickle(name: str) -> None:
     known = register(scene.linkage).values()
     meant = [(quantity.read(motion), quantity.read(pose)) for quantity in known]
     assert scene.info.lines
+    assert set(scene.telling) < set(scene.quantities)
     again, motion_again, pose_again = pickle.loads(pickle.dumps((scene, motion, pose)))
     paced = pickle.loads(pickle.dumps(motion.paced(2.0)))
     assert again == scene
+    assert list(again.quantities) == list(scene.quantities)
     assert paced.coordinate_rate == pytest.approx(motion.coordinate_rate * 2.0)
     for quantity, (many, one) in zip(known, meant, strict=True):
         assert np.array_equal(quantity.read(motion_again), many, equal_nan=True), quantity.token

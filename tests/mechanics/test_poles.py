@@ -96,6 +96,7 @@ def rolled(name: str, count: int = 40_000) -> tuple[Path, Path, Path]:
 
 
 @pytest.mark.parametrize("name", ["crank-rocker", "drag-link", "elliptic-trammel", "cardan-gears"])
+@pytest.mark.slow
 def test_the_moving_centrode_rolls_on_the_fixed_one(name: str) -> None:
     on_ground, on_body, places = rolled(name)
     near = abs(places) < 1e3

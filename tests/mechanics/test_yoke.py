@@ -61,6 +61,7 @@ def test_the_slot_crosses_the_line_in_the_joint(angle: float, offset: float, slo
 
 
 @given(st.floats(0.1, 3.0), st.floats(-3.0, 3.0), st.floats(-20.0, 20.0), st.floats(0.0, 6.0))
+@pytest.mark.slow
 def test_its_rates_are_those_of_its_travel(slot: float, angle: float, offset: float, phase: float) -> None:
     solved, step = mechanism(yoke(5.0, Line("O2", angle, offset), slot)), 1e-5
     before, here, after = (solved.pose(phase + k * step, 1.0, 0.0, 2) for k in (-1, 0, 1))

@@ -103,6 +103,7 @@ def _has(page: Page, curve: Curve, told: str) -> bool:
 
 # a crank that turns, an input that swings
 @pytest.mark.parametrize("name", ["press", "double-rocker"])
+@pytest.mark.slow
 def test_words_of_the_most_telling_quantities_are_tied_to_their_dots(name: str) -> None:
     for token in load(name).telling[:4]:
         assert [*faults(page_of(name, token))] == [], token

@@ -48,6 +48,7 @@ def test_svg_as_another_program_renders_it_is_the_png(name: str, theme: str) -> 
 
 
 @pytest.mark.parametrize("name", ["press", "kite"])
+@pytest.mark.slow
 def test_the_png_is_what_the_window_draws(name: str) -> None:
     """But for names, which a figure places for its pose, and for what stands at the edge of the stage."""
     scene, surface = load(name), offscreen(SIZE)

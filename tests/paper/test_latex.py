@@ -36,6 +36,7 @@ def test_a_line_stands_where_the_picture_has_it() -> None:
 
 
 @pytest.mark.parametrize("command", [FIGURE, CHART], ids=["a figure", "a chart"])
+@pytest.mark.slow
 def test_all_words_stand_beside_the_picture_and_none_in_it(
     command: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

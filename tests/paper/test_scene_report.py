@@ -74,6 +74,7 @@ def press(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_the_page_s_path_is_printed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["report", "scotch-yoke", "-o", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().out == f"{tmp_path / 'out' / 'report.html'}\n"
@@ -86,6 +87,7 @@ def every(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_the_page_holds_everything_and_loads_nothing(press: Path) -> None:
     text = (press / "report.html").read_text(encoding="utf-8")
     page = Parts(text)

@@ -272,6 +272,7 @@ def test_a_constant_quantity_is_a_level_line_not_noise() -> None:
     assert np.ptp(values) < 0.01
 
 
+@pytest.mark.slow
 def test_the_picture_s_chart_follows_the_running_speed_and_direction() -> None:
     scene, size = load("press"), (640, 360)
     painter, surface = Picture(scene, size, Look(chart="cushion.force")), offscreen(size)

@@ -119,6 +119,7 @@ def test_each_chapter_begins_a_row_and_the_rows_are_gone_through_whatever_their_
     assert found.beside(first[0], -1) == found.rows[-1][0]
 
 
+@pytest.mark.slow
 def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each() -> None:
     size, painter = (1280, 720), ShelfPrinter()
     surface = pygame.Surface(size, 0, 32)
@@ -145,6 +146,7 @@ def _differs(one: Pixels, other: Pixels, cell: Rect) -> bool:
     return bool((one[part] != other[part]).any())
 
 
+@pytest.mark.slow
 def test_a_closed_shelf_keeps_no_picture() -> None:
     def painters() -> int:
         gc.collect()

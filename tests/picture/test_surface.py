@@ -82,6 +82,7 @@ def test_each_choice_of_the_look_changes_the_picture(change: dict[str, Any]) -> 
     assert _bytes(painted(scene, 1.0, look)) != _bytes(painted(scene, 1.0, Look()))
 
 
+@pytest.mark.slow
 def test_what_is_kept_of_a_picture_has_a_bound() -> None:
     """Shapes that come again take no more than a few pictures, labels no more than a few frames'."""
     scene, size, printer = load("press"), SMALL, SurfacePrinter()
@@ -465,6 +466,7 @@ print((getrusage(RUSAGE_SELF).ru_minflt - before) / 20)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="counts the pages that Linux hands out")
+@pytest.mark.slow
 def test_a_frame_works_in_the_memory_of_the_one_before() -> None:
     """Asked back from the system page by page, memory took half of a frame's time: 1,400 pages each."""
     told = subprocess.run([sys.executable, "-c", _FAULTS], capture_output=True, text=True, check=True).stdout

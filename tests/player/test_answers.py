@@ -113,12 +113,14 @@ def test_a_strip_says_what_to_press_until_a_key_is(rocker: State) -> None:
     assert overlay(run(after(rocker, "trace"), 100)).hint is None
 
 
+@pytest.mark.slow
 def test_a_strip_comes_in_and_goes_out_gently(rocker: State) -> None:
     shown = [strip.eighths if (strip := overlay(run(rocker, n)).hint) else 0 for n in range(350, 730, 2)]
     assert max(shown) == 8
     assert max(abs(a - b) for a, b in pairwise(shown)) <= 1
 
 
+@pytest.mark.slow
 def test_what_to_watch_for_is_told_first_and_goes_gently_before_the_strip(rocker: State) -> None:
     frames = [run(rocker, n) for n in range(0, 380, 2)]
     told = [overlay(state).watch for state in frames]

@@ -110,6 +110,7 @@ def resized(count: int, largest: tuple[int, int]) -> None:
 
 
 @fault
+@pytest.mark.slow
 def test_a_window_may_have_any_size(here: Path) -> None:
     with display.opened(SIZE):
         resized(25, (400, 400))

@@ -304,6 +304,7 @@ def test_the_wheel_scrolls_the_shelf_and_what_is_chosen_stays_in_sight(player: P
     assert found.top == 0
 
 
+@pytest.mark.slow
 def test_arrows_scroll_no_more_than_they_need(player: Player) -> None:
     player.type("o")
     tops = []

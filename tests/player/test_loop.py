@@ -123,6 +123,7 @@ def test_without_a_display_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
 
 # As a user meets it: no DISPLAY at all, and one that nobody answers on.
 @pytest.mark.parametrize("address", ["", ":987"], ids=["none", "unreachable"])
+@pytest.mark.slow
 def test_without_a_display_there_is_one_line_and_code_1(address: str) -> None:
     setting = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "XDG_RUNTIME_DIR")
     environment = {key: value for key, value in os.environ.items() if key not in setting}

@@ -110,7 +110,9 @@ def test_buttons_do_what_their_keys_do(pads: Player) -> None:
     assert shelf
     post(pygame.JOYHATMOTION, value=(1, 0))
     pads.tick()
-    assert pads.state.browsing == replace(shelf, chosen=shelf.chosen + 1)
+    moved = pads.state.browsing
+    assert moved
+    assert moved == replace(shelf, chosen=shelf.chosen + 1, top=moved.top)
     assert button(pads, SOUTH).browsing is None  # takes what is chosen
     assert [button(pads, number).browsing is None for number in (START, EAST)] == [False, True]
 

@@ -334,6 +334,7 @@ def test_a_path_is_drawn_with_the_mouse_and_its_linkage_written(player: Player, 
 
 
 @pytest.mark.usefixtures("in_step")
+@pytest.mark.slow
 def test_points_pins_and_pictures_are_under_the_pencil(player: Player) -> None:
     player.type("w")
     player.drag(*loop(player))

@@ -78,6 +78,7 @@ def test_a_value_begun_in_another_row_waits_there(listed: Player) -> None:
     assert [text for _, text in listed.state.editing.drafts] == ["95"]
 
 
+@pytest.mark.slow
 def test_the_wheel_nudges_the_row_under_it_and_zooms_elsewhere(listed: Player) -> None:
     wheel(listed, row_place(listed, 1), 1)
     wheel(listed, row_place(listed, 1), 2)

@@ -58,6 +58,7 @@ def tape(live: State) -> Tape:
     return Tape(starting(live), 90, SESSION, (640, 360))
 
 
+@pytest.mark.slow
 def test_a_tape_goes_through_the_states_of_its_session(live: State, tape: Tape) -> None:
     by_frame = dict(SESSION)
     for again in tape.states():

@@ -330,6 +330,7 @@ def test_the_cross_closes_the_window(player: Player) -> None:
     assert not player.tick()
 
 
+@pytest.mark.slow
 def test_escape_closes_help_first(player: Player) -> None:
     player.press(*plain("h"))
     assert player.press(*bare(pygame.K_ESCAPE))
@@ -395,6 +396,7 @@ def test_what_answers_a_key_is_on_no_screenshot(player: Player, here: Path) -> N
     assert pygame.image.tobytes(written, "RGB") == pixels != after_the_key
 
 
+@pytest.mark.slow
 def test_shift_s_writes_the_svg_of_what_is_shown(player: Player, here: Path) -> None:
     player.type("vanpi")
     player.window.state = carried(player.state, Action("plot", "rocker.angular_velocity"))
@@ -408,6 +410,7 @@ def test_shift_s_writes_the_svg_of_what_is_shown(player: Player, here: Path) -> 
     assert {"velocity-polygon", "acceleration-polygon", "body-crank", "joint-A"} <= groups
 
 
+@pytest.mark.slow
 def test_the_svg_has_joints_where_the_window_has_them(player: Player, here: Path) -> None:
     player.press(pygame.K_s, pygame.KMOD_LSHIFT, "S")
     drawn = ElementTree.parse(here / "recordings" / "crank-rocker-1.svg").find(".//*[@id='joint-B']/*")
@@ -596,6 +599,7 @@ def test_the_picture_follows_the_windows_size(player: Player) -> None:
     assert player.pixels == pixels
 
 
+@pytest.mark.slow
 def test_names_stand_as_in_a_fresh_window_once_its_size_has_stayed_for_a_frame(player: Player) -> None:
     """In the first frame of a size they keep the places that they had: those are not looked for."""
     for key in (pygame.K_n, pygame.K_n):

@@ -17,6 +17,7 @@ def found() -> dict[str, str]:
     return hashes()
 
 
+@pytest.mark.slow
 def test_frames_and_palettes_are_the_bytes_that_are_kept(found: dict[str, str]) -> None:
     """`python tests/recorder/frame_bits.py --write` keeps new ones, after a change that is meant."""
     assert without_words(found) == kept()

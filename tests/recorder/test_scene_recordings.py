@@ -240,6 +240,7 @@ def test_a_recording_has_its_windows_shape(window: tuple[int, int], size: tuple[
     assert tape_frames._shape(window) == size
 
 
+@pytest.mark.slow
 def test_a_tapes_pictures_do_not_depend_on_the_order_in_which_they_are_drawn() -> None:
     done = tape((20, Action("direction")), (30, Action("speed", 3)), (38, Action("closure")))
     anew = [bytes(TapeFrames(done, 10, SIZE).draw(k)) for k in range(10)]

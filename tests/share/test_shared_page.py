@@ -57,6 +57,7 @@ def held(text: str) -> Any:
     return json.loads(found[1])
 
 
+@pytest.mark.slow
 def test_the_fullest_page_is_small_and_asks_for_nothing() -> None:
     text = document(Shared(load("press"), chart="5.travel_velocity", names=2))
     page = Reader(text)
@@ -133,6 +134,7 @@ joints = ["B", "C"]
 """
 
 
+@pytest.mark.slow
 def test_what_takes_too_many_turns_to_be_back_is_refused() -> None:
     scene = scene_from(parse(GEARED, "slow"), name="slow", where="slow")
     with pytest.raises(BadInput, match="200 kB is the most; it is back after 132 turns"):

@@ -62,6 +62,7 @@ def squares(fit: Fit) -> float:
 
 @pytest.mark.parametrize("closed", [True, False])
 @pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
+@pytest.mark.slow
 def test_a_coupler_curve_is_found_again(kind: str, closed: bool) -> None:
     for points in curves(kind, 2, seed=11, turn=1.0 if closed else 0.4)[:1]:
         best = linkanim.path(as_pairs(points), closed, kind=kind, count=1)[0]
@@ -87,6 +88,7 @@ def test_every_answer_of_a_thousand_is_what_it_says() -> None:
             verify(fit, points)
 
 
+@pytest.mark.slow
 def test_answers_differ_and_the_best_come_first() -> None:
     fits = linkanim.path(SQUARE, count=4)
     assert len(fits) == 4
@@ -133,6 +135,7 @@ def test_a_point_has_the_crank_angle_that_it_is_given() -> None:
     assert free.rms <= best.rms * (1 + 1e-6)
 
 
+@pytest.mark.slow
 def test_cognates_trace_the_same_curve() -> None:
     points = curves("four-bar", 1, seed=31)[0]
     first, *others = linkanim.path(points, count=1, cognates=True)
@@ -171,6 +174,7 @@ LIMITS = {
 
 
 @pytest.mark.parametrize(("options", "holds"), LIMITS.values(), ids=LIMITS)
+@pytest.mark.slow
 def test_limits_are_kept(options: dict[str, Any], holds: Any) -> None:
     fits = linkanim.path(SQUARE, count=2, **options)
     assert fits

@@ -19,12 +19,14 @@ from linkanim.synthesis.request import task_of
 from linkanim.synthesis.search import answers, refitted
 
 
+@pytest.mark.slow
 def test_the_atlas_answers_first_and_the_refined_answers_follow() -> None:
     first, last = answers(task_of(curves("four-bar", 1, seed=51)[0]), 2)
     assert len(first) == 1
     assert last[0].rms <= first[0].rms < 0.1 * first[0].task.curve.size
 
 
+@pytest.mark.slow
 def test_an_answer_follows_a_point_that_is_dragged() -> None:
     task = task_of(curves("four-bar", 1, seed=52)[0])
     *_, (best, *_) = answers(task, 1)
@@ -36,6 +38,7 @@ def test_an_answer_follows_a_point_that_is_dragged() -> None:
     assert np.abs(again.row - best.row).max() > 0
 
 
+@pytest.mark.slow
 def test_a_pivot_that_is_dragged_is_held_where_it_is_put() -> None:
     task = task_of(curves("four-bar", 1, seed=53)[0])
     *_, (best, *_) = answers(task, 1)
@@ -88,6 +91,7 @@ def followed(points: DrawnCurve, **more: Any) -> tuple[Follower, list[Reply]]:
     return follower, list(follower.replies(Follow(1, pairs, points.closed, **more)))
 
 
+@pytest.mark.slow
 def test_replies_to_a_stroke_are_one_answer_and_then_several_that_differ() -> None:
     _, (first, whole) = followed(stroke_of(curves("four-bar", 1, seed=54)[0]))
     assert (first.whole, len(first.numbers), whole.whole, whole.chosen) == (False, NUMBERS, True, 0)
@@ -99,6 +103,7 @@ def test_replies_to_a_stroke_are_one_answer_and_then_several_that_differ() -> No
         assert one.closure != other.closure or np.abs(np.subtract(one.row, other.row)).max() > 0.01
 
 
+@pytest.mark.slow
 def test_what_is_dragged_is_followed_and_stays_shown_among_the_others() -> None:
     curve = stroke_of(curves("four-bar", 1, seed=55)[0])
     follower, (_, whole) = followed(curve)

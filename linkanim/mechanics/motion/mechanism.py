@@ -202,7 +202,8 @@ class Mechanism:
         varying = {**dict.fromkeys(trace.names, True), **dict.fromkeys(rates, variant.varying_rate)}
         pins = {joint.name: joint.position for joint in self.linkage.pins}
         places = layout({kind: trace.rows[kind] for kind in kinds}, pins, VECTORS[:3])
-        known = (program for program, laid in self._programs[variant].values() if laid.kinds == places.kinds)
+        made = self._programs.get(variant, {})  # none yet in one that comes out of a pickle
+        known = (program for program, laid in made.values() if laid.kinds == places.kinds)
         return next(known, None) or batch(varying, places.outputs), places
 
 
