@@ -289,3 +289,10 @@ def test_a_wrong_slider_is_refused_where_it_stands(old: str, new: str, where: st
         scene_from(parse(FILE.replace(old, new), "my.toml"), name="my", where="my.toml")
     assert where in str(refusal.value)
     assert words in str(refusal.value)
+
+
+def test_a_rail_that_the_slider_s_own_end_stops_is_refused_without_a_warning() -> None:
+    # At 65 the rod and the crank are in one line: an unbounded rate, where the rail's bar changes nothing.
+    rail = RRP("R", "C", 92.0, Line("O", on=("O", "A")))
+    with pytest.raises(AssemblyError, match=r"93\.9415 m only"):
+        mechanism(piston((65.0, 165.0), rail, bars=(115.0, 50.0)))

@@ -274,9 +274,13 @@ def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
 
 
 def _speed(samples: Sampled) -> Array:
-    """Return how fast the margins change: by s' (U - W), since U' = -s' and W' = s'."""
+    """Return how fast the margins change: by s' (U - W), since U' = -s' and W' = s'.
+
+    NaN where an unbounded rate meets no difference: that is nowhere taken for slow.
+    """
     rates, _, _, differences = samples.rows
-    return np.asarray(np.abs(rates * differences))
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.abs(rates * differences))
 
 
 def _fastest_change(samples: Sampled) -> Array:
