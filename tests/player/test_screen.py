@@ -474,3 +474,36 @@ def test_from_the_title_enter_leads_to_a_question_and_a_key_answers(tmp_path: Pa
         if screen.process.poll() is None:
             screen.process.kill()
             screen.process.communicate()
+
+
+def test_a_four_bar_is_built_with_the_mouse_of_a_real_screen(screen: Screen, tmp_path: Path) -> None:
+    """Where on the sheet the hand goes down does not matter: whole units come of it, and a crank-rocker."""
+    screen.press("F2")
+    screen.still()
+    left, top, right, bottom = screen.box()
+
+    def go(across: float, down: float) -> None:
+        x, y = left + across * (right - left), top + down * (bottom - top)
+        xdotool("mousemove", str(round(x)), str(round(y)))
+
+    def drag(*places: tuple[float, float]) -> None:
+        before = screen.picture()
+        go(*places[0])
+        xdotool("mousedown", "1")
+        for place in places[1:]:
+            go(*place)
+        xdotool("mouseup", "1")
+        screen.until(lambda: screen.picture().tobytes() != before.tobytes(), f"the hand draws at {places}")
+
+    pivot, pin, end, other = (0.4, 0.7), (0.43, 0.64), (0.6, 0.3), (0.68, 0.7)
+    drag(pivot)
+    drag(other)
+    drag(pivot, pin)
+    drag(pin, (0.5, 0.5), end)
+    drag(end, (0.65, 0.5), other)
+    screen.press("ctrl+s")
+    screen.until(lambda: bool(list(tmp_path.glob("*.toml"))), "Ctrl+S writes what was built")
+    (path,) = tmp_path.glob("*.toml")
+    assert linkanim.load(path).info.class_name == "Grashof crank-rocker"
+    screen.press("q")
+    assert screen.ends() == (0, "")

@@ -28,6 +28,8 @@ from linkanim.picture.view import Box, View
 
 _ROOM = 0.86
 """The share of the window that the home of a sheet takes."""
+_LINES = 2.4
+"""The room for words above, in heights of their text."""
 _LIT, _FAINT = 0.45, 0.55
 """How strongly what is chosen is lit, and how much of what the hand draws shows."""
 _BACKING = 0.8
@@ -40,7 +42,8 @@ _ALONG = ("begin", "end")
 
 def home_view(home: Box, layout: Layout) -> View:
     """Return the view in which a rectangle of the scene lies in the middle of a window, as large as fits."""
-    room = layout.stage
+    above = layout.margin + _LINES * layout.text_size
+    room = layout.stage._replace(y=layout.stage.y + above, height=max(layout.stage.height - above, 1))
     wide, high = max(home.right - home.left, 1e-9), max(home.high - home.low, 1e-9)
     scale = _ROOM * min(room.width / wide, room.height / high)
     (x, y), middle = home.middle, room.middle
@@ -167,7 +170,7 @@ def _words(shown: BuildShown, place: SheetView, type_: Type) -> Group:
         else 0
     )
     left = beside + layout.margin if layout.size[0] >= layout.size[1] else layout.margin
-    room, y = layout.stage.right - layout.margin - left, layout.margin
+    room, y = 0.93 * (layout.stage.right - layout.margin - left), layout.margin
     lines = [
         (line, layout.text_size, theme.warning if shown.is_warning else theme.ink)
         for line in type_.wrapped(shown.sentence, layout.text_size, room)
