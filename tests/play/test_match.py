@@ -29,6 +29,7 @@ from linkanim.player.tape.tape_file import from_document, read, to_document
 from linkanim.player.window import display
 from linkanim.scenes import load
 from linkanim.synthesis.curves.drawn import drawn
+from linkanim.synthesis.kinds import FOUR_BAR
 from linkanim.synthesis.request import path
 
 TAPES = Path(__file__).parent / "match_tapes"
@@ -99,9 +100,14 @@ def test_the_answers_are_the_path_solver_s(name: str) -> None:
         (place.real, place.imag) if joint in level.fixed else None
         for joint, place in (("O2", level.start.O2), ("O4", level.start.O4))
     ]
-    best, *_ = path(level.curve.points, level.curve.closed, count=1, pivots=pins if level.fixed else ())
-    row = np.array(level.answer.row) if level.answer else np.zeros(9)
-    assert row == pytest.approx(best.row, rel=1e-5, abs=1e-4)
+    found = path(level.curve.points, level.curve.closed, count=5, pivots=pins if level.fixed else ())
+    assert level.answer
+    # cognates, and mirror images of a straight line's, are as exact: it is one of those
+    first = [fit for fit in found if fit.rms < found[0].rms * (1 + 1e-6)]
+    own, *others = (
+        FOUR_BAR.link_lengths(np.array([row]))[0] for row in (level.answer.row, *(fit.row for fit in first))
+    )
+    assert any(other == pytest.approx(own, rel=1e-4) for other in others)
 
 
 def test_two_of_the_scores_can_be_won_on_nearly_every_level() -> None:
