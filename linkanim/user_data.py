@@ -6,7 +6,17 @@ from pathlib import Path
 
 
 def kept_as(name: str) -> Path:
-    """Return the path under which something is kept in the user's data folder; neither need be there."""
+    """Return the path under which something is kept in the user's data folder; neither need be there.
+
+    Of a user without a home it is kept as long as the system keeps temporary files.
+    """
     from platformdirs import user_data_path
 
-    return user_data_path("linkanim", appauthor=False) / name
+    folder = user_data_path("linkanim", appauthor=False)
+    return (folder if folder.is_absolute() else _temporary()) / name
+
+
+def _temporary() -> Path:
+    from tempfile import gettempdir
+
+    return Path(gettempdir()) / "linkanim"

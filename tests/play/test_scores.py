@@ -89,6 +89,11 @@ def test_the_usual_place_is_no_user_s_while_tests_run() -> None:
     assert "linkanim-tests-" in str(usual_path())
 
 
+def test_a_user_without_a_home_leaves_no_folder_named_for_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: Path("~/.local/share/linkanim"))
+    assert usual_path().is_absolute()
+
+
 WRITER = """
 import sys
 from pathlib import Path
@@ -106,11 +111,11 @@ while True:
 @pytest.mark.skipif(os.name != "posix", reason="kills as POSIX has them")
 def test_it_survives_being_killed_at_any_moment(tmp_path: Path) -> None:
     path, before = tmp_path / "scores.json", 0
-    for turn in range(12):
+    for turn in range(5):
         with subprocess.Popen([sys.executable, "-c", WRITER, path], stdout=subprocess.PIPE, text=True) as run:
             assert run.stdout
             line = run.stdout.readline()  # it has begun to write
-            end = time.monotonic() + 0.0013 * turn
+            end = time.monotonic() + 0.0031 * turn
             while time.monotonic() < end:
                 line = line or ""
             run.send_signal(signal.SIGKILL)
