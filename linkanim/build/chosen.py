@@ -104,7 +104,8 @@ def _drivable(draft: Draft, thing: Thing | None) -> str | None:
         grounded = [joint in pins for joint in draft.of("bars")[thing[1]]["joints"]]
         return draft.of("bars")[thing[1]]["joints"][grounded[0]] if any(grounded) else None
     if thing and thing[0] == JOINT and thing[1] not in draft.of("pins"):
-        return thing[1] if thing[1] in draft.of("sliders") or crank_of(draft, thing[1]) else None
+        is_crank = any(end in draft.of("pins") for _, end, _ in draft.bars_at(thing[1]))
+        return thing[1] if is_crank or thing[1] in draft.of("sliders") else None
     return None
 
 

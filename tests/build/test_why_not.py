@@ -89,6 +89,11 @@ REFUSED = (
     ),
     (CRANK, "trace", "Choose a joint to draw its curve"),
     (f"{CRANK}; choose joints O2", "drive", "Choose a crank (a bar on a ground pin) or a slider to drive it"),
+    (
+        f"{CRANK}; drag 50 0 80 0; drag gear 80 0 50 0",  # a planet turns about no ground pin
+        "drive",
+        "Choose a crank (a bar on a ground pin) or a slider to drive it",
+    ),
     (f"{CRANK}; choose none none", "delete", "Choose what is to be removed"),
     (f"{CRANK}; choose none none", "move 3 3", "Choose a joint or a guide to move it"),
     (f"{CRANK}; choose none none", "type 3", "Choose what has a length or an angle, then type it"),
