@@ -32,7 +32,12 @@ from linkanim.units import LENGTH_UNITS, metre
 SCENES = ("press", "excavator", "driven-piston", "scotch-yoke", "crank-rocker")
 """Springs, dampers and masses; a driving cylinder, in cm; a slider that drives; a yoke; one that turns."""
 PHASE, SPEED = 0.7, 3.0
-SHOWN = [(name, unit) for name in SCENES for unit in LENGTH_UNITS if unit != load(name).length_unit]
+SHOWN = [
+    pytest.param(name, unit, marks=[pytest.mark.long] * (name != "press" and n != turn % 3))
+    for turn, name in enumerate(SCENES)
+    for n, unit in enumerate(unit for unit in LENGTH_UNITS if unit != load(name).length_unit)
+]
+"""The press in every unit, each other scene in one of them; all of them in a long run."""
 
 
 def _factor(scene: Scene, unit: str) -> float:

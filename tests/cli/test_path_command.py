@@ -50,8 +50,16 @@ def test_each_answer_is_a_scene_that_runs_along_the_curve(
 
 @pytest.mark.slow
 def test_the_table_has_a_line_for_each_answer_and_a_shorter_one_leaves_no_old_file(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    here: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    made: list[Any] = []
+    search = linkanim.path
+
+    def once(*points: Any, count: int, **options: Any) -> Any:
+        made.extend([] if made else search(*points, count=2, **options))
+        return made[:count]
+
+    monkeypatch.setattr("linkanim.cli.commands.path.path", once)  # one search serves all three
     assert main(["path", "oval.csv", "--count", "2", "--kind", "slider-crank"]) == 0
     titles, *rows = capsys.readouterr().out.splitlines()
     assert titles.split("  ")[0] == "file"

@@ -60,8 +60,17 @@ def squares(fit: Fit) -> float:
     return float(fit.rms**2 * len(fit.angles))
 
 
-@pytest.mark.parametrize("closed", [True, False])
-@pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
+@pytest.mark.parametrize(
+    ("kind", "closed"),
+    [
+        ("four-bar", True),
+        ("slider-crank", False),
+        *(
+            pytest.param(*case, marks=pytest.mark.long)
+            for case in (("four-bar", False), ("slider-crank", True))
+        ),
+    ],
+)
 @pytest.mark.slow
 def test_a_coupler_curve_is_found_again(kind: str, closed: bool) -> None:
     for points in curves(kind, 2, seed=11, turn=1.0 if closed else 0.4)[:1]:
@@ -116,7 +125,7 @@ def test_six_points_of_a_line_are_passed_exactly() -> None:
     assert min(map(squares, within)) <= 1e-20
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.long)])
 @pytest.mark.slow
 def test_five_points_at_random_are_passed_exactly(seed: int) -> None:
     points = np.random.default_rng(seed).uniform(0, 50, (5, 2))
