@@ -16,6 +16,9 @@ from playing import CTRL, SHIFT, Player
 
 from linkanim.build.draft import Photo
 from linkanim.picture.shelf import NEW
+from linkanim.play.arcade import Arcade
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import carried
 from linkanim.player.state.sheet import BuildSheet, Grip
 from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape, Taping
@@ -532,3 +535,17 @@ def test_a_photograph_that_is_gone_or_none_does_no_harm(builder: Builder, here: 
         builder.tick()
         builder.press(pygame.K_b, text="b")
         assert builder.pixels == bare
+
+
+def test_a_sheet_is_opened_out_of_the_title_and_is_there_again_after_it(here: Path) -> None:
+    keeper = Arcade(here / "scores.json")
+    state = replace(begin(), games=keeper.game_of)
+    with display.opened(WINDOW):
+        player = Builder(carried(state, Action("play", keeper.completed("title"))))
+        player.press(pygame.K_F2)
+        player.click(0, 0)
+        player.press(pygame.K_F3)
+        assert player.state.mode == "game"
+        player.press(pygame.K_F2)
+        assert list(player.sheet.building.draft.places) == ["O2"]
+        player.window.close()

@@ -84,6 +84,8 @@ def carried(state: State, action: Action) -> State:
         return state
     if state.game and action.name in _SHEETS:
         state = leave(state)
+        if state.building and action.name == "build":
+            return state  # the sheet that was open beneath
     if action.name in _OFF_THE_SHEET:
         state = build.left(state)
     if action.name in _KEEPS | _LEAVES:
