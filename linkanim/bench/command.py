@@ -24,6 +24,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="one object")
     form.add_argument("--markdown", action="store_true", help="the table of speed and error as in the README")
+    parser.add_argument("--path", action="store_true", help="measure what `linkanim path` finds instead")
+    parser.add_argument(
+        "--seconds", type=float, default=600.0, metavar="S", help="of its global search (default: 600)"
+    )
     parser.add_argument(
         "--into",
         type=Path,
@@ -39,6 +43,9 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     BadInput where the extra is not installed, the folder cannot be one or the chart's name in it is taken,
     before anything is measured.
     """
+    if options.path:
+        _run_paths(options, progress)
+        return
     require_extra()
     from linkanim.bench import drawing, report, result
     from linkanim.manifest import single
@@ -52,9 +59,20 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
     print(drawing.draw(found, chart), file=sys.stderr)
 
 
-def require_extra(found: Callable[[str], object] = find_spec) -> None:
+def _run_paths(options: Namespace, progress: Progress | None) -> None:
+    """Measure what is found for paths, and print it; BadInput where there is no scipy to search beside it."""
+    require_extra(needed=("scipy",))
+    from linkanim.bench import paths
+    from linkanim.bench.result import this_machine
+
+    rows = paths.run(options.seconds, paths.CURVES, progress)
+    form = paths.as_json if options.json else paths.as_markdown if options.markdown else paths.as_text
+    print(form(rows, this_machine().line))
+
+
+def require_extra(found: Callable[[str], object] = find_spec, needed: tuple[str, ...] = ()) -> None:
     """Raise BadInput where a package of the extra is not installed, naming what installs it."""
-    missing = [name for name in NEEDED if found(name) is None]
+    missing = [name for name in needed or NEEDED if found(name) is None]
     if missing:
         raise BadInput(
             f"bench compares with {', '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "

@@ -1,4 +1,4 @@
-"""`linkanim bench`: speed against error."""
+"""`linkanim bench`: speed against error, and what drawing and recording cost."""
 
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ from linkanim.cli.commands.record import bar
 
 
 def run(options: Namespace) -> None:
-    """Measure speed against error, and print it."""
+    """Measure what was asked, and print it."""
     with bar(unit=" rounds") as progress:
         command.run(options, progress)

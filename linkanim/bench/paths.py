@@ -1,23 +1,21 @@
 """What `linkanim path` finds: random coupler curves, published problems, and shapes that no four-bar traces.
 
-Beside the shapes stands what a global search finds in the seconds that it is given on the command line:
-scipy's differential evolution over the same parameters, each point counted to one of 240 places of the
-curve, in their order. Published figures are sums of squared distances: the eighteen points are those of
-Kunjur and Krishnamurty (1997), with the crank's steps of 20°.
+Beside the shapes stands what a global search finds in the time that it is given: scipy's differential
+evolution over the same parameters, each point counted to one of 240 places of the curve, in their order.
+Published figures are sums of squared distances: the eighteen points are those of Kunjur and Krishnamurty
+(1997), with the crank's steps of 20°.
 """
 
 from __future__ import annotations
 
 import math
-import sys
 import time
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkanim.bench.result import this_machine
-from linkanim.export import markdown
+from linkanim.export import columns, json_text, markdown
 from linkanim.synthesis.curves.drawn import drawn
 from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
 from linkanim.synthesis.request import path
@@ -35,6 +33,8 @@ _SAMPLES = 240
 _BOUNDS = [(-4, 4)] * 2 + [(0.01, 4), (0.01, 8), (-8, 8), (-8, 8)] + [(-4, 4)] * 2 + [(0.01, 8), (-1, 1)]
 """Of the search, in curve sizes: the four-bar's parameters, and the closure's sign."""
 
+Progress = Callable[[int, int], None]
+
 
 class PathRow(NamedTuple):
     """A problem, what is measured, the figure here, the one beside it, and the processor time here."""
@@ -46,7 +46,7 @@ class PathRow(NamedTuple):
     seconds: float
 
 
-def run(seconds: float, curves: int) -> list[PathRow]:
+def run(seconds: float, curves: int, progress: Progress | None = None) -> list[PathRow]:
     """Measure all problems, the global search for so many seconds of processor time for each shape."""
     path(LINE, count=1)  # the atlas is made
     jobs: list[Callable[[], PathRow]] = [
@@ -55,7 +55,12 @@ def run(seconds: float, curves: int) -> list[PathRow]:
         lambda: _published("6 points of a line", LINE, 9e-28),
         *((lambda name=name: _shape(name, seconds)) for name in SHAPES),
     ]
-    return [job() for job in jobs]
+    rows = []
+    for number, job in enumerate(jobs):
+        rows.append(job())
+        if progress:
+            progress(number + 1, len(jobs))
+    return rows
 
 
 def _timed(points: Any, **options: Any) -> tuple[Any, float]:
@@ -174,5 +179,11 @@ def _cells(rows: list[PathRow]) -> Iterator[tuple[str, ...]]:
     return ((*row[:4], f"{row.seconds:.2f}") for row in rows)
 
 
-if __name__ == "__main__":
-    print(as_markdown(run(float(sys.argv[1]) if sys.argv[1:] else 600.0, CURVES), this_machine().line))
+def as_text(rows: list[PathRow], machine: str) -> str:
+    """Return the machine and the table in columns."""
+    return f"{machine}\n\n{columns([TITLES, *_cells(rows)])}"
+
+
+def as_json(rows: list[PathRow], machine: str) -> str:
+    """Return one object."""
+    return json_text({"machine": machine, "rows": [row._asdict() for row in rows]}, indent=2)
