@@ -12,6 +12,7 @@ from linkanim.digits import significant
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay, PathShown, ScoreBar
+from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import Box
 from linkanim.play.match.level import Level, level_names, level_of
 from linkanim.play.match.worth import Linkage4, Worth, trace, worth
@@ -202,7 +203,7 @@ class MatchGame:
         panel = GamePanel(
             level.title,
             scores=(self._place, f"{sum(points)} of {3 * _POINTS}", f"best {self.best}"),
-            lines=(level.about,) if level.about else (),
+            lines=tuple(filter(None, (level.about, self._fixed))),
             bars=bars,
             verdict=self._verdict(own, answer),
             well=not self.gave_up,
@@ -212,6 +213,12 @@ class MatchGame:
         handles = () if self.gave_up else self.free
         path = PathShown(level.curve, blank=False, marked=False)
         return replace(over, game=panel, path=path, handles=handles)
+
+    @property
+    def _fixed(self) -> str:
+        """Say which joints stay."""
+        names = [subscripted(name) for name in sorted(self.of_level.fixed)]
+        return f"{' and '.join(names)} {'stays' if len(names) == 1 else 'stay'} in place." if names else ""
 
     @property
     def _place(self) -> str:
@@ -307,7 +314,7 @@ def _home(game: MatchGame) -> Box:
     points, size = level.curve.points, level.curve.size
     low, high = (complex(of(points.real), of(points.imag)) for of in (min, max))
     middle = (low + high) / 2
-    reach = [middle + 1.1 * size * way for way in (1, -1, 0.75j, -0.75j)]
+    reach = [middle + 1.1 * size * way for way in (1, -1, 0.95j, -0.95j)]
     reach += [*level.start, *(game.joints if game.gave_up else ())]
     reach += [*trace(game.joints)] if game.gave_up else []
     across, up = [place.real for place in reach], [place.imag for place in reach]
