@@ -15,12 +15,14 @@ import pytest
 from playing import CTRL, SHIFT, Player
 
 from linkanim.build.draft import Photo
+from linkanim.picture.building.tools import ICONS
 from linkanim.picture.shelf import NEW
 from linkanim.play.arcade import Arcade
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import carried
 from linkanim.player.state.sheet import BuildSheet, Grip
 from linkanim.player.state.state import begin
+from linkanim.player.state.tools import TOOLS
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.tape.tape_file import read, write
 from linkanim.player.window import display
@@ -549,3 +551,8 @@ def test_a_sheet_is_opened_out_of_the_title_and_is_there_again_after_it(here: Pa
         player.press(pygame.K_F2)
         assert list(player.sheet.building.draft.places) == ["O2"]
         player.window.close()
+
+
+def test_every_tool_has_its_icon_and_a_key_of_its_own() -> None:
+    assert {tool.icon for tool in TOOLS} == set(ICONS)
+    assert len({tool.key for tool in TOOLS}) == len(TOOLS)

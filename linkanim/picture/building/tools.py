@@ -14,11 +14,10 @@ from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.building import ToolBar, ToolShown
 from linkanim.picture.parts.bodies import pin_stamp
 from linkanim.picture.parts.fittings import block_layers, hatched
-from linkanim.picture.parts.ground import pedestal
 from linkanim.picture.parts.struts import Coil, barrel
 from linkanim.picture.parts.turning import turning_arrow
 from linkanim.picture.raster.directions import directions
-from linkanim.picture.raster.parts import glazed, lined, slotted
+from linkanim.picture.raster.parts import lined, slotted
 from linkanim.picture.raster.raster import Layer, paint
 from linkanim.picture.raster.shapes import box, disc, rod, segments, stroke
 from linkanim.picture.text.text import Type
@@ -120,16 +119,6 @@ def _bar_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     ]
 
 
-def _pin_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    small = Gauge(bar=3.4 * gauge.line, outline=gauge.outline, pin=1.6 * gauge.line, line=0.8 * gauge.line)
-    top = -4j * gauge.line
-    return [
-        *pedestal(top, 1j, small, theme),
-        *lined([top], small.bar, gauge.outline, (theme.outline, theme.gear)),
-        *pin_stamp(small, theme).at([top]),
-    ]
-
-
 def _line_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     small = Gauge(bar=3.6 * gauge.line, outline=gauge.outline, pin=gauge.pin, line=gauge.line)
     ends = gauge.line * (-8 + 3j), gauge.line * (8 + 3j)
@@ -160,12 +149,6 @@ def _move_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     hand = line * np.array(corners, np.complex128)
     inner = [Layer(theme.pin, [hand])]
     return [Layer(theme.outline, stroke(hand, 2.2 * line, closed=True)), *inner]
-
-
-def _point_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    corners = [gauge.line * at for at in (-6 + 5j, 6 + 5j, 1 - 6j)]
-    drawn = glazed(corners, gauge.bar, gauge.outline, (theme.outline, theme.bodies[1]))
-    return [*drawn, *pin_stamp(gauge, theme).at(corners)]
 
 
 def _gear_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
@@ -258,9 +241,7 @@ def _redo_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
 
 ICONS: Mapping[str, Icon] = {
     "bar": _bar_icon,
-    "pin": _pin_icon,
     "line": _line_icon,
-    "point": _point_icon,
     "slider": _slider_icon,
     "slot": _slot_icon,
     "move": _move_icon,
