@@ -12,7 +12,7 @@ from linkanim.play.words import GameWords
 from linkanim.player.state.state import Game
 
 if TYPE_CHECKING:
-    from linkanim.play.question import Asked
+    from linkanim.play.question import QuestionId
     from linkanim.play.scores import Scores
 
 # Questions and the file are imported when they are needed: the first frame of a scene does not wait for them.
@@ -62,14 +62,18 @@ class Arcade:
                 return str(seeded.having(again=again) if again else seeded)
         return words
 
-    def _again(self, words: GameWords, scores: Scores) -> list[Asked]:
+    def _again(self, words: GameWords, scores: Scores) -> list[QuestionId]:
         """Return what was missed of a chapter and level, the longest ago first."""
         from linkanim.play.chapters import ALL, members
         from linkanim.play.kinds.table import of_level
 
         scenes = members(words.text("chapter", ALL))
         kinds = of_level(words.whole("level", 1, 1, 3))
-        return [asked for asked in scores.missed if asked.scene in scenes and asked.kind in kinds][:_AGAIN]
+        return [
+            question_id
+            for question_id in scores.missed
+            if question_id.scene in scenes and question_id.kind in kinds
+        ][:_AGAIN]
 
     def keep(self, words: str) -> None:
         """Keep what a game leaves; what cannot be kept is news."""

@@ -10,7 +10,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Mood, Overlay, Spot
 from linkanim.play.chapters import ALL, members, titled
 from linkanim.play.kinds.table import LEVELS, of_level
-from linkanim.play.question import Asked, QuizQuestion
+from linkanim.play.question import QuestionId, QuizQuestion
 from linkanim.play.round import next_question, question_of
 from linkanim.play.sheet import pose_words
 from linkanim.play.words import GameWords
@@ -37,15 +37,15 @@ _SLOW = -4
 _BARE = Look(hud=False, trace=False)
 
 
-class Answered(NamedTuple):
+class GivenAnswer(NamedTuple):
     """A question that was answered: whether right, and after how many frames."""
 
-    asked: Asked
+    question_id: QuestionId
     right: bool
     frames: int
 
     def __str__(self) -> str:
-        return f"{self.asked}:{int(self.right)}:{self.frames}"
+        return f"{self.question_id}:{int(self.right)}:{self.frames}"
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,8 @@ class Predict:
     chapter: str
     level: int
     seed: int
-    again: tuple[Asked, ...] = ()
-    done: tuple[Answered, ...] = ()
+    again: tuple[QuestionId, ...] = ()
+    done: tuple[GivenAnswer, ...] = ()
     question: QuizQuestion | None = None
     since: int = 0
     chosen: int | None = None
@@ -87,9 +87,9 @@ class Predict:
         return True
 
     @property
-    def missed(self) -> tuple[Asked, ...]:
+    def missed(self) -> tuple[QuestionId, ...]:
         """What of the first pass was not answered right: it comes again."""
-        return tuple(one.asked for one in self.done[:COUNT] if not one.right)
+        return tuple(one.question_id for one in self.done[:COUNT] if not one.right)
 
     @property
     def score(self) -> int:
@@ -137,7 +137,7 @@ class Predict:
             return question_of(self.missed[number - COUNT])
         scenes = members(self.chapter)
         scene = load(scenes[(self.seed + 7 * number) % len(scenes)])
-        before = [*self.again, *(one.asked for one in self.done)]
+        before = [*self.again, *(one.question_id for one in self.done)]
         return next_question(scene, f"{self.seed} {number}", before, of_level(self.level))
 
     def carried(self, state: State, action: Action) -> State:
@@ -147,7 +147,7 @@ class Predict:
         if self.question is None:
             return self._ended(state, action)
         if action.name == "option" and isinstance(action.value, int):
-            return self._answered(state, self.question, action.value) if self.chosen is None else state
+            return self._with_answer(state, self.question, action.value) if self.chosen is None else state
         if action.name == "next" and self.chosen is not None:
             return self.entered(state)
         return state
@@ -156,17 +156,17 @@ class Predict:
     def _menu(self) -> GameWords:
         return GameWords("menu", {}).having(chapter=self.chapter, level=self.level)
 
-    def _answered(self, state: State, question: QuizQuestion, chosen: int) -> State:
+    def _with_answer(self, state: State, question: QuizQuestion, chosen: int) -> State:
         """Take an answer: the arrows come on, and after a while the input runs."""
         if not 0 <= chosen < len(question.answers):
             return state
         right = chosen == question.right
-        done = (*self.done, Answered(question.asked, right, state.frame - self.since))
+        done = (*self.done, GivenAnswer(question.question_id, right, state.frame - self.since))
         look = replace(question.shows, hud=False, trace=False, theme=state.look.theme)
         look = replace(look, zoom=state.look.zoom, pan=state.look.pan)
         state = replace(state, look=look, game=replace(self, done=done, chosen=chosen, since=state.frame))
         state = with_effect(state, "sound", "right" if right else "wrong")
-        state = with_effect(state, "score", f"{'met' if right else 'missed'}={question.asked}")
+        state = with_effect(state, "score", f"{'met' if right else 'missed'}={question.question_id}")
         over = replace(self, done=done)
         if over.is_over:
             best = f"best={self.chapter.replace(' ', '_')}.{self.level}:{over.score}"
@@ -217,18 +217,18 @@ class Predict:
             Choice(f"{n}", text, mood, curve=curve)
             for n, (text, mood, curve) in enumerate(zip(words, moods, curves, strict=True), 1)
         )
-        asked = self.chosen is None
+        waits = self.chosen is None
         panel = GamePanel(
             titled(self.chapter),
             scores=self._scores(),
             lines=(question.text,),
             aside=pose_words(question),
             choices=choices,
-            hint="1–4 or a click answers   Esc leaves" if asked else "Enter goes on   Esc leaves",
+            hint="1–4 or a click answers   Esc leaves" if waits else "Enter goes on   Esc leaves",
         )
-        if not asked:
+        if not waits:
             panel = self._verdict(panel, question)
-        still = asked or state.frame < self.since + _HOLD or state.clock.paused
+        still = waits or state.frame < self.since + _HOLD or state.clock.paused
         marks = zip(question.places, moods, strict=True) if question.places and still else ()
         spots = tuple(Spot(f"{n}", at, mood) for n, (at, mood) in enumerate(marks, 1))
         return replace(over, game=panel, spots=spots)
@@ -273,13 +273,13 @@ class Predict:
         )
 
 
-def _streak(done: tuple[Answered, ...]) -> int:
+def _streak(done: tuple[GivenAnswer, ...]) -> int:
     """Return how many of the last were right."""
     wrong = [n for n, one in enumerate(done) if not one.right]
     return len(done) - 1 - wrong[-1] if wrong else len(done)
 
 
-def points(level: int, done: tuple[Answered, ...], n: int) -> int:
+def points(level: int, done: tuple[GivenAnswer, ...], n: int) -> int:
     """Return what the answer numbered `n` earned."""
     one = done[n]
     if not one.right:
@@ -294,8 +294,8 @@ def read(words: GameWords) -> Predict:
     """Return the round that words begin; BadInput where they do not."""
     chapter = words.text("chapter", ALL)
     members(chapter)
-    again = tuple(Asked.of(text) for text in words.fields.get("again", "").split(",") if text)
-    done = tuple(_answered(text) for text in words.fields.get("done", "").split(",") if text)
+    again = tuple(QuestionId.of(text) for text in words.fields.get("again", "").split(",") if text)
+    done = tuple(_answer_from(text) for text in words.fields.get("done", "").split(",") if text)
     return Predict(
         chapter,
         words.whole("level", 1, LEVELS[0], LEVELS[-1]),
@@ -305,8 +305,8 @@ def read(words: GameWords) -> Predict:
     )
 
 
-def _answered(text: str) -> Answered:
-    asked, *marks = text.rsplit(":", 2)
+def _answer_from(text: str) -> GivenAnswer:
+    question_id, *marks = text.rsplit(":", 2)
     if len(marks) != 2 or marks[0] not in ("0", "1") or not marks[1].isdecimal():
         raise BadInput(f"{shown(text)} is no answer; one is QUESTION:0 or 1:FRAMES")
-    return Answered(Asked.of(asked), marks[0] == "1", int(marks[1]))
+    return GivenAnswer(QuestionId.of(question_id), marks[0] == "1", int(marks[1]))

@@ -34,7 +34,7 @@ class Wrong(NamedTuple):
     slip: str
 
 
-class Asked(NamedTuple):
+class QuestionId(NamedTuple):
     """What a question was about: enough to make it again just as it was."""
 
     kind: str
@@ -83,9 +83,9 @@ class QuizQuestion:
     names: int = 1
 
     @property
-    def asked(self) -> Asked:
+    def question_id(self) -> QuestionId:
         """What makes it again."""
-        return Asked(self.kind, self.scene.name, self.phase, self.subject)
+        return QuestionId(self.kind, self.scene.name, self.phase, self.subject)
 
 
 @dataclass(frozen=True)

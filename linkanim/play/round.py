@@ -7,7 +7,7 @@ from random import Random
 
 from linkanim.errors import BadInput, WorkFailed
 from linkanim.play.kinds.table import KINDS
-from linkanim.play.question import Asked, Puzzle, QuizQuestion
+from linkanim.play.question import Puzzle, QuestionId, QuizQuestion
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
@@ -28,12 +28,12 @@ def questions(scenes: Sequence[Scene], count: int, seed: int) -> tuple[QuizQuest
     found: list[QuizQuestion] = []
     for number in range(count):
         scene = scenes[number % len(scenes)]
-        found.append(next_question(scene, f"{seed} {number}", [one.asked for one in found]))
+        found.append(next_question(scene, f"{seed} {number}", [one.question_id for one in found]))
     return tuple(found)
 
 
 def next_question(
-    scene: Scene, seed: str, before: Sequence[Asked], kinds: Collection[str] = tuple(KINDS)
+    scene: Scene, seed: str, before: Sequence[QuestionId], kinds: Collection[str] = tuple(KINDS)
 ) -> QuizQuestion:
     """Return a question about a scene, of the kind that was least often, that was not there before.
 
@@ -42,9 +42,9 @@ def next_question(
     """
     random = Random(f"{seed} {scene.name}")
     order = random.sample(sorted(KINDS), len(KINDS))
-    often = [asked.kind for asked in before]
+    often = [question_id.kind for question_id in before]
     order.sort(key=lambda kind: (kind not in kinds, often.count(kind)))
-    known = {(asked.scene, asked.kind, asked.subject) for asked in before}
+    known = {(question_id.scene, question_id.kind, question_id.subject) for question_id in before}
     spare = None
     for kind in order:
         for _ in range(_TRIES):
@@ -57,13 +57,13 @@ def next_question(
     return spare
 
 
-def question_of(asked: Asked) -> QuizQuestion:
+def question_of(question_id: QuestionId) -> QuizQuestion:
     """Return a question of the catalogue again; BadInput where there is none such."""
-    if asked.kind in KINDS and asked.scene in names() and abs(asked.phase) < 1e6:
-        made = _made(asked.kind, load(asked.scene), asked.phase)
-        if made and made.subject == asked.subject:
+    if question_id.kind in KINDS and question_id.scene in names() and abs(question_id.phase) < 1e6:
+        made = _made(question_id.kind, load(question_id.scene), question_id.phase)
+        if made and made.subject == question_id.subject:
             return made
-    raise BadInput(f"{shown(str(asked))} is no question of this version")
+    raise BadInput(f"{shown(str(question_id))} is no question of this version")
 
 
 def _made(kind: str, scene: Scene, phase: float) -> QuizQuestion | None:

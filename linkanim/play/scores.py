@@ -14,7 +14,7 @@ from linkanim import atomic_files, intake
 from linkanim.document import Section
 from linkanim.errors import BadInput, LinkanimError, WorkFailed
 from linkanim.intake import Intake
-from linkanim.play.question import Asked
+from linkanim.play.question import QuestionId
 from linkanim.user_data import kept_as
 
 VERSION = 1
@@ -31,7 +31,7 @@ class Scores:
 
     door: str = ""
     best: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
-    missed: tuple[Asked, ...] = ()
+    missed: tuple[QuestionId, ...] = ()
 
     def having(self, name: str, value: str) -> Scores:
         """Return them with what a game leaves: a door, a question missed or met, best as ROUND:SCORE."""
@@ -43,9 +43,9 @@ class Scores:
                 best = max(int(score), self.best.get(kind, 0))
                 return replace(self, best=MappingProxyType({**self.best, kind: best}))
             case "missed" | "met":
-                asked = Asked.of(value)
-                others = tuple(one for one in self.missed if one != asked)
-                kept = (*others, asked) if name == "missed" else others
+                question_id = QuestionId.of(value)
+                others = tuple(one for one in self.missed if one != question_id)
+                kept = (*others, question_id) if name == "missed" else others
                 return replace(self, missed=kept[-_MOST_MISSED:])
         return self
 
@@ -78,7 +78,7 @@ def _read(top: Section) -> Scores:
     return Scores(
         top.text("door"),
         MappingProxyType({name: best.whole(name, 0, _HIGHEST) for name in best.values}),
-        tuple(Asked.of(missed.text(key)) for key in missed.values),
+        tuple(QuestionId.of(missed.text(key)) for key in missed.values),
     )
 
 
@@ -88,7 +88,7 @@ def save(scores: Scores, path: Path) -> None:
         _MARK: VERSION,
         "door": scores.door,
         "best": dict(sorted(scores.best.items())),
-        "missed": [str(asked) for asked in scores.missed],
+        "missed": [str(question_id) for question_id in scores.missed],
     }
     with atomic_files.saying_why(path.parent, "made"):
         path.parent.mkdir(parents=True, exist_ok=True)

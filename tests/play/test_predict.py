@@ -17,8 +17,8 @@ from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.kinds.table import KINDS
 from linkanim.play.menu import Menu
-from linkanim.play.predict import COUNT, QUICK, Answered, Predict, points
-from linkanim.play.question import Asked
+from linkanim.play.predict import COUNT, QUICK, GivenAnswer, Predict, points
+from linkanim.play.question import QuestionId
 from linkanim.play.scores import load as load_scores
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance, carried
@@ -76,11 +76,11 @@ def test_from_the_title_enter_alone_begins_a_round_and_a_key_answers(player: Pla
     game = round_of(player.state)
     assert game.question
     assert player.state.clock.paused
-    asked = player.pixels
+    question_id = player.pixels
     player.press(pygame.K_1 + game.question.right)
     assert round_of(player.state).score > 0
     assert player.state.look.vectors == game.question.shows.vectors
-    assert player.pixels != asked
+    assert player.pixels != question_id
     before = player.state.phase
     player.tick(100)
     assert player.state.phase != before
@@ -95,7 +95,7 @@ def test_what_is_missed_is_kept_and_comes_first_the_next_time(player: Player, tm
     player.press(pygame.K_1 + (right_of(player.state) + 1) % 2)
     player.tick()
     missed = load_scores(tmp_path / "scores.json").missed
-    assert missed == (round_of(player.state).done[0].asked,)
+    assert missed == (round_of(player.state).done[0].question_id,)
     words = Arcade(tmp_path / "scores.json").completed("predict chapter=four-bars level=1")
     state = playing(words)
     assert round_of(state).question == round_of(playing(BEGUN)).question
@@ -193,12 +193,12 @@ def test_a_round_asks_ten_and_then_what_was_missed() -> None:
         state = answered(state, well=n not in (2, 5))
     game = round_of(state)
     assert game.question
-    assert game.question.asked == game.done[2].asked == game.missed[0]
+    assert game.question.question_id == game.done[2].question_id == game.missed[0]
     state = answered(answered(state, well=True), well=False)
     assert round_of(state).is_over
     assert round_of(state).question is None
-    assert len({one.asked for one in round_of(state).done}) == COUNT
-    assert {one.asked.scene for one in round_of(state).done} <= {*chapters()["four-bars"]}
+    assert len({one.question_id for one in round_of(state).done}) == COUNT
+    assert {one.question_id.scene for one in round_of(state).done} <= {*chapters()["four-bars"]}
 
 
 @pytest.mark.parametrize("level", [1, 2, 3])
@@ -206,22 +206,22 @@ def test_a_level_asks_its_own_kinds(level: int) -> None:
     state = playing(f"predict chapter=four-bars level={level} seed=1")
     for _ in range(5):
         state = answered(state, well=True)
-    assert all(level in KINDS[one.asked.kind].levels for one in round_of(state).done)
+    assert all(level in KINDS[one.question_id.kind].levels for one in round_of(state).done)
 
 
 # So many frames, so much before: what an answer earns.
 EARNED = {
-    "at once": (1, [Answered(Asked("a", "b", 0.0, "c"), True, 0)], 150),
-    "late": (1, [Answered(Asked("a", "b", 0.0, "c"), True, QUICK)], 100),
-    "at level three": (3, [Answered(Asked("a", "b", 0.0, "c"), True, QUICK)], 300),
-    "wrong": (1, [Answered(Asked("a", "b", 0.0, "c"), False, 0)], 0),
-    "third in a row": (1, [Answered(Asked("a", "b", 0.0, "c"), True, QUICK)] * 3, 120),
-    "again": (2, [Answered(Asked("a", "b", 0.0, "c"), True, 0)] * (COUNT + 1), 80),
+    "at once": (1, [GivenAnswer(QuestionId("a", "b", 0.0, "c"), True, 0)], 150),
+    "late": (1, [GivenAnswer(QuestionId("a", "b", 0.0, "c"), True, QUICK)], 100),
+    "at level three": (3, [GivenAnswer(QuestionId("a", "b", 0.0, "c"), True, QUICK)], 300),
+    "wrong": (1, [GivenAnswer(QuestionId("a", "b", 0.0, "c"), False, 0)], 0),
+    "third in a row": (1, [GivenAnswer(QuestionId("a", "b", 0.0, "c"), True, QUICK)] * 3, 120),
+    "again": (2, [GivenAnswer(QuestionId("a", "b", 0.0, "c"), True, 0)] * (COUNT + 1), 80),
 }
 
 
 @pytest.mark.parametrize(("level", "done", "expected"), EARNED.values(), ids=EARNED)
-def test_an_answer_earns(level: int, done: list[Answered], expected: int) -> None:
+def test_an_answer_earns(level: int, done: list[GivenAnswer], expected: int) -> None:
     assert points(level, tuple(done), len(done) - 1) == expected
 
 

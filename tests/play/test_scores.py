@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 
 from linkanim.play.arcade import Arcade
-from linkanim.play.question import Asked
+from linkanim.play.question import QuestionId
 from linkanim.play.scores import Scores, load, loaded, save, usual_path
 
-MISSED = Asked("dead centre", "slider-crank", 6.075, "slider")
+MISSED = QuestionId("dead centre", "slider-crank", 6.075, "slider")
 KEPT = Scores("play", {"four-bars.1": 1200, "all.3": 40}, (MISSED,))
 
 
