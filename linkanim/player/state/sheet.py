@@ -43,11 +43,10 @@ class BuildSheet:
 
     `home` is the part of the plane that is seen unless it is zoomed. `tool` is what is in hand, `grip` what
     the hand does, `clicked` the frame and place of its last click; `cursor` is the place of the keys' own,
-    `anchor` the point of a photograph that is put where it belongs. `rests` is the
-    frame at which a linkage that runs by itself has shown one period. `written` is the draft as a scene file
-    has it, `warned` tells that a second asking lets go of what is in none, and `asked` that closing the
-    window has been. While it is not
-    `open` the sheet is kept, to be gone on with.
+    `anchor` the point of a photograph that is put where it belongs. `rests` is the frame at which a linkage
+    that runs by itself has shown one period. `written` is the draft as a scene file has it; `warned` tells
+    that the next asking lets go of what is in none, `closes` that the next one closes the window all the
+    same. While it is not `open` the sheet is kept, to be gone on with.
     """
 
     before: Scene
@@ -64,7 +63,7 @@ class BuildSheet:
     rests: int | None = None
     written: Draft = field(default_factory=Draft)
     warned: bool = False
-    asked: bool = False
+    closes: bool = False
 
     def seen(self, scene: Scene, phase: float) -> Draft:
         """Return the draft with its joints where they are seen: while it moves, at a phase of its scene."""

@@ -100,7 +100,7 @@ def draft(state: State, text: str) -> State:
 
 def offered(state: State, text: str) -> State:
     """Return the state with a sheet as it was stored, which F2 opens; BadInput for what is none."""
-    sheet = replace(_restored(state, text), open=False, asked=True)
+    sheet = replace(_restored(state, text), open=False, closes=True)
     return replace(state, sheet=sheet, beneath=state.beneath and replace(state.beneath, sheet=sheet))
 
 
@@ -129,15 +129,15 @@ def written(state: State) -> State:
     sheet = state.sheet
     if sheet is None or sheet.building.made.scene is not state.scene:
         return state
-    return replace(state, sheet=replace(sheet, written=sheet.building.draft, warned=False, asked=False))
+    return replace(state, sheet=replace(sheet, written=sheet.building.draft, warned=False, closes=False))
 
 
 def closing(state: State) -> State | None:
     """Return the state that asks whether a draft is to be left in no file; None where that is known."""
     sheet = state.sheet
-    if sheet is None or sheet.is_written or sheet.asked:
+    if sheet is None or sheet.is_written or sheet.closes:
         return None
-    return with_toast(replace(state, sheet=replace(sheet, asked=True)), _MEANT)
+    return with_toast(replace(state, sheet=replace(sheet, closes=True)), _MEANT)
 
 
 def put(state: State, place: int) -> State:
@@ -152,8 +152,8 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
     """
     sheet = sheet_of(state)
     same = building.draft is sheet.building.draft
-    warned, asked = sheet.warned and same, sheet.asked and same
-    drawn = replace(state, sheet=replace(sheet, building=building, warned=warned, asked=asked))
+    warned, closes = sheet.warned and same, sheet.closes and same
+    drawn = replace(state, sheet=replace(sheet, building=building, warned=warned, closes=closes))
     scene = building.made.scene
     if scene is None or scene is state.scene:
         return drawn
