@@ -34,6 +34,7 @@ def test_a_number_reads_back_bit_for_bit(value: float) -> None:
 
 
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=20))
+@pytest.mark.slow
 def test_all_numbers_of_a_table_read_back_bit_for_bit(values: list[float]) -> None:
     columns = [np.array(values), -np.array(values)]
     rows = list(csv.reader(StringIO(csv_rows(columns))))

@@ -80,6 +80,7 @@ def _compared(name: str, look: Look, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(("name", "look"), SAMPLE)
+@pytest.mark.slow
 def test_a_file_is_the_window_s_picture(name: str, look: str, monkeypatch: pytest.MonkeyPatch) -> None:
     _compared(name, _look(name, look), monkeypatch)
 

@@ -142,6 +142,7 @@ def test_pictures_come_at_any_rate(tape: Tape, fps: int) -> None:
         assert phase == pytest.approx(steady.start.phase + speed * k / fps)
 
 
+@pytest.mark.slow
 def test_a_picture_shows_what_was_done_before_it(tape: Tape) -> None:
     states = list(tape.states())
     for k, (state, _) in enumerate(tape.pictures(25)):

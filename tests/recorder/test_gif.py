@@ -100,6 +100,7 @@ def test_any_number_of_colours_comes_out(count: int, tmp_path: Path) -> None:
     assert all(same(frames_of(encoded(tmp_path, frames, colours), "RGBA"), frames))
 
 
+@pytest.mark.slow
 def test_a_colour_goes_to_a_near_one_of_the_palette(tmp_path: Path) -> None:
     rng = np.random.default_rng(3)
     palette, colours = rng.integers(0, 256, (255, 3)), rng.integers(0, 256, (100, 100, 3))

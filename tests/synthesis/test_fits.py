@@ -192,6 +192,7 @@ def test_limits_are_kept(options: dict[str, Any], holds: Any) -> None:
         verify(fit, np.array(SQUARE) @ np.array([1.0, 1j]))
 
 
+@pytest.mark.slow
 def test_one_linkage_whose_line_is_told_from_either_end_is_one_answer() -> None:
     points = curves("slider-crank", 1, seed=61)[0]
     best = linkanim.path(points, kind="slider-crank", count=1)[0]
@@ -203,6 +204,7 @@ def test_one_linkage_whose_line_is_told_from_either_end_is_one_answer() -> None:
     assert best_of([best, other], 2) in ((best,), (other,))
 
 
+@pytest.mark.slow
 def test_a_point_may_be_passed_exactly() -> None:
     best = linkanim.path(SQUARE, exactly=[0], count=1)[0]
     assert abs(traced(best, angle=best.angles)[0]) < 1e-6
