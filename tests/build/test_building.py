@@ -11,10 +11,9 @@ from hand import drawn, gesture
 
 from linkanim.build.building import Building, posed, redo, undo
 from linkanim.build.chosen import choose_thing
-from linkanim.build.draft import Photo
+from linkanim.build.draft import Photo, restored, stored
 from linkanim.build.gestures import fit_photo, lay_photo, move_photo
 from linkanim.build.origin import draft_of
-from linkanim.build.stored import restored, stored
 from linkanim.errors import BadInput
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.editing.write import text

@@ -10,9 +10,8 @@ from typing import Any
 from linkanim.build import building as built
 from linkanim.build import chosen, dimensions, gestures, pointing
 from linkanim.build.building import Building
-from linkanim.build.draft import JOINT
+from linkanim.build.draft import JOINT, restored, stored
 from linkanim.build.origin import building_of
-from linkanim.build.stored import restored, stored
 from linkanim.errors import BadInput
 from linkanim.picture.figure import figure
 from linkanim.picture.shelf import NEW
