@@ -8,7 +8,12 @@ from functools import reduce
 from linkanim.build.building import Building, posed, redo, undo
 from linkanim.build.chosen import choose, choose_thing, delete, drive, move, trace
 from linkanim.build.dimensions import choose_number, take, write
+from linkanim.build.draft import Thing
 from linkanim.build.pointing import click, double_click, drag
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import advance
+from linkanim.player.state.state import begin
+from linkanim.player.tape.tape import Tape, Taping
 
 REACH, SNAP = 3.0, 1.0
 
@@ -53,3 +58,67 @@ def _next(building: Building) -> Building:
 
 
 _PLAIN = {"trace": trace, "drive": drive, "delete": delete, "undo": undo, "redo": redo, "next": _next}
+_ACTIONS = {"trace": "trace_on", "drive": "drive_by"}
+
+
+class Hand:
+    """A hand on an open sheet of the player: the same gestures as actions, frame by frame, on a tape."""
+
+    def __init__(self) -> None:
+        self.state = begin("crank-rocker")
+        self._taping = Taping(self.state, (320, 180))
+        self.do(Action("sheet"))
+
+    @property
+    def tape(self) -> Tape:
+        return self._taping.tape(self.state.frame)
+
+    @property
+    def building(self) -> Building:
+        assert self.state.building
+        return self.state.building.building
+
+    def do(self, *actions: Action) -> None:
+        """Go a frame on, with these actions."""
+        self.state = advance(self.state, actions)
+        self._taping.note(self.state.frame, actions)
+
+    def gesture(self, line: str) -> None:
+        """Make a gesture; before one by the pointer what runs is turned back to where it was drawn."""
+        name, *words = line.split()
+        if name == "type":
+            return self.do(Action("digits", " ".join(words)), Action("take_number"))
+        if name == "choose":
+            return self._choose((words[0], " ".join(words[1:])))
+        if name == "number":
+            return self.do(Action("number", int(words[0])))
+        if name in _ACTIONS:
+            return self.do(Action(_ACTIONS[name]))
+        if self.building.made.scene:
+            self.do(Action("scrub", self.building.draft.phase))
+        tool = words.pop(0) if words[0].isalpha() else "bar"
+        self.do(Action("tool", tool))
+        x, y, *to = map(float, words)
+        down, up = Action("hand_down", (x, y, REACH, SNAP)), Action("hand_up")
+        if name == "drag":
+            self.do(down)
+            self.do(Action("hand_to", (to[0], to[1], REACH, SNAP)))
+            return self.do(up)
+        for _ in range(2 if name == "double" else 1):
+            self.do(down, up)
+        return None
+
+    def _choose(self, thing: Thing) -> None:
+        for _ in self.building.draft.things():
+            if self.building.chosen != thing:
+                self.do(Action("further", 1))
+
+
+def taped(text: str, pace: int = 0) -> Tape:
+    """Return the tape of a session played on a sheet, with so many frames before each gesture."""
+    hand = Hand()
+    for line in gestures(text):
+        for _ in range(pace):
+            hand.do()
+        hand.gesture(line)
+    return hand.tape

@@ -214,7 +214,7 @@ def down(state: State, at: tuple[float, float, float, float]) -> State:
     base, ran = sheet.building, not state.clock.paused
     if base.made.scene:
         phase = radians(round(state.phase / tau * 360))
-        base = built.posed(base, phase) if phase else base
+        base = built.posed(base, phase)
         state = replace(state, clock=state.clock.go(state.frame, phase, paused=True))
     cursor = sheet.cursor if sheet.cursor and dist(sheet.cursor, (x, y)) <= reach else None
     return _with(state, grip=Grip((x, y), (x, y), reach, snap, base, ran), cursor=cursor)
