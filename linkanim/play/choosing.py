@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
+from linkanim.picture.look import Look
 from linkanim.player.state.action import Action
+from linkanim.player.state.state import State
 
 
 class Chosen(NamedTuple):
@@ -24,3 +27,26 @@ def chosen_by(action: Action, row: int, count: int) -> Chosen | None:
         case Action("next"):
             return Chosen(row, taken=True)
     return None
+
+
+class OverWhatRuns:
+    """What the choices of a game and of a round share: they stand beside what is on, which runs on bare."""
+
+    @property
+    def listed(self) -> bool:
+        """It stands beside the scene."""
+        return True
+
+    @property
+    def covers(self) -> bool:
+        """Esc goes back."""
+        return True
+
+    def entered(self, state: State) -> State:
+        """Let what is on run behind it."""
+        clock = state.clock.pause(state.frame, False)
+        return replace(state, look=Look(hud=False, theme=state.look.theme), clock=clock)
+
+    def aged(self, state: State) -> State:
+        """Return the state as it is: time does nothing here."""
+        return state

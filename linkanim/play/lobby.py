@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
-from linkanim.play.choosing import chosen_by
+from linkanim.play.choosing import OverWhatRuns, chosen_by
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.state import State, with_effect
@@ -29,7 +28,7 @@ OFFERS = (
 
 
 @dataclass(frozen=True)
-class Lobby:
+class Lobby(OverWhatRuns):
     """The choice of a game, and which one Enter takes."""
 
     row: int = 0
@@ -38,25 +37,6 @@ class Lobby:
     def words(self) -> str:
         """What begins it again."""
         return f"lobby row={self.row}"
-
-    @property
-    def listed(self) -> bool:
-        """It stands beside the scene."""
-        return True
-
-    @property
-    def covers(self) -> bool:
-        """Esc goes back to the title."""
-        return True
-
-    def entered(self, state: State) -> State:
-        """Let what is on run behind it."""
-        clock = state.clock.pause(state.frame, False)
-        return replace(state, look=Look(hud=False, theme=state.look.theme), clock=clock)
-
-    def aged(self, state: State) -> State:
-        """Return the state as it is: time does nothing here."""
-        return state
 
     def carried(self, state: State, action: Action) -> State:
         """Begin a game, choose one, or go back to the title."""

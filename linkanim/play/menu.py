@@ -6,10 +6,9 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from linkanim.errors import BadInput
-from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
 from linkanim.play.chapters import ALL, members, titled
-from linkanim.play.choosing import chosen_by
+from linkanim.play.choosing import OverWhatRuns, chosen_by
 from linkanim.play.kinds.table import LEVELS
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
@@ -23,7 +22,7 @@ _ABOUT = MappingProxyType(
 
 
 @dataclass(frozen=True)
-class Menu:
+class Menu(OverWhatRuns):
     """The choice of a round: the chapter that Enter takes, the level, and the best score of each."""
 
     chapter: str
@@ -36,25 +35,6 @@ class Menu:
         words = GameWords("menu", {}).having(chapter=self.chapter, level=self.level)
         best = ",".join(f"{name}:{score}" for name, score in self.best)
         return str(words.having(best=best) if best else words)
-
-    @property
-    def listed(self) -> bool:
-        """It stands beside the scene."""
-        return True
-
-    @property
-    def covers(self) -> bool:
-        """Esc goes back to the games."""
-        return True
-
-    def entered(self, state: State) -> State:
-        """Let what is on run behind it."""
-        clock = state.clock.pause(state.frame, False)
-        return replace(state, look=Look(hud=False, theme=state.look.theme), clock=clock)
-
-    def aged(self, state: State) -> State:
-        """Return the state as it is: time does nothing here."""
-        return state
 
     def carried(self, state: State, action: Action) -> State:
         """Choose a chapter or a level, begin a round, or go back."""
