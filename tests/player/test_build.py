@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import math
-import signal
-import subprocess
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -26,9 +23,7 @@ from linkanim.player.state.tools import TOOLS
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.tape.tape_file import read, write
 from linkanim.player.window import display
-from linkanim.player.window.drafts import DraftFile
 from linkanim.player.window.show import overlay
-from linkanim.player.window.window import Window
 from linkanim.recorder.tape_frames import _lasting, record_tape
 from linkanim.scenes import load
 
@@ -409,65 +404,6 @@ def test_a_building_tape_is_recorded_with_the_hand_and_without_tools(builder: Bu
     shown = _lasting(overlay(replace(builder.state, sheet=grip))).build
     assert shown
     assert (shown.tools, shown.hand) == (None, (9, 9))
-
-
-KILLED = """
-import os, signal, sys
-from pathlib import Path
-sys.path.insert(0, sys.argv[1])
-import pygame
-from test_build import Builder
-from linkanim.player.state.state import begin
-from linkanim.player.window import display
-from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.window import Window
-from linkanim.scenes import load
-with display.opened((640, 360)):
-    player = Builder(begin(load("crank-rocker")))
-    player.window = Window(player.state, drafts=DraftFile(Path(sys.argv[2])))
-    player.tick()
-    player.press(pygame.K_F2)
-    player.click(0, 0)
-    player.draw((0, 0), (30, 0))
-    player.tick(60)
-    player.draw((30, 0), (60, 80))
-    os.kill(os.getpid(), signal.SIGKILL)
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="kill -9 is of POSIX")
-def test_what_a_killed_window_had_drawn_is_offered_but_for_the_last_second(here: Path) -> None:
-    kept = here / "data" / "draft.json"
-    command = [sys.executable, "-c", KILLED, str(Path(__file__).parent), str(kept)]
-    assert subprocess.run(command, check=False, capture_output=True).returncode == -signal.SIGKILL
-    with display.opened(WINDOW):
-        player = Builder(begin(load("press")))
-        player.window = Window(player.state, drafts=DraftFile(kept))
-        player.tick()
-        assert player.state.toast
-        assert "F2" in player.state.toast.text
-        player.tick(120)
-        assert kept.exists()
-        assert player.press(pygame.K_q) is False  # it is not asked about: it is kept as it was
-        player.press(pygame.K_F2)
-        assert list(player.sheet.building.draft.of("bars")) == ["O2–A"]
-        for _ in range(2):
-            player.press(pygame.K_n, CTRL)
-        player.tick(60)
-        assert not kept.exists()
-        player.window.close()
-
-
-def test_a_damaged_draft_is_said_and_does_no_harm(here: Path) -> None:
-    (here / "draft.json").write_text('{"draft": {"places": 3}}')
-    with display.opened(WINDOW):
-        player = Builder(begin(load("press")))
-        player.window = Window(player.state, drafts=DraftFile(here / "draft.json"))
-        player.tick(2)
-        assert player.state.toast
-        assert "damaged" in player.state.toast.text
-        assert player.state.sheet is None
-        player.window.close()
 
 
 @pytest.fixture

@@ -15,6 +15,8 @@ from linkanim.scenes.scene import Scene
 
 HOME = Box(-100.0, -40.0, 200.0, 130.0)
 """What an empty sheet shows, in millimetres."""
+LIVE = ("move", "photo")
+"""The tools that change what is built while the hand moves."""
 
 
 class Grip(NamedTuple):
@@ -73,6 +75,11 @@ class BuildSheet:
         found = scene.pose(phase, 0).position
         places = {name: (float(found[name][0]), float(found[name][1])) for name in drawn.places}
         return replace(drawn, places=places)
+
+    @property
+    def lasting(self) -> Building:
+        """What is built, but for what the hand moves just now."""
+        return self.grip.base if self.grip and self.tool in LIVE else self.building
 
     @property
     def is_written(self) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from linkanim import atomic_files, intake
@@ -29,7 +30,7 @@ class DraftFile:
 
         WorkFailed where that cannot be.
         """
-        draft = None if sheet is None or sheet.is_written else sheet.building.draft
+        draft = None if sheet is None or sheet.is_written else sheet.lasting.draft
         if draft is self._kept:
             return
         self._kept = draft
@@ -40,4 +41,4 @@ class DraftFile:
         with atomic_files.saying_why(self._path.parent, "made"):
             self._path.parent.mkdir(parents=True, exist_ok=True)
         with atomic_files.replacing(self._path) as part:
-            part.write_text(stored_text(sheet), encoding="utf-8")
+            part.write_text(stored_text(replace(sheet, building=sheet.lasting)), encoding="utf-8")

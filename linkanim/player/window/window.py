@@ -352,9 +352,9 @@ class Window:
             self._notes.append(str(error))
 
     def _keep_draft(self) -> None:
-        """Keep what is drawn on the sheet, as the hand has left it."""
+        """Keep what is drawn on the sheet."""
         try:
-            if self._drafts and not (self.state.sheet and self.state.sheet.grip):
+            if self._drafts:
                 self._drafts.keep(self.state.sheet)
         except LinkanimError as error:
             self._notes.append(str(error))

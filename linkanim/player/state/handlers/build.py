@@ -21,7 +21,7 @@ from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.handlers.edits import drop
 from linkanim.player.state.handlers.shelf import exchanged
 from linkanim.player.state.handlers.shelf import put as put_on
-from linkanim.player.state.sheet import HOME, BuildSheet, Grip
+from linkanim.player.state.sheet import HOME, LIVE, BuildSheet, Grip
 from linkanim.player.state.state import State, with_toast
 
 Handler = Callable[[State, Any], State]
@@ -30,8 +30,6 @@ _DOUBLE = 24
 """Frames within which a second click at a place makes a double one."""
 _LONGEST = 10 * FRAMES_PER_SECOND
 """A linkage that can move runs for a period, if that is no longer."""
-_LIVE = ("move", "photo")
-"""The tools that change what is built while the hand moves."""
 LOST = "the draft is in no scene file: Ctrl+S writes it; once more begins anew"
 _MEANT = "the draft is in no scene file: Ctrl+S writes it; once more closes, and it is offered next time"
 
@@ -229,7 +227,7 @@ def along(state: State, at: tuple[float, float, float, float]) -> State:
     grip = replace_grip(sheet.grip, x, y, snap)
     state = _with(state, grip=grip)
     return (
-        _shown(state, _drawn(sheet, grip), live=True) if sheet.tool in _LIVE and not grip.is_click else state
+        _shown(state, _drawn(sheet, grip), live=True) if sheet.tool in LIVE and not grip.is_click else state
     )
 
 
@@ -247,7 +245,7 @@ def up(state: State, _: None) -> State:
     state = _with(state, grip=None, clicked=(state.frame, grip.begin) if grip.is_click else None)
     building = _clicked(state, sheet, grip) if grip.is_click else _drawn(sheet, grip)
     if building.draft is grip.base.draft:
-        kept = replace(building, draft=sheet.building.draft) if sheet.tool not in _LIVE else building
+        kept = replace(building, draft=sheet.building.draft) if sheet.tool not in LIVE else building
         return _running(_shown(state, kept), ran=grip.ran)
     state = (
         _with(_shown(state, building), anchor=sheet.anchor or grip.at)
