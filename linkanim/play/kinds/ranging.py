@@ -5,6 +5,8 @@ from __future__ import annotations
 from itertools import combinations
 from math import degrees, tau
 
+import numpy as np
+
 from linkanim.mechanics.closing.search import sign_changes
 from linkanim.mechanics.facts.naming import FourBar, four_bar_of
 from linkanim.mechanics.motion.measures import output_body
@@ -25,7 +27,9 @@ def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
         return None
     kind, name = "travel_velocity" if body.slider else "angular_velocity", body.name
     quickest = float(puzzle.cycle.phase[int(abs(getattr(puzzle.cycle, kind)[name]).argmax())])
-    found = sign_changes(lambda phases: getattr(scene.solve(phase=phases), kind)[name], puzzle.cycle.phase)
+    samples = len(puzzle.cycle.phase)  # once round from between two of them: many turn back at a phase of 0
+    once_round = scene.period * (np.arange(samples + 1) + 0.5) / samples
+    found = sign_changes(lambda phases: getattr(scene.solve(phase=phases), kind)[name], once_round)
     exact = {crank_degrees(puzzle, float(phase)): float(phase) for phase in found}
     if not exact:
         return None
