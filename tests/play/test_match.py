@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
@@ -76,6 +77,12 @@ def test_every_level_is_solved_by_its_tape_with_full_score(name: str) -> None:
     assert game(last).level == name
     assert game(last).points == (100, 100, 100)
     assert not game(last).gave_up
+    panel = game(last).shown(last, Overlay()).game
+    assert panel
+    assert (
+        panel.verdict
+        == "Full score, with smaller links and a better transmission angle than the path solver's"
+    )
 
 
 @pytest.mark.parametrize("name", LEVELS)
@@ -84,12 +91,35 @@ def test_every_level_is_solved_by_its_answer_which_can_be_beaten(name: str) -> N
     assert level.answer
     found = worth(level.answer, level.curve)
     assert found.off <= level.full.off
-    # more than one score pulls away from it: neither is what the solver looks for
+    # two scores pull away from it: neither is what the solver looks for
     exact, *others = shares(found, level.full)
     assert exact == 1.0
-    assert min(others) < 1.0
+    assert max(others) < 1.0
     for joint in level.fixed:
         assert getattr(level.answer, joint) == pytest.approx(getattr(level.start, joint), abs=1e-6)
+
+
+# what is asked of the path solver besides, where its bars would lie on one another or reach far away: in the
+# level's own sentence, and for the solver
+STEEP = math.radians(30)
+ASKED: dict[str, tuple[str, dict[str, float]]] = {
+    "circle": ("30° or more", {"least_angle": STEEP}),
+    "ellipse": ("Links of up to 1.5 sizes", {"largest": 1.5}),
+    "swan": ("A full turn at 30° or more", {"least_angle": STEEP}),
+    "square": ("30° or more", {"least_angle": STEEP}),
+}
+
+
+@pytest.mark.parametrize("name", LEVELS)
+def test_a_level_says_what_is_asked_of_the_path_solver_besides_and_so_it_is(name: str) -> None:
+    level = level_of(name)
+    words, limits = ASKED.get(name, ("", {}))
+    assert ("asked of the path solver" in level.about) == bool(words)
+    assert words in level.about
+    assert level.answer
+    assert level.worth_of_answer.angle >= limits.get("least_angle", 0.0) - 1e-6
+    longest = FOUR_BAR.link_lengths(np.array([level.answer.row])).max()
+    assert longest <= limits.get("largest", math.inf) * level.curve.size * (1 + 1e-6)
 
 
 @pytest.mark.long
@@ -100,20 +130,19 @@ def test_the_answers_are_the_path_solver_s(name: str) -> None:
         (place.real, place.imag) if joint in level.fixed else None
         for joint, place in (("O2", level.start.O2), ("O4", level.start.O4))
     ]
-    found = path(level.curve.points, level.curve.closed, count=5, pivots=pins if level.fixed else ())
+    _, limits = ASKED.get(name, ("", {}))
+    found = path(
+        level.curve.points, level.curve.closed, count=5, pivots=pins if level.fixed else (), **limits
+    )
     assert level.answer
+    if name == "swan":  # which an input that swings draws, too
+        found = tuple(fit for fit in found if FOUR_BAR.slack(np.array([fit.row]), STEEP - 1e-6).min() >= 0)
     # cognates, and mirror images of a straight line's, are as exact: it is one of those
     first = [fit for fit in found if fit.rms < found[0].rms * (1 + 1e-6)]
     own, *others = (
         FOUR_BAR.link_lengths(np.array([row]))[0] for row in (level.answer.row, *(fit.row for fit in first))
     )
     assert any(other == pytest.approx(own, rel=1e-4) for other in others)
-
-
-def test_two_of_the_scores_can_be_won_on_nearly_every_level() -> None:
-    levels = map(level_of, LEVELS)
-    earned = [shares(level.worth_of_answer, level.full) for level in levels]
-    assert sum(sum(share < 1.0 for share in three) >= 2 for three in earned) >= 16
 
 
 def test_a_linkage_is_its_joints() -> None:

@@ -230,13 +230,11 @@ class MatchGame:
         if self.gave_up:
             better = [words for words, share in zip(_BETTER, answer, strict=True) if share < 1.0]
             return "The path solver's answer" + (f"; {_listed(better)} can be had" if better else "")
-        reached = [share >= 1.0 for share in own]
-        if all(reached):
-            return "Full score"
+        reached = "Full score" if min(own) >= 1.0 else "It follows" if own[0] >= 1.0 else ""
         beaten = [words for words, mine, its in zip(_BETTER, own, answer, strict=True) if mine > its + 0.005]
-        if reached[0] and beaten and self.of_level.answer:
-            return f"It follows, with {_listed(beaten)} than the path solver's"
-        return "It follows" if reached[0] else ""
+        if reached and beaten and self.of_level.answer:
+            return f"{reached}, with {_listed(beaten)} than the path solver's"
+        return reached
 
 
 _BETTER = ("a closer way", "smaller links", "a better transmission angle")
