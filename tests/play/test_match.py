@@ -31,7 +31,7 @@ from linkanim.player.window import display
 from linkanim.scenes import load
 from linkanim.synthesis.curves.drawn import drawn
 from linkanim.synthesis.kinds import FOUR_BAR
-from linkanim.synthesis.request import path
+from linkanim.synthesis.request import LARGEST, path
 
 TAPES = Path(__file__).parent / "match_tapes"
 LEVELS = level_names()
@@ -132,7 +132,12 @@ def test_the_answers_are_the_path_solver_s(name: str) -> None:
     ]
     _, limits = ASKED.get(name, ("", {}))
     found = path(
-        level.curve.points, level.curve.closed, count=5, pivots=pins if level.fixed else (), **limits
+        level.curve.points,
+        level.curve.closed,
+        count=5,
+        pivots=pins if level.fixed else (),
+        least_angle=limits.get("least_angle", 0.0),
+        largest=limits.get("largest", LARGEST),
     )
     assert level.answer
     if name == "swan":  # which an input that swings draws, too
