@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -70,7 +71,15 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     where = intake.named(text)
     missing = f"{meant(path.stem, names())}; `linkanim scenes` lists the built-in ones"
     document = parse(SCENE_FILE.read(path, where, missing=missing), where)
-    return scene_from(document, name=intake.named(path.stem), where=where)
+    return _photographed(scene_from(document, name=intake.named(path.stem), where=where), path.parent)
+
+
+def _photographed(scene: Scene, folder: Path) -> Scene:
+    """Return the scene of a file in a folder with its photograph's path from the current folder."""
+    photo = scene.document.get("photo")
+    if photo is None:
+        return scene
+    return replace(scene, document={**scene.document, "photo": photo | {"file": str(folder / photo["file"])}})
 
 
 def path_of(name_or_path: str | os.PathLike[str]) -> Path | None:

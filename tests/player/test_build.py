@@ -12,20 +12,24 @@ import pytest
 from playing import CTRL, SHIFT, Player
 
 from linkanim.build.draft import Photo
+from linkanim.picture.building.photograph import lack
 from linkanim.picture.building.tools import ICONS
 from linkanim.picture.shelf import NEW
 from linkanim.play.arcade import Arcade
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import carried
 from linkanim.player.state.sheet import BuildSheet, Grip
-from linkanim.player.state.state import begin
+from linkanim.player.state.state import TOAST_FRAMES, begin
 from linkanim.player.state.tools import TOOLS
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.tape.tape_file import read, write
 from linkanim.player.window import display
+from linkanim.player.window.drafts import DraftFile
 from linkanim.player.window.show import overlay
 from linkanim.recorder.tape_frames import _lasting, record_tape
 from linkanim.scenes import load
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.editing.write import save
 
 WINDOW = (640, 360)
 
@@ -456,7 +460,7 @@ def test_a_scene_file_names_its_photograph_and_a_recording_leaves_it_out(
     builder.four_bar()
     builder.press(pygame.K_s, CTRL)
     (path,) = here.glob("*.toml")
-    assert load(path).document["photo"]["file"] == "digger.png"
+    assert parse(path.read_text(), "it")["photo"]["file"] == "digger.png"
     over = overlay(builder.state)
     for photo in (False, True):
         shown = _lasting(over, photo=photo).build
@@ -464,15 +468,70 @@ def test_a_scene_file_names_its_photograph_and_a_recording_leaves_it_out(
         assert (shown.photo is not None) is photo
 
 
-def test_a_photograph_that_is_gone_or_none_does_no_harm(builder: Builder, here: Path) -> None:
+@pytest.mark.parametrize(("name", "reason"), [("broken.jpg", "is no picture"), ("gone.png", "is not there")])
+def test_a_photograph_that_is_gone_or_none_is_a_sentence_and_does_no_harm(
+    builder: Builder, here: Path, name: str, reason: str
+) -> None:
     builder.tick(30)
     bare = builder.pixels
     (here / "broken.jpg").write_bytes(b"no picture")
-    for name in ("broken.jpg", "gone.png"):
-        pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(here / name)))
-        builder.tick()
-        builder.press(pygame.K_b, text="b")
-        assert builder.pixels == bare
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(here / name)))
+    builder.tick(2)
+    assert builder.state.toast
+    assert builder.state.toast.text == f"{name}: {reason}; the sheet goes on without the photograph"
+    builder.press(pygame.K_b, text="b")
+    builder.tick(TOAST_FRAMES)
+    assert builder.pixels == bare
+
+
+@pytest.fixture
+def elsewhere(builder: Builder, photograph: Path, here: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A scene file beside its photograph, in a folder in the current one."""
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
+    builder.tick()
+    builder.press(pygame.K_b, text="b")
+    builder.four_bar()
+    builder.press(pygame.K_s, CTRL)
+    (path,) = here.glob("*.toml")
+    (here / "work" / "down").mkdir(parents=True)
+    monkeypatch.chdir(here / "work")
+    photograph.rename(here / "work" / "down" / "digger.png")
+    return path.rename(here / "work" / "down" / "mine.toml")
+
+
+def test_a_photograph_lies_beside_its_scene_file_from_wherever_that_is_opened(
+    builder: Builder, elsewhere: Path
+) -> None:
+    builder.press(pygame.K_F2)
+    for path in (str(elsewhere), "down/mine.toml"):
+        pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=path))
+        builder.tick(2)
+        builder.press(pygame.K_F2, SHIFT)
+        assert Path(photo_of(builder).file).samefile(elsewhere.with_name("digger.png"))
+        assert lack(photo_of(builder).file) is None
+        builder.press(pygame.K_F2)
+
+
+@pytest.mark.parametrize(("folder", "named"), [("..", "down/digger.png"), (".", "digger.png")])
+def test_a_scene_file_names_its_photograph_by_the_path_from_there(
+    elsewhere: Path, folder: str, named: str
+) -> None:
+    written = save(load(elsewhere), elsewhere.parent / folder)
+    assert parse(written.read_text(), "it")["photo"]["file"] == named
+    assert Path(load(written).document["photo"]["file"]).samefile(elsewhere.with_name("digger.png"))
+
+
+def test_a_kept_draft_has_its_photograph_from_another_folder_too(
+    builder: Builder, photograph: Path, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    builder.window.state = carried(builder.state, Action("photo", photograph.name))
+    DraftFile(here / "draft.json").keep(builder.sheet)
+    (here / "other").mkdir()
+    monkeypatch.chdir(here / "other")
+    text = DraftFile(here / "draft.json").found()
+    assert text
+    builder.window.state = carried(builder.state, Action("draft", text))
+    assert lack(photo_of(builder).file) is None
 
 
 def test_a_sheet_is_opened_out_of_the_title_and_is_there_again_after_it(here: Path) -> None:

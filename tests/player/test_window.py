@@ -661,3 +661,18 @@ def test_a_file_that_is_dropped_is_opened_or_refused_in_a_sentence(player: Playe
     assert player.state.scene == load("press")
     assert player.state.toast
     assert "notes.txt" in player.state.toast.text
+
+
+def test_a_file_is_opened_before_an_edited_first_mechanism_which_stays_as_it_was(
+    player: Player, here: Path
+) -> None:
+    save(load("press"), here)
+    player.press(pygame.K_e)
+    player.press(pygame.K_RIGHT)
+    edited = player.state.scene
+    assert edited != load("crank-rocker")
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(here / "press.toml")))
+    player.tick()
+    assert (player.state.scene, player.state.place) == (load("press"), 0)
+    player.window.state = carried(player.state, Action("mechanism", 1))
+    assert (player.state.scene, player.state.place) == (edited, 1)

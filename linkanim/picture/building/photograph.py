@@ -11,6 +11,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from linkanim import intake
 from linkanim.build.draft import Photo
 from linkanim.picture.raster.raster import Colour
 from linkanim.picture.view import View
@@ -21,6 +22,14 @@ _MOST_BYTES = 60_000_000
 _LONGEST = 1600
 """The longer side of what is kept of a photograph, in pixels."""
 SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
+
+
+def lack(file: str) -> str | None:
+    """Return in a sentence why a photograph is left out; None of one that shows."""
+    if _read(file) is not None:
+        return None
+    reason = "is no picture" if Path(file).exists() else "is not there"
+    return f"{intake.named(file)}: {reason}; the sheet goes on without the photograph"
 
 
 @dataclass(frozen=True)
@@ -62,6 +71,7 @@ def _faded(file: str, paper: Colour, shifts: tuple[int, int, int, int]) -> NDArr
     return np.asarray(packed | opaque, np.uint32)
 
 
+@lru_cache(maxsize=2)
 def _read(file: str) -> NDArray[np.uint8] | None:
     """Return the pixels of a picture file, row by row; None where it is none, or very large."""
     path = Path(file)

@@ -41,4 +41,11 @@ class DraftFile:
         with atomic_files.saying_why(self._path.parent, "made"):
             self._path.parent.mkdir(parents=True, exist_ok=True)
         with atomic_files.replacing(self._path) as part:
-            part.write_text(stored_text(replace(sheet, building=sheet.lasting)), encoding="utf-8")
+            part.write_text(stored_text(_found_anywhere(sheet)), encoding="utf-8")
+
+
+def _found_anywhere(sheet: BuildSheet) -> BuildSheet:
+    """Return a sheet as it lasts, its photograph by a path that holds from any folder."""
+    draft = sheet.lasting.draft
+    photo = draft.photo and draft.photo._replace(file=str(Path(draft.photo.file).absolute()))
+    return replace(sheet, building=replace(sheet.lasting, draft=replace(draft, photo=photo)))

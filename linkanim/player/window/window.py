@@ -12,7 +12,7 @@ from pygame.event import Event
 
 from linkanim import intake
 from linkanim.errors import BadInput, LinkanimError
-from linkanim.picture.building.photograph import SUFFIXES
+from linkanim.picture.building.photograph import SUFFIXES, lack
 from linkanim.player.input.keyboard import Keyboard
 from linkanim.player.input.keys import bind_of
 from linkanim.player.input.mouse import Mouse, latest
@@ -78,6 +78,7 @@ class Window:
         self._keyboard, self._mouse, self._fingers, self._pads = Keyboard(), Mouse(), Fingers(), Pads()
         self._speaker = Speaker()
         self._notes: list[str] = []
+        self._photo: str | None = None
         self._windowed = display.frame()
         self._open = True
         self._now = state.frame
@@ -285,13 +286,20 @@ class Window:
         """Return, as notes, what was done outside, and how far recordings are."""
         if self.state.frame % FRAMES_PER_SECOND == 0:
             self._keep_draft()
-        notes, self._notes = self._notes, []
+        notes, self._notes = self._notes + self._photo_news(), []
         notes += self._keeper.news() if self._keeper else []
         if self._file and self.state.frame % FRAMES_PER_SECOND == 0:
             notes += self._file.news()
         if self._renderings and self.state.frame % _NEWS_EVERY == 0:
             notes += self._renderings.news()
         return tuple(Action("note", text) for text in notes)
+
+    def _photo_news(self) -> list[str]:
+        """Return why another photograph than before is left out, if it is."""
+        photo = self.state.building and self.state.building.building.draft.photo
+        before, self._photo = self._photo, photo.file if photo else None
+        sentence = lack(self._photo) if self._photo and self._photo != before else None
+        return [sentence] if sentence else []
 
     def _carry_out(self, effect: Action) -> None:
         """Do what the state asks of the outside; what cannot be done is a note, and the window runs on."""

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -35,11 +38,23 @@ def text(scene: Scene) -> str:
 def save(scene: Scene, folder: Path) -> Path:
     """Write the scene into `folder` under a name that is free, and return the file's path.
 
-    The name is the scene's, or that with -2, -3, ...: an older file stays as it is. WorkFailed, with
-    nothing left behind, where the folder cannot be written.
+    The name is the scene's, or that with -2, -3, ...: an older file stays as it is. A photograph is named by
+    its path from there. WorkFailed, with nothing left behind, where the folder cannot be written.
     """
+    scene = _photographed(scene, folder)
     numbered = (folder / f"{scene.name}-{number}.toml" for number in count(2))
     return atomic_files.add(text(scene).encode("utf-8"), folder / f"{scene.name}.toml", numbered)
+
+
+def _photographed(scene: Scene, folder: Path) -> Scene:
+    """Return the scene with its photograph's path from a folder, where there is one."""
+    photo = scene.document.get("photo")
+    if photo is None:
+        return scene
+    path = Path(photo["file"])
+    with suppress(ValueError):  # of another drive
+        path = Path(os.path.relpath(path, folder))
+    return replace(scene, document={**scene.document, "photo": photo | {"file": path.as_posix()}})
 
 
 def _section(key: str, value: Any, inline: list[str]) -> Any:

@@ -47,10 +47,13 @@ def closure(state: State, _: None) -> State:
 def renewed(state: State, scene: Scene) -> State:
     """Put on the scene of one's own as its file has it now; where it is on already, undo goes back."""
     catalogue = tuple(entry for entry in state.shelf if isinstance(entry, str))
-    was_on = state.place < len(state.shelf) - len(catalogue)
+    own = len(state.shelf) - len(catalogue)
+    was_on, by = state.place < own, 1 - own
     state = replace(state, shelf=(scene, *catalogue))
     if not was_on:
-        return put_on(replace(state, kept=tuple(one for one in state.kept if one.place)), 0)
+        # the catalogue's places are behind the one of the scene of one's own, which begins anew
+        kept = tuple(one._replace(place=one.place + by) for one in state.kept if one.place >= own)
+        return put_on(replace(state, place=state.place + by, kept=kept), 0)
     editing = replace(edit.changed(state.editing, state.scene), original=scene)
     return exchanged(replace(state, held=None, glide=None, sketch=None, editing=editing), scene)
 
