@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from shlex import quote, shlex
 from typing import NamedTuple, Self
 
 from linkanim.errors import BadInput
@@ -16,14 +17,24 @@ class GameWords(NamedTuple):
 
     @classmethod
     def of(cls, text: str) -> Self:
-        """Read them; BadInput where a parameter is not written as name=value."""
-        kind, *parts = text.split(" ")
+        """Read them; BadInput where a parameter is not written as name=value.
+
+        A value may have quotes, as in a shell; without any, words that have no name belong to the one before.
+        """
+        kind, parts = "", list[str]()
+        for part in _split(text):
+            if not kind:
+                kind = part
+            elif "=" not in part and parts:
+                parts[-1] += f" {part}"
+            else:
+                parts.append(part)
         if not all("=" in part for part in parts):
             raise BadInput(f"{shown(text)} is no game; one is written as predict level=1 seed=7")
         return cls(kind, dict(part.split("=", 1) for part in parts))
 
     def __str__(self) -> str:
-        return " ".join([self.kind, *(f"{name}={value}" for name, value in self.fields.items())])
+        return " ".join([self.kind, *(quote(f"{name}={value}") for name, value in self.fields.items())])
 
     def text(self, name: str, usual: str = "") -> str:
         """Return a parameter, spaces for its underscores."""
@@ -41,6 +52,15 @@ class GameWords(NamedTuple):
         return number
 
     def having(self, **fields: object) -> Self:
-        """Return them with other parameters; spaces are written as underscores."""
-        more = {name: str(value).replace(" ", "_") for name, value in fields.items()}
-        return self._replace(fields={**self.fields, **more})
+        """Return them with other parameters."""
+        return self._replace(fields={**self.fields, **{name: str(value) for name, value in fields.items()}})
+
+
+def _split(text: str) -> list[str]:
+    """Return what spaces part, but those in quotes; a backslash is a character as others."""
+    lexer = shlex(text, posix=True)
+    lexer.whitespace_split, lexer.escape, lexer.commenters = True, "", ""
+    try:
+        return [*lexer]
+    except ValueError:
+        raise BadInput(f"{shown(text)} has a quote that does not end") from None

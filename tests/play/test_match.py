@@ -329,6 +329,30 @@ def test_a_level_written_by_hand_is_played(tmp_path: Path) -> None:
     assert [choice.text for choice in panel.choices] == ["Begin again", "The next level"]
 
 
+# a path as it is typed, and what of it could be taken for the end of it, or for a quote
+@pytest.mark.parametrize(
+    ("folder", "typed"),
+    [
+        ("my levels", "{}"),
+        ("my levels", "'{}'"),
+        ("my  own a=b levels", '"{}"'),
+        ("under_score", "{}"),
+        ("it's #1", '"{}"'),
+        ("back\\slash", "{}"),
+    ],
+)
+def test_a_level_s_path_may_have_blanks(folder: str, typed: str, tmp_path: Path) -> None:
+    file = tmp_path / folder / "my level.toml"
+    file.parent.mkdir()
+    file.write_text(BY_HAND, encoding="utf-8")
+    state = on(Arcade(tmp_path / "scores.json").completed(f"match level={typed.format(file)}"))
+    assert game(state).level == str(file)
+    # its words begin it again
+    again = game_of(game(state).words)
+    assert isinstance(again, MatchGame)
+    assert again.level == str(file)
+
+
 @pytest.mark.parametrize(("right", "wrong", "about"), WRONG.values(), ids=WRONG)
 def test_a_level_that_makes_no_sense_says_where(right: str, wrong: str, about: str, tmp_path: Path) -> None:
     assert right in BY_HAND
@@ -339,7 +363,10 @@ def test_a_level_that_makes_no_sense_says_where(right: str, wrong: str, about: s
     assert "\n" not in str(raised.value)
 
 
-@pytest.mark.parametrize("words", ["match level=none", "match joints=1,2", "match level=/nowhere/at.toml"])
+@pytest.mark.parametrize(
+    "words",
+    ["match level=none", "match joints=1,2", "match level=/nowhere/at.toml", "match level='a", "match a b=1"],
+)
 def test_words_that_make_no_sense_are_refused(words: str) -> None:
     with pytest.raises(BadInput):
         game_of(words)

@@ -18,6 +18,7 @@ from linkanim.mechanics.facts.naming import four_bar_of
 from linkanim.play.kinds.table import KINDS
 from linkanim.play.question import QuizQuestion
 from linkanim.play.round import questions
+from linkanim.play.sheet import pose_words
 from linkanim.scenes import chapters, load, names
 
 FEW, MANY = 3, 200
@@ -247,3 +248,9 @@ def test_what_makes_no_round_is_refused_in_a_line(
     assert main(["quiz", *words]) == 2
     assert said in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(("scene", "way"), [("klann", "clockwise"), ("crank-rocker", "counterclockwise")])
+def test_the_way_of_the_input_is_said_once(scene: str, way: str) -> None:
+    question = next(iter(questions([load(scene)], 1, 7)))
+    assert pose_words(question).endswith(f", 20 rpm {way}")
