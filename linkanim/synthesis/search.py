@@ -31,15 +31,16 @@ class _Stage(NamedTuple):
 _FEW_STAGES = (_Stage(300, FEW, 25), _Stage(80, FEW, 60), _Stage(12, FEW, 200))
 _STAGES = (_Stage(80, 32, 12), _Stage(24, 64, 40), _Stage(8, 200, 150))
 _WIDER_STAGES = (_Stage(2000, 32, 8), _Stage(300, 64, 40), _Stage(40, 64, 200))
+_FOREIGN_STAGES = (_Stage(600, 32, 8), _Stage(80, 64, 40), _Stage(12, 200, 150))
 _REFIT_STEPS = 30
 _GLIMPSED, _GLIMPSED_OPEN = CURVES, CURVES // 5
 """Curves of the atlas among which the first answer is: of each an open curve may be one of several shares."""
 _GOOD = 1e-3
 """Of the curve's size: where an open curve is followed no better by a crank that turns, it may swing."""
 _FOLLOWED, _FOREIGN = 1e-4, 1e-2
-"""Of the curve's size: between them the best answer is likely a false minimum, and more candidates are tried.
+"""Of the curve's size: between them the best answer is likely a false minimum, and many more are tried.
 
-Below, the curve is followed; above, it is none of this kind's, and more candidates do not help.
+Below, the curve is followed; above, it is none of this kind's, and a few more candidates help a little.
 """
 _SAME = 1e-4
 """Of the curve's size: answers whose joints are apart by less are one."""
@@ -108,9 +109,10 @@ def started(task: PathTask, count: int, among: int = CURVES) -> Candidates:
 def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: bool) -> tuple[Fit, ...]:
     fits = _through(task, _stages(task), count, progress)
     off = fits[0].error / task.curve.size if fits else _FOLLOWED
-    if not widely or len(task.curve.points) <= FEW or not _FOLLOWED <= off <= _FOREIGN:
+    if not widely or len(task.curve.points) <= FEW or off < _FOLLOWED:
         return fits
-    return best_of([*fits, *_through(task, _WIDER_STAGES, count, progress)], count)
+    further = _WIDER_STAGES if off <= _FOREIGN else _FOREIGN_STAGES
+    return best_of([*fits, *_through(task, further, count, progress)], count)
 
 
 def _through(
