@@ -14,6 +14,8 @@ Thing = tuple[str, str]
 Tables = Mapping[str, Mapping[str, Any]]
 KINDS = ("pins", "bars", "points", "guides", "sliders", "slots", "yokes", "gears", "springs", "dampers")
 """The kinds of tables that are drawn; besides there are "sides", "bodies" and "drive"."""
+UNTITLED = "New linkage"
+"""What a linkage is called until its file is written, which is called by its class."""
 JOINT, DRIVE = "joints", ("drive", "input")
 """The kind of a joint, fixed or not, and the one thing that drives."""
 _NAMING = {"guide": "guides", "bar": "bars"}
@@ -58,7 +60,7 @@ class Draft:
 
     places: Mapping[str, Point] = field(default_factory=dict)
     tables: Tables = field(default_factory=dict)
-    rest: Mapping[str, Any] = field(default_factory=lambda: {"title": "New linkage", "length_unit": "mm"})
+    rest: Mapping[str, Any] = field(default_factory=lambda: {"title": UNTITLED, "length_unit": "mm"})
     typed: frozenset[tuple[str | int, ...]] = frozenset()
     photo: Photo | None = None
     short: Mapping[str, Any] | None = field(default_factory=dict)

@@ -346,6 +346,7 @@ def test_a_draft_is_written_as_a_scene_file_once_it_moves(builder: Builder, here
     builder.press(pygame.K_s, CTRL)
     (path,) = here.glob("*.toml")
     assert load(path).linkage == builder.state.scene.linkage
+    assert load(path).title == "Grashof crank-rocker"
     assert builder.sheet.is_written
 
 

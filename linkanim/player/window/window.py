@@ -11,6 +11,7 @@ import pygame
 from pygame.event import Event
 
 from linkanim import intake
+from linkanim.build.draft import UNTITLED
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.building.photograph import SUFFIXES, lack
 from linkanim.player.input.keyboard import Keyboard
@@ -39,6 +40,7 @@ from linkanim.player.window.screen import Screen
 from linkanim.player.window.sheet import Hover
 from linkanim.player.window.show import kept, overlay
 from linkanim.scenes import load
+from linkanim.scenes.editing.titles import under_class
 from linkanim.scenes.editing.write import save
 
 if TYPE_CHECKING:
@@ -343,10 +345,12 @@ class Window:
                 self._open = False
 
     def _save(self) -> None:
-        """Write the scene as a new file; a draft on a sheet once it moves."""
+        """Write the scene as a new file, a new linkage under its class; a draft on a sheet once it moves."""
         if self.state.building and (missing := self.state.building.building.made.missing):
             raise BadInput(f"a scene file holds what can move; the draft is kept. {missing}")
-        self._notes.append(f"{save(self.state.scene, Path())} saved")
+        scene = self.state.scene
+        scene = under_class(scene) if scene.title == UNTITLED else scene
+        self._notes.append(f"{save(scene, Path())} saved")
         self.state = written(self.state)
 
     def _offer(self) -> None:

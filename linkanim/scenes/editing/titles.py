@@ -37,10 +37,20 @@ def retitled(before: Scene, after: Scene) -> Scene:
         return after
     class_name = after.info.class_name
     if f" {phrase} " not in f" {' '.join(_words(class_name))} ":
-        own, title = title, class_name[:1].upper() + class_name[1:]
+        own, title = title, _capital(class_name)
         after = replace(after, original_title=(own, phrase))
     document = {**after.document, "title": title} if "title" in after.document else after.document
     return replace(after, title=title, document=document)
+
+
+def under_class(scene: Scene) -> Scene:
+    """Return a scene with its class as its title, in its document too."""
+    title = _capital(scene.info.class_name)
+    return replace(scene, title=title, document={**scene.document, "title": title})
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
 
 
 def _phrase(title: str, class_name: str) -> str:
