@@ -19,7 +19,7 @@ from linkanim.errors import BadInput
 from linkanim.picture.arrangement import fit
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look, ThemeName
-from linkanim.picture.panels.overlay import EditRow, Overlay, Panel, Quantities
+from linkanim.picture.panels.overlay import EditRow, GamePanel, Overlay, Panel, Quantities
 from linkanim.picture.parts.bodies import colours_of
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen, pixel_view
@@ -327,6 +327,18 @@ def test_a_long_help_fits_any_window(size: tuple[int, int]) -> None:
     background = (*theme_of("light").background, 255)
     assert all(tuple(surface.get_at((x, size[1] // 2))) == background for x in (0, size[0] - 1))
     assert all(tuple(surface.get_at((size[0] // 2, y))) == background for y in (0, size[1] - 1))
+
+
+def test_the_help_veils_a_game_s_panel() -> None:
+    scene, size = load("crank-rocker"), (640, 360)
+    panels = []
+    for shown in (None, (("play", (("Esc", "out of it"),)),)):
+        surface = offscreen(size)
+        overlay = Overlay(game=GamePanel("Heading", lines=("A question?",)), help=shown)
+        SurfacePrinter().paint(surface, Picture(scene, size, Look()), scene.pose(1.0), overlay)
+        panels.append(min(sum(surface.get_at((x, y))[:3]) for x in range(8, 120) for y in range(8, 30)))
+    clear, veiled = panels  # the darkest of its words
+    assert veiled > clear + 200
 
 
 LONG = (

@@ -48,14 +48,14 @@ class Panels:
         return Board(self.layout, self.type, self.theme)
 
     def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw all that an overlay holds: the help beside the edit list, a toast on the stage's foot."""
+        """Draw what an overlay holds: the help over a game or beside the edit list, a toast at the foot."""
         self._marks(surface, overlay)
-        if overlay.help:
-            surface.blit(self._keep("veil", None, self._veil), (0, 0))
-        left = 0
         if overlay.game:
             drawn = self._game(overlay.game)
             surface.blit(drawn, self._listed(drawn))
+        if overlay.help:
+            surface.blit(self._keep("veil", None, self._veil), (0, 0))
+        left = 0
         if overlay.panel:
             drawn = self._edit_list(overlay.panel)
             surface.blit(drawn, self._listed(drawn))
