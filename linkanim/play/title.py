@@ -108,7 +108,9 @@ def _through(state: State, door: int) -> State:
     if name == "play":
         return with_effect(state, "begin", "lobby")
     state = leave(state)
-    return open_shelf(state, None) if name == "explore" else build(state, None)
+    if name == "explore":
+        return open_shelf(state, None)
+    return state if state.sheet and state.sheet.open else build(state, None)
 
 
 def read(words: GameWords) -> Title:

@@ -194,3 +194,13 @@ def test_a_mouse_that_moves_before_the_first_picture_does_no_harm() -> None:
         ):
             pygame.event.post(pygame.event.Event(kind, pos=(9, 9), **more))
         assert Player(titled()).state.game
+
+
+def test_the_door_to_building_leads_to_a_sheet_that_was_open_before() -> None:
+    state = carried(replace(begin(load("press")), games=game_of), Action("build_on"))
+    assert state.sheet
+    assert state.sheet.open
+    state = carried(carried(state, Action("play", "title door=build")), Action("next"))
+    assert state.game is None
+    assert state.sheet
+    assert state.sheet.open
