@@ -1,4 +1,4 @@
-"""One of several rows is chosen by keys, a number or a click: the title's doors, games, chapters."""
+"""What games share: their place, and how one of several rows is chosen by keys, a number or a click."""
 
 from __future__ import annotations
 
@@ -29,18 +29,22 @@ def chosen_by(action: Action, row: int, count: int) -> Chosen | None:
     return None
 
 
-class OverWhatRuns:
-    """What the choices of a game and of a round share: they stand beside what is on, which runs on bare."""
+class BesideScene:
+    """What games share: their panel stands beside the scene, and Esc goes out of them."""
 
     @property
     def listed(self) -> bool:
-        """It stands beside the scene."""
+        """Whether the panel takes the room of a list."""
         return True
 
     @property
     def covers(self) -> bool:
-        """Esc goes back."""
+        """Whether Esc goes out of it."""
         return True
+
+
+class OverWhatRuns(BesideScene):
+    """What the choices of a game and of a round share: what is on runs on bare behind them."""
 
     def entered(self, state: State) -> State:
         """Let what is on run behind it."""

@@ -9,6 +9,7 @@ from typing import Literal
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Lane, Overlay, ScoreBar
+from linkanim.play.choosing import BesideScene
 from linkanim.play.track import LENGTH, LEVELS, RamTrack, track_of, tracks
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
@@ -39,7 +40,7 @@ _HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's
 
 
 @dataclass(frozen=True)
-class FollowRun:
+class FollowRun(BesideScene):
     """A run along a scene's track: how much paper has gone by, on how much of it the ram kept to its lines.
 
     `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames; `notch` is how fast the
@@ -64,16 +65,6 @@ class FollowRun:
         """What begins it again just here."""
         fields = {name: value for name, value in vars(self).items() if name != "is_within"}
         return str(GameWords("follow", {name: str(value) for name, value in fields.items()}))
-
-    @property
-    def listed(self) -> bool:
-        """Its panel stands beside the scene."""
-        return True
-
-    @property
-    def covers(self) -> bool:
-        """Esc goes out of it."""
-        return True
 
     @property
     def track(self) -> RamTrack:

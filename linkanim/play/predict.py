@@ -9,6 +9,7 @@ from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Mood, Overlay, Spot
 from linkanim.play.chapters import ALL, members, titled
+from linkanim.play.choosing import BesideScene
 from linkanim.play.kinds.table import LEVELS, of_level
 from linkanim.play.question import QuestionId, QuizQuestion
 from linkanim.play.round import next_question, question_of
@@ -49,7 +50,7 @@ class GivenAnswer(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Predict:
+class Predict(BesideScene):
     """A round: of a chapter's scenes, at a level; questions that were missed before come first, as `again`.
 
     `question` is the one that is asked since frame `since`, None at the end; `chosen` the answer taken, and
@@ -75,16 +76,6 @@ class Predict:
         return str(
             words.having(**{name: ",".join(map(str, found)) for name, found in lists.items() if found})
         )
-
-    @property
-    def listed(self) -> bool:
-        """The question stands beside the scene."""
-        return True
-
-    @property
-    def covers(self) -> bool:
-        """Esc goes back to the choice of rounds."""
-        return True
 
     @property
     def missed(self) -> tuple[QuestionId, ...]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
-from linkanim.play.choosing import chosen_by
+from linkanim.play.choosing import BesideScene, chosen_by
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import FRAMES_PER_SECOND
@@ -41,7 +41,7 @@ _IGNORED = frozenset({"scrub", "point", "move", "carry", "drop", "pull"})
 
 
 @dataclass(frozen=True)
-class Title:
+class Title(BesideScene):
     """The title: the door that any key takes, and the place on the shelf of the mechanism that runs."""
 
     door: int
@@ -51,11 +51,6 @@ class Title:
     def words(self) -> str:
         """What begins it again."""
         return f"title door={DOORS[self.door].name} place={self.place}"
-
-    @property
-    def listed(self) -> bool:
-        """Its doors stand beside the scene."""
-        return True
 
     @property
     def covers(self) -> bool:

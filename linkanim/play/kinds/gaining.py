@@ -110,6 +110,11 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
             f"It goes with {power}: {number(value)} N becomes {number(factor * value)} N.",
             Look(names=1, chart=f"{item.name}.force"),
         )
+    return _of_mass(puzzle)
+
+
+def _of_mass(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return what becomes of the force that accelerates a mass at a joint."""
     names = [name for name in puzzle.joints if puzzle.share("acceleration", name) > PLAIN]
     if not names:
         return None

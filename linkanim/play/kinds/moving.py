@@ -139,17 +139,10 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
     texts = {
         point: f"({number(point.real)}, {number(point.imag)}) {puzzle.scene.length_unit}" for point in points
     }
-    wrong = [
-        Wrong(
-            texts[point],
-            "the middle of the link taken for the pole"
-            if point == half
-            else "the nearer joint taken for the pole"
-            if point == near
-            else "a joint that moves, or of another link, taken for the pole",
-        )
-        for point in points[1:]
-    ]
+    slips = {half: "the middle of the link taken for the pole"}
+    slips |= {near: "the nearer joint taken for the pole"} if near is not None else {}
+    other = "a joint that moves, or of another link, taken for the pole"
+    wrong = [Wrong(texts[point], slips.get(point, other)) for point in points[1:]]
     return puzzle.question(
         "instant centre",
         body.name,

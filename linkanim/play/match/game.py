@@ -14,6 +14,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay, PathShown, ScoreBar
 from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import Box
+from linkanim.play.choosing import BesideScene
 from linkanim.play.match.level import Level, level_names, level_of
 from linkanim.play.match.worth import Linkage4, Worth, trace, worth
 from linkanim.play.words import GameWords
@@ -43,7 +44,7 @@ _NAMES = ("how exactly", "how small", "transmission angle")
 
 
 @dataclass(frozen=True)
-class MatchGame:
+class MatchGame(BesideScene):
     """A level with the joints as they stand: since the last drag, or as the path solver has them (`gave_up`).
 
     `held` is the joint under the hand, `earlier` the linkages before each drag, `found` the worth of this, a
@@ -64,16 +65,6 @@ class MatchGame:
         parts = (part for place in self.joints for part in (place.real, place.imag))
         fields = {"level": self.level, "best": self.best, "joints": ",".join(map(repr, parts))}
         return str(GameWords("match", {}).having(**fields, **({"gave_up": 1} if self.gave_up else {})))
-
-    @property
-    def listed(self) -> bool:
-        """Its scores stand beside the scene."""
-        return True
-
-    @property
-    def covers(self) -> bool:
-        """Esc goes out of it."""
-        return True
 
     @property
     def of_level(self) -> Level:
