@@ -38,8 +38,8 @@ class Graph:
 
     def node(self, op: str, *args: Expr | float | str) -> Expr:
         """Return the node for this operation, the one recorded before where there is one."""
-        if op in COMMUTES:
-            args = tuple(sorted(args, key=_order))
+        if op in COMMUTES and _recorded_before(args[1], args[0]):
+            args = args[1], args[0]
         key = (op, *args)
         found = self._nodes.get(key)
         if found is None:
@@ -63,14 +63,17 @@ class Expr:
     uniform factors together.
     """
 
-    __slots__ = ("args", "graph", "index", "op", "uniform")
+    __slots__ = ("args", "graph", "index", "op", "positive", "uniform")
 
     def __init__(self, graph: Graph, op: str, args: tuple[Expr | float | str, ...], index: int) -> None:
         self.graph = graph
         self.op = op
         self.args = args
         self.index = index
-        self.uniform: bool = all(not isinstance(arg, Expr) or arg.uniform for arg in args)
+        self.uniform: bool = all(arg.uniform for arg in args if isinstance(arg, Expr))
+        negated = args[0] if op == "neg" else None
+        self.positive = negated if isinstance(negated, Expr) else None
+        """What is recorded as -x knows x."""
 
     def __add__(self, other: Value) -> Value:
         return _add(self, other)
@@ -97,31 +100,20 @@ class Expr:
         return _divide(other, self)
 
     def __neg__(self) -> Value:
-        positive = _negated(self)
-        if positive is not None:
-            return positive
+        if self.positive is not None:
+            return self.positive
         factor, rest = _factored(self)
         # A sign is free where it meets a sum; only into a number known late is it drawn.
         late = isinstance(factor, Expr) and not self.uniform
-        return -factor * rest if late and factor is not None else self._new("neg", self)
-
-    def _new(self, op: str, *args: Value) -> Expr:
-        return self.graph.node(op, *args)
+        return -factor * rest if late and factor is not None else self.graph.node("neg", self)
 
 
 Value = Expr | float
 
 
-def _order(argument: Expr | float | str) -> tuple[int, int]:
-    """Put constants first and nodes in the order in which they were recorded."""
-    return (1, argument.index) if isinstance(argument, Expr) else (0, 0)
-
-
-def _negated(value: Value) -> Expr | None:
-    """Return x where the value is recorded as -x."""
-    if isinstance(value, Expr) and value.op == "neg" and isinstance(value.args[0], Expr):
-        return value.args[0]
-    return None
+def _recorded_before(one: Expr | float | str, other: Expr | float | str) -> bool:
+    """Return whether one argument goes before another: constants do, and nodes as they were recorded."""
+    return isinstance(other, Expr) and (not isinstance(one, Expr) or one.index < other.index)
 
 
 def _factored(value: Expr) -> tuple[Value | None, Expr]:
@@ -143,11 +135,11 @@ def _add(a: Expr, b: Value) -> Value:
         b = a.graph.constant(b)
         if b == 0:
             return a
-    for x, y in ((a, b), (b, a)):
-        positive = _negated(y)
-        if positive is not None:
-            return _subtract(x, positive)
-    return a._new("add", a, b)
+    elif b.positive is not None:
+        return _subtract(a, b.positive)
+    if a.positive is not None:
+        return _subtract(b, a.positive)
+    return a.graph.node("add", a, b)
 
 
 def _subtract(a: Value, b: Value) -> Value:
@@ -157,12 +149,10 @@ def _subtract(a: Value, b: Value) -> Value:
         return a
     if not isinstance(a, Expr) and a == 0:
         return -b
-    positive = _negated(b)
-    if positive is not None:
-        return a + positive
-    negative = _negated(a)
-    if negative is not None:
-        return -(negative + b)
+    if isinstance(b, Expr) and b.positive is not None:
+        return a + b.positive
+    if isinstance(a, Expr) and a.positive is not None:
+        return -(a.positive + b)
     return graph.node("sub", a, b)
 
 
@@ -177,34 +167,33 @@ def _recorded(graph: Graph, value: Value) -> Value:
 def _multiply(a: Expr, b: Value) -> Value:
     if isinstance(b, (int, float)):
         return _scale(a, a.graph.constant(b))
-    for x, y in ((a, b), (b, a)):
-        if x.uniform and not y.uniform:
-            factor, rest = _factored(y)
-            return a._new("mul", x, y) if factor is None else (x * factor) * rest
-    for x, y in ((a, b), (b, a)):
-        positive = _negated(x)
-        if positive is not None:
-            return -(positive * y)
-    return a._new("mul", a, b)
+    if a.uniform != b.uniform:
+        x, y = (a, b) if a.uniform else (b, a)
+        factor, rest = _factored(y)
+        return a.graph.node("mul", x, y) if factor is None else (x * factor) * rest
+    if a.positive is not None:
+        return -(a.positive * b)
+    if b.positive is not None:
+        return -(b.positive * a)
+    return a.graph.node("mul", a, b)
 
 
 def _scale(a: Expr, factor: float) -> Value:
     """Return a × constant, drawing a constant already inside into one."""
-    positive = _negated(a)
     if factor == 0:
         return 0.0
     if factor == 1:
         return a
     if factor == -1:
         return -a
-    if positive is not None:
-        return _scale(positive, -factor)
+    if a.positive is not None:
+        return _scale(a.positive, -factor)
     inner, rest = _factored(a)
     if inner is not None and not a.uniform:
         return (inner * factor) * rest
     if a.op == "mul" and isinstance(a.args[0], float) and isinstance(a.args[1], Expr):
         return _scale(a.args[1], factor * a.args[0])
-    return a._new("mul", factor, a)
+    return a.graph.node("mul", factor, a)
 
 
 def _divide(a: Value, b: Value) -> Value:
@@ -214,8 +203,7 @@ def _divide(a: Value, b: Value) -> Value:
         return a * (1.0 / b) if math.frexp(b)[0] in (0.5, -0.5) else graph.node("div", a, b)
     if not isinstance(a, Expr) and a == 0:
         return 0.0
-    positive = _negated(b)
-    return -(a / positive) if positive is not None else graph.node("div", a, b)
+    return graph.node("div", a, b) if b.positive is None else -(a / b.positive)
 
 
 def beside(number: float, value: Value) -> float:

@@ -35,15 +35,24 @@ BLOCK = 16384
 CACHE_LINE = 64
 """Bytes."""
 
-INFIX = {"add": "{} + {}", "sub": "{} - {}", "mul": "{} * {}", "div": "{} / {}", "neg": "-{}"}
-FLOAT_CALLS = {
+FORMULAS = {
+    "add": "{} + {}",
+    "sub": "{} - {}",
+    "mul": "{} * {}",
+    "div": "{} / {}",
+    "neg": "-{}",
     "sqrt": "sqrt({})",
+    "sin": "sin({})",
+    "cos": "cos({})",
     "rint": f"(({{0}} + {WHOLE!r}) - {WHOLE!r} or {{0}} * 0.0)",
     "arctan2": "atan2({}, {})",
     "minimum": "min({}, {})",
     "maximum": "max({}, {})",
     "select": "({2} if {0} < {1} else {3})",
 }
+"""In floats and Decimals; only graphs that are `exact` have sines and cosines."""
+_IN_PLACE = frozenset({"add", "sub", "mul", "div", "neg", "sqrt"})
+"""In what a formula may stand as an argument: others are longer, or use theirs twice."""
 UFUNCS: Mapping[str, Callable[..., Any]] = {
     "add": np.add,
     "sub": np.subtract,
@@ -74,14 +83,28 @@ def needed(outputs: Sequence[Value]) -> list[Expr]:
     return [found[index] for index in sorted(found)]
 
 
-def _formula(node: Expr) -> str:
-    template = INFIX.get(node.op) or FLOAT_CALLS[node.op]
-    return template.format(*(_name(argument) for argument in node.args))
+class _Constants:
+    """Numbers by the names that stand for them in a program, whose text is the same with other numbers."""
+
+    def __init__(self) -> None:
+        self._names: dict[tuple[str, float], str] = {}
+        self.numbers: dict[str, float] = {}
+
+    def name(self, value: Value | str) -> str:
+        """Return the name of a node or number; 0.0 and -0.0, which are equal, have two."""
+        if isinstance(value, Expr):
+            return _name(value)
+        number = value if isinstance(value, float) else float(value)
+        name = self._names.setdefault((number.hex(), number), f"k{len(self._names)}")
+        self.numbers[name] = number
+        return name
+
+    def assignment(self, node: Expr) -> str:
+        """Return the line that works a node out."""
+        return f"    {_name(node)} = {FORMULAS[node.op].format(*map(self.name, node.args))}"
 
 
-def _name(value: Value | str) -> str:
-    if not isinstance(value, Expr):
-        return f"({value!r})" if math.isfinite(float(value)) else f"float('{value}')"
+def _name(value: Expr) -> str:
     return str(value.args[0]) if value.op == "input" else f"v{value.index}"
 
 
@@ -110,55 +133,59 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     `layout` is a Python expression with one `{}` for each output, which may use the inputs. Raises what
     `math` raises (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
     """
-    lines, texts = _inlined(needed(outputs), outputs)
-    result = layout.format(*(texts.get(_name(value), _name(value)) for value in outputs))
+    constants = _Constants()
+    lines, texts = _inlined(needed(outputs), outputs, constants)
+    result = layout.format(
+        *(texts[value.index] if isinstance(value, Expr) else constants.name(value) for value in outputs)
+    )
     source = "\n".join([f"def pose({', '.join(inputs)}):", *lines, f"    return {result}"])
-    return _define(source, "pose", FLOAT_NAMES)
+    return _define(source, "pose", FLOAT_NAMES | constants.numbers)
 
 
-def _inlined(nodes: Sequence[Expr], outputs: Sequence[Value]) -> tuple[list[str], dict[str, str]]:
-    """Return assignments to variables, and by their names, in brackets, those that need none: used once."""
+def _inlined(
+    nodes: Sequence[Expr], outputs: Sequence[Value], constants: _Constants
+) -> tuple[list[str], dict[int, str]]:
+    """Return assignments to variables, and what stands for each node: a name, or in brackets its formula.
+
+    A formula stands where it is used, if that is at one place only.
+    """
     uses = Counter(value.index for value in outputs if isinstance(value, Expr))
     for node in nodes:
-        times = 1 if node.op in INFIX or node.op == "sqrt" else 2
-        uses.update(argument.index for argument in node.args * times if isinstance(argument, Expr))
-    lines, texts, depths = [], dict[str, str](), dict[str, int]()
-    for node in (node for node in nodes if node.op != "input"):
-        names = [_name(argument) for argument in node.args]
-        template = INFIX.get(node.op) or FLOAT_CALLS[node.op]
-        text = template.format(*(texts.get(name, name) for name in names))
-        depth = 1 + max((depths.get(name, 0) for name in names), default=0)
-        if uses[node.index] == 1 and depth < DEEPEST:
-            texts[_name(node)], depths[_name(node)] = f"({text})", depth
+        times = 1 if node.op in _IN_PLACE else 2
+        uses.update([argument.index for argument in node.args * times if isinstance(argument, Expr)])
+    lines, texts, depths = [], dict[int, str](), dict[int, int]()
+    for node in nodes:
+        index = node.index
+        if node.op == "input":
+            texts[index], depths[index] = str(node.args[0]), 0
+            continue
+        depth, parts = 0, []
+        for argument in node.args:
+            if isinstance(argument, Expr):
+                parts.append(texts[argument.index])
+                depth = max(depth, depths[argument.index])
+            else:
+                parts.append(constants.name(argument))
+        text = FORMULAS[node.op].format(*parts)
+        if uses[index] == 1 and depth + 1 < DEEPEST:
+            texts[index], depths[index] = f"({text})", depth + 1
         else:
-            lines.append(f"    {_name(node)} = {text}")
+            texts[index], depths[index] = f"v{index}", 0
+            lines.append(f"    v{index} = {text}")
     return lines, texts
 
 
 DECIMAL_NAMES = {"sqrt": square_root, "sin": sine, "cos": cosine}
-DECIMAL_CALLS = {**FLOAT_CALLS, "sin": "sin({})", "cos": "cos({})"}
-"""Only graphs that are `exact` have sines and cosines."""
 
 
 def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., tuple[Decimal, ...]]:
     """Return a function of Decimals that gives the outputs; call it in a `precise.context`."""
-    constants: dict[str, Decimal] = {}
-
-    def name(value: Value | str) -> str:
-        if isinstance(value, (Expr, str)):
-            return _name(value)
-        key = f"k{len(constants)}"
-        constants[key] = digits_of(value)
-        return key
-
-    lines = [
-        f"    {_name(node)} = {(INFIX.get(node.op) or DECIMAL_CALLS[node.op]).format(*map(name, node.args))}"
-        for node in needed(outputs)
-        if node.op != "input"
-    ]
-    result = "".join(f"{name(value)}, " for value in outputs)
+    constants = _Constants()
+    lines = [constants.assignment(node) for node in needed(outputs) if node.op != "input"]
+    result = "".join(f"{constants.name(value)}, " for value in outputs)
     source = "\n".join([f"def exact({', '.join(inputs)}):", *lines, f"    return ({result})"])
-    return _define(source, "exact", {**DECIMAL_NAMES, **constants})
+    digits = {name: digits_of(number) for name, number in constants.numbers.items()}
+    return _define(source, "exact", {**DECIMAL_NAMES, **digits})
 
 
 @dataclass(frozen=True)
@@ -238,7 +265,7 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
         tuple(outputs),
         block.function(arrays, numbers),
         _prelude(uniform, fixed, numbers),
-        tuple(np.array(float.fromhex(digits)) for digits in block.constants),
+        tuple(map(np.array, block.constants.numbers.values())),
         block.places.buffers,
     )
 
@@ -247,10 +274,11 @@ def _prelude(
     names: Sequence[str], fixed: Sequence[Expr], numbers: Sequence[str]
 ) -> Callable[..., tuple[float, ...]]:
     """Return the function that computes from the uniform inputs what is the same along the array."""
-    lines = [f"    {_name(node)} = {_formula(node)}" for node in fixed]
+    constants = _Constants()
+    lines = [constants.assignment(node) for node in fixed]
     result = "".join(f"{name}, " for name in numbers)
     source = "\n".join([f"def prelude({', '.join(names)}):", *lines, f"    return ({result})"])
-    return _define(source, "prelude", FLOAT_NAMES)
+    return _define(source, "prelude", FLOAT_NAMES | constants.numbers)
 
 
 class _Block:
@@ -260,14 +288,14 @@ class _Block:
         self.nodes = [node for node in nodes if node.op != "input"]
         self.rows = [f"o{row}" for row in range(len(outputs))]
         self.places = allocated(self.nodes, outputs)
-        self.constants: dict[str, str] = {}
+        self.constants = _Constants()
 
     def function(self, arrays: Sequence[str], uniform: Sequence[str]) -> Callable[..., Any]:
         """Return the function that runs one block: (arrays, numbers, result rows, buffers)."""
         calls = list(self._calls())
         unpack = [
             _unpacking(arrays, "arrays"),
-            _unpacking([*uniform, *self.constants.values()], "numbers"),
+            _unpacking([*uniform, *self.constants.numbers], "numbers"),
             _unpacking(self.rows, "rows"),
             _unpacking([f"b{index}" for index in range(self.places.buffers)], "buffers"),
         ]
@@ -291,11 +319,9 @@ class _Block:
 
     def _variable(self, value: Value | str) -> str:
         """Return the variable that holds the value inside the function."""
-        if isinstance(value, Expr):
-            return self.places.held.get(value.index) or _name(value)
-        # An array of no dimension: numpy would make one of a plain number at every call.
-        # Known by its digits: as keys, 0.0 and -0.0 would be one.
-        return self.constants.setdefault(float(value).hex(), f"k{len(self.constants)}")
+        held = self.places.held.get(value.index) if isinstance(value, Expr) else None
+        # a constant is an array of no dimension: numpy would make one of a plain number at every call
+        return held or self.constants.name(value)
 
 
 def _unpacking(names: Sequence[str], source: str) -> str:
