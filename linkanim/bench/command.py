@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from argparse import Namespace
 from collections.abc import Callable
 from importlib.util import find_spec
-from pathlib import Path
 
 from linkanim.atomic_files import made_folder
 from linkanim.errors import BadInput
@@ -17,24 +15,6 @@ CHART = "speed-vs-error.png"
 NEEDED = ("mpmath", "pylinkage", "numba", "scipy", "matplotlib")
 """The packages that only the comparison needs."""
 Progress = Callable[[int, int], None]
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options of `bench`; imports nothing that measures."""
-    form = parser.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="one object")
-    form.add_argument("--markdown", action="store_true", help="the table of speed and error as in the README")
-    parser.add_argument("--path", action="store_true", help="measure what `linkanim path` finds instead")
-    parser.add_argument(
-        "--seconds", type=float, default=600.0, metavar="S", help="of its global search (default: 600)"
-    )
-    parser.add_argument(
-        "--into",
-        type=Path,
-        default=Path("recordings"),
-        metavar="FOLDER",
-        help=f"where {CHART} goes (default: recordings)",
-    )
 
 
 def run(options: Namespace, progress: Progress | None = None) -> None:

@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import cast
 
 from linkanim import __version__
-from linkanim.bench.command import add_arguments
-from linkanim.cli import options
+from linkanim.cli.options import ARGUMENTS
 from linkanim.cli.parser import Parser, join_negative
 from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
@@ -24,10 +23,9 @@ _WITHOUT_PYGAME = ("solve", "info", "scenes", "check", "path")
 
 @dataclass(frozen=True)
 class Command:
-    """A command: what it does in a line, its options, and examples of its use."""
+    """A command: what it does in a line, and examples of its use."""
 
     summary: str
-    options: Callable[[Parser], None]
     examples: tuple[str, ...]
 
 
@@ -69,7 +67,9 @@ def build() -> Parser:
     for name, command in COMMANDS.items():
         about = command.summary
         text = f"{about[0].upper()}{about[1:]}."
-        command.options(add.add_parser(name, help=about, description=text, examples=command.examples))
+        made = add.add_parser(name, help=about, description=text, examples=command.examples)
+        for argument in ARGUMENTS[name]:
+            argument(made)
     return parser
 
 
@@ -128,17 +128,14 @@ def _way_out() -> str:
 COMMANDS = {
     "play": Command(
         "open the window (the default command)",
-        options.play,
         ("linkanim play press", "linkanim play my-linkage.toml --theme dark"),
     ),
     "new": Command(
         "open the window with an empty sheet, to build a linkage on",
-        options.new,
         ("linkanim new", "linkanim new --photo digger.jpg"),
     ),
     "record": Command(
         "write a scene's true period as GIF, MP4 or numbered PNG",
-        options.record,
         (
             "linkanim record press",
             'linkanim record crank-rocker -o rocker.mp4 --speed "30 rpm" --chart rocker.angle',
@@ -147,7 +144,6 @@ COMMANDS = {
     ),
     "solve": Command(
         "print positions, velocities and accelerations at an angle, or over a sweep",
-        options.solve,
         (
             'linkanim solve press --angle "87 deg" --speed "10 rad/s" --json',
             "linkanim solve slider-crank --sweep 0:360:1 --csv slider.csv",
@@ -156,7 +152,6 @@ COMMANDS = {
     ),
     "chart": Command(
         "draw quantities over one true period as PNG, SVG or PDF, or write them as CSV",
-        options.chart,
         (
             "linkanim chart press --quantity 5.travel_velocity -o ram.svg",
             'linkanim chart press --quantity 3.angular_velocity --speeds "5 rad/s,10 rad/s,20 rad/s"',
@@ -165,7 +160,6 @@ COMMANDS = {
     ),
     "report": Command(
         "write a hand-out of a few A4 pages: figure, loops, tables, charts; their SVG and CSV",
-        options.report,
         (
             "linkanim report press -o press-report --all",
             'linkanim report press -o press-report --angles "87 deg,306 deg" --speeds "5 rad/s,10 rad/s"',
@@ -173,22 +167,18 @@ COMMANDS = {
     ),
     "info": Command(
         "print class, input range, toggles, change points, transmission angle, stroke",
-        options.info,
         ("linkanim info crank-rocker", "linkanim info my-linkage.toml --json"),
     ),
     "check": Command(
         "name every problem of scene files at once, with their lines",
-        options.check,
         ("linkanim check my-linkage.toml", "linkanim check *.toml --json", "linkanim check --schema"),
     ),
     "scenes": Command(
         "list the built-in scenes by chapter, name first",
-        options.scenes,
         ("linkanim scenes", "linkanim scenes slider", 'linkanim scenes "six-bars and more"'),
     ),
     "draw": Command(
         "draw one pose as a figure, SVG, PNG or PDF",
-        options.draw,
         (
             "linkanim draw crank-rocker --names --names",
             'linkanim draw press -o press.png --angle "87 deg" --vectors v --instant-centres',
@@ -197,7 +187,6 @@ COMMANDS = {
     ),
     "explain": Command(
         "work one pose out line by line: vector loops, closed forms, linear equations, with numbers",
-        options.explain,
         (
             'linkanim explain press --angle "87 deg"',
             'linkanim explain crank-rocker --angle "60 deg" --speed "10 rad/s" -o solution.html',
@@ -206,7 +195,6 @@ COMMANDS = {
     ),
     "quiz": Command(
         "ask about a scene or a chapter: which way, how fast, where; made from what is solved",
-        options.quiz,
         (
             "linkanim quiz crank-rocker",
             "linkanim quiz press -n 10 --seed 7 -o sheet.html",
@@ -215,7 +203,6 @@ COMMANDS = {
     ),
     "share": Command(
         "write one page that moves in any browser, without a network",
-        options.share,
         (
             "linkanim share press",
             'linkanim share crank-rocker -o rocker.html --chart rocker.angle --names --speed "30 rpm"',
@@ -224,7 +211,6 @@ COMMANDS = {
     ),
     "path": Command(
         "find linkages whose coupler point follows a drawn curve, and write them as scenes",
-        options.path,
         (
             "linkanim path curve.csv -o follower.toml",
             'linkanim path stroke.svg --open --kind slider-crank --least-angle "30 deg" --json',
@@ -233,12 +219,10 @@ COMMANDS = {
     ),
     "gallery": Command(
         "record every built-in scene as a small GIF, and draw the chart of bench",
-        options.gallery,
         ("linkanim gallery", "linkanim gallery --into slides/linkages"),
     ),
     "bench": Command(
         "measure speed against error, beside the usual ways to solve a linkage",
-        add_arguments,
         ("linkanim bench", "linkanim bench --json"),
     ),
 }

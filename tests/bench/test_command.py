@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 
 import pytest
@@ -14,13 +14,12 @@ from linkanim.bench import command
 from linkanim.bench import result as results
 from linkanim.bench.result import this_machine
 from linkanim.cli import main
+from linkanim.cli.command_table import parse
 from linkanim.errors import BadInput
 
 
 def options(*words: str) -> Namespace:
-    parser = ArgumentParser()
-    command.add_arguments(parser)
-    return parser.parse_args(words)
+    return parse(["bench", *words])
 
 
 @pytest.fixture
