@@ -24,12 +24,15 @@ class Bind(NamedTuple):
 
 
 class KeyRow(NamedTuple):
-    """One line of the help: its subject, the keys as they are written, what they do, what they ask for."""
+    """One line of the help: the keys as they are written, what they do, and what they ask for."""
 
-    subject: str
     keys: str
     words: str
     binds: tuple[Bind, ...] = ()
+
+
+Table = Mapping[str, tuple[KeyRow, ...]]
+"""Lines of the help by their subject."""
 
 
 def _on(keys: str, name: str, value: Value = None, *, held: bool = False) -> tuple[Bind, ...]:
@@ -46,15 +49,12 @@ def _of_look(name: str) -> tuple[Bind, ...]:
 
 def _looks(subject: str) -> tuple[KeyRow, ...]:
     """Return the lines of the look's fields under a subject."""
-    return tuple(
-        KeyRow(subject, ", ".join(toggle.keys).upper(), toggle.title, _of_look(name))
-        for name, toggle in TOGGLES.items()
-        if toggle.subject == subject
-    )
+    found = ((name, toggle) for name, toggle in TOGGLES.items() if toggle.subject == subject)
+    return tuple(KeyRow(", ".join(one.keys).upper(), one.title, _of_look(name)) for name, one in found)
 
 
-def _both(less: str, more: str, name: str, by: int = 1) -> tuple[Bind, ...]:
-    return _on(less, name, -by, held=True) + _on(more, name, by, held=True)
+def _both(less: str, more: str, name: str, by: int = 1, *, held: bool = True) -> tuple[Bind, ...]:
+    return _on(less, name, -by, held=held) + _on(more, name, by, held=held)
 
 
 def _steps(name: str) -> tuple[Bind, ...]:
@@ -62,225 +62,187 @@ def _steps(name: str) -> tuple[Bind, ...]:
     return _both("left", "right", name) + _both("shift+left", "shift+right", name, 10)
 
 
-_IN, _OUT = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
-_DIGITS = tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", "select", n))
+def _tabs(name: str) -> tuple[Bind, ...]:
+    return _both("shift+tab", "tab", name, held=False)
 
-KEYS: tuple[KeyRow, ...] = (
-    KeyRow("play", "Space", "play / pause", _on("space", "pause")),
-    KeyRow("play", "← → (Shift: ×10)", "pause, and step the crank", _steps("step")),
-    KeyRow("play", "↑ ↓", "speed", _both("down", "up", "speed")),
-    KeyRow("play", "D", "direction", _on("d", "direction")),
-    KeyRow("play", "R (twice: reset)", "back to the start", _on("r", "start")),
-    KeyRow(
-        "play",
-        "Tab, Shift+Tab, 1–9",
-        "next mechanism; 1–9 within the chapter",
-        _on("tab", "mechanism", 1) + _on("shift+tab", "mechanism", -1) + _DIGITS,
-    ),
-    KeyRow("play", "O", "the shelf: all mechanisms", _on("o", "shelf")),
-    KeyRow("play", "F3", "the title, and what there is to play", _on("f3", "play", "title door=play")),
-    KeyRow("play", "drag the crank pin", "move the crank; so does the chart's cursor"),
-    *_looks("look"),
-    KeyRow(
-        "look",
-        "+, −, wheel, drag",
-        "zoom, pan",
-        _on("+ = kp_plus", "zoom", _IN, held=True) + _on("- kp_minus", "zoom", _OUT, held=True),
-    ),
-    KeyRow("look", "0, Home", "fit", _on("0 kp0 home", "fit")),
-    KeyRow("look", "L", "light / dark", _of_look("theme")),
-    KeyRow("look", "U", "sounds: dead centres and limits", _on("u", "sounds")),
-    KeyRow("look", "F11", "full screen", _on("f11", "fullscreen")),
-    KeyRow("look", "H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
-    KeyRow(
-        "look",
-        "Esc, Q",
-        "close, leave full screen, stop recording (Esc); quit",
-        _on("escape", "back") + _on("q", "quit"),
-    ),
-    *_looks("measure"),
-    KeyRow(
-        "measure",
-        "C (Shift: back)",
-        "chart: next quantity, off",
-        _on("c", "chart", 1) + _on("shift+c", "chart", -1),
-    ),
-    KeyRow("measure", "X", "the chart's axis: angle, time, phase", _of_look("over")),
-    KeyRow("measure", "K", "the list of quantities", _on("k", "list")),
-    KeyRow("measure", "Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
-    KeyRow("edit", "E", "edit dimensions (H there: how)", _on("e", "edit")),
-    KeyRow(
-        "edit",
-        "F2, W (Shift: this one)",
-        "build it, or draw its path",
-        _on("f2", "build") + _on("shift+f2", "build_on") + _on("w", "pencil") + _on("shift+w", "own_trace"),
-    ),
-    KeyRow(
-        "edit", "B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")
-    ),
-    KeyRow(
-        "edit",
-        "Ctrl+Z, Ctrl+Y",
-        "undo, redo",
-        _on("ctrl+z", "undo", held=True) + _on("ctrl+y ctrl+shift+z", "redo", held=True),
-    ),
-    KeyRow("keep", "S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
-    KeyRow(
-        "keep",
-        "G, M",
-        "record GIF, MP4: start, stop",
-        _on("g", "record", "gif") + _on("m", "record", "mp4"),
-    ),
-    KeyRow("keep", "Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
-    KeyRow(
-        "keep",
-        "Ctrl+S, O",
-        "write the scene as a new file; open one",
-        _on("ctrl+s", "save") + _on("ctrl+o", "files_here"),
-    ),
-    KeyRow("keep", "F5", "reloads a scene opened from a file", _on("f5", "reload")),
-)
-"""Every key of the window, by subject, in the order in which the help shows them."""
 
-EDIT_KEYS: tuple[KeyRow, ...] = (
-    KeyRow("in E", "↑ ↓", "choose a dimension", _both("up", "down", "choose")),
-    KeyRow("in E", "← → (Shift: ×10)", "nudge it", _steps("nudge")),
-    KeyRow(
-        "in E",
-        "Tab, Shift+Tab",
-        "the next row; what is typed here waits",
-        _on("tab", "pass_on", 1) + _on("shift+tab", "pass_on", -1),
-    ),
-    KeyRow(
-        "in E",
-        "digits, Enter",
-        "type a value, with or without a unit; take all values typed",
-        _on("return kp_enter", "take") + _on("backspace", "erase", held=True),
-    ),
-    KeyRow("in E", "Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),
-    KeyRow("in E", "Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
-    KeyRow("in E", "click, wheel, drag (Shift: ×10)", "choose a row, nudge its value"),
-    KeyRow("in E", "drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
-)
-"""What the keys do while the dimensions are being edited."""
+def _digits(name: str) -> tuple[Bind, ...]:
+    """Return the keys 1 to 9, which stand for places from 0."""
+    return tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", name, n))
 
-LIST_KEYS: tuple[KeyRow, ...] = (
-    KeyRow(
-        "in K",
-        "↑ ↓",
-        "choose a quantity",
-        _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
-    ),
-    KeyRow("in K", "type", "filter by what is in the name", _on("backspace", "unsift", held=True)),
-    KeyRow("in K", "Enter, click", "chart it", _on("return kp_enter", "pick")),
-)
-"""What the keys do while the list of quantities is open."""
 
-SHELF_KEYS: tuple[KeyRow, ...] = (
-    KeyRow(
-        "in O",
-        "arrows, mouse",
-        "choose a mechanism",
-        _both("left", "right", "move") + _both("up", "down", "row"),
-    ),
-    KeyRow("in O", "type", "filter by title or chapter", _on("backspace", "unsift", held=True)),
-    KeyRow("in O", "PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
-    KeyRow("in O", "Enter, click", "put it on", _on("return kp_enter", "pick")),
-)
-"""What the keys do while the shelf is open."""
+def _enter(name: str, erase: str = "") -> tuple[Bind, ...]:
+    """Return Enter, and with it the key that takes the last letter off what was typed."""
+    return _on("return kp_enter", name) + (_on("backspace", erase, held=True) if erase else ())
 
-PAUSED_KEYS: tuple[KeyRow, ...] = (
-    KeyRow(
-        "paused",
-        "digits, Enter",
-        "go to that input angle",
-        _on("return kp_enter", "go") + _on("backspace", "erase_place", held=True),
-    ),
-)
-"""What the keys do beside all others while the picture stands still."""
 
-PENCIL_KEYS: tuple[KeyRow, ...] = (
-    KeyRow("in W", "mouse", "draw a path in one stroke; drag its points and the fixed pins"),
-    KeyRow(
-        "in W",
-        "1–9, click",
-        "take another answer",
-        tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", "answer", n)),
-    ),
-    KeyRow("in W", "Ctrl+Z", "take the last stroke or drag back", _on("ctrl+z", "take_back", held=True)),
-    KeyRow("in W", "Enter", "keep the linkage as the scene; Esc goes back", _on("return kp_enter", "keep")),
-)
-"""What the keys do while a path is drawn."""
+def _undo(undo: str, redo: str) -> tuple[Bind, ...]:
+    return _on("ctrl+z", undo, held=True) + _on("ctrl+y ctrl+shift+z", redo, held=True)
 
-_UP, _DOWN, _LEFT, _RIGHT = (0.0, 1.0), (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0)
+
+def _zoom(keys: str, notches: float) -> tuple[Bind, ...]:
+    return _on(keys, "zoom", (notches, 0.0, 0.0), held=True)
 
 
 def _aims() -> tuple[Bind, ...]:
     """Return the arrows, which move the cursor by a line of the grid, and with Shift by a fine step."""
-    ways = (("up", _UP), ("down", _DOWN), ("left", _LEFT), ("right", _RIGHT))
-    lines = (bind for key, way in ways for bind in _on(key, "aim", way, held=True))
-    steps = (bind for key, (x, y) in ways for bind in _on(f"shift+{key}", "aim", (x, y, 0.0), held=True))
-    return (*lines, *steps)
+    ways = {"up": (0.0, 1.0), "down": (0.0, -1.0), "left": (-1.0, 0.0), "right": (1.0, 0.0)}
+    lines = (bind for key, way in ways.items() for bind in _on(key, "aim", way, held=True))
+    fine = (bind for key, way in ways.items() for bind in _on(f"shift+{key}", "aim", (*way, 0.0), held=True))
+    return (*lines, *fine)
 
 
-BUILD_KEYS: tuple[KeyRow, ...] = (
-    KeyRow("in F2", "click, drag", "a ground pin; from a pin or joint a bar; twice on a bar: a point of it"),
-    KeyRow("in F2", "let go on a joint, line, bar", "joined there, a slider, a slot"),
-    KeyRow("in F2", "drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
-    *(
-        KeyRow("in F2", tool.key, tool.name, _on(tool.key.lower(), tool.action, tool.value))
-        for tool in TOOLS
-        if len(tool.key) == 1
-    ),
-    KeyRow(
-        "in F2",
-        "digits, Enter",
-        "type what is chosen; Ctrl+↑ ↓ its other numbers",
-        _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
-    ),
-    KeyRow(
-        "in F2",
-        "arrows (Shift: fine), Enter",
-        "a cursor; press and lift there",
-        _aims() + _on("return kp_enter", "enter"),
-    ),
-    KeyRow("in F2", "I", "a point of the body at the cursor", _on("i insert", "enter", 2)),
-    KeyRow("in F2", "Tab, Shift+Tab", "choose", _on("tab", "further", 1) + _on("shift+tab", "further", -1)),
-    KeyRow("in F2", "Del", "remove it, and what hangs on it", _on("delete", "remove")),
-    KeyRow(
-        "in F2",
-        "Ctrl+Z, Ctrl+Y",
-        "undo, redo",
-        _on("ctrl+z", "unbuild", held=True) + _on("ctrl+y ctrl+shift+z", "rebuild", held=True),
-    ),
-    KeyRow("in F2", "Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
-    KeyRow("in F2", "Esc, F2", "let go; leave, the linkage being the scene; F2 goes on"),
-)
-"""What the keys do on a sheet."""
+_RECORD = _on("g", "record", "gif") + _on("m", "record", "mp4")
+_BUILD = _on("f2", "build") + _on("shift+f2", "build_on")
+_PATH = _on("w", "pencil") + _on("shift+w", "own_trace")
 
-GAME_KEYS: tuple[KeyRow, ...] = (
-    KeyRow(
-        "in a game",
-        "1–9, click",
-        "choose an answer or a door",
-        tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", "option", n)),
+KEYS: Table = {
+    "play": (
+        KeyRow("Space", "play / pause", _on("space", "pause")),
+        KeyRow("← → (Shift: ×10)", "pause, and step the crank", _steps("step")),
+        KeyRow("↑ ↓", "speed", _both("down", "up", "speed")),
+        KeyRow("D", "direction", _on("d", "direction")),
+        KeyRow("R (twice: reset)", "back to the start", _on("r", "start")),
+        KeyRow(
+            "Tab, Shift+Tab, 1–9",
+            "next mechanism; 1–9 within the chapter",
+            _tabs("mechanism") + _digits("select"),
+        ),
+        KeyRow("O", "the shelf: all mechanisms", _on("o", "shelf")),
+        KeyRow("F3", "the title, and what there is to play", _on("f3", "play", "title door=play")),
+        KeyRow("drag the crank pin", "move the crank; so does the chart's cursor"),
     ),
-    KeyRow("in a game", "Enter, Space", "go on", _on("return kp_enter space", "next")),
-    KeyRow("in a game", "← → (Shift: ×10)", "turn the crank", _steps("turn")),
-    KeyRow("in a game", "↑ ↓", "choose", _both("down", "up", "raise")),
-    KeyRow("in a game", "Esc", "out of it", ()),
-)
-"""What the keys do in a game and on the title."""
-
-_OPEN: Mapping[Mode, tuple[KeyRow, ...]] = {
-    "edit": EDIT_KEYS,
-    "list": LIST_KEYS,
-    "shelf": SHELF_KEYS,
-    "paused": PAUSED_KEYS,
-    "pencil": PENCIL_KEYS,
-    "game": GAME_KEYS,
-    "build": BUILD_KEYS,
+    "look": (
+        *_looks("look"),
+        KeyRow("+, −, wheel, drag", "zoom, pan", _zoom("+ = kp_plus", 1.0) + _zoom("- kp_minus", -1.0)),
+        KeyRow("0, Home", "fit", _on("0 kp0 home", "fit")),
+        KeyRow("L", "light / dark", _of_look("theme")),
+        KeyRow("U", "sounds: dead centres and limits", _on("u", "sounds")),
+        KeyRow("F11", "full screen", _on("f11", "fullscreen")),
+        KeyRow("H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
+        KeyRow(
+            "Esc, Q",
+            "close, leave full screen, stop recording (Esc); quit",
+            _on("escape", "back") + _on("q", "quit"),
+        ),
+    ),
+    "measure": (
+        *_looks("measure"),
+        KeyRow("C (Shift: back)", "chart: next quantity, off", _both("shift+c", "c", "chart", held=False)),
+        KeyRow("X", "the chart's axis: angle, time, phase", _of_look("over")),
+        KeyRow("K", "the list of quantities", _on("k", "list")),
+        KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
+    ),
+    "edit": (
+        KeyRow("E", "edit dimensions (H there: how)", _on("e", "edit")),
+        KeyRow("F2, W (Shift: this one)", "build it, or draw its path", _BUILD + _PATH),
+        KeyRow("B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")),
+        KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("undo", "redo")),
+    ),
+    "keep": (
+        KeyRow("S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
+        KeyRow("G, M", "record GIF, MP4: start, stop", _RECORD),
+        KeyRow("Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
+        KeyRow(
+            "Ctrl+S, O",
+            "write the scene as a new file; open one",
+            _on("ctrl+s", "save") + _on("ctrl+o", "files_here"),
+        ),
+        KeyRow("F5", "reloads a scene opened from a file", _on("f5", "reload")),
+    ),
 }
+"""Every key of the window, by subject, in the order in which the help shows them."""
+
+_TOOLS = (
+    KeyRow(tool.key, tool.name, _on(tool.key.lower(), tool.action, tool.value))
+    for tool in TOOLS
+    if len(tool.key) == 1
+)
+MODES: Mapping[Mode, Table] = {
+    "edit": {
+        "in E": (
+            KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
+            KeyRow("← → (Shift: ×10)", "nudge it", _steps("nudge")),
+            KeyRow("Tab, Shift+Tab", "the next row; what is typed here waits", _tabs("pass_on")),
+            KeyRow(
+                "digits, Enter",
+                "type a value, with or without a unit; take all values typed",
+                _enter("take", "erase"),
+            ),
+            KeyRow("Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),
+            KeyRow("Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
+            KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value"),
+            KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
+        )
+    },
+    "list": {
+        "in K": (
+            KeyRow(
+                "↑ ↓",
+                "choose a quantity",
+                _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
+            ),
+            KeyRow("type", "filter by what is in the name"),
+            KeyRow("Enter, click", "chart it", _enter("pick", "unsift")),
+        )
+    },
+    "shelf": {
+        "in O": (
+            KeyRow(
+                "arrows, mouse",
+                "choose a mechanism",
+                _both("left", "right", "move") + _both("up", "down", "row"),
+            ),
+            KeyRow("type", "filter by title or chapter"),
+            KeyRow("PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
+            KeyRow("Enter, click", "put it on", _enter("pick", "unsift")),
+        )
+    },
+    # beside all others, while the picture stands still
+    "paused": {"paused": (KeyRow("digits, Enter", "go to that input angle", _enter("go", "erase_place")),)},
+    "pencil": {
+        "in W": (
+            KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
+            KeyRow("1–9, click", "take another answer", _digits("answer")),
+            KeyRow("Ctrl+Z", "take the last stroke or drag back", _on("ctrl+z", "take_back", held=True)),
+            KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
+        )
+    },
+    "game": {
+        "in a game": (
+            KeyRow("1–9, click", "choose an answer or a door", _digits("option")),
+            KeyRow("Enter, Space", "go on", _on("return kp_enter space", "next")),
+            KeyRow("← → (Shift: ×10)", "turn the crank", _steps("turn")),
+            KeyRow("↑ ↓", "choose", _both("down", "up", "raise")),
+            KeyRow("Esc", "out of it", ()),
+        )
+    },
+    "build": {
+        "in F2": (
+            KeyRow("click, drag", "a ground pin; from a pin or joint a bar; twice on a bar: a point of it"),
+            KeyRow("let go on a joint, line, bar", "joined there, a slider, a slot"),
+            KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
+            *_TOOLS,
+            KeyRow(
+                "digits, Enter",
+                "type what is chosen; Ctrl+↑ ↓ its other numbers",
+                _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
+            ),
+            KeyRow(
+                "arrows (Shift: fine), Enter", "a cursor; press and lift there", _aims() + _enter("enter")
+            ),
+            KeyRow("I", "a point of the body at the cursor", _on("i insert", "enter", 2)),
+            KeyRow("Tab, Shift+Tab", "choose", _tabs("further")),
+            KeyRow("Del", "remove it, and what hangs on it", _on("delete", "remove")),
+            KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
+            KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
+            KeyRow("Esc, F2", "let go; leave, the linkage being the scene; F2 goes on"),
+        )
+    },
+}
+"""What the keys do in a mode, before what they do else."""
+PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PAD)}
+"""What the buttons of a gamepad do."""
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),
     "list": ("sift", frozenset({"space", "h", "k"})),
@@ -308,7 +270,7 @@ def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind 
     """
     if _is_typed(press, mode, typing):
         return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
-    tables = (_OPEN.get(mode, ()), KEYS)
+    tables = (MODES.get(mode, {}), KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
     # any other letter goes on in a game, as a title's "any key" has it
     others = Bind(press.key, Action("next")) if mode == "game" and press.text and not press.ctrl else None
@@ -325,8 +287,8 @@ def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
     return typing or press.key not in _TYPED[mode][1]
 
 
-def _binds(table: tuple[KeyRow, ...]) -> Iterator[Bind]:
-    return (bind for row in table for bind in row.binds)
+def _binds(table: Table) -> Iterator[Bind]:
+    return (bind for rows in table.values() for row in rows for bind in row.binds)
 
 
 def _names(press: Press) -> tuple[str, ...]:
@@ -339,12 +301,8 @@ def _names(press: Press) -> tuple[str, ...]:
 
 def key_names() -> tuple[str, ...]:
     """Return every bound key's name once, without modifiers (a key alone may be '+')."""
-    names = (bind.key for table in (KEYS, *_OPEN.values()) for bind in _binds(table))
+    names = (bind.key for table in (KEYS, *MODES.values()) for bind in _binds(table))
     return tuple(dict.fromkeys(name.removeprefix("ctrl+").removeprefix("shift+") for name in names))
-
-
-PAD_KEYS = tuple(KeyRow("gamepad", row.written, row.words) for row in PAD)
-"""What the buttons of a gamepad do."""
 
 
 def help_groups(
@@ -354,25 +312,22 @@ def help_groups(
 
     With a `pad` plugged in its buttons, too.
     """
-    rows = KEYS if mode == "paused" else _OPEN.get(mode, KEYS)
-    rows += PAD_KEYS if pad else ()
-    groups: dict[str, list[tuple[str, str]]] = {}
-    for row in rows:
-        groups.setdefault(row.subject, []).append((row.keys, row.words))
-    return tuple((subject, tuple(lines)) for subject, lines in groups.items())
+    table = {**(KEYS if mode == "paused" else MODES.get(mode, KEYS)), **(PAD_KEYS if pad else {})}
+    return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table.items())
 
 
-def _lines() -> tuple[tuple[str, str], ...]:
-    """Return all lines of the table, those of an open list told as such."""
-    within = (row for table in (*_OPEN.values(), PAD_KEYS) for row in table)
-    rows = (*KEYS, *(row._replace(keys=f"{row.subject}: {row.keys}") for row in within))
-    return tuple((row.keys, row.words) for row in rows)
+def _lines() -> Iterator[tuple[str, str]]:
+    """Yield all lines of the table, those of a mode under its subject."""
+    yield from ((row.keys, row.words) for rows in KEYS.values() for row in rows)
+    for table in (*MODES.values(), PAD_KEYS):
+        yield from ((f"{subject}: {row.keys}", row.words) for subject, rows in table.items() for row in rows)
 
 
 def as_text(*, indent: str = "  ") -> str:
     """Return the table as plain text, for `--help`."""
-    width = max(len(keys) for keys, _ in _lines())
-    return "\n".join(f"{indent}{keys:<{width}}  {words}" for keys, words in _lines())
+    lines = tuple(_lines())
+    width = max(len(keys) for keys, _ in lines)
+    return "\n".join(f"{indent}{keys:<{width}}  {words}" for keys, words in lines)
 
 
 def as_markdown() -> str:

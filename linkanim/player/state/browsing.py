@@ -13,8 +13,8 @@ from linkanim.picture.diagrams.quantities import quantities, quantity, telling
 from linkanim.picture.shelf import found_among
 from linkanim.scenes.scene import Scene
 
-RESOLVED = frozenset({"pick", "row", "scroll", "files_here"})
-"""What a key asks for in an open list or shelf; the window asks for what it means there instead."""
+RESOLVED = frozenset({"pick", "row", "scroll", "files_here", "aim", "enter"})
+"""What a key asks for in a list, on the shelf or a sheet; the window asks for what it means there instead."""
 
 
 @dataclass(frozen=True)
