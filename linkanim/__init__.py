@@ -29,8 +29,13 @@ the scene that it comes to (`making`), and what is `missing` before it comes to 
     labels/       names, dimensions and dead centres on the scene
     arrangement/  what stands where in a window
 
-`explain`: a pose worked out by hand: `expression` and `lines` are what it consists of, `kinds/` the steps
-of each kind of joint, `solution` puts them in order, `documents` prints it.
+`explain`: a pose worked out by hand: `expression` and `lines` are what it consists of, `kinds` the steps of
+each kind of joint, `inputs` those of what drives, `solution` puts them in order, `documents` prints it.
+
+A kind of joint is its data in `linkage/dyads`, how it closes in `closing/kinds`, how it is written in
+`scenes/fields/joints`, how it is worked out in `explain/kinds`; what is drawn of it follows from its bars and
+from what slides. A kind of input is its data in `linkage/drive`, its path in `drive/`, how it is written in
+`scenes/fields/drive`, how it is worked out in `explain/inputs`.
 
 `play`: what is asked about linkages, printed or played, and other games: pure values over the player's state.
 """

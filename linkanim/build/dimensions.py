@@ -13,8 +13,8 @@ from linkanim.build.places import crank_of, fitted, with_number
 from linkanim.build.rounding import round_number
 from linkanim.errors import BadInput
 from linkanim.scenes.editing.edit import Dimension, dimension_of, written
+from linkanim.scenes.fields import drive, scene_file
 from linkanim.scenes.fields import joints as forms
-from linkanim.scenes.fields import scene_file
 from linkanim.scenes.fields.form import Field, Form, Key
 from linkanim.scenes.fields.table import Context, Table
 from linkanim.scenes.fields.types import LENGTHS, OFFSET
@@ -28,7 +28,7 @@ _FORMS: Mapping[str, Form] = {
     "gears": forms.GEAR,
     "springs": scene_file.SPRING,
     "dampers": scene_file.DAMPER,
-    "drive": scene_file.DRIVE,
+    "drive": drive.DRIVE,
 }
 """What may be said of each kind, as a scene file has it."""
 _UNITS = {"angle": "deg", "speed": "rpm", "stiffness": "N/m", "damping": "N s/m", "ratio": ""}

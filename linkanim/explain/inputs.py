@@ -8,8 +8,7 @@ from typing import Any, Literal
 from linkanim.explain.expression import TWO, Formula, Symbol, arccos, cos, number, sin, square
 from linkanim.explain.rates import Rates
 from linkanim.explain.work import ANGLE, LENGTH, RATIO, Powers, Work
-from linkanim.mechanics.drive.cylinder import CylinderStroke
-from linkanim.mechanics.drive.input_path import Stroke
+from linkanim.mechanics.drive.strokes import CylinderStroke, Stroke
 from linkanim.mechanics.linkage.pins import Crank
 from linkanim.scenes.scene import Scene
 

@@ -8,7 +8,7 @@ from operator import add
 from typing import NamedTuple
 
 from linkanim.explain.expression import ZERO, Components, Formula, Symbol, dot, number, sqrt, square
-from linkanim.explain.kinds.placed import body_point
+from linkanim.explain.kinds import body_point
 from linkanim.explain.rates import ORDERS, Rates
 from linkanim.explain.work import LENGTH, Powers
 from linkanim.mechanics.facts.effort import effort_token

@@ -25,7 +25,7 @@ from reference import DIGITS, HIGHEST_FIRST, NUDGE, derivatives, sign_of
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.cylinder import CylinderStroke
+from linkanim.mechanics.drive.strokes import CylinderStroke
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.drive.turn import Turn
 from linkanim.mechanics.linkage.drive import Cylinder, Drive, Travel

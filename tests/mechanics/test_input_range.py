@@ -21,8 +21,7 @@ from random_joints import (
 from whole_rows import whole_rows
 
 from linkanim.cli import main
-from linkanim.mechanics.drive.cylinder import CylinderStroke
-from linkanim.mechanics.drive.slider import SliderStroke
+from linkanim.mechanics.drive.strokes import CylinderStroke, SliderStroke
 from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
 from linkanim.scenes import load, names
 from linkanim.scenes.reading.read import scene_from

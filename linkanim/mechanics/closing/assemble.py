@@ -13,24 +13,20 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.kinds import CLOSERS
 from linkanim.mechanics.closing.kinematics import walk_at
 from linkanim.mechanics.closing.walk import Assembly
-from linkanim.mechanics.drive.cylinder import cylinder_stroke
 from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.drive.ranges import Arc, arcs_of, open_arcs
-from linkanim.mechanics.drive.slider import slider_stroke
+from linkanim.mechanics.drive.strokes import STROKES
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.drive.turn import Turn
 from linkanim.mechanics.formulas.constant import Constant
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import MovingPoint, Slope
 from linkanim.mechanics.formulas.program import batch
-from linkanim.mechanics.linkage.drive import Cylinder, Travel
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.loop import Gearing, Loop, gearings
 from linkanim.mechanics.loops.roots import Kind
 from linkanim.mechanics.loops.signed import OWN_LIMIT
 
-STROKES = {Cylinder: cylinder_stroke, Travel: slider_stroke}
-"""Which path what drives runs on; else it is that of a crank, which its loops may limit."""
 JUST_AFTER = 1e-6
 """Phase at which a closure is judged where it is ambiguous at the start itself."""
 

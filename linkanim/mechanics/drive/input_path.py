@@ -11,16 +11,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any, ClassVar, NamedTuple, NoReturn, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.errors import AssemblyError
-from linkanim.mechanics.formulas.circular import sharp_half_angle
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, two_product, two_sum
 from linkanim.mechanics.formulas.expression import Graph, Value
-from linkanim.mechanics.formulas.planar import Moving, Slope
+from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.loops.input_state import InputState, turn
 from linkanim.mechanics.loops.signed import Swinging
@@ -260,55 +258,3 @@ def _way(high: Array, low: Array, limit: Sum) -> tuple[Array, Array]:
     """Return angle - limit, sums of two floats both, in two parts that overlap."""
     total, error = two_sum(high, -limit.high)
     return total, error + (low - limit.low)
-
-
-@dataclass(frozen=True, slots=True)
-class Stroke(ThereAndBack):
-    """The input's path where a length drives it, which is mid - amp·cos φ.
-
-    It starts at `first`, is at `last` half a period on, and comes back. Times `unscale` it is in the scene's
-    unit.
-    """
-
-    first: float
-    last: float
-    unscale: float = field(default=1.0, kw_only=True)
-    unit: str = field(default="", kw_only=True)
-    """The scene's unit of length, as in sentences."""
-
-    runs: ClassVar[str]
-    """What runs to and fro, in words."""
-
-    @property
-    def periods(self) -> int:
-        """One there-and-back, times what a chain that passes a change point needs."""
-        return self.rounds
-
-    def lengths(self, phases: Array) -> Array:
-        """Return the length at phases."""
-        lengths: Array = (self.first + self.last) / 2 - (self.last - self.first) / 2 * np.cos(phases)
-        return lengths
-
-    def forth(self, length: float) -> float:
-        """Return the phase at which the length is reached on the way to `last`, at most that of an end."""
-        middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
-        return math.acos(min(max((middle - length) / half, -1.0), 1.0))
-
-    def running(self, phase: Value, pace: Slope) -> Moving:
-        """Return the length with its rates."""
-        whole, reach = sharp_half_angle(phase + phase), (self.last - self.first) / 2
-        length = whole.cosine * -reach + (self.first + self.last) / 2
-        rate = whole.sine * pace.value * reach
-        second = (whole.cosine * (pace.value * pace.value) + whole.sine * pace.rate) * reach
-        return Moving(length, rate, second)
-
-    def cut(self, low: Limit, high: Limit) -> NoReturn:
-        """Raise AssemblyError with the lengths between which everything closes: it may not be shorter."""
-        dyad = next(name for _, name in (low, high) if name is not None)
-        ends = [float(self.lengths(np.array(float(phase)))) * self.unscale for phase, _ in (low, high)]
-        least, most = sorted(ends)
-        first, last = self.first * self.unscale, self.last * self.unscale
-        raise AssemblyError(
-            f"joint {dyad}: it lets the {self.runs} run from {least:.6g} to {most:.6g} {self.unit} only, "
-            f"not from {first:g} to {last:g} {self.unit}; choose other ends"
-        )

@@ -202,7 +202,7 @@ class RPR(Joint):
     @property
     def slides(self) -> tuple[Slide, ...]:
         """The joint in the slot, along the bar."""
-        return (Slide(self.through, self.pivot, (self.pivot, self.name), 0.0),)
+        return (Slide(self.through, self.pivot, Line(self.pivot, 0.0, self.offset, (self.pivot, self.name))),)
 
     @property
     def lengths(self) -> tuple[float, ...]:
@@ -268,8 +268,8 @@ class RPP(SliderDyad):
     @property
     def slides(self) -> tuple[Slide, ...]:
         """The bar along its line, and the pin along the bar's slot."""
-        slot = Slide(self.pin, self.name, self.line.on, self.line.angle + self.slot)
-        return self.line.guiding(self.name), slot
+        slot = Line(self.name, self.line.angle + self.slot, on=self.line.on)
+        return self.line.guiding(self.name), Slide(self.pin, self.name, slot)
 
     @property
     def lengths(self) -> tuple[float, ...]:

@@ -16,19 +16,6 @@ RigidBody = dict[str, complex]
 """Where the joints of one rigid body lie in its own frame, as x + yi."""
 
 
-class Slide(NamedTuple):
-    """What slides: the joint `point`, along a guide at `angle` (rad) from the guide's axis.
-
-    `start` is a joint of the guide's body, None of the ground; `axis` are two of its joints, None where the
-    guide does not turn, whose angle is then absolute.
-    """
-
-    point: str
-    start: str | None
-    axis: tuple[str, str] | None
-    angle: float
-
-
 @dataclass(frozen=True, slots=True)
 class Line:
     """A line of travel: through the joint `through`, at `angle`, shifted by `offset` to its left.
@@ -54,11 +41,29 @@ class Line:
 
     def guiding(self, joint: str) -> Slide:
         """Return how a joint slides along the line."""
-        return Slide(joint, self.on[0] if self.on else None, self.on, self.angle)
+        return Slide(joint, self.on[0] if self.on else None, self)
 
     def scaled(self, factor: float) -> Line:
         """Return the line with its offset times a factor."""
         return replace(self, offset=self.offset * factor)
+
+
+class Slide(NamedTuple):
+    """What slides: the joint `point`, along a line; `start` is a joint of the guide, None of the ground."""
+
+    point: str
+    start: str | None
+    line: Line
+
+    @property
+    def axis(self) -> tuple[str, str] | None:
+        """Two joints of the guide; None where it does not turn, and its angle is absolute."""
+        return self.line.on
+
+    @property
+    def angle(self) -> float:
+        """The line's direction from the guide's axis (rad)."""
+        return self.line.angle
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,20 +1,18 @@
-"""Fittings: what a joint's kind needs beside bars and pins, such as a slider's block and its guide.
+"""Fittings: what a joint needs beside bars and pins, such as a slider's block and its guide.
 
-`FITTINGS` is the one table of them, by kind.
+They follow from what slides along what, whatever the joint's kind.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import frexp
 from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP
-from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.pins import DrivenSlider
+from linkanim.mechanics.linkage.joint import Joint, Line, Slide
 from linkanim.picture.figure import DOWN, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts.struts import barrel
@@ -97,8 +95,17 @@ class Fitting:
 
 def fittings(bench: Bench) -> tuple[Fitting, ...]:
     """Return the fittings of all joints that have some, in the joints' order."""
-    joints = bench.figure.linkage.joints
-    return tuple(FITTINGS[type(joint)](joint, bench) for joint in joints if type(joint) in FITTINGS)
+    return tuple(_fitting(joint, bench) for joint in bench.figure.linkage.joints if joint.slides)
+
+
+def _fitting(joint: Joint, bench: Bench) -> Fitting:
+    """Return what a joint adds by what slides: itself on a line, a pin in its own bar's slot, or both."""
+    first, *across = joint.slides
+    if first.point != joint.name:
+        return _slotted(first, bench)
+    if across:
+        return _yoke(first, across[0], bench)
+    return _slider(joint, first.line, bench)
 
 
 def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
@@ -142,32 +149,29 @@ def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[L
     yield from segments(feet, feet + along * (-0.5 + 0.62j * side) * gauge.bar, 0.8 * gauge.line)
 
 
-def _slider(joint: RRP, bench: Bench) -> Fitting:
-    """Return a block between rails on the ground, or a small one in the slot of a body that carries it."""
-    along = complex(directions(-joint.line.angle))
-    if joint.line.on is None:
-        bodies = (body for body in bench.figure.linkage.bodies if body.slider == joint.name)
-        if any(bench.figure.scene.style(body.name).outline == "piston" for body in bodies):
-            return _cylindered(joint, along, bench)
-        block = Part(joint.name, joint.name, joint.name, _block(bench, along), (joint.name,))
-        return Fitting(behind=(block,), guide=_rails(joint.name, along, bench.gauge))
-    guide, slot = _carried_slot(joint.name, joint.line, along, bench)
-    block = Part(joint.name, *joint.line.on, _block(bench, along, 0.62), (joint.name,))
-    return Fitting(behind=(guide,), before=(slot, block))
+def _slider(joint: Joint, line: Line, bench: Bench) -> Fitting:
+    """Return a block between rails on the ground, or a small one in the slot of a body that carries it.
 
-
-def _driven_slider(joint: DrivenSlider, bench: Bench) -> Fitting:
-    """Return a block between rails, in the colour of what drives."""
-    along = complex(directions(-joint.line.angle))
+    One that drives is in the colour of what drives.
+    """
+    along, name = complex(directions(-line.angle)), joint.name
+    if line.on is not None:
+        guide, slot = _carried_slot(name, line, along, bench)
+        block = Part(name, *line.on, _block(bench, along, 0.62), (name,))
+        return Fitting(behind=(guide,), before=(slot, block))
+    bodies = (body for body in bench.figure.linkage.bodies if body.slider == name)
+    if joint.bars and any(bench.figure.scene.style(body.name).outline == "piston" for body in bodies):
+        return _cylindered(name, joint.bars[0][0], along, bench)
     rim, metal = _block(bench, along)
-    coloured = Layer(bench.theme.bodies[0], metal.loops)
-    block = Part(joint.name, joint.name, joint.name, (rim, coloured), (joint.name,))
-    return Fitting(behind=(block,), guide=_rails(joint.name, along, bench.gauge))
+    if name == bench.figure.linkage.drive.joint:
+        metal = Layer(bench.theme.bodies[0], metal.loops)
+    block = Part(name, name, name, (rim, metal), (name,))
+    return Fitting(behind=(block,), guide=_rails(name, along, bench.gauge))
 
 
-def _cylindered(joint: RRP, along: complex, bench: Bench) -> Fitting:
-    """Return a piston in a cylinder that its rod stays within; its head is where the rod is not."""
-    gauge, paths = bench.gauge, (bench.figure.path(name, bench.view) for name in (joint.name, joint.end))
+def _cylindered(name: str, far: str, along: complex, bench: Bench) -> Fitting:
+    """Return a piston in a cylinder that its rod to `far` stays within; its head is where the rod is not."""
+    gauge, paths = bench.gauge, (bench.figure.path(end, bench.view) for end in (name, far))
     place, end = (path * np.conj(along) for path in paths)
     out = along if np.nanmean((place - end).real) > 0 else -along
     way, rod = place * np.conj(out / along), (end - place) * np.conj(out / along)
@@ -181,8 +185,8 @@ def _cylindered(joint: RRP, along: complex, bench: Bench) -> Fitting:
     rings = [box(2 * edge, wide - 2 * edge) + share * crown for share in _RINGS]
     shapes = ((bench.theme.outline, [outer]), (bench.theme.metal, [inner]), (bench.theme.outline, rings))
     layers = tuple(Layer(colour, [out * loop for loop in loops]) for colour, loops in shapes)
-    block = Part(joint.name, joint.name, joint.name, layers, (joint.name,))
-    return Fitting((block,), guide=GuideRails(joint.name, out, aside, (0.0, _HEAD * crown), head=True))
+    block = Part(name, name, name, layers, (name,))
+    return Fitting((block,), guide=GuideRails(name, out, aside, (0.0, _HEAD * crown), head=True))
 
 
 def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[Part, Part]:
@@ -300,65 +304,56 @@ def _facing(line: Line, bench: Bench) -> Loop:
     return facing
 
 
-def _slotted(joint: RPR, bench: Bench) -> Fitting:
+def _slotted(slide: Slide, bench: Bench) -> Fitting:
     """Return the slot in the bar, and the collar that slides in it and turns with it.
 
     About a joint of the ground it is the bar that slides: a rod through a swivel.
     """
-    collar = Part(joint.through, joint.pivot, joint.name, _block(bench, share=0.62), (joint.through,))
-    if bench.figure.linkage.joint(joint.through).fixed:
-        return _swivelled(joint, collar, bench)
-    return Fitting(before=(collar,), bar=Bar((joint.pivot, joint.name), _slot_ends(joint, bench)))
+    assert slide.axis is not None
+    collar = Part(slide.point, *slide.axis, _block(bench, share=0.62), (slide.point,))
+    if bench.figure.linkage.joint(slide.point).fixed:
+        return _swivelled(slide, slide.axis, collar, bench)
+    return Fitting(before=(collar,), bar=Bar(slide.axis, _slot_ends(slide, bench)))
 
 
-def _swivelled(joint: RPR, collar: Part, bench: Bench) -> Fitting:
+def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, bench: Bench) -> Fitting:
     """Return what makes of the bar a rod; in a cylinder, with a piston, where its end is free."""
-    if joint.name in bench.figure.pins:
-        return Fitting(before=(collar,), bar=Bar((joint.pivot, joint.name)))
-    gauge, (near, far) = bench.gauge, _slot_ends(joint, bench)
-    length, room = bench.view.scale * joint.length, 0.8 * gauge.bar
+    if bar[1] in bench.figure.pins:
+        return Fitting(before=(collar,), bar=Bar(bar))
+    gauge, (near, far) = bench.gauge, _slot_ends(slide, bench)
+    length, room = bench.view.scale * dict(bench.figure.linkage.joint(bar[1]).bars)[bar[0]], 0.8 * gauge.bar
     ends = min(length - far.real, 0.0) - room, max(length - near.real, 0.0) + room
     side = complex(0, near.imag)
     wall = barrel(*ends, BARREL * gauge.bar, gauge, bench.theme)
     layers = tuple(Layer(layer.colour, [loop - side for loop in layer.loops]) for layer in wall)
-    cylinder = Part(joint.through, joint.pivot, joint.name, layers, (joint.through,))
-    return Fitting(behind=(cylinder,), before=(collar,), bar=Bar((joint.pivot, joint.name), piston=True))
+    cylinder = Part(slide.point, *bar, layers, (slide.point,))
+    return Fitting(behind=(cylinder,), before=(collar,), bar=Bar(bar, piston=True))
 
 
-def _slot_ends(joint: RPR, bench: Bench) -> tuple[complex, complex]:
+def _slot_ends(slide: Slide, bench: Bench) -> tuple[complex, complex]:
     """Return the ends of a slot in pixels, the pivot at 0 and the bar along the real axis."""
-    places = bench.figure.cycle.position
-    way = np.sum((places[joint.through] - places[joint.pivot]) ** 2, axis=-1)
-    along = np.sqrt(np.maximum(way - joint.offset**2, 0))
-    side = -1j * joint.offset
+    places, offset = bench.figure.cycle.position, slide.line.offset
+    way = np.sum((places[slide.point] - places[slide.line.through]) ** 2, axis=-1)
+    along = np.sqrt(np.maximum(way - offset**2, 0))
+    side = -1j * offset
     return bench.view.scale * (np.nanmin(along) + side), bench.view.scale * (np.nanmax(along) + side)
 
 
-def _yoke(joint: RPP, bench: Bench) -> Fitting:
+def _yoke(guided: Slide, slot: Slide, bench: Bench) -> Fitting:
     """Return a block between rails with a slotted bar across it, and the collar that the pin turns in."""
     gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
-    places = bench.figure.cycle.position
-    along = complex(directions(-joint.line.angle))
-    across = along * complex(directions(-joint.slot))
-    apart = (places[joint.pin] - places[joint.name]) @ DOWN
-    way = np.real(apart * np.conj(across * _facing(joint.line, bench)))
+    places, line, name = bench.figure.cycle.position, guided.line, guided.point
+    along, across = (complex(directions(-angle)) for angle in (line.angle, slot.line.angle))
+    apart = (places[slot.point] - places[name]) @ DOWN
+    way = np.real(apart * np.conj(across * _facing(line, bench)))
     ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across
     colours = theme.outline, theme.metal
     widths = SLOTTED * gauge.bar, SLOT * gauge.bar
     bar = slotted([0j, *ends], ends, widths, gauge.outline, colours)
-    ways = joint.line.on or (joint.name, joint.name)
-    yoke = Part(joint.name, *ways, (*_block(bench, along), *bar))
-    collar = Part(joint.pin, *ways, _block(bench, across, 0.62), (joint.pin,))
-    if joint.line.on is None:
-        return Fitting((yoke,), (collar,), _rails(joint.name, along, gauge))
-    guide, slot = _carried_slot(joint.name, joint.line, along, bench)
-    return Fitting((guide, slot, yoke), (collar,))
-
-
-FITTINGS: Mapping[type[Joint], Callable[..., Fitting]] = {
-    RRP: _slider,
-    DrivenSlider: _driven_slider,
-    RPR: _slotted,
-    RPP: _yoke,
-}
-"""How each kind of joint is fitted out; kinds that are bars and pins alone are not in it."""
+    ways = line.on or (name, name)
+    yoke = Part(name, *ways, (*_block(bench, along), *bar))
+    collar = Part(slot.point, *ways, _block(bench, across, 0.62), (slot.point,))
+    if line.on is None:
+        return Fitting((yoke,), (collar,), _rails(name, along, gauge))
+    behind, before = _carried_slot(name, line, along, bench)
+    return Fitting((behind, before, yoke), (collar,))

@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from linkanim.mechanics.linkage.linkage import Body
+from linkanim.scenes.fields.drive import DRIVE
 from linkanim.scenes.fields.form import Field, Key, fields_in
-from linkanim.scenes.fields.scene_file import DRIVE, SCENE_FILE
+from linkanim.scenes.fields.scene_file import SCENE_FILE
 from linkanim.scenes.fields.shorthands import SHORTHANDS
 from linkanim.scenes.fields.types import ValueType
 from linkanim.scenes.scene import Scene

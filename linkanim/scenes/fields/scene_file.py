@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, get_args
 from linkanim import units
 from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.mechanics.linkage.rigid_bodies import coincide, holding
+from linkanim.scenes.fields.drive import INPUT
 from linkanim.scenes.fields.form import Field, Named, form
 from linkanim.scenes.fields.joints import JOINTS, PINS, aside
 from linkanim.scenes.fields.shorthands import SHORTHANDS
@@ -22,11 +23,8 @@ from linkanim.scenes.fields.types import (
     JOINT,
     LENGTH,
     MASS,
-    NAME,
-    OFFSET,
     PAIR,
     POINT,
-    SPEED,
     STIFFNESS,
     TEXT,
     TEXTS,
@@ -129,33 +127,6 @@ SPRING = form(
 _COEFFICIENT = Field("coefficient", DAMPING, "its force by its rate", None, label="damping coefficient")
 DAMPER = form("a damper", Damper, _BETWEEN, _COEFFICIENT)
 
-CYLINDER = form(
-    "a cylinder that drives",
-    dict,
-    Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body"),
-    Field("from", LENGTH, "its length at one end", label="Cylinder, from"),
-    Field("to", LENGTH, "its length at the other end", label="Cylinder, to"),
-    Field("joint", NAME, "the crank that it turns", None),
-)
-SLIDER = form(
-    "a slider that drives",
-    dict,
-    Field("joint", NAME, "the slider, declared by its line alone"),
-    Field("from", OFFSET, "its travel at one end", label="Slider, from"),
-    Field("to", OFFSET, "its travel at the other end", label="Slider, to"),
-)
-DRIVE = form(
-    "the input",
-    dict,
-    Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
-    Field("slider", SLIDER, "what drives instead of a crank", None),
-    Field("joint", NAME, "the crank that is driven: the first one without a gear", None),
-    Field("speed", SPEED, "turns, or there and back; negative: clockwise", "20 rpm", label="Input speed"),
-    Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
-    Field(
-        "returns", choice("other", "same"), "the closure on which an input that swings comes back", "other"
-    ),
-)
 PHOTO = form(
     "a photograph to build over, behind the sheet",
     dict,
@@ -182,7 +153,7 @@ SCENE_FILE = form(
     Field("springs", Named((SPRING,)), "the springs", {}),
     Field("dampers", Named((DAMPER,)), "the dampers", {}),
     Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
-    Field("drive", DRIVE, "the input", {}),
+    INPUT,
     Field("trace", TRACE, "the curves", {}),
     Field("photo", PHOTO, "a photograph to build over", None),
 )

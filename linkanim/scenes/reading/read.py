@@ -11,10 +11,10 @@ from linkanim.errors import AssemblyError, BadInput
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.pins import Pin
+from linkanim.scenes.fields.drive import read_drive
 from linkanim.scenes.fields.scene_file import SCENE_FILE, SECTIONS
 from linkanim.scenes.fields.shorthands import SHORTHANDS, Expansion, names_of
 from linkanim.scenes.fields.table import Context, Table
-from linkanim.scenes.reading.drive import read_drive
 from linkanim.scenes.reading.joints import solved, unassembled
 from linkanim.scenes.reading.sizes import refuse_apart
 from linkanim.scenes.scene import FREE_STYLE, Scene

@@ -1,29 +1,36 @@
-"""A cylinder as the input: its length turns the crank.
+"""Lengths as the input, which run to and fro: a cylinder that turns the crank, a slider's travel.
 
-The length ℓ of a cylinder between a fixed pin G and a joint H of the crank's body makes a triangle with
+**A cylinder.** Its length ℓ between a fixed pin G and a joint H of the crank's body makes a triangle with
 the crank's pivot, whose sides g and r do not change. With ψ its angle at the pivot the law of cosines is
 
     4 g r sin²(ψ/2) = (ℓ - g + r)(ℓ + g - r)      4 g r cos²(ψ/2) = (g + r - ℓ)(g + r + ℓ)
 
 without cancellation, since half the phase tells how far ℓ is from its ends, so half of ψ has its sine and
 cosine without an arc function; and ψ' = ℓ ℓ'/(g r sin ψ).
+
+**A slider** has no angle: there the phase itself stands for one. Where a dyad is at its limit at an end of
+the travel, such as a piston's rod and crank at a dead centre, that is a change point of the phase's, and the
+motion runs on through it to the other closure.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
-from typing import ClassVar
+from typing import ClassVar, NoReturn
 
 import numpy as np
 
 from linkanim.digits import degrees
-from linkanim.errors import AssemblyError
+from linkanim.errors import AssemblyError, BadInput
 from linkanim.mechanics.drive.input_path import (
+    SAME_PLACE,
+    Limit,
     LimitDistances,
-    Stroke,
+    ThereAndBack,
     half_squares,
     limit_distances,
     nearer_way,
@@ -32,12 +39,66 @@ from linkanim.mechanics.drive.ranges import Arc
 from linkanim.mechanics.formulas.circular import Half, direction, half_of, sharp_half_angle
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, exact_angle
 from linkanim.mechanics.formulas.expression import Graph, Value, arctan2, sqrt
-from linkanim.mechanics.formulas.planar import Slope, Vec
+from linkanim.mechanics.formulas.planar import Moving, Slope, Vec
 from linkanim.mechanics.formulas.program import Array
-from linkanim.mechanics.linkage.drive import Cylinder
+from linkanim.mechanics.linkage.drive import Actuator, Cylinder, Travel
 from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.loops.input_state import HalfForm, InputState, turn
+from linkanim.mechanics.loops.input_state import HalfForm, InputState, TravelState, turn
 from linkanim.mechanics.loops.loop import ground_between
+
+NO_ANGLE = "the input is a slider, which has no angle; take the phase"
+
+
+@dataclass(frozen=True, slots=True)
+class Stroke(ThereAndBack):
+    """The input's path where a length drives it, which is mid - amp·cos φ.
+
+    It starts at `first`, is at `last` half a period on, and comes back. Times `unscale` it is in the scene's
+    unit.
+    """
+
+    first: float
+    last: float
+    unscale: float = field(default=1.0, kw_only=True)
+    unit: str = field(default="", kw_only=True)
+    """The scene's unit of length, as in sentences."""
+
+    runs: ClassVar[str]
+    """What runs to and fro, in words."""
+
+    @property
+    def periods(self) -> int:
+        """One there-and-back, times what a chain that passes a change point needs."""
+        return self.rounds
+
+    def lengths(self, phases: Array) -> Array:
+        """Return the length at phases."""
+        lengths: Array = (self.first + self.last) / 2 - (self.last - self.first) / 2 * np.cos(phases)
+        return lengths
+
+    def forth(self, length: float) -> float:
+        """Return the phase at which the length is reached on the way to `last`, at most that of an end."""
+        middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
+        return math.acos(min(max((middle - length) / half, -1.0), 1.0))
+
+    def running(self, phase: Value, pace: Slope) -> Moving:
+        """Return the length with its rates."""
+        whole, reach = sharp_half_angle(phase + phase), (self.last - self.first) / 2
+        length = whole.cosine * -reach + (self.first + self.last) / 2
+        rate = whole.sine * pace.value * reach
+        second = (whole.cosine * (pace.value * pace.value) + whole.sine * pace.rate) * reach
+        return Moving(length, rate, second)
+
+    def cut(self, low: Limit, high: Limit) -> NoReturn:
+        """Raise AssemblyError with the lengths between which everything closes: it may not be shorter."""
+        dyad = next(name for _, name in (low, high) if name is not None)
+        ends = [float(self.lengths(np.array(float(phase)))) * self.unscale for phase, _ in (low, high)]
+        least, most = sorted(ends)
+        first, last = self.first * self.unscale, self.last * self.unscale
+        raise AssemblyError(
+            f"joint {dyad}: it lets the {self.runs} run from {least:.6g} to {most:.6g} {self.unit} only, "
+            f"not from {first:g} to {last:g} {self.unit}; choose other ends"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,3 +298,80 @@ def _check(cylinder: Cylinder, sides: tuple[float, float], unit: str) -> None:
                 f"a cylinder of length {length:g} {unit} between {' and '.join(cylinder.between)}: it can be "
                 f"{low:g} to {high:g} {unit} long, ends not included"
             )
+
+
+@dataclass(frozen=True, slots=True)
+class SliderStroke(Stroke):
+    """The input's path where a slider drives it; its coordinate is the slider's travel."""
+
+    runs: ClassVar[str] = "slider's travel"
+
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the slider goes."""
+        low, high = sorted((self.first * self.unscale, self.last * self.unscale))
+        return low, high
+
+    @property
+    def dead_ends(self) -> tuple[float, ...]:
+        """Both ends: where a dyad is at its limit, the motion runs on to the other closure."""
+        return self.input_range
+
+    def holds(self, place: float, turns: int = 1) -> bool:
+        """Tell whether the slider comes so far."""
+        low, high = self.input_range
+        return low <= place <= high
+
+    def phase_of(self, place: float, near: float) -> float:
+        """Return the phase nearest to `near` at which the slider has travelled so far, or is at its end."""
+        return nearer_way(self.forth(place / self.unscale), near)
+
+    def coordinates(self, phases: Array) -> Array:
+        """Return the slider's travel at phases."""
+        return self.lengths(phases) * self.unscale
+
+    def state(self, phase: Value, pace: Slope) -> InputState:
+        """Return the input's state at a phase, in plain floats or symbolic expressions."""
+        travel = self.running(phase, pace)
+        return TravelState(phase, Sum(0.0), pace.value, pace.rate, pace, travel=travel)
+
+    def state_per_input(self, phase: Value) -> InputState:
+        """Return the input's state at a phase, its rates those by the slider's travel."""
+        by_phase = self.running(phase, Slope(1.0))
+        rate = 1.0 / by_phase.rate
+        second = -(by_phase.second * rate * rate * rate)
+        travel = Moving(by_phase.value, 1.0, 0.0)
+        return TravelState(phase, Sum(0.0), rate, second, Slope(rate, second), travel=travel)
+
+    def state_by_angle(self, graph: Graph, pace: Slope) -> NoReturn:
+        """Raise BadInput: it has no angle."""
+        raise BadInput(NO_ANGLE)
+
+    def distances(self, angle: Array) -> NoReturn:
+        """Raise BadInput: it has no angle."""
+        raise BadInput(NO_ANGLE)
+
+    def phases(self, angles: Array, distances: LimitDistances | None) -> NoReturn:
+        """Raise BadInput: it has no angle."""
+        raise BadInput(NO_ANGLE)
+
+    def same(self, place: float, other: float) -> bool:
+        """Tell whether two places of the slider are one."""
+        low, high = self.input_range
+        return abs(place - other) <= SAME_PLACE * (high - low)
+
+    def distinct(self, places: Iterable[float]) -> tuple[float, ...]:
+        """Return places of the slider, each once, the least first."""
+        return tuple(sorted(set(places)))
+
+
+def slider_stroke(linkage: Linkage, unscale: float, arcs: list[Arc] | None) -> SliderStroke:
+    """Return the path of a linkage that a slider drives; no loop on a crank limits it."""
+    return SliderStroke(*linkage.drive.actuator.lengths, unscale=unscale, unit=linkage.unit)
+
+
+STROKES: Mapping[type[Actuator], Callable[[Linkage, float, list[Arc] | None], Stroke]] = {
+    Cylinder: cylinder_stroke,
+    Travel: slider_stroke,
+}
+"""Which path what drives runs on; else it is that of a crank, which its loops may limit."""

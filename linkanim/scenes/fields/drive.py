@@ -1,4 +1,4 @@
-"""The input: a crank that is driven, a cylinder that turns it, or a slider that drives."""
+"""How the input is written, and what it comes to: a driven crank, a cylinder that turns it, a slider."""
 
 from __future__ import annotations
 
@@ -8,12 +8,41 @@ from typing import Any
 from linkanim.mechanics.linkage.drive import MOTOR, Cylinder, Drive, Travel
 from linkanim.mechanics.linkage.pins import Crank, DrivenSlider
 from linkanim.mechanics.linkage.rigid_bodies import coincide
-from linkanim.scenes.fields.scene_file import SECTIONS
+from linkanim.scenes.fields.form import Field, form
 from linkanim.scenes.fields.table import Table
-from linkanim.scenes.fields.types import SHORTEST
+from linkanim.scenes.fields.types import ANGLE, LENGTH, NAME, OFFSET, PAIR, SHORTEST, SPEED, choice
 from linkanim.units import shown
 
 Values = Mapping[str, Any]
+
+CYLINDER = form(
+    "a cylinder that drives",
+    dict,
+    Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body"),
+    Field("from", LENGTH, "its length at one end", label="Cylinder, from"),
+    Field("to", LENGTH, "its length at the other end", label="Cylinder, to"),
+    Field("joint", NAME, "the crank that it turns", None),
+)
+SLIDER = form(
+    "a slider that drives",
+    dict,
+    Field("joint", NAME, "the slider, declared by its line alone"),
+    Field("from", OFFSET, "its travel at one end", label="Slider, from"),
+    Field("to", OFFSET, "its travel at the other end", label="Slider, to"),
+)
+DRIVE = form(
+    "the input",
+    dict,
+    Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
+    Field("slider", SLIDER, "what drives instead of a crank", None),
+    Field("joint", NAME, "the crank that is driven: the first one without a gear", None),
+    Field("speed", SPEED, "turns, or there and back; negative: clockwise", "20 rpm", label="Input speed"),
+    Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
+    Field(
+        "returns", choice("other", "same"), "the closure on which an input that swings comes back", "other"
+    ),
+)
+INPUT = Field("drive", DRIVE, "the input", {})
 
 
 def read_drive(top: Table, usual: str | None) -> Drive | None:
@@ -22,7 +51,7 @@ def read_drive(top: Table, usual: str | None) -> Drive | None:
     None where its table or a joint has a fault. SceneError where nothing is left to be driven, or more than
     one joint would have to be.
     """
-    values: Values | None = SECTIONS["drive"].read(top)
+    values: Values | None = INPUT.read(top)
     if values is None or not top.context.sound:
         return None
     joints = top.context.joints.values()

@@ -1,0 +1,445 @@
+"""How each kind of joint is worked out by hand, and the one list of them."""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from linkanim.explain.chains import LoopSide, Route, bar_side, slide_sides
+from linkanim.explain.expression import (
+    NOWHERE,
+    TWO,
+    ZERO,
+    Components,
+    Formula,
+    Symbol,
+    along,
+    arccos,
+    atan2,
+    cos,
+    number,
+    sin,
+    sqrt,
+    square,
+)
+from linkanim.explain.rates import Order, Rates, SlideUnknown, TurnUnknown
+from linkanim.explain.work import ANGLE, LENGTH, GuideLine, Work
+from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
+from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Gear, Pin
+from linkanim.mechanics.linkage.rigid_bodies import Brace, Rigid
+
+
+def place_pin(pin: Pin, work: Work) -> None:
+    """Take where the pin stands, or work it out from its length and angle."""
+    if pin.polar is None or not pin.polar.length:
+        x, y = (
+            work.stated(Symbol(letter, pin.name), value, LENGTH)
+            for letter, value in zip("xy", pin.position, strict=True)
+        )
+        work.points[pin.name] = Components(x, y)
+        return
+    base, (length, angle) = pin.polar.base, (pin.polar.length, pin.polar.angle)
+    origin = next((name for name, at in work.points.items() if at == NOWHERE), None)
+    index = work.names.length(start, pin.name) if (start := base or origin) else pin.name
+    arm = along(work.stated(Symbol("θ", index), angle, ANGLE)).times(
+        work.stated(Symbol("r", index), length, LENGTH)
+    )
+    work.let_point(pin.name, (work.points[base] if base else NOWHERE) + arm)
+
+
+def place_crank(crank: Crank, work: Work) -> None:
+    """Add the geared crank's angle, and where its pin lies."""
+    ends = crank.pivot, crank.name
+    if crank.gear is not None:
+        mate = work.linkage.crank(crank.gear.mate)
+        offset = work.stated(Symbol("δ", crank.name), crank.gear.offset, ANGLE, "angle of the gears at θ = 0")
+        driven = _ratio(crank.gear) * work.angle_of(mate.pivot, mate.name) + offset
+        work.angles[ends] = work.let(work.angle_symbol(*ends), driven, ANGLE)
+    work.let_point(crank.name, work.points[crank.pivot] + work.bar(*ends, crank.length))
+
+
+def move_crank(crank: Crank, rates: Rates, order: Order) -> None:
+    """Add how the geared crank turns, and how its pin moves."""
+    frame = rates.work.frame((crank.pivot, crank.name))
+    if crank.gear is not None:
+        mate = rates.work.linkage.crank(crank.gear.mate)
+        driver = rates.turn(rates.work.frame((mate.pivot, mate.name)), order)
+        rates.let_turning(frame, _ratio(crank.gear) * driver, order)
+    arm = rates.work.bar(crank.pivot, crank.name, crank.length)
+    rates.let_moving(crank.name, rates.of(crank.pivot, order) + rates.carried(frame, arm, order), order)
+
+
+def _ratio(gear: Gear) -> Formula:
+    top, bottom = (number(str(part)) for part in gear.ratio.as_integer_ratio())
+    return top / bottom
+
+
+def route_of_crank(crank: Crank, work: Work) -> Route:
+    """Return the way to its pin."""
+    return Route(crank.pivot, (bar_side(work, crank.pivot, crank.name, crank.length),))
+
+
+def place_slider(slider: DrivenSlider, work: Work) -> None:
+    """Add where the driven slider lies."""
+    guide = work.guide(slider.line, slider.name)
+    ahead = guide.direction.times(work.slides[slider.name])
+    aside = guide.direction.left().times(guide.offset)
+    work.let_point(slider.name, work.points[guide.through] + ahead + aside)
+
+
+def move_slider(slider: DrivenSlider, rates: Rates, order: Order) -> None:
+    """Add how the driven slider moves."""
+    guide = rates.work.guide(slider.line, slider.name)
+    rates.let_moving(slider.name, guide.direction.times(rates.sliding[slider.name][order - 1]), order)
+
+
+def route_of_slider(slider: DrivenSlider, work: Work) -> Route:
+    """Return the way along its guide."""
+    return Route(slider.line.through, slide_sides(work, work.guide(slider.line, slider.name), slider.name))
+
+
+def place_point(point: Rigid, work: Work) -> None:
+    """Add where a point of a body lies: along the line of two of its joints, and to the left."""
+    work.let_point(
+        point.name, work.points[point.on[0]] + body_point(work, point.on, point.at, legs(point, work))
+    )
+
+
+def legs(point: Rigid, work: Work) -> tuple[Symbol, Symbol]:
+    """Return the symbols of how far a point lies along its body's line, and to the left."""
+    known = iter(work.names.legs.get(point.name, ()))
+    named = [Symbol("r", next(known, "")) if value else Symbol("") for value in point.at]
+    if point.at[1] == 0 and not named[0].sub:
+        return Symbol("r", work.names.length(point.on[0], point.name)), Symbol("")
+    usual = Symbol("p", point.name), Symbol("q", point.name)
+    return tuple(own if own.sub else other for own, other in zip(named, usual, strict=True))  # type: ignore[return-value]
+
+
+def body_point(
+    work: Work, on: tuple[str, str], at: tuple[float, float], names: tuple[Symbol, Symbol]
+) -> Components:
+    """Return how far a point of a body lies from its first joint."""
+    ahead = along(work.angle_of(*on))
+    about = f"along {{{on[0]}}}–{{{on[1]}}}", f"to the left of {{{on[0]}}}–{{{on[1]}}}"
+    p, q = (
+        work.stated(name, value, LENGTH, words) for name, value, words in zip(names, at, about, strict=True)
+    )
+    return ahead.times(p) + ahead.left().times(q)
+
+
+def move_point(point: Rigid, rates: Rates, order: Order) -> None:
+    """Add how a point of a body moves."""
+    points, base = rates.work.points, point.on[0]
+    arm = points[point.name] - points[base]
+    turned = rates.carried(rates.work.frame(point.on), arm, order)
+    rates.let_moving(point.name, rates.of(base, order) + turned, order)
+
+
+def route_of_point(point: Rigid, work: Work) -> Route:
+    """Return the way from its body's first joint."""
+    base, points = point.on[0], work.points
+    name, other = legs(point, work)
+    index = name.sub if not other.letter and name.letter == "r" else base + point.name
+    return Route(base, (LoopSide(Symbol("R", index, bold=True), points[point.name] - points[base]),))
+
+
+def rest(pin: Pin, rates: Rates, order: Order) -> None:
+    """Leave the pin where it is."""
+    rates.moving.setdefault(pin.name, []).append(NOWHERE)
+
+
+def place_bars(joint: RRR, work: Work) -> None:
+    """Add the cosine rule, with the bars' angles and where they meet."""
+    (p, q), name = joint.ends, joint.name
+    way = work.points[q] - work.points[p]
+    work.say(
+        f"From {{{p}}} to {{{q}}} the distance d and its direction δ, then the triangle of both bars by the "
+        "cosine rule:"
+    )
+    d = work.let(Symbol("d", name), sqrt(square(way.x) + square(way.y)), LENGTH)
+    symbol = work.angle_symbol(p, name)
+    if d.value == 0:
+        work.say("Both ends lie in one point, where every direction closes; the motion takes this one:")
+        at = complex(*work.pose.position[name]) - complex(*work.pose.position[p])
+        work.angles[p, name] = work.known(
+            symbol, phase(at), ANGLE, f"from the motion through {{{p}}} = {{{q}}}"
+        )
+    else:
+        work.angles[p, name] = work.let(symbol, _direction_of_bar(joint, work, way, d), ANGLE)
+    work.let_point(name, work.points[p] + work.bar(p, name, joint.lengths[0]))
+    work.angle_of(q, name)
+
+
+def _direction_of_bar(joint: RRR, work: Work, way: Components, d: Formula) -> Formula:
+    """Return the first bar's angle by the cosine rule, to the side on which the joint lies."""
+    a, b = (work.length(end, joint.name, length) for end, length in joint.bars)
+    ahead = work.let(Symbol("δ", joint.name), atan2(way.y, way.x), ANGLE)
+    corner = _corner((square(a) + square(d) - square(b)) / (TWO * a * d), work, joint.name)
+    left = _left(joint, work)
+    work.say(_why_left(joint, left))
+    return ahead + corner if left else ahead - corner
+
+
+def _corner(cosine: Formula, work: Work, name: str) -> Formula:
+    """Add the triangle's angle; at a limit, where rounding takes its cosine past 1, it is 0 or 180°."""
+    if abs(cosine.value) <= 1:
+        return work.let(Symbol("γ", name), arccos(cosine), ANGLE)
+    work.say("To the digits shown the bars lie in one line: the cosine of γ is rounded past 1.")
+    return number("0" if cosine.value > 0 else "180")
+
+
+def _left(joint: RRR, work: Work) -> bool:
+    """Tell whether the joint lies left of the way between its bars' ends at this pose."""
+    p, q, at = (complex(*work.pose.position[name]) for name in (*joint.ends, joint.name))
+    return ((q - p).conjugate() * (at - p)).imag >= 0
+
+
+def _why_left(joint: RRR, left: bool) -> str:
+    p, q = joint.ends
+    side, sign = ("left", "added") if left else ("right", "taken off")
+    found = f"Here {{{joint.name}}} lies {side} of {{{p}}} → {{{q}}}, so γ is {sign}"
+    if joint.side_of is not None:
+        return f"{found}: the closure to which the motion leads from its start."
+    if left == (joint.side > 0):
+        return f"{found}: as the scene names it."
+    return f"{found}: the motion came to this closure through a limit or a change point."
+
+
+def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
+    """Add the two equations for how the bars turn, and how their pin moves."""
+    work, (p, q), name = rates.work, joint.ends, joint.name
+    (_, a), (_, b) = joint.bars
+    one, other = work.bar(p, name, a), work.bar(q, name, b)
+    frames = work.frame((p, name)), work.frame((q, name))
+    right = rates.of(q, order) - rates.of(p, order)
+    if order == 2:
+        right = right + rates.centripetal(frames[0], one) - rates.centripetal(frames[1], other)
+    rates.solve(
+        name, (TurnUnknown(frames[0], one.left()), TurnUnknown(frames[1], -other.left())), right, order
+    )
+    rates.let_moving(name, rates.of(p, order) + rates.carried(frames[0], one, order), order)
+
+
+def route_of_bars(joint: RRR, work: Work) -> Route:
+    """Return the way to the pin by the first bar."""
+    return Route(joint.ends[0], (bar_side(work, joint.ends[0], joint.name, joint.lengths[0]),))
+
+
+def loop_of_bars(joint: RRR, work: Work) -> tuple[Route, Route]:
+    """Return both ways to the pin."""
+    other = bar_side(work, joint.ends[1], joint.name, joint.lengths[1])
+    return route_of_bars(joint, work), Route(joint.ends[1], (other,))
+
+
+def beside_guide(work: Work, guide: GuideLine, point: str, joint: str) -> tuple[Formula, Formula]:
+    """Add how far a point lies forward along a guide, and to the left of it."""
+    way, u = work.points[point] - work.points[guide.through], guide.direction
+    forward = work.let(Symbol("f", joint), way.x * u.x + way.y * u.y, LENGTH)
+    return forward, work.let(Symbol("n", joint), way.y * u.x - way.x * u.y - guide.offset, LENGTH)
+
+
+def on_guide(work: Work, guide: GuideLine, slide: Formula) -> Components:
+    """Return the place on a guide that is so far along it."""
+    u = guide.direction
+    return work.points[guide.through] + u.times(slide) + u.left().times(guide.offset)
+
+
+def place_slider_on_bar(joint: RRP, work: Work) -> None:
+    """Add the right-angled triangle of bar and guide, and where the slider is."""
+    name, end = joint.name, joint.end
+    guide = work.guide(joint.line, name)
+    work.say(
+        f"How far {{{end}}} lies along the guide from {{{guide.through}}} (f) and to its left (n), then the "
+        "slider's way s:"
+    )
+    forward, aside = beside_guide(work, guide, end, name)
+    margin = square(work.length(end, name, joint.length)) - square(aside)
+    if margin.value < 0:
+        work.say("To the digits shown the bar stands square to the guide: what is under the root is 0.")
+    root = sqrt(margin) if margin.value >= 0 else ZERO
+    ahead = _slider_ahead(joint, work)
+    work.say(_why_ahead(joint, ahead))
+    slide = work.let(work.names.slide(name), forward + root if ahead else forward - root, LENGTH)
+    work.slides[name] = slide
+    work.let_point(name, on_guide(work, guide, slide))
+    work.angle_of(end, name)
+
+
+def _slider_ahead(joint: RRP, work: Work) -> bool:
+    """Tell whether the slider is ahead of the bar's end at this pose."""
+    end, at = (complex(*work.pose.position[name]) for name in (joint.end, joint.name))
+    u = work.guide(joint.line, joint.name).direction
+    return ((at - end) * complex(u.x.value, -u.y.value)).real >= 0
+
+
+def _why_ahead(joint: RRP, ahead: bool) -> str:
+    way, sign = ("ahead of", "plus") if ahead else ("behind", "minus")
+    named = ahead == (joint.side > 0)
+    why = "as the scene names it" if named else "the motion came to it through a limit or a change point"
+    return f"Here {{{joint.name}}} is {way} {{{joint.end}}}, so the root has a {sign}: {why}."
+
+
+def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
+    """Add the two equations for how the slider slides and the bar turns, and how the joint moves."""
+    work, name, end = rates.work, joint.name, joint.end
+    guide, frame = work.guide(joint.line, name), work.frame((end, name))
+    bar, u = work.bar(end, name, joint.length), guide.direction
+    arm = work.points[name] - work.points[guide.through]
+    slid = u.times(rates.sliding[name][0]) if order == 2 else u
+    right = rates.of(end, order) - rates.guided(guide, arm, slid, order)
+    if order == 2:
+        right = right - rates.centripetal(frame, bar)
+    rates.solve(name, (SlideUnknown(name, u), TurnUnknown(frame, -bar.left())), right, order)
+    if joint.line.on is None:
+        rates.let_moving(name, u.times(rates.sliding[name][order - 1]), order)
+    else:
+        rates.let_moving(name, rates.of(end, order) + rates.carried(frame, bar, order), order)
+
+
+def route_of_slider_on_bar(joint: RRP, work: Work) -> Route:
+    """Return the way to the slider by its bar."""
+    return Route(joint.end, (bar_side(work, joint.end, joint.name, joint.length),))
+
+
+def loop_of_slider_on_bar(joint: RRP, work: Work) -> tuple[Route, Route]:
+    """Return both ways to the slider."""
+    guide = work.guide(joint.line, joint.name)
+    return route_of_slider_on_bar(joint, work), Route(guide.through, slide_sides(work, guide, joint.name))
+
+
+def place_slot(joint: RPR, work: Work) -> None:
+    """Add the way along the slot, the slotted bar's angle and where its end is."""
+    name, pivot, pin = joint.name, joint.pivot, joint.through
+    way = work.points[pin] - work.points[pivot]
+    offset = work.stated(Symbol("e", name), joint.offset, LENGTH, "the slot's offset to the left")
+    work.say(f"The slotted bar turns about {{{pivot}}} and its slot passes through {{{pin}}}, s ahead of it:")
+    root = sqrt(square(way.x) + square(way.y) - square(offset))
+    slide = work.let(work.names.slide(name), root if _pin_ahead(joint, work) else -root, LENGTH)
+    work.slides[name] = slide
+    turned = atan2(slide * way.y - offset * way.x, slide * way.x + offset * way.y)
+    work.angles[pivot, name] = work.let(work.angle_symbol(pivot, name), turned, ANGLE)
+    work.let_point(name, work.points[pivot] + work.bar(pivot, name, joint.length))
+
+
+def _pin_ahead(joint: RPR, work: Work) -> bool:
+    """Tell whether the pin is ahead of the pivot along the bar at this pose."""
+    pivot, pin, at = (complex(*work.pose.position[name]) for name in (joint.pivot, joint.through, joint.name))
+    return ((pin - pivot) * (at - pivot).conjugate()).real >= 0
+
+
+def move_slot(joint: RPR, rates: Rates, order: Order) -> None:
+    """Add the two equations for how the bar turns and the pin slides, and how the bar's end moves."""
+    work, name, pivot = rates.work, joint.name, joint.pivot
+    frame, u = work.frame((pivot, name)), along(work.angle_of(pivot, name))
+    arm = work.points[joint.through] - work.points[pivot]
+    right = rates.of(joint.through, order) - rates.of(pivot, order)
+    if order == 2:
+        across = u.left().times(TWO * rates.turn(frame, 1) * rates.sliding[name][0])
+        right = right + rates.centripetal(frame, arm) - across
+    rates.solve(name, (TurnUnknown(frame, arm.left()), SlideUnknown(name, u)), right, order)
+    bar = work.bar(pivot, name, joint.length)
+    rates.let_moving(name, rates.of(pivot, order) + rates.carried(frame, bar, order), order)
+
+
+def route_of_slot(joint: RPR, work: Work) -> Route:
+    """Return the way to the bar's end."""
+    return Route(joint.pivot, (bar_side(work, joint.pivot, joint.name, joint.length),))
+
+
+def loop_of_slot(joint: RPR, work: Work) -> tuple[Route, Route]:
+    """Return both ways to the pin in the slot."""
+    u, index = along(work.angle_of(joint.pivot, joint.name)), work.names.slide(joint.name).sub
+    sides = [LoopSide(Symbol("S", index, bold=True), u.times(work.slides[joint.name]))]
+    if joint.offset:
+        offset = work.stated(Symbol("e", joint.name), joint.offset, LENGTH)
+        sides.append(LoopSide(Symbol("E", joint.name, bold=True), Components(*u.left().times(offset))))
+    return Route(joint.through, ()), Route(joint.pivot, tuple(sides))
+
+
+def place_yoke(joint: RPP, work: Work) -> None:
+    """Add where the slot crosses the guide, and how far the pin is along the slot."""
+    name = joint.name
+    guide, slot = work.guide(joint.line, name), _slot(joint, work)
+    work.say(
+        f"How far {{{joint.pin}}} lies along the guide from {{{guide.through}}} (f) and to its left (n), and "
+        "where the slot crosses it:"
+    )
+    forward, aside = beside_guide(work, guide, joint.pin, name)
+    work.slides[name] = work.let(work.names.slide(name), forward - aside * (cos(slot) / sin(slot)), LENGTH)
+    work.let_point(name, on_guide(work, guide, work.slides[name]))
+    work.slides["t" + name] = work.let(Symbol("t", work.names.slide(name).sub), aside / sin(slot), LENGTH)
+
+
+def _slot(joint: RPP, work: Work) -> Formula:
+    """Return the slot's direction from the guide's."""
+    return work.stated(Symbol("σ", joint.name), joint.slot, ANGLE, "direction of its slot from its guide")
+
+
+def _along_slot(joint: RPP, work: Work, guide: GuideLine) -> Components:
+    """Return the slot's direction."""
+    slot = _slot(joint, work)
+    if guide.angle.constant is not None and slot.constant is not None:
+        return along(work.stated(Symbol("ψ", joint.name), joint.line.angle + joint.slot, ANGLE))
+    return along(slot + guide.angle)
+
+
+def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
+    """Add the two equations for how bar and pin slide, and how the joint moves."""
+    work, name = rates.work, joint.name
+    guide = work.guide(joint.line, name)
+    u, w = guide.direction, _along_slot(joint, work, guide)
+    base = work.points[guide.through]
+    slid = both = u
+    if order == 2:
+        slid = u.times(rates.sliding[name][0])
+        both = slid + w.times(rates.sliding["t" + name][0])
+    right = rates.of(joint.pin, order) - rates.guided(guide, work.points[joint.pin] - base, both, order)
+    rates.solve(name, (SlideUnknown(name, u), SlideUnknown(name, w, "t")), right, order)
+    carried = rates.guided(guide, work.points[name] - base, slid, order)
+    rates.let_moving(name, carried + u.times(rates.sliding[name][order - 1]), order)
+
+
+def route_of_yoke(joint: RPP, work: Work) -> Route:
+    """Return the way along the guide."""
+    guide = work.guide(joint.line, joint.name)
+    return Route(guide.through, slide_sides(work, guide, joint.name))
+
+
+def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:
+    """Return both ways to the pin."""
+    w = _along_slot(joint, work, work.guide(joint.line, joint.name))
+    index = work.names.slide(joint.name).sub
+    last = LoopSide(Symbol("T", index, bold=True), w.times(work.slides["t" + joint.name]))
+    start, sides = route_of_yoke(joint, work)
+    return Route(joint.pin, ()), Route(start, (*sides, last))
+
+
+@dataclass(frozen=True, slots=True)
+class KindSteps:
+    """The steps of one kind of joint.
+
+    `place` adds the lines of its position, `move` those of its rates of an order. `route` is the way to it
+    from a joint before it, `loop` of a dyad the two ways that meet.
+    """
+
+    place: Callable[[Any, Work], None]
+    move: Callable[[Any, Rates, Order], None]
+    route: Callable[[Any, Work], Route] | None = None
+    loop: Callable[[Any, Work], tuple[Route, Route]] | None = None
+
+
+KINDS: Mapping[type[Joint], KindSteps] = {
+    Pin: KindSteps(place_pin, rest),
+    Crank: KindSteps(place_crank, move_crank, route_of_crank),
+    DrivenSlider: KindSteps(place_slider, move_slider, route_of_slider),
+    Rigid: KindSteps(place_point, move_point, route_of_point),
+    Brace: KindSteps(place_point, move_point, route_of_point),
+    RRR: KindSteps(place_bars, move_bars, route_of_bars, loop_of_bars),
+    RRP: KindSteps(place_slider_on_bar, move_slider_on_bar, route_of_slider_on_bar, loop_of_slider_on_bar),
+    RPR: KindSteps(place_slot, move_slot, route_of_slot, loop_of_slot),
+    RPP: KindSteps(place_yoke, move_yoke, route_of_yoke, loop_of_yoke),
+}
+"""Every kind that a linkage can be made of."""
