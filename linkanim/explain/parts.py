@@ -64,9 +64,9 @@ def strut(item: Spring | Damper, rates: Rates) -> Iterator[Found]:
     rate = rates.let(Symbol("L", name, "˙"), dot(way, moving) / length, Powers(1, 1))
     yield Found(f"{name}.rate", rate, Powers(1, 1))
     if item.forceful:
-        yield Found(
-            f"{name}.force", work.let_plain(Symbol("F", name), _force(item, rates, length, rate), "N"), None
-        )
+        force = work.let_plain(Symbol("F", name), _force(item, rates, length, rate), "N")
+        rates.struts[item] = force, rate
+        yield Found(f"{name}.force", force, None)
 
 
 def _force(item: Spring | Damper, rates: Rates, length: Formula, rate: Formula) -> Formula:

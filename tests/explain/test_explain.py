@@ -21,6 +21,7 @@ from linkanim.explain.inputs import PoseRequest
 from linkanim.explain.lines import System, ValueLine
 from linkanim.explain.solution import Solution, solution
 from linkanim.explain.variant import variant
+from linkanim.mechanics.facts.effort import effort_token
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
 
@@ -70,6 +71,8 @@ def test_each_printed_line_gives_the_next_and_the_last_are_what_solving_gives(na
     assert not found.singular
     assert _failing(found) == []
     assert _disagreeing(found) == []
+    linkage = found.request.scene.linkage
+    assert linkage.forceful == (effort_token(linkage) in {result.token for result in found.results})
 
 
 @pytest.mark.long
