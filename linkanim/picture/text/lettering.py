@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cached_property, reduce
+from functools import cached_property
 from itertools import product
 from math import ceil
 
@@ -16,6 +16,8 @@ from linkanim.picture.text.text import Type
 
 _FINE = 4
 """Words are set so many times larger and averaged, and placed to such a part of a pixel."""
+
+_Parts = list[list[NDArray[np.float32]]]
 
 
 class Lettering:
@@ -33,14 +35,14 @@ class Lettering:
         self.size: tuple[float, float] = ((wide + around) / _FINE, (high + around) / _FINE)
 
     @cached_property
-    def _large(self) -> NDArray[np.float32]:
+    def _parts(self) -> _Parts:
         """The words in their halo: many are measured and find no room."""
-        return _haloed(self._cover, round(_FINE * self.halo[1]), self.ink, self.halo[0])
+        return _parts(_haloed(self._cover, round(_FINE * self.halo[1]), self.ink, self.halo[0]))
 
     def draw(self, surface: pygame.Surface, middle: complex, shown: float = 1.0) -> None:
         """Draw the words about a place in pixels, as strongly as 0 (not at all) to 1 says."""
-        x = round(_FINE * middle.real - self._large.shape[1] / 2)
-        y = round(_FINE * middle.imag - self._large.shape[0] / 2)
+        wide, high = (_FINE * side for side in self.size)
+        x, y = round(_FINE * middle.real - wide / 2), round(_FINE * middle.imag - high / 2)
         sprite = self._sprite(x % _FINE, y % _FINE)
         if sprite.get_alpha() != round(255 * shown):
             sprite.set_alpha(round(255 * shown))
@@ -49,7 +51,9 @@ class Lettering:
     def _sprite(self, right: int, down: int) -> pygame.Surface:
         """Return the words so many parts of a pixel further right and down."""
         if (right, down) not in self._drawn:
-            self._drawn[right, down] = _averaged(self._large, right, down)
+            wide, high = self.size
+            size = ceil(wide + right / _FINE), ceil(high + down / _FINE)
+            self._drawn[right, down] = _averaged(self._parts, (right, down), size)
         return self._drawn[right, down]
 
 
@@ -83,16 +87,27 @@ def _haloed(cover: NDArray[np.uint8], halo: int, ink: Colour, back: Colour) -> N
     return np.stack([*colours, opacity], axis=-1)
 
 
-def _averaged(large: NDArray[np.float32], right: int, down: int) -> pygame.Surface:
-    high, wide = (
-        ceil((side + shift) / _FINE) for side, shift in zip(large.shape, (down, right), strict=False)
-    )
-    room = np.zeros((high * _FINE, wide * _FINE, 4), np.float32)
-    room[down : down + large.shape[0], right : right + large.shape[1]] = large
-    shifted = (room[row::_FINE, column::_FINE] for row, column in product(range(_FINE), repeat=2))
-    small = reduce(np.add, shifted) / _FINE**2
+def _parts(large: NDArray[np.float32]) -> _Parts:
+    """Return a large line's rows and columns by their place within a pixel, with a pixel of nothing about.
+
+    So an average is made of whole arrays, however far the line is shifted.
+    """
+    room = np.pad(large, ((_FINE, 2 * _FINE), (_FINE, 2 * _FINE), (0, 0)))
+    rows = (room[row::_FINE] for row in range(_FINE))
+    return [[np.ascontiguousarray(row[:, column::_FINE]) for column in range(_FINE)] for row in rows]
+
+
+def _averaged(parts: _Parts, shift: tuple[int, int], size: tuple[int, int]) -> pygame.Surface:
+    """Return a line in pixels, shifted by parts of one right and down."""
+    (right, down), (width, height) = shift, size
+    small: NDArray[np.float32] = np.zeros((height, width, 4), np.float32)
+    for row, column in product(range(_FINE), repeat=2):
+        top, left = (_FINE + row - down) // _FINE, (_FINE + column - right) // _FINE
+        part = parts[(row - down) % _FINE][(column - right) % _FINE]
+        small += part[top : top + height, left : left + width]
+    small /= _FINE**2
     opacity = np.maximum(small[..., 3:], 1e-6)
-    straight = np.concatenate((small[..., :3] / opacity, small[..., 3:]), axis=-1)
-    levels = (255 * straight + 0.5).astype(np.uint8)
     # in the order of a surface's bytes, which blits many times faster
-    return pygame.image.frombuffer(levels[..., [2, 1, 0, 3]].tobytes(), (wide, high), "BGRA")
+    straight: NDArray[np.float32] = np.concatenate((small[..., 2::-1] / opacity, small[..., 3:]), axis=-1)
+    levels = (255 * straight + 0.5).astype(np.uint8)
+    return pygame.image.frombuffer(levels.tobytes(), size, "BGRA")
