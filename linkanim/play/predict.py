@@ -199,14 +199,12 @@ class Predict(BesideScene):
             return replace(over, game=self._end_panel())
         question = self.question
         moods = tuple(self._mood(n) for n in range(len(question.answers)))
-        words = [
-            f"at {n}" if question.places and question.kind != "fastest" else text
-            for n, text in enumerate(question.answers, 1)
-        ]
-        curves = question.curves or ((),) * len(words)
+        answers = [*enumerate(zip(question.answers, moods, strict=True), 1)]
         choices = tuple(
-            Choice(f"{n}", text, mood, curve=curve)
-            for n, (text, mood, curve) in enumerate(zip(words, moods, curves, strict=True), 1)
+            Choice(
+                f"{n}", one.text if question.kind != "instant centre" else f"at {n}", mood, curve=one.curve
+            )
+            for n, (one, mood) in answers
         )
         waits = self.chosen is None
         panel = GamePanel(
@@ -220,8 +218,7 @@ class Predict(BesideScene):
         if not waits:
             panel = self._verdict(panel, question)
         still = waits or state.frame < self.since + _HOLD or state.clock.paused
-        marks = zip(question.places, moods, strict=True) if question.places and still else ()
-        spots = tuple(Spot(f"{n}", at, mood) for n, (at, mood) in enumerate(marks, 1))
+        spots = tuple(Spot(f"{n}", one.place, mood) for n, (one, mood) in answers if one.place and still)
         return replace(over, game=panel, spots=spots)
 
     def _mood(self, n: int) -> Mood:
@@ -239,7 +236,7 @@ class Predict(BesideScene):
         assert self.chosen is not None
         well = self.chosen == question.right
         gained = points(self.level, self.done, len(self.done) - 1)
-        slip = question.slips[self.chosen]
+        slip = question.answers[self.chosen].slip
         verdict = f"Right: {gained} points" if well else f"No: that is {slip}."
         return replace(panel, verdict=verdict, well=well, lines_after=(question.why,))
 

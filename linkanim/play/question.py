@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
 from functools import cached_property
 from random import Random
-from types import MappingProxyType
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -22,16 +21,24 @@ from linkanim.units import shown
 
 CLEAR = 0.02
 """Two values that differ by less of their range look alike; below as much a value is as good as zero."""
+PLAIN = 0.1
+"""A share of a greatest value that is seen at once."""
 
 _ADJECTIVES = frozenset({"upper", "lower", "left", "right", "large", "small", "short", "upright"})
 """What bodies are called that is no noun."""
 
 
-class Wrong(NamedTuple):
-    """A wrong answer, and the misconception that it comes from, to be read after "that is"."""
+class Answer(NamedTuple):
+    """An answer, and of a wrong one the misconception that it comes from, to be read after "that is".
 
-    answer: str
-    slip: str
+    Where answers are places (in the scene's unit, at the phase) or curves (values from −1 to 1 over one
+    period), it has its own.
+    """
+
+    text: str
+    slip: str = ""
+    place: Point | None = None
+    curve: tuple[float, ...] = ()
 
 
 class QuestionId(NamedTuple):
@@ -59,10 +66,8 @@ class QuestionId(NamedTuple):
 class QuizQuestion:
     """A question with its answers, of which one is right, and why.
 
-    `subject` is the token of what it is about: a body, a joint, or the input. Each answer has its `slips`,
-    the misconception that it comes from, empty for the right one; where answers are `places` (in the scene's
-    unit, at the phase) or `curves` (values from −1 to 1 over one period), one of those. The look that `shows`
-    the answer has arrows at the joints of `arrows`; the input runs on then, to the phase at which it `stops`.
+    `subject` is the token of what it is about: a body, a joint, or the input. The look that `shows` the
+    answer has arrows at the joints of `arrows`; the input runs on then, to the phase at which it `stops`.
     While it is asked `names` of the look are shown that do not give the answer away.
     """
 
@@ -71,16 +76,13 @@ class QuizQuestion:
     phase: float
     subject: str
     text: str
-    answers: tuple[str, ...]
+    answers: tuple[Answer, ...]
     right: int
     why: str
-    slips: tuple[str, ...] = ()
-    places: tuple[Point, ...] = ()
-    curves: tuple[tuple[float, ...], ...] = ()
-    shows: Look = field(default_factory=lambda: Look(names=1))
-    arrows: tuple[str, ...] = ()
-    stops: float | None = None
-    names: int = 1
+    shows: Look
+    arrows: tuple[str, ...]
+    stops: float | None
+    names: int
 
     @property
     def question_id(self) -> QuestionId:
@@ -90,8 +92,9 @@ class QuizQuestion:
 
 @dataclass(frozen=True)
 class Puzzle:
-    """A scene at a phase that a question is made of, with the random choices that are made in it."""
+    """A scene at a phase that a question of a kind is made of, with the random choices in it."""
 
+    kind: str
     scene: Scene
     phase: float
     random: Random
@@ -143,45 +146,31 @@ class Puzzle:
         at = float(np.hypot(*value)) if isinstance(value, tuple) else float(value)
         return at / greatest if 0.0 < greatest < np.inf and np.isfinite(at) else 0.0
 
+    def clear(self, kind: str) -> list[str]:
+        """Return the joints whose velocity, or acceleration, is seen at once."""
+        return [name for name in self.joints if self.share(kind, name) > PLAIN]
+
     def question(
         self,
-        kind: str,
         subject: str,
         text: str,
-        right: str,
-        wrong: Iterable[Wrong],
+        right: Answer,
+        wrong: Iterable[Answer],
         why: str,
         *,
-        kept: bool = False,
+        shuffled: bool = False,
         shows: Look = Look(names=1),  # noqa: B008 -- frozen
         arrows: Collection[str] = (),
-        places: Mapping[str, Point] = MappingProxyType({}),
-        curves: Mapping[str, tuple[float, ...]] = MappingProxyType({}),
         stops: float | None = None,
         names: int = 1,
     ) -> QuizQuestion:
-        """Return the question; its answers are shuffled, or `kept` in the order of the alphabet."""
-        slips = {**dict(wrong), right: ""}
-        answers = sorted(slips)
-        if not kept:
+        """Return the question; its answers are in the order of the alphabet, or `shuffled`."""
+        answers = sorted({one.text: one for one in (*wrong, right)}.values(), key=lambda one: one.text)
+        if shuffled:
             self.random.shuffle(answers)
-        return QuizQuestion(
-            kind,
-            self.scene,
-            self.phase,
-            subject,
-            text,
-            tuple(answers),
-            answers.index(right),
-            why,
-            tuple(slips[answer] for answer in answers),
-            tuple(places[answer] for answer in answers if places),
-            tuple(curves[answer] for answer in answers if curves),
-            shows,
-            tuple(arrows),
-            stops,
-            names,
-        )
+        about = (self.kind, self.scene, self.phase, subject)
+        given = (text, tuple(answers), answers.index(right), why)
+        return QuizQuestion(*about, *given, shows, tuple(arrows), stops, names)
 
 
 def _sizes(values: Any) -> Any:

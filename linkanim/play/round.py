@@ -67,4 +67,4 @@ def question_of(question_id: QuestionId) -> QuizQuestion:
 
 
 def _made(kind: str, scene: Scene, phase: float) -> QuizQuestion | None:
-    return KINDS[kind].make(Puzzle(scene, phase, Random(f"{kind} {scene.name} {phase}")))
+    return KINDS[kind].make(Puzzle(kind, scene, phase, Random(f"{kind} {scene.name} {phase}")))

@@ -10,7 +10,7 @@ from linkanim.paper.figure import Figured
 from linkanim.paper.html import embedded
 from linkanim.picture.look import Look
 from linkanim.picture.parts.driven import driven_words, speed_words
-from linkanim.play.question import QuizQuestion
+from linkanim.play.question import Answer, QuizQuestion
 
 _CURVE = (160, 34)
 """The size of a curve on a sheet."""
@@ -49,7 +49,7 @@ def as_text(round_: Sequence[QuizQuestion]) -> str:
     lines = []
     for number, question in enumerate(round_, 1):
         lines += [f"{number}. {question.text}", f"   {pose_words(question)} (phase {question.phase:g} rad)"]
-        shown = map(_worded, question.answers, question.curves or [()] * len(question.answers))
+        shown = map(_worded, question.answers)
         lines += [f"   {letter}) {answer}" for letter, answer in zip(LETTERS, shown, strict=False)]
         lines.append("")
     lines.append("key")
@@ -70,9 +70,7 @@ def _sections(round_: Sequence[QuizQuestion]) -> Iterator[str]:
             question.scene, _SIZE, Look(hud=False, trace=False, names=question.names), question.phase
         ).document()
         words = pose_words(question)
-        curves = question.curves or [()] * len(question.answers)
-        pairs = zip(question.answers, curves, strict=True)
-        answers = "".join(f"<li>{escape(answer)}{_drawn(curve)}</li>" for answer, curve in pairs)
+        answers = "".join(f"<li>{escape(one.text)}{_drawn(one.curve)}</li>" for one in question.answers)
         yield (
             f"<section><h2>{number}. {escape(question.text)}</h2>"
             f"<figure>{embedded(drawn, words)}<figcaption>{escape(words)}</figcaption></figure>"
@@ -89,10 +87,10 @@ def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
     yield "</ol></div>"
 
 
-def _worded(answer: str, curve: Sequence[float]) -> str:
+def _worded(answer: Answer) -> str:
     """Return an answer, and of its curve some values evenly over the period."""
-    values = curve[:: max(len(curve) // _PRINTED, 1)]
-    return f"{answer}: {' '.join(f'{value:.2f}' for value in values)}" if curve else answer
+    values = answer.curve[:: max(len(answer.curve) // _PRINTED, 1)]
+    return f"{answer.text}: {' '.join(f'{value:.2f}' for value in values)}" if values else answer.text
 
 
 def _drawn(curve: Sequence[float]) -> str:
@@ -110,9 +108,9 @@ def _drawn(curve: Sequence[float]) -> str:
 
 def _slips(question: QuizQuestion) -> str:
     """Return from which misconceptions the wrong answers come."""
-    slips = [f"{letter}) {slip}" for letter, slip in zip(LETTERS, question.slips, strict=False) if slip]
-    return "; ".join(slips)
+    answers = zip(LETTERS, question.answers, strict=False)
+    return "; ".join(f"{letter}) {answer.slip}" for letter, answer in answers if answer.slip)
 
 
 def _key(question: QuizQuestion) -> str:
-    return f"{LETTERS[question.right]}) {question.answers[question.right]}. {question.why}"
+    return f"{LETTERS[question.right]}) {question.answers[question.right].text}. {question.why}"

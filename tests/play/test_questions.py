@@ -26,11 +26,12 @@ FEW, MANY = 3, 200
 
 def check(question: QuizQuestion) -> None:
     """Hold the key against what is solved at the question's phase, read by its own words."""
-    assert len(set(question.answers)) == len(question.answers) >= 2
-    assert 0 <= question.right < len(question.answers)
-    assert [n for n, slip in enumerate(question.slips) if not slip] == [question.right]
-    assert all(len(one) in (0, len(question.answers)) for one in (question.places, question.curves))
-    scene, answer = question.scene, question.answers[question.right]
+    texts, slips, places, curves = zip(*question.answers, strict=True)
+    assert len(set(texts)) == len(texts) >= 2
+    assert 0 <= question.right < len(texts)
+    assert [n for n, slip in enumerate(slips) if not slip] == [question.right]
+    assert all(len({bool(one) for one in part}) == 1 for part in (places, curves))
+    scene, answer = question.scene, texts[question.right]
     pose, cycle = scene.pose(question.phase), scene.cycle(720)
     match question.kind:
         case "turning":
@@ -38,7 +39,7 @@ def check(question: QuizQuestion) -> None:
             assert answer == ("counterclockwise" if rate > 0 else "clockwise")
             assert abs(rate) > 0.05 * abs(cycle.angular_velocity[question.subject]).max()
         case "fastest":
-            speeds = {name: hypot(*pose.velocity[name]) for name in question.answers}
+            speeds = {name: hypot(*pose.velocity[name]) for name in texts}
             assert answer == max(speeds, key=lambda name: speeds[name])
             order = sorted(speeds.values())
             assert all(high - low > 0.02 * order[-1] for low, high in pairwise(order))
@@ -107,7 +108,7 @@ def misplaced(question: QuizQuestion, answer: str) -> None:
     own = {written[0]: (s,), written[1]: (longest,), written[2]: (p, q), written[3]: (p, q)}
     wrong = [part for part, places in own.items() if part not in places]
     assert len(wrong) == 2
-    assert [one for one in question.answers if one in wrong] == [answer]
+    assert [one.text for one in question.answers if one.text in wrong] == [answer]
 
 
 def is_the_steepness(question: QuizQuestion) -> None:
@@ -116,11 +117,10 @@ def is_the_steepness(question: QuizQuestion) -> None:
     times = np.linspace(0.0, 1.0, 72, endpoint=False) * question.scene.period
     way = 1.0 if question.scene.linkage.drive.speed > 0 else -1.0
     values = np.asarray(getattr(question.scene.solve(phase=way * times), token)[body])
-    right = np.array(question.curves[question.right])
+    right, *others = (np.array(one.curve) for one in sorted(question.answers, key=lambda one: one.slip != ""))
     # over one period, from whatever phase on
     apart = [float(np.abs(values / np.abs(values).max() - np.roll(right, n)).max()) for n in range(72)]
     assert min(apart) < 0.01
-    others = [np.array(one) for one in question.curves if one != question.curves[question.right]]
     assert all(float(np.abs(other - right).max()) > 0.25 for other in others)
     assert len(others) == 2
 
@@ -165,7 +165,7 @@ def stands_still(question: QuizQuestion, answer: str) -> None:
 def turns_back(question: QuizQuestion, answer: str) -> None:
     """Check that the output's velocity changes its sign there, and at no other answer."""
     kind = "travel_velocity" if question.subject in question.scene.pose(0.0).travel else "angular_velocity"
-    for text in question.answers:
+    for text, *_ in question.answers:
         at = radians(float(text.rstrip("°")))
         rates = [
             getattr(question.scene.solve(angle=at + part), kind)[question.subject] for part in (-0.01, 0.01)

@@ -48,7 +48,8 @@ def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:
 
 
 def _as_object(question: QuizQuestion) -> dict[str, object]:
-    fields = ("kind", "phase", "subject", "answers", "right", "why", "slips")
-    found: dict[str, object] = {name: getattr(question, name) for name in fields}
-    curves = {"curves": question.curves} if question.curves else {}
-    return {"scene": question.scene.name, **found, **curves, "question": question.text}
+    answers, slips, _, curves = zip(*question.answers, strict=True)
+    found = {"scene": question.scene.name, "kind": question.kind, "phase": question.phase}
+    found |= {"subject": question.subject, "answers": answers, "right": question.right, "why": question.why}
+    shown = {"curves": curves} if all(curves) else {}
+    return {**found, "slips": slips, **shown, "question": question.text}

@@ -11,8 +11,8 @@ import numpy as np
 from linkanim.mechanics.motion.measures import between as way_between
 from linkanim.mechanics.motion.measures import growth, output_body
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
-from linkanim.play.kinds.wording import PLAIN, number
-from linkanim.play.question import CLEAR, Puzzle, QuizQuestion, Wrong
+from linkanim.play.kinds.wording import number
+from linkanim.play.question import CLEAR, PLAIN, Answer, Puzzle, QuizQuestion
 
 _BOTH = Look(names=1, vectors=frozenset({VELOCITY, ACCELERATION}))
 _SAMPLES = 72
@@ -30,29 +30,24 @@ _GOES_WITH = MappingProxyType(
 
 def speeding(puzzle: Puzzle) -> QuizQuestion | None:
     """Return whether a joint becomes faster; taken wrongly, whether it moves forward."""
-    names = [name for name in puzzle.joints if puzzle.share("velocity", name) > PLAIN]
+    names = puzzle.clear("velocity")
     puzzle.random.shuffle(names)
     for name in names:
         (vx, vy), (ax, ay) = puzzle.pose.velocity[name], puzzle.pose.acceleration[name]
         along = (vx * ax + vy * ay) / hypot(vx, vy)
-        if (
-            isfinite(along)
-            and abs(along) > PLAIN * hypot(ax, ay)
-            and puzzle.share("acceleration", name) > CLEAR
-        ):
+        gains = isfinite(along) and abs(along) > PLAIN * hypot(ax, ay)
+        if gains and puzzle.share("acceleration", name) > CLEAR:
             right, wrong = ("it speeds up", "it slows down")[:: 1 if along > 0 else -1]
             why = (
                 f"Its acceleration along its velocity is {number(along)} {puzzle.scene.length_unit}/s²: "
                 "not where it moves to, but whether both point the same way, decides."
             )
             return puzzle.question(
-                "speeding",
                 name,
                 f"Does {name} speed up or slow down?",
-                right,
-                [Wrong(wrong, "the velocity taken for the acceleration")],
+                Answer(right),
+                [Answer(wrong, "the velocity taken for the acceleration")],
                 why,
-                kept=True,
                 shows=_BOTH,
                 arrows=[name],
             )
@@ -62,7 +57,7 @@ def speeding(puzzle: Puzzle) -> QuizQuestion | None:
 def doubled(puzzle: Puzzle) -> QuizQuestion | None:
     """Return what becomes of a joint's velocity or acceleration as the speed doubles."""
     kind, factor = puzzle.random.choice((("velocity", 2), ("acceleration", 4)))
-    names = [name for name in puzzle.joints if puzzle.share(kind, name) > PLAIN]
+    names = puzzle.clear(kind)
     if not names:
         return None
     name = puzzle.random.choice(names)
@@ -71,7 +66,6 @@ def doubled(puzzle: Puzzle) -> QuizQuestion | None:
     power = "the square of the speed" if factor == 4 else "the speed itself"
     return _growing(
         puzzle,
-        "doubled",
         f"{name}.{kind}",
         f"How large is the {kind} of {name} in the same place?",
         factor,
@@ -80,48 +74,31 @@ def doubled(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def force(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return what becomes of a force as the speed doubles: a spring's, a damper's, or that of a mass."""
+    """Return what becomes of a force as the speed doubles: a spring's, a damper's, or that on a mass."""
     known = puzzle.scene.linkage
-    struts = [
-        (
-            item,
-            factor,
-            getattr(puzzle.pose, kind)[item.name].force,
-            getattr(puzzle.cycle, kind)[item.name].force,
-        )
-        for kind, items, factor in (("spring", known.springs, 1), ("damper", known.dampers, 2))
-        for item in items
-        if item.forceful
-    ]
-    clear = [
-        (item, factor, value)
-        for item, factor, value, cycle in struts
-        if isfinite(value) and abs(value) > PLAIN * float(np.nanmax(np.abs(cycle)))
-    ]
+    clear = []
+    for kind, items, factor in (("spring", known.springs, 1), ("damper", known.dampers, 2)):
+        for item in items:
+            value, cycle = (getattr(found, kind)[item.name].force for found in (puzzle.pose, puzzle.cycle))
+            if item.forceful and isfinite(value) and abs(value) > PLAIN * float(np.nanmax(np.abs(cycle))):
+                clear.append((item, factor, value))
     if clear:
         item, factor, value = puzzle.random.choice(clear)
         power = "the speed itself" if factor == 2 else "its length alone, which is the same there"
         return _growing(
             puzzle,
-            "force",
             item.name,
             f"How large is the force of the {known.strut_words(item)} in the same place?",
             factor,
             f"It goes with {power}: {number(value)} N becomes {number(factor * value)} N.",
             Look(names=1, chart=f"{item.name}.force"),
         )
-    return _of_mass(puzzle)
-
-
-def _of_mass(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return what becomes of the force that accelerates a mass at a joint."""
-    names = [name for name in puzzle.joints if puzzle.share("acceleration", name) > PLAIN]
+    names = puzzle.clear("acceleration")
     if not names:
         return None
     name = puzzle.random.choice(names)
     return _growing(
         puzzle,
-        "force",
         f"{name}.acceleration",
         f"How large is the force that accelerates a mass at {name}, in the same place?",
         4,
@@ -130,16 +107,16 @@ def _of_mass(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def _growing(
-    puzzle: Puzzle, kind: str, subject: str, text: str, factor: int, why: str, shows: Look = _BOTH
+    puzzle: Puzzle, subject: str, text: str, factor: int, why: str, shows: Look = _BOTH
 ) -> QuizQuestion:
     """Return a question on what a doubled speed does."""
     return puzzle.question(
-        kind,
         subject,
         f"The input runs twice as fast. {text}",
-        _FACTORS[factor],
-        [Wrong(words, f"what {_GOES_WITH[one]} does") for one, words in _FACTORS.items() if one != factor],
+        Answer(_FACTORS[factor]),
+        [Answer(words, f"what {_GOES_WITH[one]} does") for one, words in _FACTORS.items() if one != factor],
         why,
+        shuffled=True,
         shows=shows,
         arrows=[name for name in [subject.partition(".")[0]] if name in puzzle.pose.position],
     )
@@ -172,23 +149,24 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
     if any(float(np.abs(scaled[a] - scaled[b]).max()) < _APART for a, b in pairs):
         return None
     order = puzzle.random.sample(range(3), 3)
-    names = [f"curve {order.index(n) + 1}" for n in range(3)]
     which = puzzle.random.choice((1, 2))
     right = _ORDERS[which]
-    wrong = [Wrong(names[n], f"the {_ORDERS[n]} taken for the {right}") for n in range(3) if n != which]
+    answers = [
+        Answer(
+            f"curve {order.index(n) + 1}",
+            f"the {_ORDERS[n]} taken for the {right}" if n != which else "",
+            curve=tuple(round(float(value), 3) for value in part),
+        )
+        for n, part in enumerate(scaled)
+    ]
     token = f"{body.name}.{tokens[which]}"
     return puzzle.question(
-        "curves",
         token,
         f"Over one period, which curve is the {right} of the {puzzle.name(body)}?",
-        names[which],
-        wrong,
+        answers.pop(which),
+        answers,
         f"Where the {_ORDERS[which - 1]} has its extremes the {right}, its steepness, is zero.",
-        kept=True,
         shows=Look(names=1, chart=token),
-        curves={
-            name: tuple(round(float(v), 3) for v in part) for name, part in zip(names, scaled, strict=True)
-        },
     )
 
 
@@ -207,13 +185,11 @@ def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
     )
     slip = "the guide's turning overlooked" if turns else "sliding alone taken for a Coriolis term"
     return puzzle.question(
-        "coriolis",
         joint,
         f"Is there a Coriolis term in the acceleration of {joint}, told in its guide's frame?",
-        right,
-        [Wrong(wrong, slip)],
+        Answer(right),
+        [Answer(wrong, slip)],
         why,
-        kept=True,
         shows=_BOTH,
         arrows=[joint],
     )

@@ -7,8 +7,8 @@ from math import atan2, hypot, inf, isfinite, pi
 
 from linkanim.mechanics.motion.measures import coupler_body, pole
 from linkanim.picture.look import VELOCITY, Look
-from linkanim.play.kinds.wording import MOST, PLAIN, number
-from linkanim.play.question import CLEAR, Puzzle, QuizQuestion, Wrong
+from linkanim.play.kinds.wording import MOST, number
+from linkanim.play.question import CLEAR, PLAIN, Answer, Puzzle, QuizQuestion
 
 _TURN = ("counterclockwise", "clockwise")
 _WAYS = ("to the right", "up", "to the left", "down")
@@ -33,13 +33,11 @@ def turning(puzzle: Puzzle) -> QuizQuestion | None:
     misled = " It turns against the input: directions are not handed on along a chain." if against else ""
     slip = "the input's direction, handed on along the chain" if against else _BACKWARDS
     return puzzle.question(
-        "turning",
         body.name,
         f"Which way does the {puzzle.name(body)} turn?",
-        right,
-        [Wrong(wrong, slip)],
+        Answer(right),
+        [Answer(wrong, slip)],
         f"Its angular velocity is {number(rate)} rad/s, so it turns {right}.{misled}",
-        kept=True,
         shows=_ARROWS,
         arrows=body.joints,
     )
@@ -63,16 +61,13 @@ def fastest(puzzle: Puzzle) -> QuizQuestion | None:
     driven = complex(*places[puzzle.scene.linkage.drive.joint])
     far = max(others, key=lambda name: abs(complex(*places[name]) - driven))
     return puzzle.question(
-        "fastest",
         "velocity",
         "Which of these points is fastest?",
-        first,
-        [Wrong(name, _too_fast(puzzle, name, far)) for name in others],
+        Answer(first, place=places[first]),
+        [Answer(name, _too_fast(puzzle, name, far), places[name]) for name in others],
         f"Their speeds: {listed}.",
-        kept=True,
         shows=_ARROWS,
         arrows=chosen,
-        places={name: places[name] for name in chosen},
     )
 
 
@@ -87,7 +82,7 @@ def _too_fast(puzzle: Puzzle, name: str, far: str) -> str:
 
 def heading(puzzle: Puzzle) -> QuizQuestion | None:
     """Return which way a joint moves; taken wrongly, back, along its link or as it is accelerated."""
-    names = [name for name in puzzle.joints if puzzle.share("velocity", name) > PLAIN]
+    names = puzzle.clear("velocity")
     puzzle.random.shuffle(names)
     for name in names:
         x, y = puzzle.pose.velocity[name]
@@ -96,22 +91,17 @@ def heading(puzzle: Puzzle) -> QuizQuestion | None:
             way = round(quarter) % 4
             ax, ay = puzzle.pose.acceleration[name]
             gains = round(atan2(ay, ax) / (pi / 2)) % 4 if isfinite(ax) and isfinite(ay) else None
-            wrong = []
-            for n, words in enumerate(_WAYS):
-                slip = (
-                    "the acceleration taken for the velocity" if n == gains else "along its link, not across"
-                )
-                if n != way:
-                    wrong.append(Wrong(words, _BACKWARDS if n == (way + 2) % 4 else slip))
+            slips = ["along its link, not across"] * 4
+            if gains is not None:
+                slips[gains] = "the acceleration taken for the velocity"
+            slips[(way + 2) % 4] = _BACKWARDS
             why = f"Its velocity is ({number(x)}, {number(y)}) {puzzle.scene.length_unit}/s."
             return puzzle.question(
-                "heading",
                 name,
                 f"Which way does {name} move?",
-                _WAYS[way],
-                wrong,
+                Answer(_WAYS[way]),
+                [Answer(_WAYS[n], slips[n]) for n in range(4) if n != way],
                 why,
-                kept=True,
                 shows=_ARROWS,
                 arrows=[name],
             )
@@ -136,23 +126,27 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
     near = min(
         (point for point in points[1:] if point != half), key=lambda at: abs(at - centre), default=None
     )
-    texts = {
-        point: f"({number(point.real)}, {number(point.imag)}) {puzzle.scene.length_unit}" for point in points
-    }
     slips = {half: "the middle of the link taken for the pole"}
     slips |= {near: "the nearer joint taken for the pole"} if near is not None else {}
-    other = "a joint that moves, or of another link, taken for the pole"
-    wrong = [Wrong(texts[point], slips.get(point, other)) for point in points[1:]]
+    slips[centre], other = "", "a joint that moves, or of another link, taken for the pole"
+    unit = puzzle.scene.length_unit
+    right, *wrong = (
+        Answer(
+            f"({number(point.real)}, {number(point.imag)}) {unit}",
+            slips.get(point, other),
+            (point.real, point.imag),
+        )
+        for point in points
+    )
     return puzzle.question(
-        "instant centre",
         body.name,
         f"Where is the instant centre of the {puzzle.name(body)}?",
-        texts[centre],
+        right,
         wrong,
         "It stands still there for this instant: the normals to the velocities of its points meet there.",
         shows=Look(names=1, vectors=frozenset({VELOCITY}), centres=1),
         arrows=body.joints,
-        places={texts[point]: (point.real, point.imag) for point in points},
+        shuffled=True,
         stops=puzzle.phase,
     )
 

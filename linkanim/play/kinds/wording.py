@@ -1,4 +1,4 @@
-"""How numbers stand in questions, and what is clear enough to be asked."""
+"""How numbers stand in questions, and how many answers."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from math import degrees
 from linkanim.digits import short, significant, typeset
 from linkanim.play.question import Puzzle
 
-PLAIN = 0.1
-"""A share of a greatest value that is seen at once."""
 MOST = 4
 """So many answers a question has at most."""
 
