@@ -45,7 +45,7 @@ class Arcade:
                 return str(found.having(door=scores.door or "play"))
             case "menu":
                 best = ",".join(f"{name}:{score}" for name, score in scores.best.items())
-                return str(found.having(best=best) if best else found)
+                return str(found.having(best=best))
             case "follow":
                 from linkanim.play.follow import read as run_of
 
@@ -58,8 +58,7 @@ class Arcade:
                 return str(found.having(best=scores.best.get(level_of(found).kept_as, 0)))
             case "predict":
                 again = ",".join(map(str, self._again(found, scores)))
-                seeded = found.having(seed=self._random.randrange(_SEEDS))
-                return str(seeded.having(again=again) if again else seeded)
+                return str(found.having(seed=self._random.randrange(_SEEDS), again=again))
         return words
 
     def _again(self, words: GameWords, scores: Scores) -> list[QuestionId]:
@@ -86,7 +85,7 @@ class Arcade:
             if after != before:
                 save(after, self._file)
         except LinkanimError as error:
-            self._tell(f"{error}; scores are not kept")
+            self._news.append(f"{error}; scores are not kept")
 
     def news(self) -> list[str]:
         """Return what there is to say about the file, once."""
@@ -104,8 +103,5 @@ class Arcade:
 
         scores, sentence = loaded(self._file)
         if sentence:
-            self._tell(sentence)
+            self._news.append(sentence)
         return scores
-
-    def _tell(self, sentence: str) -> None:
-        self._news.append(sentence)

@@ -1,13 +1,16 @@
-"""What games share: their place, and how one of several rows is chosen by keys, a number or a click."""
+"""What games share: how they begin one another, and how one of several rows is chosen."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
 from linkanim.picture.look import Look
+from linkanim.picture.panels.overlay import Choice
+from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
-from linkanim.player.state.state import State
+from linkanim.player.state.state import State, with_effect
 
 
 class Chosen(NamedTuple):
@@ -29,22 +32,28 @@ def chosen_by(action: Action, row: int, count: int) -> Chosen | None:
     return None
 
 
-class BesideScene:
-    """What games share: their panel stands beside the scene, and Esc goes out of them."""
+class Door(NamedTuple):
+    """A way on: what it is called by, and in words."""
 
-    @property
-    def listed(self) -> bool:
-        """Whether the panel takes the room of a list."""
-        return True
-
-    @property
-    def covers(self) -> bool:
-        """Whether Esc goes out of it."""
-        return True
+    name: str
+    text: str
+    about: str
 
 
-class OverWhatRuns(BesideScene):
+def choices_of(doors: Iterable[Door]) -> tuple[Choice, ...]:
+    """Return doors as a panel shows them, numbered."""
+    return tuple(Choice(f"{n}", door.text, below=door.about) for n, door in enumerate(doors, 1))
+
+
+def begun(state: State, kind: str, **fields: object) -> State:
+    """Return the state that asks for a game, which begins once its words are completed."""
+    return with_effect(state, "begin", str(GameWords(kind, {}).having(**fields)))
+
+
+class OverWhatRuns:
     """What the choices of a game and of a round share: what is on runs on bare behind them."""
+
+    covers = True
 
     def entered(self, state: State) -> State:
         """Let what is on run behind it."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import radians
 from typing import Literal
@@ -9,7 +10,7 @@ from typing import Literal
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Lane, Overlay, ScoreBar
-from linkanim.play.choosing import BesideScene
+from linkanim.play.choosing import begun
 from linkanim.play.track import LENGTH, LEVELS, RamTrack, track_of, tracks
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
@@ -40,7 +41,7 @@ _HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's
 
 
 @dataclass(frozen=True)
-class FollowRun(BesideScene):
+class FollowRun:
     """A run along a scene's track: how much paper has gone by, on how much of it the ram kept to its lines.
 
     `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames; `notch` is how fast the
@@ -59,12 +60,13 @@ class FollowRun(BesideScene):
     best: int = 0
     """The best score so far, in mm."""
     is_within: bool = True
+    covers = True
 
     @property
     def words(self) -> str:
         """What begins it again just here."""
         fields = {name: value for name, value in vars(self).items() if name != "is_within"}
-        return str(GameWords("follow", {name: str(value) for name, value in fields.items()}))
+        return str(GameWords("follow", {}).having(**fields))
 
     @property
     def track(self) -> RamTrack:
@@ -93,14 +95,14 @@ class FollowRun(BesideScene):
                 notch = self.notch + way * (_COARSE if abs(steps) > 1 else 1)
                 return self._turned(state, state.phase, min(max(notch, -_NOTCHES), _NOTCHES))
             case Action("next"):
-                return self._gone_on(state)
+                return self._begun(state) if self.stage == "over" else self._turned(state, state.phase, 0)
             case Action("raise", int() as further) if self.stage != "runs":
                 known = tracks()
                 place = known.index(self.scene) if self.scene in known else 0
                 way = 1 if further > 0 else -1
-                return _begun(state, known[(place - way) % len(known)], self.level)
+                return replace(self, scene=known[(place - way) % len(known)])._begun(state)
             case Action("option", int() as level) if self.stage != "runs" and 0 <= level < LEVELS:
-                return _begun(state, self.scene, level + 1)
+                return replace(self, level=level + 1)._begun(state)
         return state
 
     def _turned(self, state: State, phase: float, notch: int) -> State:
@@ -110,11 +112,8 @@ class FollowRun(BesideScene):
         game = replace(self, stage="runs", notch=notch, phase=phase)
         return replace(state, game=game, clock=state.clock.go(state.frame, phase, paused=True))
 
-    def _gone_on(self, state: State) -> State:
-        """Start the paper, stop the crank, or begin again."""
-        if self.stage == "over":
-            return _begun(state, self.scene, self.level)
-        return self._turned(state, state.phase, 0)
+    def _begun(self, state: State) -> State:
+        return begun(state, "follow", scene=self.scene, level=self.level)
 
     def aged(self, state: State) -> State:
         """Let the paper scroll, and see whether the ram is between its lines; none of it below the help."""
@@ -192,7 +191,7 @@ class FollowRun(BesideScene):
         middle = tuple(
             ((at - paper) / _AHEAD, track.at(at)) for at in range(first, int(paper) + _AHEAD + 1, _EVERY)
         )
-        factor = _factor(state)
+        factor = in_unit(state.scene, state.look.unit).linkage.metre ** -1 * state.scene.linkage.metre
         back, forward = ((factor * place[0], factor * place[1]) for place in (track.back, track.forward))
         return Lane(back, forward, middle, track.half_width, self.is_within)
 
@@ -200,41 +199,28 @@ class FollowRun(BesideScene):
 _AGAIN = {"ready": "turn the crank: it starts", "over": "Enter again"}
 
 
-def _factor(state: State) -> float:
-    """Return how many of the units that are shown one of the scene's is."""
-    return in_unit(state.scene, state.look.unit).linkage.metre ** -1 * state.scene.linkage.metre
-
-
-def _begun(state: State, scene: str, level: int) -> State:
-    return with_effect(state, "begin", str(GameWords("follow", {}).having(scene=scene, level=level)))
-
-
 def read(words: GameWords) -> FollowRun:
     """Return the run that words begin; BadInput where they do not."""
     scene = words.text("scene", _FIRST)
     if scene not in tracks():
         raise BadInput(f"follow: scene={shown(scene)} is no track; there are {', '.join(tracks())}")
-    stage = words.text("stage", "ready")
-    most = 10**9
+    known: tuple[Stage, ...] = ("runs", "over")
     return FollowRun(
         scene,
         words.whole("level", 1, 1, LEVELS),
-        "runs" if stage == "runs" else "over" if stage == "over" else "ready",
-        words.whole("frames", 0, 0, most),
-        words.whole("paper", 0, 0, most),
-        words.whole("passed", 0, 0, most),
-        words.whole("outside", 0, 0, most),
-        words.whole("notch", 0, -_NOTCHES, _NOTCHES),
-        _number(words.text("phase", "0.0")),
-        words.whole("best", 0, 0, most),
+        next((stage for stage in known if stage == words.text("stage")), "ready"),
+        notch=words.whole("notch", 0, -_NOTCHES, _NOTCHES),
+        phase=_number(words.text("phase", "0.0")),
+        frames=words.whole("frames"),
+        paper=words.whole("paper"),
+        passed=words.whole("passed"),
+        outside=words.whole("outside"),
+        best=words.whole("best"),
     )
 
 
 def _number(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
-    if not abs(value) <= 1e9:
-        raise BadInput(f"follow: phase={shown(text)} is no angle in radians")
-    return value
+    with suppress(ValueError):
+        if abs(value := float(text)) <= 1e9:
+            return value
+    raise BadInput(f"follow: phase={shown(text)} is no angle in radians")

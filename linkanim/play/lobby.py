@@ -3,27 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
-from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
-from linkanim.play.choosing import OverWhatRuns, chosen_by
+from linkanim.picture.panels.overlay import GamePanel, Overlay
+from linkanim.play.choosing import Door, OverWhatRuns, begun, choices_of, chosen_by
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
-from linkanim.player.state.state import State, with_effect
-
-
-class Offer(NamedTuple):
-    """A game as it is offered: its words, its name, what is done in it."""
-
-    words: str
-    text: str
-    about: str
-
+from linkanim.player.state.state import State
 
 OFFERS = (
-    Offer("menu", "Predict", "say what a linkage does before it moves"),
-    Offer("match", "Match", "drag a four-bar until it draws the dotted curve"),
-    Offer("follow", "Follow", "turn the crank, keep the ram between two lines"),
+    Door("menu", "Predict", "say what a linkage does before it moves"),
+    Door("match", "Match", "drag a four-bar until it draws the dotted curve"),
+    Door("follow", "Follow", "turn the crank, keep the ram between two lines"),
 )
 
 
@@ -41,18 +31,17 @@ class Lobby(OverWhatRuns):
     def carried(self, state: State, action: Action) -> State:
         """Begin a game, choose one, or go back to the title."""
         if action.name == "back":
-            return with_effect(state, "begin", "title")
+            return begun(state, "title")
         chosen = chosen_by(action, self.row, len(OFFERS))
         if chosen is None:
             return state
         state = replace(state, game=replace(self, row=chosen.row))
-        return with_effect(state, "begin", OFFERS[chosen.row].words) if chosen.taken else state
+        return begun(state, OFFERS[chosen.row].name) if chosen.taken else state
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the games."""
-        choices = tuple(Choice(f"{n}", one.text, below=one.about) for n, one in enumerate(OFFERS, 1))
         hint = "Enter begins   ↑ ↓ choose   Esc goes back"
-        return replace(over, game=GamePanel("Play", choices=choices, hint=hint, chosen=self.row))
+        return replace(over, game=GamePanel("Play", choices=choices_of(OFFERS), hint=hint, chosen=self.row))
 
 
 def read(words: GameWords) -> Lobby:

@@ -8,11 +8,11 @@ from types import MappingProxyType
 from linkanim.errors import BadInput
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
 from linkanim.play.chapters import ALL, members, titled
-from linkanim.play.choosing import OverWhatRuns, chosen_by
+from linkanim.play.choosing import OverWhatRuns, begun, chosen_by
 from linkanim.play.kinds.table import LEVELS
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
-from linkanim.player.state.state import State, with_effect
+from linkanim.player.state.state import State
 from linkanim.scenes import chapters, names
 from linkanim.units import shown
 
@@ -32,15 +32,14 @@ class Menu(OverWhatRuns):
     @property
     def words(self) -> str:
         """What begins it again."""
-        words = GameWords("menu", {}).having(chapter=self.chapter, level=self.level)
         best = ",".join(f"{name}:{score}" for name, score in self.best)
-        return str(words.having(best=best) if best else words)
+        return str(GameWords("menu", {}).having(chapter=self.chapter, level=self.level, best=best))
 
     def carried(self, state: State, action: Action) -> State:
         """Choose a chapter or a level, begin a round, or go back."""
         rows = self._rows(state)
         if action.name == "back":
-            return with_effect(state, "begin", "lobby")
+            return begun(state, "lobby")
         if action.name == "turn" and isinstance(action.value, int):
             level = min(max(self.level + (1 if action.value > 0 else -1), LEVELS[0]), LEVELS[-1])
             return replace(state, game=replace(self, level=level))
@@ -50,7 +49,7 @@ class Menu(OverWhatRuns):
         if chosen is None:
             return state
         state = replace(state, game=replace(self, chapter=rows[chosen.row]))
-        return _begun(state, rows[chosen.row], self.level) if chosen.taken else state
+        return begun(state, "predict", chapter=rows[chosen.row], level=self.level) if chosen.taken else state
 
     def _rows(self, state: State) -> tuple[str, ...]:
         """Return what a round can be about: all, a chapter, and the mechanism that was on before."""
@@ -80,10 +79,6 @@ class Menu(OverWhatRuns):
 
 def _best(score: int | None) -> str:
     return "" if score is None else f"best {score}"
-
-
-def _begun(state: State, chapter: str, level: int) -> State:
-    return with_effect(state, "begin", str(GameWords("predict", {}).having(chapter=chapter, level=level)))
 
 
 def read(words: GameWords) -> Menu:

@@ -9,7 +9,7 @@ from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Mood, Overlay, Spot
 from linkanim.play.chapters import ALL, members, titled
-from linkanim.play.choosing import BesideScene
+from linkanim.play.choosing import begun
 from linkanim.play.kinds.table import LEVELS, of_level
 from linkanim.play.question import QuestionId, QuizQuestion
 from linkanim.play.round import next_question, question_of
@@ -50,7 +50,7 @@ class GivenAnswer(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Predict(BesideScene):
+class Predict:
     """A round: of a chapter's scenes, at a level; questions that were missed before come first, as `again`.
 
     `question` is the one that is asked since frame `since`, None at the end; `chosen` the answer taken, and
@@ -66,16 +66,14 @@ class Predict(BesideScene):
     since: int = 0
     chosen: int | None = None
     coming: tuple[QuizQuestion, Scene] | None = None
+    covers = True
 
     @property
     def words(self) -> str:
         """What begins it again as it is; a question that is asked begins anew."""
         done = self.done if self.chosen is None else self.done[:-1]
         words = GameWords("predict", {}).having(chapter=self.chapter, level=self.level, seed=self.seed)
-        lists = {"again": self.again, "done": done}
-        return str(
-            words.having(**{name: ",".join(map(str, found)) for name, found in lists.items() if found})
-        )
+        return str(words.having(again=",".join(map(str, self.again)), done=",".join(map(str, done))))
 
     @property
     def missed(self) -> tuple[QuestionId, ...]:
@@ -86,16 +84,6 @@ class Predict(BesideScene):
     def score(self) -> int:
         """The points of all that was answered."""
         return sum(points(self.level, self.done, n) for n in range(len(self.done)))
-
-    @property
-    def streak(self) -> int:
-        """How many were right in a row, up to the last."""
-        return _streak(self.done)
-
-    @property
-    def seconds(self) -> float:
-        """The time that all answers took."""
-        return sum(one.frames for one in self.done) / FRAMES_PER_SECOND
 
     @property
     def is_over(self) -> bool:
@@ -134,18 +122,19 @@ class Predict(BesideScene):
     def carried(self, state: State, action: Action) -> State:
         """Take an answer, go on to the next question, or out."""
         if action.name == "back":
-            return with_effect(state, "begin", str(self._menu))
+            return self._begun(state, "menu")
         if self.question is None:
-            return self._ended(state, action)
+            again = action.name == "next" or (action.name, action.value) == ("option", 0)
+            others = (action.name, action.value) == ("option", 1)
+            return self._begun(state, "predict" if again else "menu") if again or others else state
         if action.name == "option" and isinstance(action.value, int):
             return self._with_answer(state, self.question, action.value) if self.chosen is None else state
         if action.name == "next" and self.chosen is not None:
             return self.entered(state)
         return state
 
-    @property
-    def _menu(self) -> GameWords:
-        return GameWords("menu", {}).having(chapter=self.chapter, level=self.level)
+    def _begun(self, state: State, kind: str) -> State:
+        return begun(state, kind, chapter=self.chapter, level=self.level)
 
     def _with_answer(self, state: State, question: QuizQuestion, chosen: int) -> State:
         """Take an answer: the arrows come on, and after a while the input runs."""
@@ -164,25 +153,14 @@ class Predict(BesideScene):
             state = with_effect(state, "score", best)
         return state
 
-    def _ended(self, state: State, action: Action) -> State:
-        """Go on from the end: the same again, or another choice."""
-        if action.name == "next" or (action.name, action.value) == ("option", 0):
-            return with_effect(state, "begin", str(self._menu._replace(kind="predict")))
-        if (action.name, action.value) == ("option", 1):
-            return with_effect(state, "begin", str(self._menu))
-        return state
-
     def aged(self, state: State) -> State:
         """Let the input run on when the answer has stood for a while, up to where it is to stop."""
         if self.question is None or self.chosen is None:
             return state
         stops, clock = self.question.stops, state.clock
         if state.frame == self.since + _HOLD and stops != self.question.phase:
-            slow = (
-                clock
-                if self.question.shows.chart or self.question.shows.ghost
-                else clock.faster(state.frame, _SLOW)
-            )
+            whole = self.question.shows.chart or self.question.shows.ghost
+            slow = clock if whole else clock.faster(state.frame, _SLOW)
             return replace(state, clock=slow.pause(state.frame, False))
         if state.frame == self.since + _HOLD // 2 and not self.is_over:
             return replace(state, game=replace(self, coming=self._next()))  # while all stands still
@@ -230,7 +208,7 @@ class Predict(BesideScene):
     def _scores(self) -> tuple[str, ...]:
         number = len(self.done) + (self.chosen is None)
         place = f"{number} / {COUNT}" if number <= COUNT else f"again {number - COUNT} / {len(self.missed)}"
-        return place, f"{self.streak} in a row", f"{self.score} points"
+        return place, f"{_streak(self.done)} in a row", f"{self.score} points"
 
     def _verdict(self, panel: GamePanel, question: QuizQuestion) -> GamePanel:
         assert self.chosen is not None
@@ -249,7 +227,7 @@ class Predict(BesideScene):
             scores=(titled(self.chapter), f"level {self.level}"),
             lines=(
                 f"{right} of {len(first)} right at first, {longest} in a row at best.",
-                f"{self.seconds:.0f} s for all answers.",
+                f"{sum(one.frames for one in self.done) / FRAMES_PER_SECOND:.0f} s for all answers.",
             ),
             choices=(
                 Choice("1", "Another round", below="what was missed comes first"),
@@ -287,7 +265,7 @@ def read(words: GameWords) -> Predict:
     return Predict(
         chapter,
         words.whole("level", 1, LEVELS[0], LEVELS[-1]),
-        words.whole("seed", 0, 0, 10**9),
+        words.whole("seed"),
         again,
         done,
     )

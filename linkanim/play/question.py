@@ -28,7 +28,7 @@ _ADJECTIVES = frozenset({"upper", "lower", "left", "right", "large", "small", "s
 """What bodies are called that is no noun."""
 
 
-class Answer(NamedTuple):
+class QuizAnswer(NamedTuple):
     """An answer, and of a wrong one the misconception that it comes from, to be read after "that is".
 
     Where answers are places (in the scene's unit, at the phase) or curves (values from −1 to 1 over one
@@ -76,7 +76,7 @@ class QuizQuestion:
     phase: float
     subject: str
     text: str
-    answers: tuple[Answer, ...]
+    answers: tuple[QuizAnswer, ...]
     right: int
     why: str
     shows: Look
@@ -154,8 +154,8 @@ class Puzzle:
         self,
         subject: str,
         text: str,
-        right: Answer,
-        wrong: Iterable[Answer],
+        right: QuizAnswer,
+        wrong: Iterable[QuizAnswer],
         why: str,
         *,
         shuffled: bool = False,

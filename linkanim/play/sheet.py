@@ -10,7 +10,7 @@ from linkanim.paper.figure import Figured
 from linkanim.paper.html import embedded
 from linkanim.picture.look import Look
 from linkanim.picture.parts.driven import driven_words, speed_words
-from linkanim.play.question import Answer, QuizQuestion
+from linkanim.play.question import QuizAnswer, QuizQuestion
 
 _CURVE = (160, 34)
 """The size of a curve on a sheet."""
@@ -87,7 +87,7 @@ def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
     yield "</ol></div>"
 
 
-def _worded(answer: Answer) -> str:
+def _worded(answer: QuizAnswer) -> str:
     """Return an answer, and of its curve some values evenly over the period."""
     values = answer.curve[:: max(len(answer.curve) // _PRINTED, 1)]
     return f"{answer.text}: {' '.join(f'{value:.2f}' for value in values)}" if values else answer.text

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
-from linkanim.play.choosing import BesideScene, chosen_by
+from linkanim.picture.panels.overlay import GamePanel, Overlay
+from linkanim.play.choosing import Door, begun, choices_of, chosen_by
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import FRAMES_PER_SECOND
@@ -23,14 +22,6 @@ _ABOUT = "An arcade of planar linkages"
 _HINT = "any key goes in   ↑ ↓ choose   Q quits"
 
 
-class Door(NamedTuple):
-    """A way in: what it is called by, and in words."""
-
-    name: str
-    text: str
-    about: str
-
-
 DOORS = (
     Door("explore", "Explore", "the shelf of all mechanisms"),
     Door("build", "Build", "draw a linkage, or with W a path to follow"),
@@ -41,21 +32,17 @@ _IGNORED = frozenset({"scrub", "point", "move", "carry", "drop", "pull"})
 
 
 @dataclass(frozen=True)
-class Title(BesideScene):
+class Title:
     """The title: the door that any key takes, and the place on the shelf of the mechanism that runs."""
 
     door: int
     place: int
+    covers = False
 
     @property
     def words(self) -> str:
         """What begins it again."""
         return f"title door={DOORS[self.door].name} place={self.place}"
-
-    @property
-    def covers(self) -> bool:
-        """Esc goes nowhere from here."""
-        return False
 
     def entered(self, state: State) -> State:
         """Return the state with a mechanism running, and nothing on it but its sentence."""
@@ -82,11 +69,10 @@ class Title(BesideScene):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the name and the doors."""
-        doors = tuple(Choice(f"{n}", door.text, below=door.about) for n, door in enumerate(DOORS, 1))
         panel = GamePanel(
             _NAME,
             lines=(_ABOUT,),
-            choices=doors,
+            choices=choices_of(DOORS),
             subject=state.scene.title,
             lines_after=(state.scene.look_at,),
             hint=_HINT,
@@ -101,7 +87,7 @@ def _through(state: State, door: int) -> State:
     name = DOORS[door].name
     state = with_effect(state, "score", f"door={name}")
     if name == "play":
-        return with_effect(state, "begin", "lobby")
+        return begun(state, "lobby")
     state = leave(state)
     if name == "explore":
         return open_shelf(state, None)

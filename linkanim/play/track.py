@@ -35,13 +35,12 @@ _SAMPLES = 1_440
 class RamTrack:
     """Where the ram of a scene has to be at each mm of the paper: 0 at its back dead centre, 1 forward.
 
-    `phase` is that of the mechanism at its beginning. `back` and `forward` are the ram's places at its dead
+    The mechanism begins at phase 0. `back` and `forward` are the ram's places at its dead
     centres, in the scene's unit; `limits` its travel there.
     """
 
     places: tuple[float, ...]
     half_width: float
-    phase: float
     body: str
     limits: tuple[float, float]
     back: Point
@@ -90,7 +89,6 @@ def track_of(name: str, level: int) -> RamTrack:
     return RamTrack(
         places,
         _HALF_WIDTHS[level - 1],
-        0.0,
         ram.name,
         (low, high),
         _point(back.position[joint]),

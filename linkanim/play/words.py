@@ -40,7 +40,7 @@ class GameWords(NamedTuple):
         """Return a parameter, spaces for its underscores."""
         return self.fields.get(name, usual).replace("_", " ")
 
-    def whole(self, name: str, usual: int, low: int, high: int) -> int:
+    def whole(self, name: str, usual: int = 0, low: int = 0, high: int = 10**9) -> int:
         """Return a parameter that is a whole number within bounds; BadInput for any other."""
         value = self.fields.get(name, str(usual))
         try:
@@ -52,8 +52,9 @@ class GameWords(NamedTuple):
         return number
 
     def having(self, **fields: object) -> Self:
-        """Return them with other parameters."""
-        return self._replace(fields={**self.fields, **{name: str(value) for name, value in fields.items()}})
+        """Return them with other parameters; what is "" is left out."""
+        given = {name: str(value) for name, value in fields.items() if value != ""}
+        return self._replace(fields={**self.fields, **given})
 
 
 def _split(text: str) -> list[str]:

@@ -12,7 +12,7 @@ from linkanim.mechanics.motion.measures import between as way_between
 from linkanim.mechanics.motion.measures import growth, output_body
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.play.kinds.wording import number
-from linkanim.play.question import CLEAR, PLAIN, Answer, Puzzle, QuizQuestion
+from linkanim.play.question import CLEAR, PLAIN, Puzzle, QuizAnswer, QuizQuestion
 
 _BOTH = Look(names=1, vectors=frozenset({VELOCITY, ACCELERATION}))
 _SAMPLES = 72
@@ -45,8 +45,8 @@ def speeding(puzzle: Puzzle) -> QuizQuestion | None:
             return puzzle.question(
                 name,
                 f"Does {name} speed up or slow down?",
-                Answer(right),
-                [Answer(wrong, "the velocity taken for the acceleration")],
+                QuizAnswer(right),
+                [QuizAnswer(wrong, "the velocity taken for the acceleration")],
                 why,
                 shows=_BOTH,
                 arrows=[name],
@@ -113,8 +113,12 @@ def _growing(
     return puzzle.question(
         subject,
         f"The input runs twice as fast. {text}",
-        Answer(_FACTORS[factor]),
-        [Answer(words, f"what {_GOES_WITH[one]} does") for one, words in _FACTORS.items() if one != factor],
+        QuizAnswer(_FACTORS[factor]),
+        [
+            QuizAnswer(words, f"what {_GOES_WITH[one]} does")
+            for one, words in _FACTORS.items()
+            if one != factor
+        ],
         why,
         shuffled=True,
         shows=shows,
@@ -152,7 +156,7 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
     which = puzzle.random.choice((1, 2))
     right = _ORDERS[which]
     answers = [
-        Answer(
+        QuizAnswer(
             f"curve {order.index(n) + 1}",
             f"the {_ORDERS[n]} taken for the {right}" if n != which else "",
             curve=tuple(round(float(value), 3) for value in part),
@@ -187,8 +191,8 @@ def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
     return puzzle.question(
         joint,
         f"Is there a Coriolis term in the acceleration of {joint}, told in its guide's frame?",
-        Answer(right),
-        [Answer(wrong, slip)],
+        QuizAnswer(right),
+        [QuizAnswer(wrong, slip)],
         why,
         shows=_BOTH,
         arrows=[joint],

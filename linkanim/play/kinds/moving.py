@@ -8,7 +8,7 @@ from math import atan2, hypot, inf, isfinite, pi
 from linkanim.mechanics.motion.measures import coupler_body, pole
 from linkanim.picture.look import VELOCITY, Look
 from linkanim.play.kinds.wording import MOST, number
-from linkanim.play.question import CLEAR, PLAIN, Answer, Puzzle, QuizQuestion
+from linkanim.play.question import CLEAR, PLAIN, Puzzle, QuizAnswer, QuizQuestion
 
 _TURN = ("counterclockwise", "clockwise")
 _WAYS = ("to the right", "up", "to the left", "down")
@@ -35,8 +35,8 @@ def turning(puzzle: Puzzle) -> QuizQuestion | None:
     return puzzle.question(
         body.name,
         f"Which way does the {puzzle.name(body)} turn?",
-        Answer(right),
-        [Answer(wrong, slip)],
+        QuizAnswer(right),
+        [QuizAnswer(wrong, slip)],
         f"Its angular velocity is {number(rate)} rad/s, so it turns {right}.{misled}",
         shows=_ARROWS,
         arrows=body.joints,
@@ -63,8 +63,8 @@ def fastest(puzzle: Puzzle) -> QuizQuestion | None:
     return puzzle.question(
         "velocity",
         "Which of these points is fastest?",
-        Answer(first, place=places[first]),
-        [Answer(name, _too_fast(puzzle, name, far), places[name]) for name in others],
+        QuizAnswer(first, place=places[first]),
+        [QuizAnswer(name, _too_fast(puzzle, name, far), places[name]) for name in others],
         f"Their speeds: {listed}.",
         shows=_ARROWS,
         arrows=chosen,
@@ -99,8 +99,8 @@ def heading(puzzle: Puzzle) -> QuizQuestion | None:
             return puzzle.question(
                 name,
                 f"Which way does {name} move?",
-                Answer(_WAYS[way]),
-                [Answer(_WAYS[n], slips[n]) for n in range(4) if n != way],
+                QuizAnswer(_WAYS[way]),
+                [QuizAnswer(_WAYS[n], slips[n]) for n in range(4) if n != way],
                 why,
                 shows=_ARROWS,
                 arrows=[name],
@@ -131,7 +131,7 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
     slips[centre], other = "", "a joint that moves, or of another link, taken for the pole"
     unit = puzzle.scene.length_unit
     right, *wrong = (
-        Answer(
+        QuizAnswer(
             f"({number(point.real)}, {number(point.imag)}) {unit}",
             slips.get(point, other),
             (point.real, point.imag),

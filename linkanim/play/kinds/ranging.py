@@ -12,7 +12,7 @@ from linkanim.mechanics.facts.naming import FourBar, four_bar_of
 from linkanim.mechanics.motion.measures import output_body
 from linkanim.picture.look import Look
 from linkanim.play.kinds.wording import MOST, angle, between, crank_degrees, number, swing
-from linkanim.play.question import CLEAR, Answer, Puzzle, QuizQuestion
+from linkanim.play.question import CLEAR, Puzzle, QuizAnswer, QuizQuestion
 
 _APART = 20.0
 """Crank angles in degrees that nobody takes for one another."""
@@ -46,8 +46,8 @@ def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
     return puzzle.question(
         body.name,
         f"At which crank angle does the {puzzle.name(body)} turn back?",
-        Answer(angle(right)),
-        [Answer(angle(one), slips.get(one, "an angle at which it runs on")) for one in wrong],
+        QuizAnswer(angle(right)),
+        [QuizAnswer(angle(one), slips.get(one, "an angle at which it runs on")) for one in wrong],
         f"Its velocity is zero at {' and '.join(map(angle, exact))}; where that is greatest it runs on.",
         shuffled=True,
         shows=Look(names=1, chart=f"{name}.{kind}"),
@@ -65,19 +65,22 @@ def input_range(puzzle: Puzzle) -> QuizQuestion | None:
     if info.full_turn:
         low, width = puzzle.random.uniform(-90, 90), puzzle.random.uniform(100, 200)
         right, slip = _FULL, "a limit seen where the loop still closes"
-        wrong = [Answer(swing(low, low + width), slip), Answer(swing(low - 40, low + width / 2), slip)]
+        wrong = [
+            QuizAnswer(swing(low, low + width), slip),
+            QuizAnswer(swing(low - 40, low + width / 2), slip),
+        ]
         why = "The solver closes it at every angle of the input."
     else:
         width = high - low
         right = swing(low, high)
         wrong = [
-            Answer(_FULL, "the limit overlooked: beyond it the loop does not close"),
-            Answer(swing(low + 0.25 * width, high + 0.25 * width), "the swing seen from another bar"),
-            Answer(swing(low, low + 0.6 * width), "one limit taken for both"),
+            QuizAnswer(_FULL, "the limit overlooked: beyond it the loop does not close"),
+            QuizAnswer(swing(low + 0.25 * width, high + 0.25 * width), "the swing seen from another bar"),
+            QuizAnswer(swing(low, low + 0.6 * width), "one limit taken for both"),
         ]
         why = "At both ends two links lie in one line: beyond it the loop does not close."
     text = f"How far can the {info.input_name} turn?"
-    return puzzle.question("input", text, Answer(right), wrong, why, shuffled=True)
+    return puzzle.question("input", text, QuizAnswer(right), wrong, why, shuffled=True)
 
 
 def closure(puzzle: Puzzle) -> QuizQuestion | None:
@@ -95,7 +98,7 @@ def closure(puzzle: Puzzle) -> QuizQuestion | None:
     text = f"The {info.input_name} comes to its limit and turns back. On which closure?"
     slip = "the other closure" if info.mechanism.retraced else "the closure that it came by"
     return puzzle.question(
-        "input", text, Answer(right), [Answer(wrong, slip)], why, shows=Look(names=1, ghost=True)
+        "input", text, QuizAnswer(right), [QuizAnswer(wrong, slip)], why, shows=Look(names=1, ghost=True)
     )
 
 
@@ -114,13 +117,13 @@ def grashof(puzzle: Puzzle) -> QuizQuestion | None:
     )
     right = 2 if bar.margin == 0 else 0 if bar.margin > 0 else 1
     slips = ("the sums compared the wrong way round", "a near miss taken for a change point")
-    wrong = [Answer(answers[n], slips[2 in (n, right)]) for n in range(3) if n != right]
+    wrong = [QuizAnswer(answers[n], slips[2 in (n, right)]) for n in range(3) if n != right]
     s, p, q, longest = map(number, lengths)
     return puzzle.question(
         bar.joint,
         f"The lengths of the four-bar that the input drives, in {puzzle.scene.length_unit}: {_listed(bar)}. "
         "Does a link turn fully against the others?",
-        Answer(answers[right]),
+        QuizAnswer(answers[right]),
         wrong,
         f"s + l = {s} + {longest} and p + q = {p} + {q}.",
     )
@@ -152,7 +155,7 @@ def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
         bar.joint,
         f"Grashof's sums of this four-bar: s + l = {s} + {longest}, p + q = {p} + {q}. "
         "Which link is in the wrong place?",
-        Answer(right),
-        [Answer(part, slip) for part in wrong],
+        QuizAnswer(right),
+        [QuizAnswer(part, slip) for part in wrong],
         f"The {right} is {places[order.index(right)]}, not {places[written.index(right)]}.",
     )

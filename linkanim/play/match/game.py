@@ -14,7 +14,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay, PathShown, ScoreBar
 from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import Box
-from linkanim.play.choosing import BesideScene
+from linkanim.play.choosing import begun
 from linkanim.play.match.level import Level, level_names, level_of
 from linkanim.play.match.worth import Linkage4, Worth, trace, worth
 from linkanim.play.words import GameWords
@@ -44,7 +44,7 @@ _NAMES = ("how exactly", "how small", "transmission angle")
 
 
 @dataclass(frozen=True)
-class MatchGame(BesideScene):
+class MatchGame:
     """A level with the joints as they stand: since the last drag, or as the path solver has them (`gave_up`).
 
     `held` is the joint under the hand, `earlier` the linkages before each drag, `found` the worth of this, a
@@ -58,13 +58,14 @@ class MatchGame(BesideScene):
     gave_up: bool = False
     held: str | None = None
     earlier: tuple[Linkage4, ...] = ()
+    covers = True
 
     @property
     def words(self) -> str:
         """What begins it again with the joints where they are."""
         parts = (part for place in self.joints for part in (place.real, place.imag))
-        fields = {"level": self.level, "best": self.best, "joints": ",".join(map(repr, parts))}
-        return str(GameWords("match", {}).having(**fields, **({"gave_up": 1} if self.gave_up else {})))
+        words = GameWords("match", {}).having(level=self.level, best=self.best)
+        return str(words.having(joints=",".join(map(repr, parts)), gave_up=1 if self.gave_up else ""))
 
     @property
     def of_level(self) -> Level:
@@ -115,7 +116,7 @@ class MatchGame(BesideScene):
             case Action("scrub", float() | int() as phase) if not self.held:
                 return replace(state, clock=state.clock.go(state.frame, float(phase), paused=True))
             case Action("raise", int() as steps) if not self.held:
-                return _begun(state, _beside(self.level, -1 if steps > 0 else 1))
+                return self._beside(state, -1 if steps > 0 else 1)
             case Action("option", int() as choice) if not self.held:
                 return self._chosen(state, choice)
         return state
@@ -173,7 +174,12 @@ class MatchGame(BesideScene):
             return replace(state, clock=state.clock.pause(state.frame, False))
         if choice == 1:
             return _put(state, replace(self, gave_up=False, earlier=earlier), level.start)
-        return _begun(state, _beside(self.level, 1)) if choice == 2 else state
+        return self._beside(state, 1) if choice == 2 else state
+
+    def _beside(self, state: State, further: int) -> State:
+        known = level_names()
+        place = known.index(self.level) + further if self.level in known else 0
+        return begun(state, "match", level=known[place % len(known)])
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the curve, the three bars, and what they come to."""
@@ -310,19 +316,10 @@ def _home(game: MatchGame) -> Box:
     return Box(float(min(across)), float(min(up)), float(max(across)), float(max(up)))
 
 
-def _beside(level: str, further: int) -> str:
-    known = level_names()
-    return known[(known.index(level) + further) % len(known)] if level in known else known[0]
-
-
 def first_unsolved(best: Mapping[str, int]) -> str:
     """Return the first level without full score, of the best scores so far; the first where all have it."""
     levels = level_names()
     return next((name for name in levels if best.get(f"match-{name}", 0) < 3 * _POINTS), levels[0])
-
-
-def _begun(state: State, level: str) -> State:
-    return with_effect(state, "begin", str(GameWords("match", {}).having(level=level)))
 
 
 def read(words: GameWords) -> MatchGame:

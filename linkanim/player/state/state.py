@@ -69,10 +69,6 @@ class Game(Protocol):
         """What begins it again just as it is now: its kind, then its parameters."""
 
     @property
-    def listed(self) -> bool:
-        """Whether its panel takes the room of a list beside the scene."""
-
-    @property
     def covers(self) -> bool:
         """Whether Esc goes out of it."""
 
@@ -206,8 +202,7 @@ class State:
     @property
     def listed(self) -> bool:
         """Whether a list is open, beside which the scene has less room."""
-        listed = self.editing.open or self.listing is not None
-        return listed or (self.game is not None and self.game.listed)
+        return self.editing.open or self.listing is not None or self.game is not None
 
     @property
     def typing(self) -> bool:
