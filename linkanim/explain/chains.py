@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from linkanim.explain.expression import Components, Symbol
 from linkanim.explain.work import GuideLine, Work
+from linkanim.mechanics.linkage.joint import Joint
 
 
 class LoopSide(NamedTuple):
@@ -22,9 +23,11 @@ class Route(NamedTuple):
     sides: tuple[LoopSide, ...]
 
 
-def bar_side(work: Work, start: str, end: str, length: float) -> LoopSide:
-    """Return a bar as a vector of a loop."""
-    return LoopSide(Symbol("R", work.names.length(start, end), bold=True), work.bar(start, end, length))
+def route_of_bar(joint: Joint, work: Work, which: int = 0) -> Route:
+    """Return the way to a joint by one of its bars."""
+    start, length = joint.bars[which]
+    symbol = Symbol("R", work.names.length(start, joint.name), bold=True)
+    return Route(start, (LoopSide(symbol, work.bar(start, joint.name, length)),))
 
 
 def slide_sides(work: Work, guide: GuideLine, joint: str) -> tuple[LoopSide, ...]:

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from html import escape
 from itertools import groupby
-from math import floor, log10
 
 from linkanim.explain.drawing import tikz
 from linkanim.explain.expression import Formula
-from linkanim.explain.lines import Given, Item, System, Unknown, ValueLine, Words
+from linkanim.explain.lines import Equation, Given, Item, Unknown, ValueLine, Words
 from linkanim.explain.notation import LATEX, MATHML, Notation, plain_latex, typeset
 from linkanim.explain.rows import EquationRow, rows
 from linkanim.explain.solution import Solution
-from linkanim.explain.work import rounded
+from linkanim.explain.work import decimals, rounded
 
 _STYLE = """
 body { font: 16px/1.5 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
@@ -59,7 +58,7 @@ class DocumentForm:
     inline: Callable[[str], str]
     aligned: Callable[[list[EquationRow]], str]
     listed: Callable[[list[tuple[str, str]]], str]
-    figure: Callable[[Solution], str]
+    figure: Callable[[Solution], str] = lambda _: ""
     new_page: str = ""
 
 
@@ -85,23 +84,21 @@ def chapters(found: Solution, form: DocumentForm, *, level: int = 2, blank: bool
         for step in chapter.steps:
             if step.title:
                 yield form.heading(level + 1, step.title)
-            for sort, items in groupby(step.items, _sort):
-                yield from _set(sort, items, form, blank)
+            for _, items in groupby(step.items, _sort):
+                yield from _set([*items], form, blank)
 
 
-def _sort(item: Item) -> type[Item] | None:
-    """Return what kind an item is where only its like is set with it; None of lines and equations."""
-    return type(item) if isinstance(item, Given | Words | Unknown | System) else None
+def _sort(item: Item) -> type[Item]:
+    """Return what only its like is set with in one block; a line is set with equations."""
+    return Equation if isinstance(item, ValueLine) else type(item)
 
 
-def _set(sort: type[Item] | None, items: Iterable[Item], form: DocumentForm, blank: bool) -> Iterator[str]:
+def _set(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[str]:
     """Yield neighbours of one sort: equations and what is given in one block, sentences one by one."""
-    if sort is Given:
-        given = (item for item in items if isinstance(item, Given))
+    if given := [item for item in items if isinstance(item, Given)]:
         yield form.listed([_listed(item.value, item.unit, item.words, form) for item in given])
-    elif sort in (None, System):
-        found = (rows(item, form.how, blank=blank) for item in items if not isinstance(item, Words | Unknown))
-        yield form.aligned([row for item in found for row in item])
+    if found := [row for item in items for row in rows(item, form.how, blank=blank)]:
+        yield form.aligned(found)
     for item in items:
         if isinstance(item, Words):
             yield form.paragraph(form.text(item.text))
@@ -126,9 +123,7 @@ def _key(found: Solution, form: DocumentForm) -> Iterator[str]:
 
 def _short(value: Formula) -> Formula:
     """Return a value in as many digits as a key needs."""
-    size = abs(value.value)
-    decimals = max(_KEY_DIGITS - 1 - floor(log10(size)), 0) if size else 0
-    return replace(value, shown=rounded(value.value, decimals))
+    return replace(value, shown=rounded(value.value, decimals(value.value, _KEY_DIGITS)))
 
 
 def _html_page(title: str, body: str) -> str:
@@ -159,7 +154,6 @@ HTML = DocumentForm(
     inline=lambda formula: f"<math>{formula}</math>",
     aligned=_html_aligned,
     listed=_html_listed,
-    figure=lambda _: "",
     new_page="<div class='key'></div>",
 )
 
@@ -223,27 +217,21 @@ def _markdown_words(text: str) -> str:
 
 def _markdown_aligned(found: list[EquationRow]) -> str:
     """Return each equation between $ signs, its rows one behind the other."""
-    lines: list[str] = []
-    for row in found:
-        if row.left:
-            lines.append(f"{row.left} = {row.right}")
-        else:
-            lines[-1] += f" = {row.right}"
-    return "\n\n".join(f"${line}$" for line in lines)
+    lines = "".join(f"\n{row.left} = {row.right}" if row.left else f" = {row.right}" for row in found)
+    return "\n\n".join(f"${line}$" for line in lines[1:].split("\n"))
 
 
 def _markdown_listed(found: list[tuple[str, str]]) -> str:
     return "\n".join(f"- {formula} {_markdown_words(words)}".rstrip() for formula, words in found)
 
 
-MARKDOWN = DocumentForm(
-    how=LATEX,
+MARKDOWN = replace(
+    TEX,
     page=lambda _, body: f"{body}\n",
     heading=lambda level, text: f"{'#' * level} {_markdown_words(text)}",
     text=_markdown_words,
-    paragraph=str,
-    inline=lambda formula: f"${formula}$",
     aligned=_markdown_aligned,
     listed=_markdown_listed,
     figure=lambda _: "",
+    new_page="",
 )

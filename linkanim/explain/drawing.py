@@ -21,11 +21,10 @@ def tikz(found: Solution) -> str:
 
 
 def _lines(found: Solution) -> Iterator[str]:
-    vectors = {arrow.symbol: arrow for loop in found.loops for arrow in loop.arrows}.values()
-    ends = np.array([(one.begin, one.end) for one in vectors])
+    ends = np.array([(one.begin, one.end) for one in found.arrows])
     scale = min(_WIDE / max(float(np.ptp(ends.real)), 1e-9), _HIGH / max(float(np.ptp(ends.imag)), 1e-9))
     yield r"\begin{center}\begin{tikzpicture}[>=latex]"
-    for one in vectors:
+    for one in found.arrows:
         begin, end, name = _at(scale * one.begin), _at(scale * one.end), LATEX.symbol(one.symbol)
         yield rf"\draw[->,thick] {begin} -- node[auto,blue] {{${name}$}} {end};"
     for name, at in found.places.items():

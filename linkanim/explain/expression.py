@@ -103,12 +103,10 @@ class Formula:
         return Formula("/", (self, other))
 
     def __neg__(self) -> Formula:
+        if self.constant == 0:
+            return self
         if self.constant is not None:
-            return (
-                self
-                if self.constant == 0
-                else number(self.shown[1:] if self.constant < 0 else f"-{self.shown}")
-            )
+            return number(f"-{self.shown}".removeprefix("--"))
         return self.parts[0] if self.operation == "neg" else Formula("neg", (self,))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from linkanim.explain.expression import TWO, Formula, Symbol, arccos, cos, number, sin, square
+from linkanim.explain.expression import TWO, ZERO, Formula, Symbol, arccos, cos, number, sin, square
 from linkanim.explain.rates import Rates
 from linkanim.explain.work import ANGLE, LENGTH, RATIO, Powers, Work
 from linkanim.mechanics.drive.strokes import CylinderStroke, Stroke
@@ -18,18 +18,16 @@ _ONCE, _TWICE = Powers(rate=1), Powers(rate=2)
 
 @dataclass(frozen=True)
 class PoseRequest:
-    """Which pose of a scene is worked out: `by` its "angle" or "phase", in rad, with its rates."""
+    """Which pose of a scene is worked out: `by` its "angle" or "phase", in rad, at its speed."""
 
     scene: Scene
     by: Literal["angle", "phase"]
     value: float
     speed: float
-    acceleration: float = 0.0
 
     def motion(self) -> Any:
         """Return the pose as solving gives it."""
-        where = {self.by: self.value}
-        return self.scene.solve(**where, speed=self.speed, acceleration=self.acceleration)  # type: ignore[arg-type]
+        return self.scene.solve(**{self.by: self.value}, speed=self.speed)  # type: ignore[arg-type]
 
     @property
     def swings(self) -> bool:
@@ -72,11 +70,7 @@ def _rate_symbols(work: Work) -> tuple[Symbol, Symbol]:
 
 def _stated(request: PoseRequest, work: Work, symbol: Symbol) -> tuple[Formula, Driven]:
     """Take the angle as it is asked for, or from the start and the phase."""
-    rate, second = _rate_symbols(work)
-    driven = Driven(
-        work.known(rate, request.speed, _ONCE, "the input"),
-        work.stated(second, request.acceleration, _TWICE, "the input"),
-    )
+    driven = Driven(work.known(_rate_symbols(work)[0], request.speed, _ONCE, "the input"), ZERO)
     if request.by == "angle":
         return work.known(symbol, request.value, ANGLE, "the input"), driven
     phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
@@ -88,28 +82,26 @@ def _swinging(request: PoseRequest, work: Work, symbol: Symbol) -> tuple[Formula
     """Add the law of an input that runs there and back: mid - amp cos φ."""
     phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
     pace = work.known(Symbol("φ", mark="˙"), request.speed, _ONCE, "rate of the phase")
-    growth = work.stated(Symbol("φ", mark="¨"), request.acceleration, _TWICE, "and its rate")
     path = request.scene.mechanism.assembly.path
     if isinstance(path, Stroke):
-        return _stroke(path, work, (phase, pace, growth), symbol)
+        return _stroke(path, work, (phase, pace), symbol)
     low, high = path.input_range
     middle = work.known(Symbol("θ", "m"), (low + high) / 2, ANGLE, "middle of the swing")
     amplitude = work.known(Symbol("A"), (high - low) / 2, ANGLE, "half of the swing")
     found = work.let(symbol, middle - amplitude * cos(phase), ANGLE)
     reach = work.let(Symbol("a"), amplitude * _PI / number("180"), RATIO)
-    once, twice = _cosine_rates(reach, phase, pace, growth)
+    once, twice = _cosine_rates(reach, phase, pace)
     rate, second = _rate_symbols(work)
     return found, Driven(work.let(rate, once, _ONCE), work.let(second, twice, _TWICE))
 
 
-def _cosine_rates(reach: Formula, phase: Formula, pace: Formula, growth: Formula) -> tuple[Formula, Formula]:
+def _cosine_rates(reach: Formula, phase: Formula, pace: Formula) -> tuple[Formula, Formula]:
     """Return the rates of mid - reach·cos φ."""
-    once = reach * sin(phase) * pace
-    return once, reach * cos(phase) * square(pace) + reach * sin(phase) * growth
+    return reach * sin(phase) * pace, reach * cos(phase) * square(pace)
 
 
 def _stroke(
-    path: Stroke, work: Work, phase: tuple[Formula, Formula, Formula], symbol: Symbol
+    path: Stroke, work: Work, phase: tuple[Formula, Formula], symbol: Symbol
 ) -> tuple[Formula, Driven]:
     """Add the way of what drives in a straight line, and of a cylinder the crank's angle."""
     letter = "ℓ" if isinstance(path, CylinderStroke) else symbol.letter
@@ -135,10 +127,9 @@ def _cylinder(
     length, once, twice = way
     pivot = work.linkage.crank(work.linkage.drive.joint).pivot
     sides = [side * path.unscale for side in path.sides]
-    words = (f"{{{pivot}}}–{{{between[0]}}}", f"{{{pivot}}}–{{{between[1]}}}")
     g, r = (
-        work.known(Symbol(name), side, LENGTH, text)
-        for name, side, text in zip("gc", sides, words, strict=True)
+        work.known(Symbol(name), side, LENGTH, f"{{{pivot}}}–{{{end}}}")
+        for name, side, end in zip("gc", sides, between, strict=True)
     )
     base = work.known(
         Symbol("θ", "b"), float(path.base), ANGLE, "the crank's angle with the cylinder's ends in line"

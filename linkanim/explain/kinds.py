@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from linkanim.explain.chains import LoopSide, Route, bar_side, slide_sides
+from linkanim.explain.chains import LoopSide, Route, route_of_bar, slide_sides
 from linkanim.explain.expression import (
     NOWHERE,
     TWO,
@@ -35,10 +35,8 @@ from linkanim.mechanics.linkage.rigid_bodies import Brace, Rigid
 def place_pin(pin: Pin, work: Work) -> None:
     """Take where the pin stands, or work it out from its length and angle."""
     if pin.polar is None or not pin.polar.length:
-        x, y = (
-            work.stated(Symbol(letter, pin.name), value, LENGTH)
-            for letter, value in zip("xy", pin.position, strict=True)
-        )
+        places = zip("xy", pin.position, strict=True)
+        x, y = (work.stated(Symbol(letter, pin.name), value, LENGTH) for letter, value in places)
         work.points[pin.name] = Components(x, y)
         return
     base, (length, angle) = pin.polar.base, (pin.polar.length, pin.polar.angle)
@@ -77,17 +75,10 @@ def _ratio(gear: Gear) -> Formula:
     return top / bottom
 
 
-def route_of_crank(crank: Crank, work: Work) -> Route:
-    """Return the way to its pin."""
-    return Route(crank.pivot, (bar_side(work, crank.pivot, crank.name, crank.length),))
-
-
 def place_slider(slider: DrivenSlider, work: Work) -> None:
     """Add where the driven slider lies."""
     guide = work.guide(slider.line, slider.name)
-    ahead = guide.direction.times(work.slides[slider.name])
-    aside = guide.direction.left().times(guide.offset)
-    work.let_point(slider.name, work.points[guide.through] + ahead + aside)
+    work.let_point(slider.name, on_guide(work, guide, work.slides[slider.name]))
 
 
 def move_slider(slider: DrivenSlider, rates: Rates, order: Order) -> None:
@@ -96,9 +87,10 @@ def move_slider(slider: DrivenSlider, rates: Rates, order: Order) -> None:
     rates.let_moving(slider.name, guide.direction.times(rates.sliding[slider.name][order - 1]), order)
 
 
-def route_of_slider(slider: DrivenSlider, work: Work) -> Route:
-    """Return the way along its guide."""
-    return Route(slider.line.through, slide_sides(work, work.guide(slider.line, slider.name), slider.name))
+def route_of_guide(joint: DrivenSlider | RRP | RPP, work: Work) -> Route:
+    """Return the way along a joint's guide."""
+    guide = work.guide(joint.line, joint.name)
+    return Route(guide.through, slide_sides(work, guide, joint.name))
 
 
 def place_point(point: Rigid, work: Work) -> None:
@@ -223,15 +215,9 @@ def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
     rates.let_moving(name, rates.of(p, order) + rates.carried(frames[0], one, order), order)
 
 
-def route_of_bars(joint: RRR, work: Work) -> Route:
-    """Return the way to the pin by the first bar."""
-    return Route(joint.ends[0], (bar_side(work, joint.ends[0], joint.name, joint.lengths[0]),))
-
-
 def loop_of_bars(joint: RRR, work: Work) -> tuple[Route, Route]:
     """Return both ways to the pin."""
-    other = bar_side(work, joint.ends[1], joint.name, joint.lengths[1])
-    return route_of_bars(joint, work), Route(joint.ends[1], (other,))
+    return route_of_bar(joint, work), route_of_bar(joint, work, 1)
 
 
 def beside_guide(work: Work, guide: GuideLine, point: str, joint: str) -> tuple[Formula, Formula]:
@@ -299,15 +285,9 @@ def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
         rates.let_moving(name, rates.of(end, order) + rates.carried(frame, bar, order), order)
 
 
-def route_of_slider_on_bar(joint: RRP, work: Work) -> Route:
-    """Return the way to the slider by its bar."""
-    return Route(joint.end, (bar_side(work, joint.end, joint.name, joint.length),))
-
-
 def loop_of_slider_on_bar(joint: RRP, work: Work) -> tuple[Route, Route]:
     """Return both ways to the slider."""
-    guide = work.guide(joint.line, joint.name)
-    return route_of_slider_on_bar(joint, work), Route(guide.through, slide_sides(work, guide, joint.name))
+    return route_of_bar(joint, work), route_of_guide(joint, work)
 
 
 def place_slot(joint: RPR, work: Work) -> None:
@@ -344,19 +324,12 @@ def move_slot(joint: RPR, rates: Rates, order: Order) -> None:
     rates.let_moving(name, rates.of(pivot, order) + rates.carried(frame, bar, order), order)
 
 
-def route_of_slot(joint: RPR, work: Work) -> Route:
-    """Return the way to the bar's end."""
-    return Route(joint.pivot, (bar_side(work, joint.pivot, joint.name, joint.length),))
-
-
 def loop_of_slot(joint: RPR, work: Work) -> tuple[Route, Route]:
     """Return both ways to the pin in the slot."""
-    u, index = along(work.angle_of(joint.pivot, joint.name)), work.names.slide(joint.name).sub
-    sides = [LoopSide(Symbol("S", index, bold=True), u.times(work.slides[joint.name]))]
-    if joint.offset:
-        offset = work.stated(Symbol("e", joint.name), joint.offset, LENGTH)
-        sides.append(LoopSide(Symbol("E", joint.name, bold=True), Components(*u.left().times(offset))))
-    return Route(joint.through, ()), Route(joint.pivot, tuple(sides))
+    pivot, name, angle = joint.pivot, joint.name, work.angle_of(joint.pivot, joint.name)
+    offset = work.stated(Symbol("e", name), joint.offset, LENGTH)
+    slot = GuideLine(pivot, along(angle), offset, work.frame((pivot, name)), angle)
+    return Route(joint.through, ()), Route(pivot, slide_sides(work, slot, name))
 
 
 def place_yoke(joint: RPP, work: Work) -> None:
@@ -402,18 +375,12 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
     rates.let_moving(name, carried + u.times(rates.sliding[name][order - 1]), order)
 
 
-def route_of_yoke(joint: RPP, work: Work) -> Route:
-    """Return the way along the guide."""
-    guide = work.guide(joint.line, joint.name)
-    return Route(guide.through, slide_sides(work, guide, joint.name))
-
-
 def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:
     """Return both ways to the pin."""
     w = _along_slot(joint, work, work.guide(joint.line, joint.name))
     index = work.names.slide(joint.name).sub
     last = LoopSide(Symbol("T", index, bold=True), w.times(work.slides["t" + joint.name]))
-    start, sides = route_of_yoke(joint, work)
+    start, sides = route_of_guide(joint, work)
     return Route(joint.pin, ()), Route(start, (*sides, last))
 
 
@@ -433,13 +400,13 @@ class KindSteps:
 
 KINDS: Mapping[type[Joint], KindSteps] = {
     Pin: KindSteps(place_pin, rest),
-    Crank: KindSteps(place_crank, move_crank, route_of_crank),
-    DrivenSlider: KindSteps(place_slider, move_slider, route_of_slider),
+    Crank: KindSteps(place_crank, move_crank, route_of_bar),
+    DrivenSlider: KindSteps(place_slider, move_slider, route_of_guide),
     Rigid: KindSteps(place_point, move_point, route_of_point),
     Brace: KindSteps(place_point, move_point, route_of_point),
-    RRR: KindSteps(place_bars, move_bars, route_of_bars, loop_of_bars),
-    RRP: KindSteps(place_slider_on_bar, move_slider_on_bar, route_of_slider_on_bar, loop_of_slider_on_bar),
-    RPR: KindSteps(place_slot, move_slot, route_of_slot, loop_of_slot),
-    RPP: KindSteps(place_yoke, move_yoke, route_of_yoke, loop_of_yoke),
+    RRR: KindSteps(place_bars, move_bars, route_of_bar, loop_of_bars),
+    RRP: KindSteps(place_slider_on_bar, move_slider_on_bar, route_of_bar, loop_of_slider_on_bar),
+    RPR: KindSteps(place_slot, move_slot, route_of_bar, loop_of_slot),
+    RPP: KindSteps(place_yoke, move_yoke, route_of_guide, loop_of_yoke),
 }
 """Every kind that a linkage can be made of."""

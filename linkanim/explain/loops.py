@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from functools import reduce
 from itertools import takewhile
 from typing import NamedTuple
 
@@ -90,8 +88,8 @@ def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:
     if one.root != other.root:
         right.insert(0, _ground(work, one.root, other.root))
     sides = [[side for side, _ in way] for way in (left, right)]
-    bold = [_sum(Formula("leaf", symbol=side.symbol, shown="0") for side in way) for way in sides]
-    parts = [[_sum(side.vector[n] for side in way) for way in sides] for n in (0, 1)]
+    bold = [sum((Formula("leaf", symbol=side.symbol, shown="0") for side in way), ZERO) for way in sides]
+    parts = [[sum((side.vector[n] for side in way), ZERO) for way in sides] for n in (0, 1)]
     equations = [Equation(*pair) for pair in (bold, *parts)]
     arrows = tuple(LoopArrow(side.symbol, at, at + _value(side)) for side, at in (*left, *right))
     known = {leaf.symbol: leaf for pair in parts for side in pair for leaf in side.leaves}
@@ -123,7 +121,3 @@ def _from_ground(route: Route, work: Work) -> _Chain:
 
 def _value(side: LoopSide) -> complex:
     return complex(side.vector.x.value, side.vector.y.value)
-
-
-def _sum(parts: Iterable[Formula]) -> Formula:
-    return reduce(lambda a, b: a + b, parts, ZERO)

@@ -15,7 +15,6 @@ _GREEK = {
     "ψ": "psi", "σ": "sigma", "π": "pi", "ℓ": "ell", "→": "rightarrow",
 }  # fmt: skip
 _INDEX = re.compile(r"([^\W\d_]+|[^\w]+|_)|(\d+)")
-_ESCAPED = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
 
 
 @dataclass(frozen=True)
@@ -106,36 +105,34 @@ class _Setting:
 
 def plain_latex(text: str) -> str:
     """Return words as LaTeX sets them; what its standard fonts have no letter for is a question mark."""
-    parts = []
-    for char in normalize("NFC", text):
-        if char in _GREEK:
-            parts.append(f"$\\{_GREEK[char]}$")
-        elif char in "#$%&_{}":
-            parts.append(f"\\{char}")
-        else:
-            parts.append(_ESCAPED.get(char) or _TEXT.get(char) or (char if ord(char) < 0x180 else "?"))
-    return "".join(parts)
+    return re.sub(r"[^\0-\u017f]", "?", normalize("NFC", text).translate(_TEXT))
 
 
-_TEXT = {
-    "°": r"\textdegree{}",
-    "–": "--",
-    "—": "---",
-    "−": "$-$",
-    "′": "$'$",
-    "²": r"$^{2}$",
-    "·": r"$\cdot$",
-    "’": "'",
-    "ⁿ": "$^{n}$",
-    "ᵗ": "$^{t}$",
-    "ᶜ": "$^{c}$",
-    "∞": r"$\infty$",
-    "≥": r"$\geq$",
-    "×": r"$\times$",
-    "…": r"\dots{}",
-}
-_SUB_DIGITS = {chr(0x2080 + n): f"$_{n}$" for n in range(10)}
-_TEXT |= _SUB_DIGITS
+_TEXT = str.maketrans(
+    {
+        **{letter: f"$\\{name}$" for letter, name in _GREEK.items()},
+        **{char: f"\\{char}" for char in "#$%&_{}"},
+        **{chr(0x2080 + n): f"$_{n}$" for n in range(10)},
+        "\\": r"\textbackslash{}",
+        "~": r"\textasciitilde{}",
+        "^": r"\textasciicircum{}",
+        "°": r"\textdegree{}",
+        "–": "--",
+        "—": "---",
+        "−": "$-$",
+        "′": "$'$",
+        "²": r"$^{2}$",
+        "·": r"$\cdot$",
+        "’": "'",
+        "ⁿ": "$^{n}$",
+        "ᵗ": "$^{t}$",
+        "ᶜ": "$^{c}$",
+        "∞": r"$\infty$",
+        "≥": r"$\geq$",
+        "×": r"$\times$",
+        "…": r"\dots{}",
+    }
+)
 
 
 def _latex_index(text: str) -> str:
@@ -167,13 +164,9 @@ def _latex_symbol(symbol: Symbol) -> str:
 
 
 def _latex_unit(unit: str) -> str:
-    if unit == "°":
-        return r"^{\circ}"
-    return (
-        r"\,\mathrm{" + unit.replace("²", "^{2}").replace("·", r"\,").replace(" ", r"\,") + "}"
-        if unit
-        else ""
-    )
+    if unit in ("", "°"):
+        return unit and r"^{\circ}"
+    return r"\,\mathrm{" + unit.replace("²", "^{2}").replace("·", r"\,").replace(" ", r"\,") + "}"
 
 
 def _latex_call(name: str, parts: Sequence[str]) -> str:
@@ -212,24 +205,24 @@ def _mathml_index(text: str) -> str:
 
 
 def _mathml_symbol(symbol: Symbol) -> str:
-    letter = f"<mi{' mathvariant=' + repr('bold') if symbol.bold else ''}>{symbol.letter}</mi>"
-    if symbol.bold:
-        letter = f"<mi class='v'>{symbol.letter}</mi>"
+    letter = ("<mi class='v'>" if symbol.bold else "<mi>") + f"{symbol.letter}</mi>"
     if symbol.mark in ("˙", "¨"):
         letter = f"<mover accent='true'>{letter}<mo>{symbol.mark}</mo></mover>"
-    elif symbol.mark:
-        prime = f"<mo>{symbol.mark}</mo>"
-        return (
-            f"<msubsup>{letter}{_mathml_index(symbol.sub)}{prime}</msubsup>"
-            if symbol.sub
-            else f"<msup>{letter}{prime}</msup>"
-        )
-    return f"<msub>{letter}{_mathml_index(symbol.sub)}</msub>" if symbol.sub else letter
+    index = _mathml_index(symbol.sub) if symbol.sub else ""
+    prime = f"<mo>{symbol.mark}</mo>" if symbol.mark in ("′", "″") else ""
+    kind = "m" + "sub" * bool(index) + "sup" * bool(prime)
+    return f"<{kind}>{letter}{index}{prime}</{kind}>" if index or prime else letter
 
 
 def _mathml_number(shown: str, degrees: bool) -> str:
     minus, digits = ("<mo form='prefix'>−</mo>", shown[1:]) if shown.startswith("-") else ("", shown)
     return f"{minus}<mn>{digits}</mn>" + ("<mo class='u'>°</mo>" if degrees else "")
+
+
+def _mathml_unit(unit: str) -> str:
+    if unit in ("", "°"):
+        return unit and "<mo class='u'>°</mo>"
+    return f"<mspace width='.17em'></mspace><mtext>{escape(unit)}</mtext>"
 
 
 _THIN = "<mspace width='.12em'></mspace>"
@@ -258,13 +251,7 @@ MATHML = Notation(
     squared=lambda a: f"<msup><mrow>{a}</mrow><mn>2</mn></msup>",
     call=_mathml_call,
     group=lambda a: f"<mrow><mo>(</mo>{a}<mo>)</mo></mrow>",
-    unit=lambda unit: (
-        "<mo class='u'>°</mo>"
-        if unit == "°"
-        else f"<mspace width='.17em'></mspace><mtext>{escape(unit)}</mtext>"
-        if unit
-        else ""
-    ),
+    unit=_mathml_unit,
     matrix=lambda rows: (
         "<mrow><mo>[</mo><mtable>"
         + "".join(f"<mtr>{''.join(f'<mtd>{cell}</mtd>' for cell in row)}</mtr>" for row in rows)

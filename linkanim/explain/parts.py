@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import reduce
-from operator import add
 from typing import NamedTuple
 
 from linkanim.explain.expression import ZERO, Components, Formula, Symbol, dot, number, sqrt, square
@@ -96,7 +94,7 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Found]:
         return
     work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
     powers = [*_strut_powers(rates), *_body_powers(rates, known)]
-    total = work.let_plain(Symbol("P"), reduce(add, powers, ZERO), "W")
+    total = work.let_plain(Symbol("P"), sum(powers, ZERO), "W")
     name, unit = linkage.drive.actuator.effort
     pace = _pace(rates)
     if pace.value == 0:

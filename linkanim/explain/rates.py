@@ -74,23 +74,14 @@ class Rates:
 
     def let_moving(self, joint: str, formula: Components, order: Order) -> None:
         """Add the lines that say how a joint moves."""
-        self.moving.setdefault(joint, []).append(self.let_vector(joint, formula, order))
-
-    def let_vector(self, index: str, formula: Components, order: Order) -> Components:
-        """Add the lines of a vector's two components."""
         mark, measure = self.letters.moving[order - 1], Powers(1, order)
-        x = self.let(Symbol("x", index, mark), formula.x, measure)
-        return Components(x, self.let(Symbol("y", index, mark), formula.y, measure))
+        x = self.let(Symbol("x", joint, mark), formula.x, measure)
+        y = self.let(Symbol("y", joint, mark), formula.y, measure)
+        self.moving.setdefault(joint, []).append(Components(x, y))
 
     def turn_symbol(self, frame: int, order: Order) -> Symbol:
         """Return the symbol of how a rigid body turns."""
         return self.letters.turning[order - 1]._replace(sub=self.work.names.turning(frame))
-
-    def slide_symbol(self, slide: SlideUnknown, order: Order) -> Symbol:
-        """Return the symbol of how fast something slides."""
-        index = self.work.names.slide(slide.way).sub
-        symbol = self.letters.sliding[order - 1]._replace(sub=index)
-        return symbol._replace(letter=slide.letter) if slide.letter and symbol.letter == "s" else symbol
 
     def of(self, joint: str, order: Order) -> Components:
         """Return how a joint moves."""
@@ -137,8 +128,7 @@ class Rates:
         det = self.let(Symbol("D", index), a * e - b * d, Powers(left.length + beside.length))
         for unknown, name, formula in zip(unknowns, names, (c * e - b * f, a * f - d * c), strict=True):
             if isinstance(unknown, TurnUnknown):
-                found = self.let(name, formula / det, Powers(0, order))
-                self.turning.setdefault(unknown.frame, []).append(found)
+                self.let_turning(unknown.frame, formula / det, order)
             else:
                 found = self.let(name, formula / det, Powers(1, order))
                 self.sliding.setdefault(unknown.letter + unknown.way, []).append(found)
@@ -147,22 +137,19 @@ class Rates:
         """Return the right sides; long ones have lines of their own before the equations."""
         if max(len(list(side.leaves)) for side in right) <= _SHORT:
             return right
-        first, second = (
-            self.let(Symbol("b", str(n)), side, measure) for n, side in enumerate(right, start=1)
-        )
-        return Components(first, second)
+        return Components(*(self.let(Symbol("b", str(n)), side, measure) for n, side in enumerate(right, 1)))
 
     def _row(self, formulas: Row, measures: tuple[Powers, Powers, Powers], row: int) -> Row:
         """Return the entries of a row, a₁₁ a₁₂ b₁, in the digits that they show."""
-        (a, b, c), (one, other, right) = formulas, measures
-        first = self._entry(a, one, Symbol("a", f"{row}1"))
-        second = self._entry(b, other, Symbol("a", f"{row}2"))
-        return first, second, self._entry(c, right, Symbol("b", str(row)))
+        names = Symbol("a", f"{row}1"), Symbol("a", f"{row}2"), Symbol("b", str(row))
+        first, second, right = map(self._entry, formulas, measures, names)
+        return first, second, right
 
     def _symbol(self, unknown: TurnUnknown | SlideUnknown, order: Order) -> Symbol:
         if isinstance(unknown, TurnUnknown):
             return self.turn_symbol(unknown.frame, order)
-        return self.slide_symbol(unknown, order)
+        symbol = self.letters.sliding[order - 1]._replace(sub=self.work.names.slide(unknown.way).sub)
+        return symbol._replace(letter=unknown.letter) if unknown.letter and symbol.letter == "s" else symbol
 
     def _entry(self, formula: Formula, measure: Powers, symbol: Symbol) -> Formula:
         if formula.constant is not None or (formula.symbol and formula.symbol.letter == "b"):

@@ -7,8 +7,7 @@ from functools import reduce
 from itertools import pairwise
 from typing import NamedTuple
 
-from linkanim.explain.expression import Formula
-from linkanim.explain.lines import Equation, Given, System, ValueLine
+from linkanim.explain.lines import Equation, Item, System, ValueLine
 from linkanim.explain.notation import Notation, typeset
 
 _SHORT, _MIDDLING = 2, 6
@@ -22,15 +21,11 @@ class EquationRow(NamedTuple):
     right: str
 
 
-def rows(
-    item: ValueLine | Given | Equation | System, how: Notation, *, blank: bool = False
-) -> Iterator[EquationRow]:
-    """Yield the rows of an item; where `blank` the numbers that are asked for are left open."""
+def rows(item: Item, how: Notation, *, blank: bool = False) -> Iterator[EquationRow]:
+    """Yield the rows of an item that has any; where `blank` the numbers that are asked for are left open."""
     match item:
         case ValueLine():
             yield from _line(item, how, blank)
-        case Given():
-            yield EquationRow(typeset(item.value, how), _value(item.value, item.unit, how))
         case Equation():
             yield EquationRow(typeset(item.left, how), typeset(item.right, how))
         case System():
@@ -42,7 +37,7 @@ def _line(line: ValueLine, how: Notation, blank: bool) -> Iterator[EquationRow]:
     sides = [typeset(line.formula, how)] if line.formula.symbolic else []
     if not blank and line.formula.operation != "leaf":
         sides.append(typeset(line.formula, how, numbers=True))
-    sides.append(how.blank + how.unit(line.unit) if blank else _value(line.value, line.unit, how))
+    sides.append((how.blank if blank else how.number(line.value.shown, False)) + how.unit(line.unit))
     leaves = len(list(line.formula.leaves))
     together = 3 if leaves <= _SHORT else 2 if leaves <= _MIDDLING else 1
     left = typeset(line.value, how)
@@ -64,7 +59,3 @@ def _system(system: System, how: Notation, blank: bool) -> Iterator[EquationRow]
         yield EquationRow(
             how.matrix([row[:2] for row in set_]) + unknowns, how.matrix([row[2:] for row in set_])
         )
-
-
-def _value(e: Formula, unit: str, how: Notation) -> str:
-    return how.number(e.shown, False) + how.unit(unit)

@@ -15,7 +15,7 @@ from linkanim.explain.expression import ONE, ZERO, Components, Formula
 from linkanim.explain.inputs import Driven, PoseRequest, place_input, start_rates
 from linkanim.explain.kinds import KINDS
 from linkanim.explain.lines import Chapter, Outcome, Step, Words
-from linkanim.explain.loops import VectorLoop, loops_of
+from linkanim.explain.loops import LoopArrow, VectorLoop, loops_of
 from linkanim.explain.names import SymbolNames, names_of
 from linkanim.explain.parts import Found, centre_of_mass, effort, strut
 from linkanim.explain.rates import BY_INPUT, IN_TIME, ORDERS, Order, Rates
@@ -27,17 +27,15 @@ from linkanim.picture.figure import figure
 _FEWEST, _MOST = 6, 12
 _AGREES, _NOTHING = 5e-6, 5e-7
 """A result agrees to that share of itself, or to that share of what it is at a typical length and rate."""
-_TITLES = {1: "Velocities", 2: "Accelerations"}
-_ORDER_WORDS = {1: "first", 2: "second"}
 _BY_INPUT = (
     "Primes are derivatives by the input: h of angles, f of ways. Each loop differentiated gives two linear "
     "equations; a are the entries of their matrix, b the right sides, D the determinant, and both unknowns "
     "follow by Cramer's rule."
 )
-_IN_TIME: dict[Order, str] = {
-    1: "The loops differentiated in time: the same equations, the input running at its own speed.",
-    2: "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
-}
+_IN_TIME = (
+    "The loops differentiated in time: the same equations, the input running at its own speed.",
+    "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
+)
 _NO_LOOP = "There is none to close: each joint follows from the input alone."
 _SINGULAR = (
     "No rates follow here in as many digits as a page can show: at a limit or a change point the two linear "
@@ -54,13 +52,17 @@ class Solution:
     loops: tuple[VectorLoop, ...]
     results: tuple[Outcome, ...]
     places: dict[str, complex]
-    digits: int
     singular: bool
 
     @property
     def loop_chapter(self) -> Chapter:
         """The chapter of the loops, which has the figure."""
         return self.chapters[1]
+
+    @property
+    def arrows(self) -> tuple[LoopArrow, ...]:
+        """The vectors of all loops, each once."""
+        return tuple({arrow.symbol: arrow for loop in self.loops for arrow in loop.arrows}.values())
 
     @property
     def phase(self) -> float:
@@ -118,15 +120,13 @@ class _Draft:
         self.linkage = request.scene.linkage
         length = max([abs(value) for joint in self.linkage.joints for _, value in joint.bars] or [1.0])
         angular = self.linkage.drive.coordinate.is_angle
-        pace = max(
-            abs(float(self.motion.coordinate_rate)), math.sqrt(abs(float(self.motion.coordinate_second)))
-        )
+        rate, second = abs(float(self.motion.coordinate_rate)), abs(float(self.motion.coordinate_second))
+        pace = max(rate, math.sqrt(second))
         rate = pace if angular else pace / length
         scale = Scale(digits, request.scene.length_unit, length, rate if 0 < rate < math.inf else 1.0)
         self.work = Work(self.linkage, names, self.motion, scale)
-        by = Scale(
-            digits, scale.unit, length, 1.0 if angular else 1.0 / length, "" if angular else scale.unit
-        )
+        rate, per = (1.0, "") if angular else (1.0 / length, scale.unit)
+        by = Scale(digits, scale.unit, length, rate, per)
         self.rates, self.slopes = Rates(self.work, IN_TIME, scale), Rates(self.work, BY_INPUT, by)
         self.results: list[Outcome] = []
         self.steps: list[Step] = []
@@ -147,7 +147,7 @@ class _Draft:
         # of parts with one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())
         at = {name: self.work.place(name) for name in self.work.points}
-        return Solution(self.request, chapters, loops, results, at, self.work.scale.digits, not rates)
+        return Solution(self.request, chapters, loops, results, at, not rates)
 
     def _step(self, title: str, write: Callable[[], object]) -> None:
         """Add a step with the lines that are written meanwhile; none where there are none."""
@@ -187,35 +187,23 @@ class _Draft:
         """Yield the chapter of kinematic coefficients."""
         start_rates(self.slopes, Driven(ONE, ZERO))
         self._step("", partial(self.work.say, _BY_INPUT))
-        for order in ORDERS:
-            self._moved(self.slopes, order, f", {_ORDER_WORDS[order]} coefficients")
-            self._tell_links(
-                self.slopes,
-                order,
-                ("coefficient", "second_coefficient"),
-                ("coefficient", "second_coefficient"),
-            )
+        for order, word, token in zip(ORDERS, ("first", "second"), ("", "second_"), strict=True):
+            self._moved(self.slopes, order, f", {word} coefficients")
+            self._tell_links(self.slopes, order, f"{token}coefficient", f"{token}coefficient")
         yield from self._chapter("Kinematic coefficients")
 
     def _in_time(self, driven: Driven) -> Iterator[Chapter]:
         """Yield the chapters of velocities and accelerations."""
         start_rates(self.rates, driven)
-        for order, word in zip(ORDERS, ("velocity", "acceleration"), strict=True):
-            self._step("", partial(self.work.say, _IN_TIME[order]))
+        titles = {"velocity": "Velocities", "acceleration": "Accelerations"}
+        for order, (word, title), text in zip(ORDERS, titles.items(), _IN_TIME, strict=True):
+            self._step("", partial(self.work.say, text))
             self._moved(self.rates, order)
             for joint in self.linkage.joints:
-                self._tell(
-                    f"{joint.name}.{word}",
-                    self.rates.of(joint.name, order),
-                    self.rates.scale,
-                    Powers(1, order),
-                )
-            turning, sliding = (
-                ("angular_velocity", "angular_acceleration"),
-                ("travel_velocity", "travel_acceleration"),
-            )
-            self._tell_links(self.rates, order, turning, sliding)
-            yield from self._chapter(_TITLES[order])
+                moving = self.rates.of(joint.name, order)
+                self._tell(f"{joint.name}.{word}", moving, self.rates.scale, Powers(1, order))
+            self._tell_links(self.rates, order, f"angular_{word}", f"travel_{word}")
+            yield from self._chapter(title)
 
     def _moved(self, rates: Rates, order: Order, words: str = "") -> None:
         """Add a step for each joint that moves."""
@@ -223,16 +211,14 @@ class _Draft:
             title = f"Joint {{{joint.name}}}{words}"
             self._step(title, partial(KINDS[type(joint)].move, joint, rates, order))
 
-    def _tell_links(
-        self, rates: Rates, order: Order, turning: tuple[str, str], sliding: tuple[str, str]
-    ) -> None:
+    def _tell_links(self, rates: Rates, order: Order, turning: str, sliding: str) -> None:
         for body in self.linkage.bodies:
             if body.slider is None:
-                value, word = rates.turn(self.work.frame((body.joints[0], body.joints[1])), order), turning
-                self._result(f"{body.name}.{word[order - 1]}", value, rates.scale, Powers(0, order))
+                value = rates.turn(self.work.frame((body.joints[0], body.joints[1])), order)
+                self._result(f"{body.name}.{turning}", value, rates.scale, Powers(0, order))
             elif body.slider in rates.sliding:
                 value = rates.sliding[body.slider][order - 1]
-                self._result(f"{body.name}.{sliding[order - 1]}", value, rates.scale, Powers(1, order))
+                self._result(f"{body.name}.{sliding}", value, rates.scale, Powers(1, order))
 
     def _parts(self) -> Iterator[Chapter]:
         """Yield the chapters of centres of mass, of springs and dampers, and of what the input delivers."""

@@ -27,7 +27,7 @@ class Powers(NamedTuple):
     angle: bool = False
 
 
-RATIO, LENGTH, AREA = Powers(), Powers(1), Powers(2)
+RATIO, LENGTH = Powers(), Powers(1)
 ANGLE = Powers(angle=True)
 
 
@@ -48,8 +48,7 @@ class Scale:
         """Return how many decimals a number of a measure has."""
         if measure.angle:
             return self.digits - 2
-        size = self.length**measure.length * self.rate**measure.rate
-        return max(self.digits - 1 - math.floor(math.log10(size)), 0)
+        return decimals(self.length**measure.length * self.rate**measure.rate, self.digits)
 
     def unit_of(self, measure: Powers) -> str:
         """Return a measure's unit."""
@@ -91,35 +90,30 @@ class Work:
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers, scale: Scale | None = None) -> Formula:
         """Add the line that gives a symbol its value, and return it; a number alone needs no line."""
-        if formula.constant is not None:
-            return formula
         scale = scale or self.scale
-        text = rounded(formula.value, scale.decimals(measure))
-        found = Formula("leaf", symbol=symbol, shown=text, in_degrees=measure.angle)
-        self.items.append(ValueLine(formula, found, scale.unit_of(measure)))
-        return found
+        return self._line(symbol, formula, scale.decimals(measure), scale.unit_of(measure))
 
     def let_plain(self, symbol: Symbol, formula: Formula, unit: str) -> Formula:
         """Add the line of what is neither a length nor a rate: a force, a power, in significant digits."""
+        return self._line(symbol, formula, decimals(formula.value, self.scale.digits), unit)
+
+    def _line(self, symbol: Symbol, formula: Formula, places: int, unit: str) -> Formula:
         if formula.constant is not None:
             return formula
-        size = abs(formula.value)
-        decimals = max(self.scale.digits - 1 - math.floor(math.log10(size)), 0) if size > 0 else 0
-        found = Formula("leaf", symbol=symbol, shown=rounded(formula.value, decimals))
+        text = rounded(formula.value, places)
+        found = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
         self.items.append(ValueLine(formula, found, unit))
         return found
 
     def stated(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
         """Return what the scene states as a symbol's value; 0 as the number alone."""
-        text = self.written(math.degrees(value) if measure.angle else value, measure)
-        if float(text) == 0 or (measure.angle and float(text) % 90 == 0):
-            return number(text)
-        return self.quoted(symbol, text, self.scale.unit_of(measure), words)
+        text = self.written(value, measure)
+        plain = float(text) == 0 or (measure.angle and float(text) % 90 == 0)
+        return number(text) if plain else self.known(symbol, value, measure, words)
 
     def known(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
         """Return a number that is given as a symbol's value, whatever it is."""
-        text = self.written(math.degrees(value) if measure.angle else value, measure)
-        return self.quoted(symbol, text, self.scale.unit_of(measure), words)
+        return self.quoted(symbol, self.written(value, measure), self.scale.unit_of(measure), words)
 
     def quoted(self, symbol: Symbol, text: str, unit: str, words: str = "") -> Formula:
         """Return a number that is given as a symbol's value in these digits, an exponent written out."""
@@ -129,11 +123,10 @@ class Work:
 
     def written(self, value: float, measure: Powers) -> str:
         """Return a number as it was stated, or where that is long in the digits of what is worked out."""
-        text = f"{value + 0.0:.12g}"
-        decimals = self.scale.decimals(measure) + 1
-        return (
-            text if "e" not in text and len(text.partition(".")[2]) <= decimals else rounded(value, decimals)
-        )
+        value = (math.degrees(value) if measure.angle else value) + 0.0
+        text, places = f"{value:.12g}", self.scale.decimals(measure) + 1
+        short = "e" not in text and len(text.partition(".")[2]) <= places
+        return text if short else rounded(value, places)
 
     def length(self, start: str, end: str, value: float) -> Formula:
         """Return the length between two joints, as stated."""
@@ -144,9 +137,8 @@ class Work:
         found = self.angles.get((start, end))
         if found is None:
             way = self.points[end] - self.points[start]
-            found = self.angles[start, end] = self.let(
-                self.angle_symbol(start, end), atan2(way.y, way.x), ANGLE
-            )
+            found = self.let(self.angle_symbol(start, end), atan2(way.y, way.x), ANGLE)
+            self.angles[start, end] = found
         return found
 
     def angle_symbol(self, start: str, end: str) -> Symbol:
@@ -171,9 +163,8 @@ class Work:
         else:
             angle = self.angle_of(*line.on)
             if line.angle:
-                own = self.stated(
-                    Symbol("β", joint), line.angle, ANGLE, "its guide from the line of its body"
-                )
+                words = "its guide from the line of its body"
+                own = self.stated(Symbol("β", joint), line.angle, ANGLE, words)
                 angle = self.let(Symbol("φ", joint), angle + own, ANGLE)
         offset = self.stated(Symbol("e", joint), line.offset, LENGTH, "its guide's offset to the left")
         frame = self.frame(line.on) if line.on else 0
@@ -198,11 +189,14 @@ class GuideLine(NamedTuple):
     angle: Formula
 
 
-def rounded(value: float, decimals: int) -> str:
+def decimals(value: float, digits: int) -> int:
+    """Return with how many decimals a number has so many significant digits at the least."""
+    return max(digits - 1 - math.floor(math.log10(abs(value))), 0) if value else 0
+
+
+def rounded(value: float, places: int) -> str:
     """Return a number in so many decimals, as far as a float has them, without the sign of a zero."""
-    if value:
-        decimals = max(min(decimals, _FLOAT_DIGITS - 1 - math.floor(math.log10(abs(value)))), 0)
-    text = f"{value:.{decimals}f}"
+    text = f"{value:.{min(places, decimals(value, _FLOAT_DIGITS)) if value else places}f}"
     return text if float(text) else text.lstrip("-")
 
 

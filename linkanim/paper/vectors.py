@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.explain.loops import LoopArrow
 from linkanim.explain.solution import Solution
 from linkanim.paper.figure import Figured
 from linkanim.paper.svg import svg
@@ -46,15 +45,11 @@ def vectors_svg(found: Solution, size: tuple[int, int] = (760, 560)) -> str:
     return svg(size, picture.theme.background, drawn, title=title)
 
 
-def _vectors(found: Solution) -> tuple[LoopArrow, ...]:
-    return tuple({arrow.symbol: arrow for loop in found.loops for arrow in loop.arrows}.values())
-
-
 def _picture(found: Solution, size: tuple[int, int]) -> Picture:
     """Return the links with all vectors in view, as large as there is room for."""
     look = Look(trace=False, hud=False)
     whole = Figured(found.request.scene, size, look, found.phase).picture
-    ends = np.array([_pixel(whole, end) for one in _vectors(found) for end in (one.begin, one.end)])
+    ends = np.array([_pixel(whole, end) for one in found.arrows for end in (one.begin, one.end)])
     spans = max(float(np.ptp(ends.real)), 1.0), max(float(np.ptp(ends.imag)), 1.0)
     zoom = min(_FILLED * size[0] / spans[0], _FILLED * size[1] / spans[1])
     off = (ends.real.max() + ends.real.min() - size[0]) / 2, (ends.imag.max() + ends.imag.min() - size[1]) / 2
@@ -69,7 +64,7 @@ def _pixel(picture: Picture, at: complex) -> complex:
 def _drawn(found: Solution, picture: Picture) -> Iterator[Item]:
     """Yield the vectors, and the names of vectors and joints where they lie on nothing."""
     pen, theme = pen_for(picture.layout, picture.type, picture.theme), picture.theme
-    ways = [(one, _pixel(picture, one.begin), _pixel(picture, one.end)) for one in _vectors(found)]
+    ways = [(one, _pixel(picture, one.begin), _pixel(picture, one.end)) for one in found.arrows]
     long = [way for way in ways if abs(way[2] - way[1]) > _SHORT * picture.size[0]]
     joints = {name: _pixel(picture, at) for name, at in found.places.items()}
     ends = [end for _, *both in long for end in both]
