@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Self
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 from linkanim.digits import stepped
 from linkanim.errors import BadInput
+from linkanim.mechanics.linkage.joint import Measured
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,7 @@ TRAVEL = Coordinate("travel", "s", "{}", "velocity")
 
 
 @dataclass(frozen=True, slots=True)
-class Actuator:
+class Actuator(Measured):
     """What drives the input.
 
     `effort` is what it delivers, and its unit. `noun` is the input's name where it is no bar that turns;
@@ -71,15 +72,6 @@ class Actuator:
         """The two joints whose distance it changes; None where it drives a joint itself."""
         return None
 
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """The lengths between which it runs, if it is stated by any."""
-        return ()
-
-    def scaled(self, factor: float) -> Self:
-        """Return the same with its lengths times a factor."""
-        return self
-
 
 @dataclass(frozen=True, slots=True)
 class Motor(Actuator):
@@ -97,6 +89,7 @@ class Cylinder(Actuator):
     first: float
     last: float
 
+    sized: ClassVar[tuple[str, ...]] = ("first", "last")
     effort: ClassVar[tuple[str, str]] = ("force", "N")
     linkage_name: ClassVar[str | None] = "crank driven by a cylinder"
 
@@ -104,15 +97,6 @@ class Cylinder(Actuator):
     def along(self) -> tuple[str, str]:
         """The two joints whose distance it changes."""
         return self.between
-
-    @property
-    def lengths(self) -> tuple[float, float]:
-        """Its lengths at both ends."""
-        return self.first, self.last
-
-    def scaled(self, factor: float) -> Cylinder:
-        """Return the cylinder with its lengths times a factor."""
-        return replace(self, first=self.first * factor, last=self.last * factor)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +106,7 @@ class Travel(Actuator):
     first: float
     last: float
 
+    sized: ClassVar[tuple[str, ...]] = ("first", "last")
     coordinate: ClassVar[Coordinate] = TRAVEL
     effort: ClassVar[tuple[str, str]] = ("force", "N")
     noun: ClassVar[str | None] = "slider"
@@ -129,21 +114,12 @@ class Travel(Actuator):
     cycles: ClassVar[str] = "cycles"
     linkage_name: ClassVar[str | None] = "slider"
 
-    @property
-    def lengths(self) -> tuple[float, float]:
-        """How far it has travelled at both ends."""
-        return self.first, self.last
-
-    def scaled(self, factor: float) -> Travel:
-        """Return the travel with its ends times a factor."""
-        return Travel(self.first * factor, self.last * factor)
-
 
 MOTOR = Motor()
 
 
 @dataclass(frozen=True, slots=True)
-class Drive:
+class Drive(Measured):
     """What moves the linkage: the input's joint, its speed (rad/s, negative clockwise) and start (rad).
 
     Where a length runs there and back, `speed` is that of the phase, one there-and-back being 2π. `at_zero`
@@ -157,6 +133,8 @@ class Drive:
     actuator: Actuator = MOTOR
     at_zero: bool = False
     retraced: bool = False
+
+    sized: ClassVar[tuple[str, ...]] = ("actuator",)
 
     @property
     def coordinate(self) -> Coordinate:
@@ -173,7 +151,3 @@ class Drive:
         if not self.coordinate.is_angle:
             noun = self.actuator.noun
             raise BadInput(f"{scene}: its input is a {noun}, which has no angle; {way_out}")
-
-    def scaled(self, factor: float) -> Drive:
-        """Return the drive with the lengths of what drives times a factor."""
-        return replace(self, actuator=self.actuator.scaled(factor))

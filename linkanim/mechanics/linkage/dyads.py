@@ -5,10 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from linkanim.mechanics.linkage.joint import Joint, Line, Slide
+from linkanim.mechanics.linkage.joint import Guided, Joint, Line, Slide
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +27,7 @@ class RRR(Joint):
 
     sides: ClassVar[tuple[str, str]] = ("left", "right")
     dyad: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("lengths",)
 
     @property
     def needs(self) -> tuple[str, ...]:
@@ -39,11 +40,6 @@ class RRR(Joint):
         return (self.ends[0], self.lengths[0]), (self.ends[1], self.lengths[1])
 
     @property
-    def pins(self) -> tuple[str, ...]:
-        """The far ends of its bars, and the joint itself."""
-        return *self.ends, self.name
-
-    @property
     def named_sign(self) -> int:
         """The sign of the root: left of the line, or of the closure that another joint's side names."""
         return -self.side if self.side_of else self.side
@@ -52,10 +48,6 @@ class RRR(Joint):
     def named_from(self) -> tuple[int, str, str, str] | None:
         """The side of a line on which another joint lies, where that names the closure."""
         return (self.side, *self.side_of) if self.side_of else None
-
-    def scaled(self, factor: float) -> RRR:
-        """Return the dyad with its bars times a factor."""
-        return replace(self, lengths=(self.lengths[0] * factor, self.lengths[1] * factor))
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle μ between its bars' lines: tan²(μ/2) = W/U or, past 90°, U/W.
@@ -85,29 +77,8 @@ class RRR(Joint):
         return f"the bars of {a:g} and {b:g} {unit} cannot meet at any angle of the input: {ends} is {apart}"
 
 
-class SliderDyad(Joint):
-    """A dyad whose joint travels along `line`, fixed or carried by a body."""
-
-    __slots__ = ()
-
-    line: Line
-
-    dyad: ClassVar[bool] = True
-    travels: ClassVar[bool] = True
-
-    @property
-    def body(self) -> tuple[str, ...]:
-        """The joints of the body that carries its line."""
-        return self.line.body
-
-    @property
-    def slides(self) -> tuple[Slide, ...]:
-        """The joint, along its line."""
-        return (self.line.guiding(self.name),)
-
-
 @dataclass(frozen=True, slots=True)
-class RRP(SliderDyad):
+class RRP(Guided):
     """A bar from `end` to a slider on `line`; `side` +1 is the closure further forward, -1 back."""
 
     end: str
@@ -116,11 +87,8 @@ class RRP(SliderDyad):
     side: int = 1
 
     sides: ClassVar[tuple[str, str]] = ("forward", "backward")
-
-    @property
-    def needs(self) -> tuple[str, ...]:
-        """The bar's far end, and the joints of its line."""
-        return self.end, *self.line.needs
+    dyad: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("length", "line")
 
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
@@ -128,18 +96,9 @@ class RRP(SliderDyad):
         return ((self.end, self.length),)
 
     @property
-    def pins(self) -> tuple[str, ...]:
-        """The bar's two ends."""
-        return self.end, self.name
-
-    @property
     def named_sign(self) -> int:
         """The sign of the root: how far the slider is ahead of the bar's end."""
         return self.side
-
-    def scaled(self, factor: float) -> RRP:
-        """Return the dyad with its bar, and its line's offset, times a factor."""
-        return replace(self, length=self.length * factor, line=self.line.scaled(factor))
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.
@@ -183,6 +142,7 @@ class RPR(Joint):
     offset: float = 0.0
 
     dyad: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("length", "offset")
 
     @property
     def needs(self) -> tuple[str, ...]:
@@ -205,18 +165,9 @@ class RPR(Joint):
         return (Slide(self.through, self.pivot, Line(self.pivot, 0.0, self.offset, (self.pivot, self.name))),)
 
     @property
-    def lengths(self) -> tuple[float, ...]:
-        """The bar's length, and the slot's offset."""
-        return self.length, self.offset
-
-    @property
     def named_sign(self) -> int:
         """The sign of the root: the joint in the slot is always ahead of the pivot."""
         return 1
-
-    def scaled(self, factor: float) -> RPR:
-        """Return the dyad with its bar, and its slot's offset, times a factor."""
-        return replace(self, length=self.length * factor, offset=self.offset * factor)
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from the slot's normal, along which the pin pushes, to the bar's motion there.
@@ -245,7 +196,7 @@ class RPR(Joint):
 
 
 @dataclass(frozen=True, slots=True)
-class RPP(SliderDyad):
+class RPP(Guided):
     """A bar sliding along `line`, the joint `pin` in its slot; the joint is where the slot crosses the line.
 
     `slot` is the slot's direction from the line's, in radians; it must not lie along the line.
@@ -254,6 +205,9 @@ class RPP(SliderDyad):
     pin: str
     line: Line
     slot: float = math.pi / 2
+
+    dyad: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("line",)
 
     @property
     def needs(self) -> tuple[str, ...]:
@@ -270,12 +224,3 @@ class RPP(SliderDyad):
         """The bar along its line, and the pin along the bar's slot."""
         slot = Line(self.name, self.line.angle + self.slot, on=self.line.on)
         return self.line.guiding(self.name), Slide(self.pin, self.name, slot)
-
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """The line's offset."""
-        return (self.line.offset,)
-
-    def scaled(self, factor: float) -> RPP:
-        """Return the dyad with its line's offset times a factor."""
-        return replace(self, line=self.line.scaled(factor))

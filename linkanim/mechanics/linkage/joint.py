@@ -5,8 +5,7 @@ Joints stand in the order in which they can be solved: each one names only joint
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NamedTuple, Self
 
@@ -16,8 +15,39 @@ RigidBody = dict[str, complex]
 """Where the joints of one rigid body lie in its own frame, as x + yi."""
 
 
+class Measured:
+    """What is stated by lengths: the fields named `sized` hold them, or what is itself made of them."""
+
+    __slots__ = ()
+    sized: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """All of them, of either sign."""
+        return tuple(length for name in self.sized for length in _lengths_in(getattr(self, name)))
+
+    def scaled(self, factor: float) -> Self:
+        """Return the same with every length times a factor."""
+        return replace(self, **{name: _times(getattr(self, name), factor) for name in self.sized})  # type: ignore[type-var]
+
+
+def _lengths_in(value: Any) -> Iterator[float]:
+    if isinstance(value, tuple):
+        yield from (length for part in value for length in _lengths_in(part))
+    elif value is not None:
+        yield from value.lengths if isinstance(value, Measured) else (value,)
+
+
+def _times(value: Any, factor: float) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_times(part, factor) for part in value)
+    if value is None:
+        return None
+    return value.scaled(factor) if isinstance(value, Measured) else value * factor
+
+
 @dataclass(frozen=True, slots=True)
-class Line:
+class Line(Measured):
     """A line of travel: through the joint `through`, at `angle`, shifted by `offset` to its left.
 
     A fixed line runs through a fixed pin, its angle is absolute. One that is carried names two joints of
@@ -28,6 +58,8 @@ class Line:
     angle: float = 0.0
     offset: float = 0.0
     on: tuple[str, str] | None = None
+
+    sized: ClassVar[tuple[str, ...]] = ("offset",)
 
     @property
     def needs(self) -> tuple[str, ...]:
@@ -42,10 +74,6 @@ class Line:
     def guiding(self, joint: str) -> Slide:
         """Return how a joint slides along the line."""
         return Slide(joint, self.on[0] if self.on else None, self)
-
-    def scaled(self, factor: float) -> Line:
-        """Return the line with its offset times a factor."""
-        return replace(self, offset=self.offset * factor)
 
 
 class Slide(NamedTuple):
@@ -67,7 +95,7 @@ class Slide(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Joint(ABC):
+class Joint(Measured):
     """A joint: how it is found from joints before it.
 
     A `dyad` is closed from two constraints, which meet in two points as a rule: `sides` names the two
@@ -103,18 +131,13 @@ class Joint(ABC):
 
     @property
     def pins(self) -> tuple[str, ...]:
-        """The joints in which the definition makes bars turn on each other."""
-        return ()
+        """The joints in which the definition makes bars turn on each other: its bars' ends."""
+        return (*(start for start, _ in self.bars), self.name) if self.bars else ()
 
     @property
     def slides(self) -> tuple[Slide, ...]:
         """What the definition makes slide, and along what."""
         return ()
-
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """All lengths of the definition, of either sign."""
-        return tuple(length for _, length in self.bars)
 
     @property
     def named_sign(self) -> int | None:
@@ -125,10 +148,6 @@ class Joint(ABC):
     def named_from(self) -> tuple[int, str, str, str] | None:
         """What names the closure, if not its own side: (+1 left or -1, b, p, q) of b beside p -> q."""
         return None
-
-    @abstractmethod
-    def scaled(self, factor: float) -> Self:
-        """Return the joint with every length times a factor."""
 
     def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
         """Return the rigid bodies with the joint in them: a body of its own for each of its bars."""
@@ -151,3 +170,28 @@ class Joint(ABC):
         None of other joints.
         """
         return None
+
+
+class Guided(Joint):
+    """A joint that travels along `line`, fixed or carried by a body."""
+
+    __slots__ = ()
+
+    line: Line
+
+    travels: ClassVar[bool] = True
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The far ends of its bars, and the joints of its line."""
+        return *(start for start, _ in self.bars), *self.line.needs
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The joints of the body that carries its line."""
+        return self.line.body
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """The joint, along its line."""
+        return (self.line.guiding(self.name),)

@@ -6,18 +6,19 @@ Joints stand in the order in which they can be solved: each one names only joint
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import ClassVar
 
 from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.joint import Joint, Point, RigidBody
+from linkanim.mechanics.linkage.joint import Joint, Measured, Point, RigidBody
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.linkage.rigid_bodies import rigid_bodies
 from linkanim.units import unit_of
 
 
 @dataclass(frozen=True, slots=True)
-class Body:
+class Body(Measured):
     """A named body: its angle is that of first -> second joint; `com` is its centre of mass.
 
     `com` is (along first -> second joint, to the left of it) from the first joint. A body with
@@ -32,15 +33,12 @@ class Body:
     mass: float | None = None
     inertia: float | None = None
 
+    sized: ClassVar[tuple[str, ...]] = ("com",)
+
     @property
     def forceful(self) -> bool:
         """Whether it takes a force to move it."""
         return self.mass is not None or self.inertia is not None
-
-    def scaled(self, factor: float) -> Body:
-        """Return the body with the place of its centre of mass times a factor."""
-        com = self.com and (self.com[0] * factor, self.com[1] * factor)
-        return replace(self, com=com)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +74,7 @@ class Damper:
 
 
 @dataclass(frozen=True)
-class Linkage:
+class Linkage(Measured):
     """A planar linkage with one input."""
 
     joints: tuple[Joint, ...]
@@ -88,6 +86,8 @@ class Linkage:
     """One unit of length in metres (0.001 for mm); forces need it."""
     gravity: float = 0.0
     """How fast masses fall, in m/s², down; 0 where nothing is said of it."""
+
+    sized: ClassVar[tuple[str, ...]] = ("joints", "bodies", "drive")
 
     @property
     def unit(self) -> str:
@@ -152,9 +152,3 @@ class Linkage:
     def pins(self) -> Iterator[Pin]:
         """The fixed pins in the order of the joints."""
         return (joint for joint in self.joints if isinstance(joint, Pin))
-
-    def scaled(self, factor: float) -> Linkage:
-        """Return the linkage with the lengths of its joints and bodies times a factor."""
-        joints = tuple(joint.scaled(factor) for joint in self.joints)
-        bodies = tuple(body.scaled(factor) for body in self.bodies)
-        return replace(self, joints=joints, bodies=bodies, drive=self.drive.scaled(factor))

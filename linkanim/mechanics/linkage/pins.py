@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
-from linkanim.mechanics.linkage.joint import Joint, Line, Point, RigidBody, Slide
+from linkanim.mechanics.linkage.joint import Guided, Joint, Line, Measured, Point, RigidBody
 
 
 @dataclass(frozen=True, slots=True)
-class Polar:
+class Polar(Measured):
     """Where a fixed pin lies as it was written: `length` at `angle` from `base`.
 
     `base` names a fixed pin; None is the origin of coordinates. Kept because a length that is
@@ -21,6 +21,8 @@ class Polar:
     angle: float
     base: str | None = None
 
+    sized: ClassVar[tuple[str, ...]] = ("length",)
+
 
 @dataclass(frozen=True, slots=True)
 class Pin(Joint):
@@ -30,16 +32,12 @@ class Pin(Joint):
     polar: Polar | None = None
 
     fixed: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("position", "polar")
 
     @property
     def lengths(self) -> tuple[float, ...]:
         """Its coordinates."""
         return self.position
-
-    def scaled(self, factor: float) -> Pin:
-        """Return the pin with its coordinates, and its length as written, times a factor."""
-        polar = self.polar and Polar(self.polar.length * factor, self.polar.angle, self.polar.base)
-        return Pin(self.name, (self.position[0] * factor, self.position[1] * factor), polar)
 
     def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
         """Return the bodies with the pin on the ground."""
@@ -66,6 +64,8 @@ class Crank(Joint):
     length: float
     gear: Gear | None = None
 
+    sized: ClassVar[tuple[str, ...]] = ("length",)
+
     @property
     def needs(self) -> tuple[str, ...]:
         """Its pivot, and the crank that it is geared to."""
@@ -76,39 +76,11 @@ class Crank(Joint):
         """The crank."""
         return ((self.pivot, self.length),)
 
-    @property
-    def pins(self) -> tuple[str, ...]:
-        """Its two ends."""
-        return self.pivot, self.name
-
-    def scaled(self, factor: float) -> Crank:
-        """Return the crank with its length times a factor."""
-        return replace(self, length=self.length * factor)
-
 
 @dataclass(frozen=True, slots=True)
-class DrivenSlider(Joint):
+class DrivenSlider(Guided):
     """A slider on the fixed `line`; the drive gives its travel, from the joint that the line runs through."""
 
     line: Line
 
-    travels: ClassVar[bool] = True
-
-    @property
-    def needs(self) -> tuple[str, ...]:
-        """The joint that its line runs through."""
-        return self.line.needs
-
-    @property
-    def slides(self) -> tuple[Slide, ...]:
-        """The joint, along its line."""
-        return (self.line.guiding(self.name),)
-
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """The line's offset."""
-        return (self.line.offset,)
-
-    def scaled(self, factor: float) -> DrivenSlider:
-        """Return the slider with its line's offset times a factor."""
-        return replace(self, line=self.line.scaled(factor))
+    sized: ClassVar[tuple[str, ...]] = ("line",)

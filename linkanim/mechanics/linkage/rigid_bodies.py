@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
+from typing import ClassVar
 
 from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.joint import Joint, Point, RigidBody
@@ -51,6 +52,8 @@ class Rigid(Joint):
     on: tuple[str, str]
     at: Point
 
+    sized: ClassVar[tuple[str, ...]] = ("at",)
+
     @property
     def needs(self) -> tuple[str, ...]:
         """The two joints that its body is known by."""
@@ -65,15 +68,6 @@ class Rigid(Joint):
     def spans(self) -> tuple[tuple[str, ...], ...]:
         """The plate of the three joints."""
         return ((*self.on, self.name),)
-
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """Its place on the body."""
-        return self.at
-
-    def scaled(self, factor: float) -> Rigid:
-        """Return the point with its place times a factor."""
-        return replace(self, at=(self.at[0] * factor, self.at[1] * factor))
 
     def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
         """Return the bodies with the point on its body; as they are where the two joints show none."""
@@ -91,6 +85,8 @@ class Brace(Rigid):
 
     reach: tuple[float, float]
 
+    sized: ClassVar[tuple[str, ...]] = ("at", "reach")
+
     @property
     def bars(self) -> tuple[tuple[str, float], ...]:
         """Its two bars."""
@@ -100,16 +96,6 @@ class Brace(Rigid):
     def spans(self) -> tuple[tuple[str, ...], ...]:
         """Its two bars; the body may show them otherwise."""
         return tuple((start, self.name) for start in self.on)
-
-    @property
-    def pins(self) -> tuple[str, ...]:
-        """The corners of the triangle."""
-        return *self.on, self.name
-
-    def scaled(self, factor: float) -> Brace:
-        """Return the point with its place and its bars times a factor."""
-        reach = self.reach[0] * factor, self.reach[1] * factor
-        return replace(self, at=(self.at[0] * factor, self.at[1] * factor), reach=reach)
 
 
 def brace(dyad: RRR, frame: RigidBody) -> Brace:
