@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from linkanim.digits import stepped
 from linkanim.errors import BadInput
-from linkanim.mechanics.linkage.joint import Measured
+from linkanim.mechanics.linkage.joint import Stated
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ TRAVEL = Coordinate("travel", "s", "{}", "velocity")
 
 
 @dataclass(frozen=True, slots=True)
-class Actuator(Measured):
+class Actuator(Stated):
     """What drives the input.
 
     `effort` is what it delivers, and its unit. `noun` is the input's name where it is no bar that turns;
@@ -119,7 +119,7 @@ MOTOR = Motor()
 
 
 @dataclass(frozen=True, slots=True)
-class Drive(Measured):
+class Drive(Stated):
     """What moves the linkage: the input's joint, its speed (rad/s, negative clockwise) and start (rad).
 
     Where a length runs there and back, `speed` is that of the phase, one there-and-back being 2π. `at_zero`

@@ -15,7 +15,7 @@ RigidBody = dict[str, complex]
 """Where the joints of one rigid body lie in its own frame, as x + yi."""
 
 
-class Measured:
+class Stated:
     """What is stated by lengths: the fields named `sized` hold them, or what is itself made of them."""
 
     __slots__ = ()
@@ -35,7 +35,7 @@ def _lengths_in(value: Any) -> Iterator[float]:
     if isinstance(value, tuple):
         yield from (length for part in value for length in _lengths_in(part))
     elif value is not None:
-        yield from value.lengths if isinstance(value, Measured) else (value,)
+        yield from value.lengths if isinstance(value, Stated) else (value,)
 
 
 def _times(value: Any, factor: float) -> Any:
@@ -43,11 +43,11 @@ def _times(value: Any, factor: float) -> Any:
         return tuple(_times(part, factor) for part in value)
     if value is None:
         return None
-    return value.scaled(factor) if isinstance(value, Measured) else value * factor
+    return value.scaled(factor) if isinstance(value, Stated) else value * factor
 
 
 @dataclass(frozen=True, slots=True)
-class Line(Measured):
+class Line(Stated):
     """A line of travel: through the joint `through`, at `angle`, shifted by `offset` to its left.
 
     A fixed line runs through a fixed pin, its angle is absolute. One that is carried names two joints of
@@ -95,7 +95,7 @@ class Slide(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Joint(Measured):
+class Joint(Stated):
     """A joint: how it is found from joints before it.
 
     A `dyad` is closed from two constraints, which meet in two points as a rule: `sides` names the two

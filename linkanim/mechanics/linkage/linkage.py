@@ -11,14 +11,14 @@ from functools import cached_property
 from typing import ClassVar
 
 from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.joint import Joint, Measured, Point, RigidBody
+from linkanim.mechanics.linkage.joint import Joint, Point, RigidBody, Stated
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.linkage.rigid_bodies import rigid_bodies
 from linkanim.units import unit_of
 
 
 @dataclass(frozen=True, slots=True)
-class Body(Measured):
+class Body(Stated):
     """A named body: its angle is that of first -> second joint; `com` is its centre of mass.
 
     `com` is (along first -> second joint, to the left of it) from the first joint. A body with
@@ -74,7 +74,7 @@ class Damper:
 
 
 @dataclass(frozen=True)
-class Linkage(Measured):
+class Linkage(Stated):
     """A planar linkage with one input."""
 
     joints: tuple[Joint, ...]

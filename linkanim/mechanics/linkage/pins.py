@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
-from linkanim.mechanics.linkage.joint import Guided, Joint, Line, Measured, Point, RigidBody
+from linkanim.mechanics.linkage.joint import Guided, Joint, Line, Point, RigidBody, Stated
 
 
 @dataclass(frozen=True, slots=True)
-class Polar(Measured):
+class Polar(Stated):
     """Where a fixed pin lies as it was written: `length` at `angle` from `base`.
 
     `base` names a fixed pin; None is the origin of coordinates. Kept because a length that is
