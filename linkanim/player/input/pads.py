@@ -7,10 +7,10 @@ from pygame.event import Event
 
 from linkanim.player.input.keyboard import Repeats
 from linkanim.player.input.keys import Bind, Press, bind_of
-from linkanim.player.input.mouse import MouseTarget
 from linkanim.player.input.pad_buttons import button_name, hat_name, key_of
 from linkanim.player.input.steering import phase_along
 from linkanim.player.state.action import Action, Mode
+from linkanim.player.state.state import State
 
 PAD_EVENTS = (
     pygame.JOYDEVICEADDED,
@@ -61,13 +61,13 @@ class Pads:
                 self._repeats.begin(None, frame)
         return ()
 
-    def turned(self, target: MouseTarget) -> tuple[Action, ...]:
+    def turned(self, state: State) -> tuple[Action, ...]:
         """Return where the stick has turned the crank to since the last frame: both its axes together."""
         moved, self._moved = self._moved, False
         way = complex(self._stick[0], -self._stick[1])
-        if not moved or abs(way) <= _DEAD_ZONE or target.mode in ("list", "shelf"):
+        if not moved or abs(way) <= _DEAD_ZONE or state.mode in ("list", "shelf"):
             return ()
-        return (Action("scrub", phase_along(target.scene, target.phase, way / max(abs(way), 1.0))),)
+        return (Action("scrub", phase_along(state.displayed, state.phase, way / max(abs(way), 1.0))),)
 
     def repeated(self, frame: int) -> tuple[Action, ...]:
         """Return what a button that is held asks for when that is due again."""

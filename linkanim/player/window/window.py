@@ -16,7 +16,6 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.building.photograph import SUFFIXES, lack
 from linkanim.player.input.keyboard import Keyboard
 from linkanim.player.input.keys import bind_of
-from linkanim.player.input.mouse import Mouse, latest
 from linkanim.player.input.pads import PAD_EVENTS, Pads
 from linkanim.player.input.touch import Fingers
 from linkanim.player.sound.cues import cues
@@ -36,6 +35,7 @@ from linkanim.player.window import display, files
 from linkanim.player.window.drafts import DraftFile
 from linkanim.player.window.files import SceneFile
 from linkanim.player.window.keeper import GameKeeper
+from linkanim.player.window.mouse import MOUSE_EVENTS, Mouse, latest
 from linkanim.player.window.screen import Screen
 from linkanim.player.window.sheet import Hover
 from linkanim.player.window.show import kept, overlay
@@ -47,7 +47,6 @@ if TYPE_CHECKING:
     from linkanim.player.window.following import Following
     from linkanim.player.window.rendering import Queue
 
-_MOUSE = (pygame.MOUSEWHEEL, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
@@ -146,7 +145,7 @@ class Window:
             for action in self._meant(event):
                 yield from self._off_the_tape(action)
                 yield from self._resolved(action)
-        for action in self._pads.turned(self.screen):
+        for action in self._pads.turned(self.state):
             yield from self._off_the_tape(action)
             yield action
         for action in (*self._keyboard.repeated(self.state.frame), *self._pads.repeated(self.state.frame)):
@@ -430,7 +429,7 @@ class Window:
             return (Action("close"),)
         if event.type in _UNCOVERED:
             self.screen.uncovered()
-        if event.type in _MOUSE:
+        if event.type in MOUSE_EVENTS:
             # before the first picture there is nothing under the mouse
             return self._mouse.actions(event, self.screen) if self._good else ()
         if event.type in PAD_EVENTS:
