@@ -1,33 +1,137 @@
-"""Actions on the list of dimensions, and on what is undone and redone."""
+"""Actions on the list of dimensions, and on what is undone and redone.
+
+Every change gives a new scene or a refusal; the last good scene always runs on. A joint that is dragged
+while the list is open takes its lengths along, one undo a drag.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from decimal import Decimal
 
-from linkanim.player.state import editing as edit_
-from linkanim.player.state.editing import Editing, Held, changed_to, pulled_by, values_at
-from linkanim.player.state.glide import glide
-from linkanim.player.state.handlers.shelf import exchanged
+from linkanim.errors import LinkanimError
+from linkanim.player.state.editing import Editing, Held, changed, chosen, cleared, let_go, loss_of_turning
+from linkanim.player.state.handlers.shelf import exchanged, followed
 from linkanim.player.state.state import State
 from linkanim.scenes.editing.closures import other_return
-from linkanim.scenes.editing.edit import dimensions
-from linkanim.scenes.editing.handles import handles
+from linkanim.scenes.editing.edit import Dimension, dimensions, with_dimensions, with_unit, with_values
+from linkanim.scenes.editing.handles import dragged, handles
+from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.fields.form import Key
 from linkanim.scenes.scene import Scene
 from linkanim.units import metre
 
 AGAIN = "R again: the file's dimensions"
 
-Handler = Callable[[State, Any], State]
+_KEY = re.compile(r"^[\w.\[\]-]+( =|:) ")
+_LONGEST = 40
+_NUDGE = {
+    "mm": "1", "cm": "0.1", "m": "0.001", "in": "0.1",
+    "deg": "1", "°": "1", "rad": "0.01",
+    "rpm": "1", "deg/s": "5", "°/s": "5", "rad/s": "0.1",
+}  # fmt: skip
 
 
 def edit(state: State, _: None) -> State:
     """Open or close the list; a joint is dropped, values begun are let go of, undo and redo stay."""
     state = drop(state, None)
-    editing = edit_.choose(replace(state.editing, drafts=()), state.scene, 0)
-    return replace(state, editing=replace(editing, open=not editing.open), listing=None, browsing=None)
+    state = choose(replace(state, editing=replace(state.editing, drafts=())), 0)
+    return replace(
+        state, editing=replace(state.editing, open=not state.editing.open), listing=None, browsing=None
+    )
+
+
+def choose(state: State, further: int) -> State:
+    """Go so many rows further, a value begun let go."""
+    count = len(dimensions(state.scene))
+    at = (state.editing.chosen + further) % count if count else 0
+    return replace(state, editing=cleared(state.editing, chosen=at))
+
+
+def pass_on(state: State, further: int) -> State:
+    """Go so many rows further, a value begun kept as a draft, to be judged with the others."""
+    return choose(replace(state, editing=replace(state.editing, drafts=_drafts(state))), further)
+
+
+def write(state: State, text: str) -> State:
+    """Add text to the value being typed."""
+    return replace(state, editing=cleared(state.editing, typed=(state.editing.typed + text)[:_LONGEST]))
+
+
+def erase(state: State, _: None) -> State:
+    """Take the last typed character away; that of the row's draft, where none is typed."""
+    editing, item = state.editing, chosen(state.editing, state.scene)
+    draft = dict(editing.drafts).get(item.key, "") if item else ""
+    kept = tuple(pair for pair in editing.drafts if not item or pair[0] != item.key)
+    return replace(state, editing=cleared(editing, typed=(editing.typed or draft)[:-1], drafts=kept))
+
+
+def take(state: State, _: None) -> State:
+    """Put all values begun in place at once, or say why not.
+
+    Lengths without a unit are in the one that is shown, the scene's own without any.
+    """
+    values = dict(_drafts(state))
+    return _tried(state, values, state.editing.typed) if values else state
+
+
+def nudge(state: State, steps: int) -> State:
+    """Make the chosen value so many small steps larger, or say why not.
+
+    A step depends on the unit that is shown alone, so that as many steps back end on the same value.
+    """
+    item = chosen(state.editing, in_unit(state.scene, state.look.unit))
+    if item is None:
+        return state
+    text = _nudged(item, steps)
+    return _tried(replace(state, editing=cleared(state.editing)), {item.key: text}, text)
+
+
+def undo(state: State, _: None) -> State:
+    """Go back to the scene before the last change; a value begun or refused is let go of first."""
+    editing = state.editing
+    if editing.begun:
+        return replace(state, editing=let_go(editing))
+    if not editing.past:
+        return state
+    *earlier, last = editing.past
+    return _remade(state, cleared(editing, past=tuple(earlier), future=(*editing.future, state.scene)), last)
+
+
+def redo(state: State, _: None) -> State:
+    """Go on to the scene that the last undo left."""
+    editing = state.editing
+    if not editing.future:
+        return state
+    *later, following = editing.future
+    return _remade(state, cleared(editing, past=(*editing.past, state.scene), future=tuple(later)), following)
+
+
+def reset(state: State, _: None) -> State:
+    """Go back to the scene as its file has it, which undo takes back."""
+    editing = replace(state.editing, drafts=())
+    if editing.original is None or editing.original == state.scene:
+        return replace(state, editing=cleared(editing))
+    return _remade(state, changed(editing, state.scene), editing.original)
+
+
+def returns(state: State, _: None) -> State:
+    """Let the input come back on the other closure, or on the same."""
+    return _remade(state, changed(state.editing, state.scene), other_return(state.scene))
+
+
+def start(state: State, _: None) -> State:
+    """Go back to the start; once more, while the chip says so, to the file's dimensions as well."""
+    again = state.chip is not None and state.sketch is None and state.chip.text == AGAIN
+    state = replace(reset(state, None) if again else state, chip=None)
+    return replace(state, clock=state.clock.go(state.frame, 0.0))
+
+
+def way_back(_: State, after: State) -> str | None:
+    """Say how the file's dimensions come back, where others are on."""
+    return AGAIN if after.place in after.edited else None
 
 
 def grab(state: State, joint: str) -> State:
@@ -38,9 +142,8 @@ def grab(state: State, joint: str) -> State:
         return state
     held = Held(joint, state.scene, state.phase, not state.clock.paused)
     state = drop(state, None)
-    editing = edit_.choose(replace(state.editing, chosen=keys.index(found[0].key)), state.scene, 0)
-    clock = state.clock.pause(state.frame, True)
-    return replace(state, held=held, editing=editing, clock=clock, glide=None)
+    state = choose(replace(state, editing=replace(state.editing, chosen=keys.index(found[0].key))), 0)
+    return replace(state, held=held, clock=state.clock.pause(state.frame, True), glide=None)
 
 
 def carry(state: State, to: tuple[float, float, float]) -> State:
@@ -50,7 +153,7 @@ def carry(state: State, to: tuple[float, float, float]) -> State:
         return state
     ratio = metre(state.displayed.length_unit) / metre(state.scene.length_unit)
     point, before = (to[0] * ratio, to[1] * ratio), state.scene
-    state = _dragged(state, held, values_at(held, point, to[2]))
+    state = _dragged(state, held, _values_at(held, point, to[2]))
     if state.scene is before:
         return state
     angle = held.scene.pose(held.phase, 0).coordinate
@@ -64,22 +167,19 @@ def grab_row(state: State, row: int) -> State:
     if not state.editing.open or not 0 <= row < len(items):
         return state
     further = row - state.editing.chosen % len(items)
-    editing = edit_.pass_on(state.editing, state.scene, further) if further else state.editing
     held = Held("", state.scene, state.phase, not state.clock.paused)
-    return replace(state, held=held, editing=editing, glide=None)
+    return replace(pass_on(state, further) if further else state, held=held, glide=None)
 
 
 def pull(state: State, steps: int) -> State:
-    """Change the value that is held by so many small steps from what it was."""
+    """Change the value that is held by so many small steps, of the unit that is shown, from what it was."""
     held = state.held
     if held is None or held.joint:
         return state
-    return _dragged(state, held, pulled_by(state.editing, held, steps, state.look.unit))
-
-
-def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
-    editing, scene = changed_to(state.editing, state.scene, held, values)
-    return replace(state if scene is state.scene else exchanged(state, scene), editing=editing)
+    shown = in_unit(held.scene, state.look.unit)
+    item = chosen(state.editing, shown)
+    values = {item.key: _nudged(item, steps)} if item else {}
+    return _dragged(state, held, values if shown is held.scene else _united(shown, values))
 
 
 def drop(state: State, _: None) -> State:
@@ -90,43 +190,92 @@ def drop(state: State, _: None) -> State:
     return replace(state, held=None, clock=clock, editing=replace(state.editing, refusal=None))
 
 
-def _listed(work: Callable[[Editing, Scene, Any], Editing]) -> Handler:
-    """Make a handler of what changes the list alone."""
-    return lambda state, value: replace(state, editing=work(state.editing, state.scene, value))
+def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
+    """Return the state with these values of the scene that was taken hold of, or why they are refused.
+
+    However far they are dragged, undo goes back to where they were taken.
+    """
+    editing = state.editing
+    try:
+        if with_values(held.scene, values) == state.scene.document:
+            return replace(state, editing=cleared(editing))
+        after = with_dimensions(held.scene, values)
+        refusal = loss_of_turning(held.scene.info, after.info)
+    except LinkanimError as error:
+        refusal = str(error).removeprefix(f"{state.scene.name}: ")
+    if refusal:
+        return replace(state, editing=replace(editing, refusal=refusal))
+    kept = editing if state.scene is not held.scene else changed(editing, held.scene)
+    return replace(exchanged(state, after), editing=cleared(kept))
 
 
-def _remade(work: Callable[[State, Any], tuple[Editing, Scene]]) -> Handler:
-    """Make a handler of what may give another scene; the picture follows it smoothly."""
-
-    def handle(state: State, value: Any) -> State:
-        editing, scene = work(state, value)
-        if scene is state.scene:
-            return replace(state, editing=editing)
-        way = glide(state.shown, scene, state.frame)
-        return replace(exchanged(state, scene), editing=editing, glide=way)
-
-    return handle
-
-
-choose = _listed(edit_.choose)
-pass_on = _listed(edit_.pass_on)
-write = _listed(lambda editing, _, text: edit_.write(editing, text))
-erase = _listed(lambda editing, scene, _: edit_.erase(editing, scene))
-nudge = _remade(lambda state, steps: edit_.nudge(state.editing, state.scene, steps, state.look.unit))
-take = _remade(lambda state, _: edit_.take(state.editing, state.scene, state.look.unit))
-undo = _remade(lambda state, _: edit_.undo(state.editing, state.scene))
-redo = _remade(lambda state, _: edit_.redo(state.editing, state.scene))
-reset = _remade(lambda state, _: edit_.reset(state.editing, state.scene))
-returns = _remade(lambda state, _: (edit_.changed(state.editing, state.scene), other_return(state.scene)))
+def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key, str]:
+    """Return the dimensions that put the joint near a point, in whole steps of their units times `share`."""
+    places = held.scene.pose(held.phase, 0).position
+    units = {item.key: item.unit for item in dimensions(held.scene)}
+    found = {}
+    for handle in handles(held.scene, held.joint):
+        step = _step_of(units[handle.key]) * Decimal(repr(share))
+        value = step * round(Decimal(repr(dragged(handle, places, point))) / step)
+        found[handle.key] = f"{value.normalize():f}"
+    return found
 
 
-def start(state: State, _: None) -> State:
-    """Go back to the start; once more, while the chip says so, to the file's dimensions as well."""
-    again = state.chip is not None and state.sketch is None and state.chip.text == AGAIN
-    state = replace(reset(state, None) if again else state, chip=None)
-    return replace(state, clock=state.clock.go(state.frame, 0.0))
+def _nudged(item: Dimension, steps: int) -> str:
+    """Return a dimension's value so many small steps larger, as it would be typed."""
+    value = Decimal(repr(item.value)) + steps * _step_of(item.unit)
+    return f"{value.normalize():f}"
 
 
-def way_back(_: State, after: State) -> str | None:
-    """Say how the file's dimensions come back, where others are on."""
-    return AGAIN if after.place in after.edited else None
+def _step_of(unit: str) -> Decimal:
+    """Return the step in which a dimension of that unit is nudged."""
+    return Decimal(_NUDGE.get(unit, "1"))
+
+
+def _remade(state: State, editing: Editing, scene: Scene) -> State:
+    """Return the state with another editing and scene, which the picture follows smoothly."""
+    return replace(state if scene is state.scene else followed(state, scene), editing=editing)
+
+
+def _drafts(state: State) -> tuple[tuple[Key, str], ...]:
+    """Return all values begun, that of the chosen row the last."""
+    editing, item = state.editing, chosen(state.editing, state.scene)
+    if item is None or not editing.typed:
+        return editing.drafts
+    return (*(pair for pair in editing.drafts if pair[0] != item.key), (item.key, editing.typed))
+
+
+def _tried(state: State, values: Mapping[Key, str], typed: str) -> State:
+    """Put values where they belong, all at once; refused ones stay begun, to be mended.
+
+    Values that end the crank's full turn are refused once, with the way to take them all the same. The
+    reason is in the unit that is shown.
+    """
+    editing, scene, unit = state.editing, state.scene, state.look.unit
+    try:
+        before, shown = in_unit(scene, unit), with_dimensions(in_unit(scene, unit), values)
+        loss = None if editing.warned else loss_of_turning(before.info, shown.info)
+        after = shown if before is scene else with_dimensions(scene, _united(before, values))
+    except LinkanimError as error:
+        reason = _reason(str(error).removeprefix(f"{scene.name}: "), values, scene)
+        return replace(state, editing=replace(editing, typed=typed, refusal=reason, warned=False))
+    if loss:
+        refusal = f"{loss} (Enter again takes it)"
+        return replace(state, editing=replace(editing, typed=typed, refusal=refusal, warned=True))
+    drafts = tuple(pair for pair in editing.drafts if pair[0] not in values)
+    return _remade(state, changed(replace(editing, drafts=drafts), scene), after)
+
+
+def _united(shown: Scene, values: Mapping[Key, str]) -> dict[Key, str]:
+    """Return values with their unit, those that have none with that of a scene as it is shown."""
+    items = {item.key: item for item in dimensions(shown)}
+    return {key: with_unit(text, items[key]) for key, text in values.items()}
+
+
+def _reason(message: str, values: Mapping[Key, str], scene: Scene) -> str:
+    """Leave out the key of a single value, beside which the reason stands; of several say it in words."""
+    if len(values) == 1:
+        return _KEY.sub("", message)
+    words = {".".join(map(str, item.key)): item.label for item in dimensions(scene) if item.key in values}
+    key, _, reason = message.partition(": ")
+    return f"{words[key]}: {reason}" if key in words else message

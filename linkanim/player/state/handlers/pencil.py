@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 from linkanim.errors import BadInput
 from linkanim.player.state import editing as edit
-from linkanim.player.state.glide import glide
 from linkanim.player.state.handlers.edits import drop
-from linkanim.player.state.handlers.shelf import exchanged
+from linkanim.player.state.handlers.shelf import exchanged, followed
 from linkanim.player.state.sketch import PIVOTS, Sketch
 from linkanim.player.state.state import State, with_effect, with_toast
 from linkanim.scenes.editing.shown_unit import in_unit
@@ -139,7 +138,7 @@ def follow(state: State, numbers: tuple[float, ...]) -> State:
         return state
     answers = tuple(answer if n == sketch.chosen else one for n, one in enumerate(sketch.answers))
     if sketch.held is None:
-        return _shown(_sketching(state, answers=answers), answer.scene(unit))
+        return followed(_sketching(state, answers=answers), answer.scene(unit))
     return _sketching(state, answers=answers, coming=_ready(answer.scene(unit, sketch.base), state.phase))
 
 
@@ -176,7 +175,7 @@ def answers(state: State, numbers: tuple[float, ...]) -> State:
     scene = found[first].scene(sketch.unit)
     if was_none:
         return replace(exchanged(state, scene), glide=None, faded=state.frame)
-    return _shown(state, scene)
+    return followed(state, scene)
 
 
 def _stands_on(scene: Scene, answer: PathAnswer, size: float) -> bool:
@@ -185,12 +184,6 @@ def _stands_on(scene: Scene, answer: PathAnswer, size: float) -> bool:
     x, y, *_, x4, y4, _ = answer.row
     own = complex(x, y), complex(x4, y4)
     return all(min((abs(pin - at) for at in pins), default=size) < _SAME * size for pin in own)
-
-
-def _shown(state: State, scene: Scene) -> State:
-    """Show a scene, the one that is shown gliding to it."""
-    way = glide(state.shown, scene, state.frame)
-    return replace(exchanged(state, scene), glide=way)
 
 
 def choose(state: State, place: int) -> State:
@@ -251,7 +244,7 @@ def take_back(state: State, _: None) -> State:
     state = replace(state, sketch=back)
     if back.answer is None:
         return with_effect(state, "search") if back.curve else state
-    return _shown(state, _scene_of(back.answer, back.unit))
+    return followed(state, _scene_of(back.answer, back.unit))
 
 
 def _scene_of(answer: PathAnswer | Scene, unit: str) -> Scene:

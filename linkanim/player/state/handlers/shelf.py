@@ -11,6 +11,7 @@ from linkanim.player.state import editing as edit
 from linkanim.player.state.browsing import Browsing, Listing, listed
 from linkanim.player.state.editing import Editing
 from linkanim.player.state.fault import proved
+from linkanim.player.state.glide import glide
 from linkanim.player.state.state import Edited, State, fresh, with_toast
 from linkanim.scenes import chapter_of, chapters, load
 from linkanim.scenes.editing.closures import other_closure
@@ -65,6 +66,12 @@ def exchanged(state: State, scene: Scene) -> State:
     look = replace(state.look, chart=_kept_chart(state, scene))
     turned = state.turned if _verdict(scene.info) == _verdict(state.scene.info) else state.frame
     return replace(state, scene=scene, clock=clock, look=look, turned=turned)
+
+
+def followed(state: State, scene: Scene) -> State:
+    """Show a changed scene, the one that is shown gliding to it."""
+    way = glide(state.shown, scene, state.frame)
+    return replace(exchanged(state, scene), glide=way)
 
 
 def _verdict(info: Info) -> tuple[str, bool, bool]:
