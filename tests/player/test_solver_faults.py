@@ -67,7 +67,7 @@ def crank() -> State:
 def test_a_value_at_which_the_solver_fails_is_refused_in_a_sentence(
     crank: State, error: Exception, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("linkanim.player.state.editing.with_dimensions", raising(error))
+    monkeypatch.setattr("linkanim.player.state.handlers.edits.with_dimensions", raising(error))
     state = advance(advance(crank, [Action("type", "47")]), [Action("take")])
     assert state.scene is crank.scene
     assert type(error).__name__ in str(state.editing.refusal)
@@ -143,7 +143,7 @@ def test_a_report_holds_what_is_needed_to_find_the_hole(
     player.press(ord("e"), 0, "e")
     player.press(pygame.K_DOWN)
     player.type("47")
-    monkeypatch.setattr("linkanim.player.state.editing.with_dimensions", raising(HOLES[0]))
+    monkeypatch.setattr("linkanim.player.state.handlers.edits.with_dimensions", raising(HOLES[0]))
     assert player.press(pygame.K_RETURN)
     assert player.tick()
     found = report_of(here)
