@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -114,16 +115,13 @@ class Window:
                 self._render(self.state.recording.format)
         finally:
             self._speaker.close()
-            if self._renderings:
-                self._renderings.close()
-                self._renderings = None
-            if self._following:
-                self._following.close()
-                self._following = None
+            for process in (self._renderings, self._following):
+                if process:
+                    process.close()
 
     def _advance(self, events: list[Event]) -> None:
         """Go one frame on; each key is asked what it means once those before it are done."""
-        self.state, done = aged(self._rewound()), []
+        self.state, done = aged(self._tape.rewound(self.state) if self._tape else self.state), []
         for action in self._requested(events):
             self.state = carried(self.state, action)
             done.append(action)
@@ -131,7 +129,8 @@ class Window:
         if self._taping:
             self._taping.note(self.state.frame, tuple(done))
         for effect in self.state.effects:
-            self._carry_out(effect)
+            with self._noting():
+                self._do(effect)
 
     def _requested(self, events: list[Event]) -> Iterator[Action]:
         """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
@@ -167,14 +166,11 @@ class Window:
             yield from [Action("put", browsing.chosen)] * (browsing.chosen in browsing.found)
         elif action.name == "files_here":
             yield from self._files()
-        elif action.name == "pick" and listing and listing.files is not None:
-            row = action.value if isinstance(action.value, int) else listing.chosen
-            yield Action("back")
-            yield from (Action("open_file", name) for name in listing.found(self.state.scene)[row : row + 1])
         elif action.name == "pick" and listing:
-            tokens = listing.found(self.state.scene)
             row = action.value if isinstance(action.value, int) else listing.chosen
-            yield from (Action("plot", token) for token in tokens[row : row + 1])
+            yield from () if listing.files is None else (Action("back"),)
+            deed = "plot" if listing.files is None else "open_file"
+            yield from (Action(deed, name) for name in listing.found(self.state.scene)[row : row + 1])
         elif action.name in ("aim", "enter") and self.state.building:
             yield from self._by_keys(self.state.building, action)
         elif action.name == "back" and not self.state.is_covered and display.is_full():
@@ -245,10 +241,6 @@ class Window:
             on_paper = self.screen.sheet_at(*self.screen.pixel(*sheet.cursor)) == "paper"
             yield from 2 * click if action.value else click if on_paper else click[:1]
 
-    def _rewound(self) -> State:
-        """Return the state to go on from: a tape that has ended goes on from its start."""
-        return self._tape.rewound(self.state) if self._tape else self.state
-
     def _of_the_tape(self) -> Iterator[Action]:
         """Yield what the tape does at this frame; what it would do outside is left out."""
         if self._tape:
@@ -272,7 +264,8 @@ class Window:
         except Exception as error:
             if self._good is None:
                 raise
-            self._carry_out(Action("report", report(self.state.shown, error, phase=self.state.phase)))
+            with self._noting():
+                self._report(report(self.state.shown, error, phase=self.state.phase))
             self._taping = None
             self.state = recovered(self.state, self._good, error)
             self.screen.show(self.state, overlay(self.state))
@@ -288,11 +281,9 @@ class Window:
         if self.state.frame % FRAMES_PER_SECOND == 0:
             self._keep_draft()
         notes, self._notes = self._notes + self._photo_news(), []
-        notes += self._keeper.news() if self._keeper else []
-        if self._file and self.state.frame % FRAMES_PER_SECOND == 0:
-            notes += self._file.news()
-        if self._renderings and self.state.frame % _NEWS_EVERY == 0:
-            notes += self._renderings.news()
+        sources = ((self._keeper, 1), (self._file, FRAMES_PER_SECOND), (self._renderings, _NEWS_EVERY))
+        for source, every in sources:
+            notes += source.news() if source and self.state.frame % every == 0 else ()
         return tuple(Action("note", text) for text in notes)
 
     def _photo_news(self) -> list[str]:
@@ -302,14 +293,16 @@ class Window:
         sentence = lack(self._photo) if self._photo and self._photo != before else None
         return [sentence] if sentence else []
 
-    def _carry_out(self, effect: Action) -> None:
-        """Do what the state asks of the outside; what cannot be done is a note, and the window runs on."""
+    @contextmanager
+    def _noting(self) -> Iterator[None]:
+        """Have what cannot be done meanwhile be a note; the window runs on."""
         try:
-            self._do(effect)
+            yield
         except LinkanimError as error:
             self._notes.append(str(error))
 
     def _do(self, effect: Action) -> None:
+        """Do what the state asks of the outside."""
         match effect.name:
             case "record":
                 self._taping = Taping(self.state, pygame.display.get_window_size())
@@ -354,21 +347,16 @@ class Window:
 
     def _offer(self) -> None:
         """Offer the draft that was kept of another window."""
-        try:
-            text = self._drafts.found() if self._drafts else None
-            if text:
+        with self._noting():
+            if self._drafts and (text := self._drafts.found()):
                 self.state = offered(self.state, text)
                 self._notes.append(_OFFER)
-        except LinkanimError as error:
-            self._notes.append(str(error))
 
     def _keep_draft(self) -> None:
         """Keep what is drawn on the sheet."""
-        try:
+        with self._noting():
             if self._drafts:
                 self._drafts.keep(self.state.sheet)
-        except LinkanimError as error:
-            self._notes.append(str(error))
 
     def _open_file(self, path: Path) -> None:
         """Put on the scene of a file, which is watched from now on."""
@@ -422,9 +410,8 @@ class Window:
         """Return what an event asks for in the state as it is."""
         if event.type == pygame.DROPFILE:
             picture = event.file.lower().endswith(SUFFIXES)
-            return (
-                Action("photo", files.beside(event.file)) if picture else Action("open_file", event.file),
-            )
+            name = files.beside(event.file) if picture else event.file
+            return (Action("photo" if picture else "open_file", name),)
         if event.type == pygame.QUIT:
             return (Action("close"),)
         if event.type in _UNCOVERED:
