@@ -12,7 +12,7 @@ from linkanim.picture.parts.driven import speed_words
 from linkanim.player.state.action import Action
 from linkanim.player.state.clock import Clock
 from linkanim.player.state.handlers import build, edits, games, looks, outside, pencil, places, shelf
-from linkanim.player.state.state import State
+from linkanim.player.state.state import State, with_toast
 from linkanim.scenes.editing.closures import closure_name
 
 
@@ -130,14 +130,11 @@ def _unused(state: State, _: object) -> State:
     return state
 
 
-def _idle(words: str) -> Callable[[State, State], str | None]:
-    """Return what says so where there was nothing to do; else the picture says it."""
-    return lambda before, after: words if before.editing == after.editing else None
-
-
 def _stuck(words: str) -> Callable[[State, State], str | None]:
-    """Return what says so where nothing on the sheet has changed."""
-    return lambda before, after: words if before.sheet == after.sheet else None
+    """Return what says so where there was nothing to do; else the list or the sheet shows it."""
+    return lambda before, after: (
+        words if (before.editing, before.sheet) == (after.editing, after.sheet) else None
+    )
 
 
 def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any], State]:
@@ -187,16 +184,15 @@ ACTIONS: Mapping[str, Rule] = {
     "erase": Rule(_nothing, edits.erase),
     "take": Rule(_nothing, edits.take),
     "grab": Rule(_text, edits.grab),  # a joint
-    "carry": Rule(
-        _numbers(3), edits.carry
-    ),  # to (x, y) of the scene as shown, in such parts of a nudge's step
+    # to (x, y) of the scene as shown, in such parts of a nudge's step
+    "carry": Rule(_numbers(3), edits.carry),
     "grab_row": Rule(_whole, edits.grab_row),  # a row of the list of dimensions
     "pull": Rule(_whole, edits.pull),  # steps from the value that was taken hold of
     "drop": Rule(_nothing, edits.drop),
-    "undo": Rule(_nothing, edits.undo, answer=_idle("nothing to undo")),
+    "undo": Rule(_nothing, edits.undo, answer=_stuck("nothing to undo")),
     "reset": Rule(_nothing, edits.reset),
     "returns": Rule(_nothing, edits.returns, answer=_returns),
-    "redo": Rule(_nothing, edits.redo, answer=_idle("nothing to redo")),
+    "redo": Rule(_nothing, edits.redo, answer=_stuck("nothing to redo")),
     "pencil": Rule(_nothing, pencil.pencil),
     "own_trace": Rule(_nothing, pencil.own),
     "pen_down": Rule(_numbers(2), pencil.down),  # (x, y) in the scene's unit
@@ -244,15 +240,15 @@ ACTIONS: Mapping[str, Rule] = {
     "list": Rule(_nothing, shelf.list_, taped=False),
     "shelf": Rule(_nothing, shelf.open_shelf, taped=False),
     "files": Rule(_text, shelf.files, taped=False),  # scene files, one a line
-    "open_file": Rule(_text, outside.open_file, taped=False),
+    "open_file": Rule(_text, outside.effect("open"), taped=False),
     "move": Rule(_whole, shelf.move, taped=False),  # rows of the list, or places on the shelf
     "point": Rule(_whole, shelf.point, taped=False),  # the place on the shelf
     "top": Rule(_whole, shelf.top, taped=False),  # the shelf's row that is the first in sight
     "sift": Rule(_text, shelf.sift, taped=False),
     "unsift": Rule(_nothing, shelf.unsift, taped=False),
     "record": Rule(_one_of("gif", "mp4"), outside.record, taped=False),
-    "screenshot": Rule(_nothing, outside.screenshot, taped=False),
-    "svg": Rule(_nothing, outside.svg, taped=False),
+    "screenshot": Rule(_nothing, outside.shot("screenshot"), taped=False),
+    "svg": Rule(_nothing, outside.shot("svg"), taped=False),
     "share": Rule(_nothing, outside.effect("share"), taped=False),
     "fullscreen": Rule(_nothing, outside.effect("fullscreen"), taped=False),
     "save": Rule(_nothing, outside.effect("save"), taped=False),
@@ -261,7 +257,7 @@ ACTIONS: Mapping[str, Rule] = {
     "close": Rule(_nothing, outside.close, taped=False),  # the window's own button
     "sounds": Rule(_nothing, outside.sounds, taped=False, answer=_sounds),
     "pad": Rule(_text, outside.pad, taped=False),  # what is plugged in is called; empty for nothing
-    "note": Rule(_text, outside.note, taped=False),  # something the window has to say, as a toast
+    "note": Rule(_text, with_toast, taped=False),  # something the window has to say, as a toast
 }
 
 

@@ -224,16 +224,9 @@ def along(state: State, at: tuple[float, float, float, float]) -> State:
     if sheet is None or sheet.grip is None:
         return state
     x, y, _, snap = at
-    grip = replace_grip(sheet.grip, x, y, snap)
-    state = _with(state, grip=grip)
-    return (
-        _shown(state, _drawn(sheet, grip), live=True) if sheet.tool in LIVE and not grip.is_click else state
-    )
-
-
-def replace_grip(grip: Grip, x: float, y: float, snap: float) -> Grip:
-    """Return a grip with the hand at another point."""
-    return grip._replace(at=(x, y), snap=snap)
+    grip = sheet.grip._replace(at=(x, y), snap=snap)
+    state, live = _with(state, grip=grip), sheet.tool in LIVE and not grip.is_click
+    return _shown(state, _drawn(sheet, grip), live=True) if live else state
 
 
 def up(state: State, _: None) -> State:
@@ -247,11 +240,9 @@ def up(state: State, _: None) -> State:
     if building.draft is grip.base.draft:
         kept = replace(building, draft=sheet.building.draft) if sheet.tool not in LIVE else building
         return _running(_shown(state, kept), ran=grip.ran)
-    state = (
-        _with(_shown(state, building), anchor=sheet.anchor or grip.at)
-        if sheet.tool == "photo"
-        else _shown(state, building)
-    )
+    state = _shown(state, building)
+    if sheet.tool == "photo":
+        return _with(state, anchor=sheet.anchor or grip.at)
     moved = sheet.tool == "move" and building.made.scene is not None
     return _once(state) if moved else state
 

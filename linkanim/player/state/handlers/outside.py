@@ -15,11 +15,6 @@ from linkanim.player.state.state import State, Take, with_effect, with_toast
 _MEANT = "recording: Q again ends it, writes it and quits"
 
 
-def note(state: State, text: str) -> State:
-    """Tell something in a toast."""
-    return with_toast(state, text)
-
-
 def sounds(state: State, _: None) -> State:
     """Switch sounds on or off."""
     return replace(state, sounds=not state.is_audible)
@@ -50,11 +45,9 @@ def back(state: State, _: None) -> State:
         return replace(state, place_typed="", chip=None)
     if state.editing.open:
         return edit(state, None)
-    return (
-        with_effect(state, "begin", "title")
-        if state.attract and state.games
-        else with_toast(state, "Q quits")
-    )
+    if state.attract and state.games:
+        return with_effect(state, "begin", "title")
+    return with_toast(state, "Q quits")
 
 
 def quit_(state: State, _: None) -> State:
@@ -76,21 +69,11 @@ def record(state: State, form: Literal["gif", "mp4"]) -> State:
     return replace(with_effect(state, "render", state.recording.format), recording=None)
 
 
-def screenshot(state: State, _: None) -> State:
-    """Ask for a screenshot; the shutter is seen to go."""
-    return replace(with_effect(state, "screenshot"), shot=state.frame)
+def shot(name: str) -> Callable[[State, None], State]:
+    """Return the handler of what keeps the picture: the shutter is seen to go."""
+    return lambda state, _: replace(with_effect(state, name), shot=state.frame)
 
 
-def open_file(state: State, name: str) -> State:
-    """Ask for a file to be opened."""
-    return with_effect(state, "open", name)
-
-
-def svg(state: State, _: None) -> State:
-    """Ask for the picture as an SVG, the shutter going."""
-    return replace(with_effect(state, "svg"), shot=state.frame)
-
-
-def effect(name: str) -> Callable[[State, None], State]:
+def effect(name: str) -> Callable[[State, str | None], State]:
     """Return the handler of what changes nothing in the picture."""
-    return lambda state, _: with_effect(state, name)
+    return lambda state, value: with_effect(state, name, value)

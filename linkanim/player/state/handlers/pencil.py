@@ -189,12 +189,9 @@ def _stands_on(scene: Scene, answer: PathAnswer, size: float) -> bool:
 def choose(state: State, place: int) -> State:
     """Show another of the answers."""
     sketch = state.sketch
-    if (
-        sketch is None
-        or sketch.held is not None
-        or not 0 <= place < len(sketch.answers)
-        or place == sketch.chosen
-    ):
+    if sketch is None or sketch.held is not None or place == sketch.chosen:
+        return state
+    if not 0 <= place < len(sketch.answers):
         return state
     scene = _scene_of(sketch.answers[place], sketch.unit)
     state = replace(exchanged(state, scene), glide=None, faded=state.frame)
@@ -225,9 +222,8 @@ def lead(state: State, to: tuple[float, float]) -> State:
     if sketch is None or sketch.held is None:
         return state
     if isinstance(sketch.held, str):
-        return with_effect(
-            _sketching(state, pivots=tuple({**dict(sketch.pivots), sketch.held: to}.items())), "follow"
-        )
+        pivots = {**dict(sketch.pivots), sketch.held: to}
+        return with_effect(_sketching(state, pivots=tuple(pivots.items())), "follow")
     assert sketch.curve
     with suppress(BadInput):
         curve = bent(sketch.curve, sketch.held, complex(*to))
