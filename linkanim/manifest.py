@@ -14,7 +14,7 @@ import os
 import re
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -103,7 +103,9 @@ def replacing(files: FileSet, names: Iterable[str] = (), *, others_go: bool = Tr
         new = room / "new"
         new.mkdir()
         yield new
-        sums = {path.name: frozenset([_settled_sum(path)]) for path in sorted(new.iterdir())}
+        for path in new.iterdir():
+            settle(path)
+        sums = {path.name: frozenset([_sum(path)]) for path in sorted(new.iterdir())}
         if folder.is_dir():
             with _alone(folder):
                 _take_places(files, room, sums, others_go=others_go)
@@ -118,59 +120,41 @@ def _take_places(files: FileSet, room: Path, sums: Sums, *, others_go: bool) -> 
     before, old = files.sums(), room / "old"
     old.mkdir()
     both = {name: before.get(name, frozenset()) | sums.get(name, frozenset()) for name in {**before, **sums}}
-    with ExitStack() as undo:
-        _put(_write_list(room / "both", both), files.list_path, old, undo)
-        for name in sums:
-            _put(room / "new" / name, files.folder / name, old, undo)
-        for name in before.keys() - sums.keys() if others_go else ():
-            if is_ours(files.folder / name, before):
-                _take(files.folder / name, old, undo)
-        after = sums if others_go else {**before, **sums}
-        _put(_write_list(room / "after", after), files.list_path, old, undo)
-        undo.pop_all()
-
-
-def _put(part: Path, target: Path, old: Path, undo: ExitStack) -> None:
-    """Have a file take the name; what is there is kept."""
-    kept = _kept(target, old) if target.exists() else None
-    undo.callback(_put_back, part, target, kept)
-    take_place(part, target)
-
-
-def _take(target: Path, old: Path, undo: ExitStack) -> None:
-    """Take a file away, and keep it."""
-    kept = _next(old)
-    undo.callback(_give_back, kept, target)
-    target.rename(kept)
-
-
-def _next(old: Path) -> Path:
-    return old / os.urandom(8).hex()
-
-
-def _kept(target: Path, old: Path) -> Path:
-    kept = _next(old)
+    others = [files.folder / name for name in (before.keys() - sums.keys() if others_go else ())]
+    gone = [path for path in others if is_ours(path, before)]
+    places = {room / "new" / name: files.folder / name for name in sums}
+    moves = {_write_list(room / "both", both): files.list_path, **places}
+    kept = {path: _kept(path, old) for path in (*moves.values(), *gone) if path.exists()}
     try:
-        kept.hardlink_to(target)
+        for part, target in moves.items():
+            take_place(part, target)
+        for path in gone:
+            path.replace(old / path.name)
+        take_place(_write_list(room / "after", sums if others_go else {**before, **sums}), files.list_path)
+    except BaseException:
+        taken = [target for part, target in moves.items() if not part.exists()]
+        for path in (*gone, *reversed(taken)):
+            _put_back(path, kept.get(path))
+        raise
+
+
+def _kept(path: Path, old: Path) -> Path:
+    """Return what a file is kept as, for as long as it may have to come back."""
+    kept = old / os.urandom(8).hex()
+    try:
+        kept.hardlink_to(path)
     except OSError:  # a file system that knows no links
-        shutil.copy2(target, kept)
+        shutil.copy2(path, kept)
     return kept
 
 
-def _put_back(part: Path, target: Path, kept: Path | None) -> None:
-    """Undo that a file took a name, if it did."""
-    if part.exists():
-        return
-    if kept is None:
-        target.unlink(missing_ok=True)
-    else:
-        kept.replace(target)
-
-
-def _give_back(kept: Path, target: Path) -> None:
-    """Undo that a file was taken away, if it was."""
-    with suppress(FileNotFoundError):
-        kept.replace(target)
+def _put_back(path: Path, kept: Path | None) -> None:
+    """Give a name what it had before, if anything."""
+    with suppress(OSError):
+        if kept is None:
+            path.unlink(missing_ok=True)
+        else:
+            kept.replace(path)
 
 
 def _write_list(path: Path, sums: Sums) -> Path:
@@ -183,11 +167,6 @@ def _write_list(path: Path, sums: Sums) -> Path:
     path.write_text(json.dumps(document, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
     settle(path)
     return path
-
-
-def _settled_sum(path: Path) -> str:
-    settle(path)
-    return _sum(path)
 
 
 def _sum(path: Path) -> str:
