@@ -85,8 +85,12 @@ class Drawing:
 
     def __init__(self, setting: DrawSetting, *, apart: bool = False) -> None:
         self.setting, self._apart = setting, apart
-        self.parts = _parts(setting, self.symbols)
         self._placed: tuple[Pose, Places] | None = None
+
+    @cached_property
+    def parts(self) -> Parts:
+        """All that moves."""
+        return _parts(self.setting, self.symbols)
 
     @cached_property
     def symbols(self) -> Symbols | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.arrangement.fit import FitRequest, SceneFit, fitted, request_of
@@ -15,7 +15,7 @@ from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
 from linkanim.picture.drawing import Drawing, DrawSetting
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.items import Caption, Group, grouped
+from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import CAPTION_STEP, Gauge, Layout, gauge
 from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
@@ -40,6 +40,13 @@ if TYPE_CHECKING:
     from linkanim.synthesis.curves.drawn import DrawnCurve
 
 
+class Charted(NamedTuple):
+    """A chart as it was drawn last: its layout, theme and quantity, and its groups by name."""
+
+    place: tuple[Layout, Theme, str | None]
+    groups: dict[str, Group]
+
+
 class Picture:
     """A scene at one pixel size and look: what stands where is measured once, `groups` is a pose of it.
 
@@ -49,8 +56,8 @@ class Picture:
     of the `sheet` that it is built on. With `apart` each joint has a group of its own. What `before`
     measured of the same scene is taken over; names keep their places on one that is zoomed, on its way to
     another, or `held` by the hand; `hurried`, those that they had in a window of another size. With a
-    `moment` names stand as is best at that phase alone. Raises BadInput where the look's chart is no
-    quantity of the scene.
+    `moment` names stand as is best at that phase alone. A chart that is `charted` stands as it was drawn,
+    where it has the same place. Raises BadInput where the look's chart is no quantity of the scene.
     """
 
     def __init__(
@@ -68,10 +75,11 @@ class Picture:
         kept: View | None = None,
         sheet: Box | None = None,
         moment: float | None = None,
+        charted: Charted | None = None,
     ) -> None:
         self._papered: tuple[Photo | None, Group] | None = None
         self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
-        self.sheet, self.hurried = sheet, hurried
+        self.sheet, self.hurried, self.held = sheet, hurried, held
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
         self.type: Type = before.type if before else Type()
@@ -97,6 +105,9 @@ class Picture:
         ):
             self._papered = before._papered
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
+        place = self.layout, self.theme, look.chart
+        self._late = charted is not None and charted.place == place
+        self.charted: Charted = charted if charted and self._late else Charted(place, {})
 
     def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:
         """Fit the scene into what is requested."""
@@ -132,9 +143,9 @@ class Picture:
         row: bool = False,
         sheet: Box | None = None,
     ) -> bool:
-        """Return whether it is made for these, and not in a hurry."""
+        """Return whether it is made for these, with nothing kept of what was before."""
         same = self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
-        return same and not self.hurried
+        return same and not self.hurried and not self._late
 
     def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
@@ -239,7 +250,7 @@ class Picture:
             yield from self._standing
         if self._chart:
             self._chart = self._chart.at(speed)
-            yield grouped("chart", self._chart.still(), still=True)
+            yield self._drawn_on_chart("chart", self._chart.still(), still=True)
         if self._legend and not self._overrun:
             yield self._legend.group(speed)
         if self.layout.caption:
@@ -268,8 +279,19 @@ class Picture:
     def _on_chart(self, pose: Pose, *, grasped: bool) -> Iterator[Group]:
         """Yield the chart's cursor and what is read there, and its grip where it can be grasped."""
         if self._chart:
-            at_foot = grip(self._chart.foot(pose), self.layout.unit, self.theme) if grasped else []
-            yield grouped("reading", [*self._chart.cursor(pose), *at_foot, *self._chart.readings(pose)])
+            yield self._drawn_on_chart("reading", self._read(self._chart, pose, grasped=grasped))
+
+    def _read(self, chart: ChartPanel, pose: Pose, *, grasped: bool) -> Iterator[Item]:
+        yield from chart.cursor(pose)
+        if grasped:
+            yield from grip(chart.foot(pose), self.layout.unit, self.theme)
+        yield from chart.readings(pose)
+
+    def _drawn_on_chart(self, name: str, items: Iterable[Item], *, still: bool = False) -> Group:
+        """Return a group of the chart, the one that was drawn before where that stands."""
+        if not self._late or name not in self.charted.groups:
+            self.charted.groups[name] = grouped(name, items, still=still)
+        return self.charted.groups[name]
 
     def _named_groups(self, pose: Pose) -> Iterator[Group]:
         """Yield the words on the scene."""
@@ -329,8 +351,9 @@ class Picture:
             yield from self._within([Group("handles", marks, over=True)])
         for layers, words in spots(self.view, overlay.spots, self.theme, self.layout):
             yield Group("spot", layers, [words], over=True)
-        if overlay.glow:
-            yield Group("glow", list(glow(self.view, pose, overlay.glow, self.gauge)), over=True)
+        if overlay.glow:  # the joint and what it changes are apart: they are drawn at once
+            light = list(glow(self.view, pose, overlay.glow, self.gauge))
+            yield Group("glow", light, over=not overlay.measured)
 
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
         """Return where the pin that the phase drives lies, in pixels."""

@@ -66,7 +66,7 @@ class SurfacePrinter:
         canvas = self._on_still(surface, picture, first)
         for n, run in enumerate(others):
             self._shapes(canvas, run, n)
-            self._words(canvas, picture.type, run)
+            self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
         self._panels_of(picture).draw(canvas, overlay)
         if canvas is not surface:
@@ -134,11 +134,13 @@ class SurfacePrinter:
             self._covers[key] = groups, found
         return self._covers[key][1]
 
-    def _words(self, canvas: pygame.Surface, type_: Type, run: tuple[Group, ...]) -> None:
-        """Write the words of groups; in a halo to a part of a pixel, as labels on a drawing are."""
+    def _words(
+        self, canvas: pygame.Surface, type_: Type, run: tuple[Group, ...], *, whole: bool = False
+    ) -> None:
+        """Write the words of groups; in a halo to a part of a pixel, to glide, or to a `whole` one."""
         for line in (line for group in run for line in group.captions):
             if line.halo:
-                self._labels.draw(canvas, line, type_)
+                self._labels.draw(canvas, line, type_, whole=whole)
             else:
                 text, at, size, colour, anchor, strong, *_ = line
                 type_.draw(canvas, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
@@ -159,7 +161,7 @@ class _Labels:
         self._kept: dict[Hashable, Lettering] = {}
         self._drawn: set[Hashable] = set()
 
-    def draw(self, surface: pygame.Surface, line: Caption, type_: Type) -> None:
+    def draw(self, surface: pygame.Surface, line: Caption, type_: Type, *, whole: bool) -> None:
         """Draw a line in its halo, as strongly as it shows."""
         assert line.halo
         key = (line.text, line.size, line.colour, line.halo)
@@ -169,7 +171,9 @@ class _Labels:
             self._kept[key] = Lettering(line.text, type_, line.size, colours, line.halo.width)
         letters = self._kept[key]
         aside = {"left": 0.5, "centre": 0.0, "right": -0.5}[line.anchor] * letters.size[0]
-        letters.draw(surface, complex(line.at[0] + aside, line.at[1] + letters.drop), line.strength)
+        letters.draw(
+            surface, complex(line.at[0] + aside, line.at[1] + letters.drop), line.strength, whole=whole
+        )
 
     def let_go(self) -> None:
         """Forget what the frame that ends here had not, where that is more than a few."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -76,7 +77,8 @@ def pedestal_corners(figure: Figure, view: View, gauge: Gauge, name: str) -> lis
     return [pin, pin + turn * complex(-wide, deep), pin + turn * complex(wide, deep)]
 
 
-def pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> list[Layer]:
+@lru_cache(maxsize=32)
+def pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> tuple[Layer, ...]:
     """Return the foot of a fixed pin, in pixels: it widens from the pin to a hatched line, the way `away`."""
     deep, wide, bar = 2.1 * gauge.bar, 1.75 * gauge.bar, gauge.bar
     foot = [0j, complex(-0.85 * wide, deep), complex(0.85 * wide, deep)]
@@ -85,4 +87,4 @@ def pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> list[La
     inner = [pin + turn * rounded(foot, max(0.35 * bar - gauge.outline, 0.1))]
     base = complex(-1.35 * wide, deep + 0.35 * bar), complex(1.35 * wide, deep + 0.35 * bar)
     lines = [pin + turn * loop for loop in hatched(*base, gauge, 1)]
-    return [Layer(theme.ground, lines), Layer(theme.outline, shape), Layer(theme.gear, inner)]
+    return Layer(theme.ground, lines), Layer(theme.outline, shape), Layer(theme.gear, inner)

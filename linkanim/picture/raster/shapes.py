@@ -26,8 +26,14 @@ def disc(radius: float) -> Loop:
 def rounded(points: Sequence[complex], radius: float) -> Loop:
     """Return the outline at this distance around the points' convex hull.
 
-    One point gives a circle, two a bar with round ends, more a plate with round corners.
+    One point gives a circle, two a bar with round ends, more a plate with round corners. The last ones are
+    kept: under the hand one of a linkage's bars changes.
     """
+    return _rounded(tuple(points), radius)
+
+
+@lru_cache(maxsize=256)
+def _rounded(points: tuple[complex, ...], radius: float) -> Loop:
     corners = hull(points)
     if len(corners) == 1:
         return corners[0] + disc(radius)
@@ -38,7 +44,7 @@ def rounded(points: Sequence[complex], radius: float) -> Loop:
     for corner, before, after in zip(corners, normals[-1:] + normals[:-1], normals, strict=True):
         begin = float(np.angle(before))
         arcs.append(corner + _arc(begin, float(np.angle(after / before)) % (2 * pi), radius))
-    return np.concatenate(arcs)
+    return _kept(np.concatenate(arcs))
 
 
 @lru_cache(maxsize=64)

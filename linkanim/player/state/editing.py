@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from linkanim.digits import degrees, typeset
 from linkanim.mechanics.facts.classify import Info
 from linkanim.scenes.editing.edit import Dimension, dimensions
+from linkanim.scenes.editing.handles import Handle, handles
 from linkanim.scenes.fields.form import Key
 from linkanim.scenes.scene import Scene
 
@@ -82,3 +84,9 @@ class Held:
     scene: Scene
     phase: float
     ran: bool
+
+    @cached_property
+    def following(self) -> tuple[tuple[Handle, str], ...]:
+        """The dimensions that follow the joint, with their units."""
+        units = {item.key: item.unit for item in dimensions(self.scene)}
+        return tuple((handle, units[handle.key]) for handle in handles(self.scene, self.joint))

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from linkanim.picture.look import Look
-from linkanim.picture.picture import Picture
+from linkanim.picture.picture import Charted, Picture
 from linkanim.picture.view import Box, View, eased, joined
 from linkanim.player.state.sketch import Sketch
 from linkanim.player.state.state import State
@@ -70,11 +70,18 @@ class Framing:
         assert picture is not None
         return picture
 
-    def fitting(self, state: State, size: tuple[int, int], *, hurried: bool = False) -> Picture:
+    def fitting(
+        self,
+        state: State,
+        size: tuple[int, int],
+        *,
+        hurried: bool = False,
+        charted: Charted | None = None,
+    ) -> Picture:
         """Return the picture that fits the state; a view other than the last one's, it is approached.
 
         One that is `hurried` keeps the names of the last, where that was of another size: those are placed
-        anew once the size has stayed for a frame.
+        anew once the size has stayed for a frame. One with a chart as it was `charted` keeps that, too.
         """
         before, sketch, look = self._fitting, state.sketch, self._look(state)
         held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
@@ -87,7 +94,7 @@ class Framing:
         make = partial(
             Picture, state.shown, size, look, before, listed=listed, held=held, row=row, sheet=home
         )
-        make = partial(make, hurried=hurried)
+        make = partial(make, hurried=hurried, charted=charted)
         made = make(kept=before.fitted if before and sketch and stays else None)
         if sketch and stays and not held and not _is_in_sight(made, sketch):
             made = make(kept=_seen_whole(made, sketch))
@@ -108,14 +115,25 @@ class Framing:
 
     def at(self, state: State, size: tuple[int, int]) -> Picture:
         """Return the picture for this frame: one on the way to the fitting one while that is approached."""
-        goal, self._passing = self.fitting(state, size, hurried=True), None
+        last = self._passing or self._fitting
+        # under the hand the chart follows in every other frame, and the list in the others
+        charted = last.charted if last and state.held and state.frame % 2 == 0 else None
+        goal, self._passing = self.fitting(state, size, hurried=True, charted=charted), None
         if self._approach is None or self._approach.over(state.frame):
             self._approach = None
             return goal
         look = self._approach.look(self._look(state), goal.fitted, goal.view, size, state.frame)
         kept = goal.fitted if state.sketch else None
         self._passing = Picture(
-            state.shown, size, look, goal, listed=state.listed, row=goal.row, kept=kept, sheet=goal.sheet
+            state.shown,
+            size,
+            look,
+            goal,
+            listed=state.listed,
+            row=goal.row,
+            kept=kept,
+            sheet=goal.sheet,
+            charted=charted,
         )
         return self._passing
 

@@ -68,9 +68,9 @@ def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
 
 def with_values(scene: Scene, values: Mapping[Key, float | str]) -> Mapping[str, Any]:
     """Return the scene's document with some dimensions changed; KeyError as above."""
-    known, document = {item.key: item for item in dimensions(scene)}, scene.document
+    known, document = {number.key: number for number in numbers(scene.document)}, scene.document
     for key, value in values.items():
-        document = replaced(document, key, written(value, known[key]))
+        document = replaced(document, key, written(value, _dimension(known[key], scene)))
     return document
 
 

@@ -212,10 +212,9 @@ def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
 def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key, str]:
     """Return the dimensions that put the joint near a point, in whole steps of their units times `share`."""
     places = held.scene.pose(held.phase, 0).position
-    units = {item.key: item.unit for item in dimensions(held.scene)}
     found = {}
-    for handle in handles(held.scene, held.joint):
-        step = _step_of(units[handle.key]) * Decimal(repr(share))
+    for handle, unit in held.following:
+        step = _step_of(unit) * Decimal(repr(share))
         value = step * round(Decimal(repr(dragged(handle, places, point))) / step)
         found[handle.key] = f"{value.normalize():f}"
     return found
