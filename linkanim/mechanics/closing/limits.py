@@ -173,7 +173,8 @@ def _limit(
     start = found.beside(bracket[1], row, 1 if bracket[0] > bracket[1] else -1)
     if start is None:
         inside, outside = (np.array([phase]) for phase in bracket)
-        start = Sum(float(ends_of(lambda phase: found.margins(phase)[row] >= 0, inside, outside)[0]))
+        limit = ends_of(lambda phases: found.margins(phases[:, 0])[row, :, None] >= 0, inside, outside)
+        start = Sum(float(limit[0]))
     return refined(assembly, found.names[row], start), found.names[row]
 
 

@@ -25,6 +25,10 @@ FINEST = 2.0**-70
 """Share of the largest place below which a bracket is not halved further: a place may be zero itself."""
 
 _ROUNDS = 5
+_AHEAD = 64
+"""So many places are worked out at a time where brackets are fewer."""
+_DEEPEST = 4
+"""Halvings."""
 
 
 def around(turns: int, samples_a_turn: int) -> Array:
@@ -50,16 +54,34 @@ def highest(
 def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, share: float = FINEST) -> Array:
     """Return the last places at which a condition holds, each between one where it does and one where not.
 
-    `holds` takes places (N,), one in each of the N brackets, and returns whether it holds at each. No
-    bracket is halved below that `share` of its places.
+    `holds` takes places (M, N), M in each of the N brackets, and returns whether it holds at each. No
+    bracket is halved below that `share` of its places. Of few brackets all places that several halvings may
+    come to are asked for at once: a call costs more than a place.
     """
-    finest = share * np.maximum(np.abs(inside), np.abs(outside))
+    finest, each = share * np.maximum(np.abs(inside), np.abs(outside)), np.arange(len(inside))
+    deep = min(max(int(math.log2(_AHEAD / max(len(inside), 1) + 1)), 1), _DEEPEST)
     while True:
-        middle = (inside + outside) / 2
-        if ((middle == inside) | (middle == outside) | (np.abs(outside - inside) <= finest)).all():
-            return inside
-        good = holds(middle)
-        inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
+        middles, at = _middles(inside, outside, deep), np.zeros(len(inside), np.intp)
+        held = holds(middles)
+        for level in range(deep):
+            place = (1 << level) - 1 + at
+            middle, good = middles[place, each], held[place, each]
+            if ((middle == inside) | (middle == outside) | (np.abs(outside - inside) <= finest)).all():
+                return inside
+            inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
+            at = 2 * at + ~good
+
+
+def _middles(inside: Array, outside: Array, deep: int) -> Array:
+    """Return the middles of so many halvings, a row for each way that those before may have gone."""
+    rows: list[Array] = []
+    halves = [(inside, outside)]
+    for _ in range(deep):
+        middles = [(one + other) / 2 for one, other in halves]
+        pairs = zip(halves, middles, strict=True)
+        halves = [half for (one, other), middle in pairs for half in ((middle, other), (one, middle))]
+        rows += middles
+    return np.stack(rows)
 
 
 def sign_changes(function: Callable[[Array], Array], places: Array, share: float = FINEST) -> Array:
@@ -79,13 +101,12 @@ def changes_by_row(
     block of places is worked out at a time: so both time and memory go with the rows.
     """
     rows, index, start = _brackets(function, places)
-    found = ends_of(
-        lambda middle: (own_rows(function, rows, middle) > 0) == start,
-        places[index],
-        places[index + 1],
-        share,
-    )
-    return rows, found
+
+    def alike(middles: Array) -> Bools:
+        values = own_rows(function, np.tile(rows, len(middles)), middles.ravel()).reshape(middles.shape)
+        return np.asarray((values > 0) == start)
+
+    return rows, ends_of(alike, places[index], places[index + 1], share)
 
 
 def own_rows(function: Callable[[Array], Array], rows: Indices, places: Array) -> Array:

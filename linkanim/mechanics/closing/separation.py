@@ -343,10 +343,10 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
     if not len(index):
         return [np.empty(0) for _ in cells]
     start = samples.rows[row, dyads, index] > 0
-    each = np.arange(len(dyads))
 
     def alike(phases: Array) -> Bools:
-        return np.asarray((sampled(phases).rows[row, dyads, each] > 0) == start)
+        values = sampled(phases.ravel()).rows[row].reshape(-1, *phases.shape)
+        return np.asarray((values[dyads, :, np.arange(len(dyads))].T > 0) == start)
 
     found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST)
     return [found[dyads == dyad] for dyad in range(len(cells))]
