@@ -9,7 +9,7 @@ import pytest
 from bits import rows
 
 from linkanim.mechanics.motion.measures import FAMILIES
-from linkanim.mechanics.motion.request import COORDINATE
+from linkanim.mechanics.motion.motion import COORDINATE
 from linkanim.scenes import load
 
 KINDS = tuple(kind for family in FAMILIES for kind in family)

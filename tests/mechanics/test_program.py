@@ -12,7 +12,7 @@ from scaling import chain
 from linkanim.mechanics.formulas.expression import Expr, Graph, Value, maximum, minimum, rint, select, sqrt
 from linkanim.mechanics.formulas.program import BLOCK, CACHE_LINE, aligned_rows, batch, needed, scalar
 from linkanim.mechanics.motion.mechanism import mechanism
-from linkanim.mechanics.motion.request import Variant
+from linkanim.mechanics.motion.motion import Variant
 
 
 def formulas(x: Value, w: Value) -> list[Value]:
@@ -135,8 +135,8 @@ def test_a_value_is_handed_down_to_its_result_in_one_place() -> None:
 
 @pytest.mark.parametrize("dyads", [2, 30])
 def test_a_longer_chain_needs_no_more_buffers(dyads: int) -> None:
-    programs = mechanism(chain(dyads)).programs(Variant(by_phase=True, accelerates=False))
-    assert programs.of(("position", "velocity", "acceleration"))[0].buffers <= 6
+    variant, kinds = Variant(by_phase=True, accelerates=False), ("position", "velocity", "acceleration")
+    assert mechanism(chain(dyads)).program(variant, kinds)[0].buffers <= 6
 
 
 @pytest.mark.parametrize("count", [1, 7, BLOCK, BLOCK + 3, 3 * BLOCK + 17])

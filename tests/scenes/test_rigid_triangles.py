@@ -56,7 +56,7 @@ def test_a_rigid_triangle_is_one_link(name: str, count: int, class_name: str) ->
 def test_a_rigid_triangle_has_no_transmission_angle() -> None:
     assert load("excavator").info.transmission_angle is None
     legs = load("jansen")
-    assert "D.transmission_angle" not in legs.mechanism.setting.linkage.by_name
+    assert "D.transmission_angle" not in legs.mechanism.linkage.by_name
     rigid = math.acos((55.8**2 + 40.1**2 - 41.5**2) / (2 * 55.8 * 40.1))
     assert all(abs(legs.info.transmission_angle[end] - rigid) > 0.1 for end in (0, 1))  # type: ignore[index]
 

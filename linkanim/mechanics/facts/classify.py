@@ -166,7 +166,7 @@ class Info:
         return demand(
             self._driven,
             self.mechanism.periods,
-            quickest=self.mechanism.setting.quickest,
+            quickest=self.mechanism.quickest,
             limited=bool(self.toggles),
         )
 

@@ -91,7 +91,7 @@ def _beside(motion: Any, effort: Array, idle: NDArray[np.bool_]) -> Array:
         for value in (motion.phase, motion.input_speed, motion.input_acceleration)
     )
     sides = [
-        input_effort(motion.setting.solver.solve(phase=phase + way, speed=speed, acceleration=second))
+        input_effort(motion.setting.solve(phase=phase + way, speed=speed, acceleration=second))
         for way in (-_ASIDE, _ASIDE)
     ]
     effort[idle] = (sides[0] + sides[1]) / 2

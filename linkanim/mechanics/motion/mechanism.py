@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,16 +20,15 @@ from linkanim.mechanics.formulas.planar import MovingPoint, Slope
 from linkanim.mechanics.formulas.program import Array, Batch, batch, scalar
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.input_state import InputState
+from linkanim.mechanics.motion.columns import ResultLayout, layout
 from linkanim.mechanics.motion.measures import DERIVATIVE_OF, NUMBERS, VECTORS
-from linkanim.mechanics.motion.motion import Motion, Pose, Setting
-from linkanim.mechanics.motion.request import (
+from linkanim.mechanics.motion.motion import (
     COORDINATE,
-    Programs,
-    Request,
-    ResultLayout,
+    Instants,
+    Motion,
+    Pose,
+    Setting,
     Variant,
-    layout,
-    shaped,
 )
 
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
@@ -43,7 +42,7 @@ class Traced(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class Mechanism(Setting):
     """A linkage with its loops, path and signs, and the programs that solve it.
 
     One that is `passing` is solved at a few instants only: they come from the program over arrays, which
@@ -73,11 +72,6 @@ class Mechanism:
         """Whether a dyad down the chain limits the input or touches a change point."""
         return any(root.zeros for root in self.assembly.chain.values())
 
-    @property
-    def setting(self) -> Setting:
-        """What motions and poses share; it knows the mechanism, which keeps nothing that does."""
-        return Setting(self.linkage, self.assembly.gears, self)
-
     @cached_property
     def _poses(self) -> dict[tuple[int, bool, bool], Callable[..., dict[str, Any]]]:
         return {}
@@ -87,7 +81,7 @@ class Mechanism:
         return {}
 
     @cached_property
-    def _programs(self) -> dict[Variant, dict[tuple[str, ...], tuple[Batch, ResultLayout]]]:
+    def _programs(self) -> dict[tuple[Variant, tuple[str, ...]], tuple[Batch, ResultLayout]]:
         return {}
 
     def pose(
@@ -117,13 +111,6 @@ class Mechanism:
     def pose_per_input(self, phase: float) -> Pose:
         """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
         return self.pose(phase, 1.0, 0.0, 2, not self.assembly.path.full_turn)
-
-    def per_input(self, request: Request) -> Motion:
-        """Return a request's motion, its rates by the input's angle, or travel, instead of those in time."""
-        by_phase = request.programs.variant.by_phase
-        variant = Variant(by_phase, False, per_input=by_phase and not self.assembly.path.full_turn)
-        paced = request._replace(programs=self.programs(variant), rates=(1.0, 0.0))
-        return Motion(self.setting, 1.0, 0.0, paced)
 
     def _program_of_poses(self, key: tuple[int, bool, bool]) -> Callable[..., dict[str, Any]]:
         derivatives, accelerates, per_input = key
@@ -165,7 +152,7 @@ class Mechanism:
         motion = motion.per_input if per_input else motion
         found = {kind: _plain(values) for kind, values in motion.every.items()}
         inputs = ("phase", "input_speed", "input_acceleration", *COORDINATE)
-        return found | {name: float(getattr(motion, name)) for name in inputs} | {"solver": self}
+        return found | {name: float(getattr(motion, name)) for name in inputs} | {"setting": self}
 
     def solve(
         self,
@@ -188,13 +175,15 @@ class Mechanism:
         x = _kept(given, shape)
         distances = self.assembly.path.distances(x) if phase is None else None
         shown = None if by_phase is None else _kept(by_phase, shape)
-        request = Request(self.programs(variant), x, distances, rates, shape, derivatives, shown)
-        return Motion(self.setting, shaped(w, shape), shaped(a, shape), request)
+        instants = Instants(variant, x, distances, rates, shape, derivatives, shown)
+        return Motion(self, _shaped(w, shape), _shaped(a, shape), instants)
 
-    def programs(self, variant: Variant) -> Programs:
-        """Return the programs over arrays for one way of asking."""
-        found = self._programs.setdefault(variant, {})
-        return Programs(self.assembly.path, variant, partial(self._compiled, variant), found)
+    def program(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
+        """Return the program over arrays that works quantities out, and where its results lie."""
+        found = self._programs.get((variant, kinds))
+        if found is None:
+            found = self._programs[variant, kinds] = self._compiled(variant, kinds)
+        return found
 
     def _compiled(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
         trace = self.trace(variant)
@@ -202,21 +191,21 @@ class Mechanism:
         varying = {**dict.fromkeys(trace.names, True), **dict.fromkeys(rates, variant.varying_rate)}
         pins = {joint.name: joint.position for joint in self.linkage.pins}
         places = layout({kind: trace.rows[kind] for kind in kinds}, pins, VECTORS[:3])
-        made = self._programs.get(variant, {})  # none yet in one that comes out of a pickle
-        known = (program for program, laid in made.values() if laid.kinds == places.kinds)
+        made = ((program, laid) for (like, _), (program, laid) in self._programs.items() if like == variant)
+        known = (program for program, laid in made if laid.kinds == places.kinds)
         return next(known, None) or batch(varying, places.outputs), places
 
 
 def _scalar(trace: Traced, derivatives: int) -> Callable[..., dict[str, Any]]:
     """Return the program of one instant in plain floats."""
     outputs: list[Value] = []
-    parts = ["'solver': solver, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
+    parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
     for kind, values in trace.rows.items():
         if kind in COORDINATE or (values and DERIVATIVE_OF[kind] <= derivatives):
             outputs.extend(component for components in values.values() for component in components)
             parts.append(f"{kind!r}: {'{}' if kind in COORDINATE else _dict_display(values)}")
     display = f"{{{{{', '.join(parts)}}}}}"
-    return scalar((*trace.names, "w", "a", "solver"), outputs, display)
+    return scalar((*trace.names, "w", "a", "setting"), outputs, display)
 
 
 def _plain(values: Mapping[str, Array]) -> dict[str, Any]:
@@ -247,6 +236,11 @@ def _rates(
         shape = np.broadcast_shapes(shape, w.shape, a.shape)
         return (_kept(w, shape), _kept(a, shape)), shape
     return (float(w), float(a)), shape
+
+
+def _shaped(rate: Any, shape: tuple[int, ...]) -> Any:
+    """Return a rate in a shape: arrays have it, one number holds for all."""
+    return rate.reshape(shape) if isinstance(rate, np.ndarray) else rate
 
 
 def _kept(values: Array, shape: tuple[int, ...]) -> Array:

@@ -8,23 +8,53 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Mapping
-from dataclasses import FrozenInstanceError, dataclass, field
-from functools import cached_property
+from collections.abc import Mapping
+from dataclasses import FrozenInstanceError
+from functools import cached_property, partial
 from types import MappingProxyType
-from typing import Any, Generic, NamedTuple, Protocol, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.mechanics.formulas.program import Array
+from linkanim.mechanics.closing.walk import Assembly
+from linkanim.mechanics.drive.input_path import LimitDistances
+from linkanim.mechanics.formulas.program import Array, Batch, Floats
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.loops.loop import Gearing
-from linkanim.mechanics.motion.measures import DERIVATIVE_OF, between, cross, direction, growth, over, size
-from linkanim.mechanics.motion.request import ORDER, Lazy, Request, read_only, scaled
+from linkanim.mechanics.motion.columns import Lazy, ResultLayout, columns, read_only, scaled, turned
+from linkanim.mechanics.motion.measures import (
+    DERIVATIVE_OF,
+    FAMILIES,
+    between,
+    cross,
+    direction,
+    growth,
+    over,
+    size,
+)
+
+POSITION = ("position",)
+COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
+"""The input's angle, or travel, and its rates: one that does not turn fully moves in its own way."""
+LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
+"""The quantities of its family with fewer derivatives, of each."""
+ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), strict=True)), "phase": 0}
+
+
+class Variant(NamedTuple):
+    """One way of asking: by phase or by angle, whether the input accelerates, each instant on its own.
+
+    `per_input`: at phases, with rates by the input's angle, or travel, instead of those in time.
+    """
+
+    by_phase: bool
+    accelerates: bool
+    varying_rate: bool = False
+    per_input: bool = False
+
 
 Pair = tuple[float, float]
-
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -42,42 +72,51 @@ class Strut(NamedTuple):
     direction_rate: Any
 
 
-class Solver(Protocol):
-    """What solves the linkage of a motion at other instants and rates."""
+class Instants(NamedTuple):
+    """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most.
 
-    @property
-    def setting(self) -> Setting:
-        """What motions and poses share."""
+    `distances` are those of angles of an input that swings from its limits; `phases` those of one that comes
+    back by the way it came, where x are the phases of its way up.
+    """
 
+    variant: Variant
+    x: Array
+    distances: LimitDistances | None
+    rates: tuple[Any, Any]
+    shape: tuple[int, ...]
+    derivatives: int
+    phases: Array | None = None
+
+
+class Setting(ABC):
+    """What motions and poses of one linkage share: it, and what solves it."""
+
+    linkage: Linkage
+    assembly: Assembly
+
+    @abstractmethod
+    def program(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
+        """Return the program over arrays that works quantities out, and where its results lie."""
+
+    @abstractmethod
     def solve(
         self, *, phase: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = ..., derivatives: int = ...
     ) -> Motion:
         """Return the motion at phases."""
 
-    def per_input(self, request: Request) -> Motion:
-        """Return a request's motion, its rates by the input's angle or travel."""
-
+    @abstractmethod
     def pose_per_input(self, phase: float) -> Pose:
-        """Return one instant, its rates by the input's angle or travel."""
-
-
-@dataclass(frozen=True, slots=True)
-class Setting:
-    """What a motion needs of its linkage for angles, coefficients and forces."""
-
-    linkage: Linkage
-    gears: Mapping[str, Gearing]
-    solver: Solver = field(repr=False, compare=False)
+        """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
 
     @property
     def quickest(self) -> float:
         """How many times as fast as the input the quickest crank turns, at least once."""
-        return max([1.0, *(abs(float(gearing.ratio)) for gearing in self.gears.values())])
+        return max([1.0, *(abs(float(gearing.ratio)) for gearing in self.assembly.gears.values())])
 
     def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
         """Return how a crank's body turns with the input, and whether it is named from its pin."""
         crank = self.linkage.crank_of(body)
-        return (self.gears[crank.name], body.joints[0] == crank.name) if crank else None
+        return (self.assembly.gears[crank.name], body.joints[0] == crank.name) if crank else None
 
     def body(self, name: str) -> Body:
         """Return the body of that name; KeyError where there is none."""
@@ -197,25 +236,6 @@ def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
     return item.stiffness * (length - item.free_length) * metre
 
 
-@dataclass(frozen=True)
-class Paced:
-    """A motion run so many times as fast: its quantities, each times its power of the factor."""
-
-    motion: Motion
-    factor: float
-
-    def turned(self, angles: Array, ends: tuple[str, str], ratio: float) -> Array:
-        """Return how far the way from one joint to another turns from row to row of its angles."""
-        return self.motion.request.turned(angles, ends, ratio)
-
-    def read(self, name: str, known: Collection[str]) -> dict[str, Any]:
-        """Return a quantity."""
-        found, power = getattr(self.motion, name), self.factor ** ORDER[name]
-        if not ORDER[name]:
-            return {name: found}
-        return {name: scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
-
-
 class Motion(Derived[Array, Array]):
     """The motion at many instants: vectors are arrays (..., 2), numbers (...).
 
@@ -223,49 +243,94 @@ class Motion(Derived[Array, Array]):
     limit, per unit of input speed) are infinite. Each quantity is worked out when it is first read.
     """
 
+    instants: Instants
+
     def __init__(
-        self, setting: Setting, input_speed: Any, input_acceleration: Any, request: Request | Paced
+        self, setting: Setting, input_speed: Any, input_acceleration: Any, instants: Instants
     ) -> None:
         vars(self).update(
-            setting=setting, input_speed=input_speed, input_acceleration=input_acceleration, request=request
+            setting=setting, input_speed=input_speed, input_acceleration=input_acceleration, instants=instants
         )
 
-    request: Request | Paced
-
     def __reduce__(self) -> tuple[Any, ...]:
-        """Go through a pickle as its request, which is worked out anew."""
-        return Motion, (self.setting, self.input_speed, self.input_acceleration, self.request)
+        """Go through a pickle as what was asked for, which is worked out anew."""
+        return Motion, (self.setting, self.input_speed, self.input_acceleration, self.instants)
 
     def __getattr__(self, name: str) -> Any:
         """Work a quantity out, with those that come out of the same pass."""
         if name not in ORDER:
             raise AttributeError(f"a motion has no {name!r}")
-        vars(self).update(self.request.read(name, vars(self)))
+        vars(self).update(self._read(name))
         return vars(self)[name]
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
 
-    @cached_property
-    def per_input(self) -> Motion:
-        """The same instants, with rates by the input's angle, or travel, instead of those in time."""
-        if isinstance(self.request, Paced):
-            return self.request.motion.per_input
-        return self.setting.solver.per_input(self.request)
+    def _read(self, name: str) -> dict[str, Any]:
+        """Return a quantity with what comes out of the same pass, but for what is known."""
+        if name not in DERIVATIVE_OF:
+            return self._input()
+        if DERIVATIVE_OF[name] > self.instants.derivatives:
+            return {name: {}}
+        return self._worked_out((*[kind for kind in LOWER[name] if kind not in vars(self)], name))
 
     @property
     def every(self) -> Mapping[str, Mapping[str, Array]]:
         """All quantities by kind and name, from one pass."""
-        assert isinstance(self.request, Request)
-        return self.request.every()
+        kinds: dict[str, Any] = {kind: {} for family in FAMILIES for kind in family}
+        known = (kind for kind in kinds if DERIVATIVE_OF[kind] <= self.instants.derivatives)
+        return kinds | self._worked_out(tuple(known))
+
+    def _worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
+        """Return these quantities."""
+        places, results = self._run(kinds)
+        return {kind: columns(names, results, self.instants.shape) for kind, names in places.places.items()}
+
+    def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Floats]:
+        instants, path = self.instants, self.setting.assembly.path
+        program, places = self.setting.program(instants.variant, kinds)
+        rates = instants.rates if instants.variant.accelerates else instants.rates[:1]
+        ways = instants.distances
+        with np.errstate(all="ignore"):
+            results = program(*((instants.x,) if ways is None else path.solved_from(ways)), *rates)
+            if ways is not None:
+                results[:, ways.outside] = np.nan
+                if ways.at_limit.any() and any(map(DERIVATIVE_OF.__getitem__, kinds)):
+                    snapped = program(*path.solved_from(ways.snapped), *rates)
+                    _mark_limits(places, results, snapped, ways.at_limit)
+        results.setflags(write=False)
+        return places, results
+
+    def _input(self) -> dict[str, Any]:
+        """Return the phase, and the input's coordinate with its two rates."""
+        instants, path, names = self.instants, self.setting.assembly.path, ("phase", *COORDINATE)
+        x, rates = instants.x.reshape(instants.shape), (self.input_speed, self.input_acceleration)
+        if not instants.variant.by_phase:
+            with np.errstate(all="ignore"):
+                return dict(
+                    zip(names, (read_only(path.phases(x, instants.distances)), x, *rates), strict=True)
+                )
+        if path.full_turn:
+            return dict(zip(names, (x, read_only(path.coordinates(x)), *rates), strict=True))
+        places, results = self._run(COORDINATE)
+        shown = x if instants.phases is None else instants.phases.reshape(instants.shape)
+        return {"phase": shown} | {
+            kind: row.reshape(instants.shape) for kind, row in zip(places.kinds, results, strict=True)
+        }
+
+    @cached_property
+    def per_input(self) -> Motion:
+        """The same instants, with rates by the input's angle, or travel, instead of those in time."""
+        by_phase = self.instants.variant.by_phase
+        variant = Variant(by_phase, False, per_input=by_phase and not self.setting.assembly.path.full_turn)
+        return Motion(self.setting, 1.0, 0.0, self.instants._replace(variant=variant, rates=(1.0, 0.0)))
 
     def paced(self, factor: float) -> Motion:
         """Return the same motion run so many times as fast; backwards where the factor is negative.
 
         Nothing is solved: first derivatives in time grow with the factor, second ones with its square.
         """
-        speed, acceleration = self.input_speed * factor, self.input_acceleration * factor**2
-        return Motion(self.setting, speed, acceleration, Paced(self, factor))
+        return _Paced(self, factor)
 
     def _continuous(self, ends: tuple[str, str]) -> Array:
         principal: Array = np.asarray(direction(between(self.position, ends)))
@@ -274,10 +339,47 @@ class Motion(Derived[Array, Array]):
     def _unwrapped(self, principal: Array, ends: tuple[str, str]) -> Array:
         """Add whole turns, as a direction has turned between neighbours."""
         steps = np.diff(principal, axis=0)
-        turns = np.rint((self.request.turned(principal, ends, self.setting.quickest) - steps) / math.tau)
+        x, at = self.instants.x.reshape(principal.shape), partial(self._direction, ends)
+        rows = [(values[:-1].reshape(-1), values[1:].reshape(-1)) for values in (x, principal)]
+        ways = turned(rows[0], rows[1], at, self.setting.quickest)
+        turns = np.rint((ways.reshape(steps.shape) - steps) / math.tau)
         whole = np.zeros_like(principal)
         np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
         return principal + math.tau * (whole - _before_stretch(whole, np.isnan(principal)))
+
+    def _direction(self, ends: tuple[str, str], x: Array) -> Array:
+        """Return the direction of one joint to another at other instants."""
+        distances = self.instants.distances and self.setting.assembly.path.distances(x)
+        w, a = (np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.instants.rates)
+        instants = self.instants._replace(x=x, distances=distances, rates=(w, a), shape=x.shape)
+        found = Motion(self.setting, 1.0, 0.0, instants).position
+        return np.asarray(direction(between(found, ends)))
+
+
+class _Paced(Motion):
+    """A motion run so many times as fast: its quantities, each times its power of the factor."""
+
+    def __init__(self, motion: Motion, factor: float) -> None:
+        speed, acceleration = motion.input_speed * factor, motion.input_acceleration * factor**2
+        super().__init__(motion.setting, speed, acceleration, motion.instants)
+        vars(self).update(motion=motion, factor=factor, per_input=motion.per_input)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _Paced, (self.motion, self.factor)
+
+    def _read(self, name: str) -> dict[str, Any]:
+        found, power = getattr(self.motion, name), self.factor ** ORDER[name]
+        if not ORDER[name]:
+            return {name: found}
+        return {name: scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
+
+
+def _mark_limits(places: ResultLayout, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
+    """Give rates the values they have at the limit itself: infinite where they are unbounded."""
+    for row, kind in enumerate(places.kinds):
+        if DERIVATIVE_OF[kind]:
+            values = snapped[row, at_limit]
+            results[row, at_limit] = np.where(np.isnan(values), np.inf, values)
 
 
 def unbounded(rate: Any, phase: Any) -> Any:
@@ -308,7 +410,7 @@ class Pose(Derived[Pair, float]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as what was solved, without what follows from it."""
-        kinds = (*ORDER, "solver", "input_speed", "input_acceleration")
+        kinds = (*ORDER, "setting", "input_speed", "input_acceleration")
         return Pose, ({kind: vars(self)[kind] for kind in kinds if kind in vars(self)},)
 
     def __getattr__(self, name: str) -> Any:
@@ -317,18 +419,11 @@ class Pose(Derived[Pair, float]):
             raise AttributeError(f"a pose has no {name!r}")
         return NOTHING
 
-    solver: Solver
-
-    @cached_property
-    def setting(self) -> Setting:  # type: ignore[override]
-        """What it shares with others of its linkage; made when asked for, which is not in every frame."""
-        return self.solver.setting
-
     @cached_property
     def per_input(self) -> Pose:
         """The same instant, with rates by the input's angle, or travel, instead of those in time."""
         rated = self.angular_acceleration or self.travel_acceleration
-        return self.solver.pose_per_input(self.phase) if rated else self
+        return self.setting.pose_per_input(self.phase) if rated else self
 
     def _continuous(self, ends: tuple[str, str]) -> float:
         return float(direction(between(self.position, ends)))
