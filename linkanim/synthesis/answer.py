@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.fit import Fit, document_of, parameters_of
+from linkanim.synthesis.fit import Fit, document_of
 from linkanim.synthesis.kinds import FOUR_BAR
 
 NAME = "path"
@@ -34,9 +34,9 @@ class PathAnswer(NamedTuple):
 
     def scene(self, unit: str, towards: Scene | None = None) -> Scene:
         """Return the linkage as a scene, maybe on the way `towards` another; errors as reading a file."""
-        parameters = parameters_of(FOUR_BAR, self.row)
-        document = document_of(FOUR_BAR, parameters, self.closure, (self.start, self.sense))
-        document |= {"source": "made by linkanim for a path drawn in the window", "length_unit": unit}
+        source = "made by linkanim for a path drawn in the window"
+        start = self.start, self.sense
+        document = document_of(FOUR_BAR, self.row, self.closure, start, source=source, length_unit=unit)
         return scene_from(document, name=NAME, where=NAME, towards=towards)
 
 

@@ -9,9 +9,10 @@ import numpy as np
 
 from linkanim.errors import AssemblyError, SceneError
 from linkanim.mechanics.motion.measures import as_complex, transmission_angle
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.curves.drawn import DrawnCurve
-from linkanim.synthesis.fit import Fit, parameters_of, rounded, scene_of
+from linkanim.synthesis.fit import Fit, document_of, parameters_of, rounded
 from linkanim.synthesis.kinds import Complex, Real
 from linkanim.synthesis.task import PathTask
 
@@ -32,7 +33,7 @@ def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | No
     if not keeps(task, row):
         return None
     try:
-        scene = scene_of(task, row, closure, angles)
+        scene = _scene(task, row, closure, angles)
         full = scene.info.full_turn
     except (AssemblyError, SceneError):
         return None
@@ -41,9 +42,8 @@ def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | No
     angles = _feet(scene, task, angles)
     least = _least_transmission(scene, angles, full=full)
     off = np.abs(_traced(scene, angles) - task.curve.points)
-    if not (np.isfinite(off).all() and _in_order(task, angles)):
-        return None
-    if least < task.requirements.least_angle - _SLACK:
+    passes = np.isfinite(off).all() and _in_order(task, angles)
+    if not passes or least < task.requirements.least_angle - _SLACK:
         return None
     stray = _stray(_traced(scene, _between(task.curve, angles)), task.curve)
     return _fit(task, scene, row, closure, angles, (off, stray, least))
@@ -68,13 +68,20 @@ def _fit(
     )
 
 
+def _scene(task: PathTask, row: Real, closure: float, angles: Real) -> Scene:
+    """Return the scene of a linkage, its crank starting at the first point and turning the points' way."""
+    start, stated = (angles[0], angles[-1] - angles[0]), {"source": task.source, "length_unit": task.unit}
+    document = document_of(task.kind, row, closure, start, **stated)
+    return scene_from(document, name=task.name, where=task.name)
+
+
 def checked_by_phase(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
     """Return an answer that may swing through its limits, the points at their nearest over the true period.
 
     None where it does not assemble. The row is written as it is; `angles` are those of its crank.
     """
     try:
-        scene = scene_of(task, row, closure, angles)
+        scene = _scene(task, row, closure, angles)
         phases = np.linspace(0.0, scene.period, _POSES)
     except (AssemblyError, SceneError):
         return None

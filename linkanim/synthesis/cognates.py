@@ -8,25 +8,17 @@ a coupler similar to the first one's (Roberts 1875, Chebyshev 1878).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.synthesis.check import checked_by_phase
 from linkanim.synthesis.fit import Fit
-from linkanim.synthesis.kinds import Complex, Real
+from linkanim.synthesis.kinds import Complex, Linkage4
 
 _VANISHING = 1e-9
 """Of the longest link: a cognate with a shorter one is none."""
-
-
-class _Cognate(NamedTuple):
-    """The joints of a four-bar at the points of the curve, from the driven crank's pivot on (n,)."""
-
-    pivot: complex
-    crank: Complex
-    rocker: Complex
-    other: complex
+_Joints = tuple[complex, Complex, Complex, complex]
+"""A pivot, the pins of its crank (n,) and of the rocker (n,), and that one's pivot."""
 
 
 def with_cognates(fits: tuple[Fit, ...]) -> tuple[Fit, ...]:
@@ -41,33 +33,24 @@ def cognates_of(fit: Fit) -> Iterator[Fit]:
     vanish, as where the coupler point is a pin, is left out.
     """
     point = fit.task.kind.points(fit.row[None], np.array([fit.closure_sign]), fit.angles[None])[0]
-    for cognate in _cognates(fit, point):
-        row, closure, angles = _described(cognate, point)
-        whole = row[[2, 3, 8]].min() > _VANISHING * fit.size
-        if whole and (other := checked_by_phase(fit.task, row, closure, angles)):
-            yield other
+    for pivot, crank, rocker, other in _cognates(fit, point):
+        first = Linkage4(pivot, crank[0], rocker[0], other, point[0])
+        with np.errstate(all="ignore"):
+            row = np.array(first.row)
+        if row[[2, 3, 8]].min() > _VANISHING * fit.size:
+            angles = np.unwrap(np.angle(crank - pivot))
+            found = checked_by_phase(fit.task, row, first.closure, angles)
+            yield from [found] if found else []
 
 
-def _cognates(fit: Fit, point: Complex) -> tuple[_Cognate, _Cognate]:
-    """Return both cognates' joints: the one whose crank turns as the first one's, and the other."""
+def _cognates(fit: Fit, point: Complex) -> tuple[_Joints, _Joints]:
+    """Return both cognates' joints at the points: whose crank turns as the first one's, and the other."""
     x, y, crank, coupler, along, across, x4, y4, _ = fit.row
     o2, o4 = complex(x, y), complex(x4, y4)
     share = complex(along, across) / coupler
     o6 = o2 + share * (o4 - o2)
     pin_a = o2 + crank * np.exp(1j * fit.angles)
     pin_b = pin_a + (point - pin_a) / share if share else pin_a
-    first = _Cognate(o6, o6 + (1 - share) * (pin_a - o2), o4 + point - pin_b, o4)
-    second = _Cognate(o2, o2 + point - pin_a, o6 + share * (pin_b - o4), o6)
+    first = o6, o6 + (1 - share) * (pin_a - o2), o4 + point - pin_b, o4
+    second = o2, o2 + point - pin_a, o6 + share * (pin_b - o4), o6
     return first, second
-
-
-def _described(cognate: _Cognate, point: Complex) -> tuple[Real, float, Real]:
-    """Return a four-bar's parameters and closure from its joints, and its crank's angles."""
-    pivot, crank, rocker, other = cognate
-    bar = rocker[0] - crank[0]
-    with np.errstate(all="ignore"):
-        arm = (point[0] - crank[0]) * np.conj(bar) / abs(bar)
-    lengths = (abs(crank[0] - pivot), abs(bar), arm.real, arm.imag, other.real, other.imag)
-    row = np.array([pivot.real, pivot.imag, *lengths, abs(rocker[0] - other)])
-    left = (bar * np.conj(other - crank[0])).imag
-    return row, 1.0 if left > 0 else -1.0, np.unwrap(np.angle(crank - pivot))

@@ -10,11 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.kinds import Complex, LinkageKind, Real
-from linkanim.synthesis.refine import FEW
-from linkanim.synthesis.task import PathTask
+from linkanim.synthesis.task import FEW, PathTask
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,29 +79,25 @@ class Fit:
         return math.hypot(self.rms, max(0.0, self.stray - self.largest - self.task.curve.longest_step / 2))
 
 
-def scene_of(task: PathTask, row: Real, closure: float, angles: Real) -> Scene:
-    """Return the scene of a linkage, its crank starting at the first point and turning the points' way."""
-    sense = -1.0 if angles[-1] < angles[0] else 1.0
-    document = document_of(task.kind, parameters_of(task.kind, row), closure, (float(angles[0]), sense))
-    document |= {"source": task.source, "length_unit": task.unit}
-    return scene_from(document, name=task.name, where=task.name)
-
-
 def document_of(
-    kind: LinkageKind, parameters: Mapping[str, float], closure: float, start: tuple[float, float]
+    kind: LinkageKind, row: Iterable[float], closure: float, start: tuple[float, float], **stated: str
 ) -> dict[str, Any]:
-    """Return a linkage as a scene's document in mm, its crank starting at an angle, turning a way (±1)."""
+    """Return a linkage as a scene's document, its crank starting at an angle, turning a way (±1).
+
+    `stated` is its source, and its title and unit of length if these are not the usual ones.
+    """
     angle, sense = start
     return {
         "title": f"{kind.name.capitalize()} along a drawn path",
         "source": "",
         "length_unit": "mm",
+        **stated,
         "drive": {
             "joint": "A",
             "speed": "-20 rpm" if sense < 0 else "20 rpm",
             "start": f"{round(math.degrees(angle) % 360, 9)!r} deg",
         },
-        **kind.document(parameters, closure),
+        **kind.document(parameters_of(kind, row), closure),
         "trace": {"joints": ["P"]},
     }
 

@@ -8,9 +8,10 @@ coupler's angle, and so to the coupler point, follows from that one line for bot
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +53,8 @@ class LinkageKind(ABC):
     """Whether the ground of B moves with the pin O2."""
     sides: tuple[str, str]
     """What the closures +1 and -1 are called in a scene."""
+    mirror: tuple[float, ...]
+    """What the parameters, and last the closure, are multiplied with to mirror the linkage in the x axis."""
 
     @abstractmethod
     def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
@@ -62,24 +65,45 @@ class LinkageKind(ABC):
         """Return (B, 2), both positive where the crank turns fully above a least transmission angle."""
 
     @abstractmethod
-    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
-        """Return the tables [ground], [joints] and [bodies] of a scene with that linkage."""
+    def closing(self, row: Mapping[str, float]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+        """Return the fixed pins beside O2, what holds B, and the body that B is on beside the rod."""
 
     @abstractmethod
     def random_rows(self, random: np.random.Generator, count: int) -> Real:
         """Return linkages of all proportions with O2 at the origin, some of which turn fully."""
 
     @abstractmethod
-    def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
-        """Return the linkages turned and scaled by complex factors about the origin, then shifted."""
-
-    @abstractmethod
-    def mirrored(self, rows: Real, closure: Real) -> tuple[Real, Real]:
-        """Return the linkages and closures mirrored in the x axis; crank angles change their sign."""
-
-    @abstractmethod
     def link_lengths(self, rows: Real) -> Real:
         """Return the lengths of all links (B, m), the coupler point's arm among them."""
+
+    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
+        """Return the tables [ground], [joints] and [bodies] of a scene with that linkage."""
+        pins, held, body = self.closing(row)
+        return {
+            "ground": {"O2": [row["x"], row["y"]], **pins},
+            "joints": {
+                "A": {"crank": "O2", "length": row["crank"]},
+                "B": {**held, "side": self.sides[closure < 0]},
+                "P": {"on": ["A", "B"], "at": [row["along"], row["across"]]},
+            },
+            "bodies": {
+                "crank": {"joints": ["O2", "A"]},
+                self.links[1]: {"joints": ["A", "B", "P"]},
+                **body,
+            },
+        }
+
+    def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
+        """Return the linkages turned and scaled by complex factors about the origin, then shifted."""
+        out = rows * np.abs(turn)[:, None]
+        for x, point in zip(self.pins, self.pivots(rows).T, strict=True):
+            point = point * turn + shift
+            out[:, x], out[:, x + 1] = point.real, point.imag
+        return out
+
+    def mirrored(self, rows: Real, closure: Real) -> tuple[Real, Real]:
+        """Return the linkages and closures mirrored in the x axis; crank angles change their sign."""
+        return rows * self.mirror[:-1], closure * self.mirror[-1]
 
     def pivots(self, rows: Real) -> Complex:
         """Return the fixed pins (B, m)."""
@@ -122,15 +146,6 @@ def _dot(a: Complex, b: Complex | complex) -> Real:
     return np.real(np.conj(a) * b)
 
 
-def _moved_points(rows: Real, columns: tuple[int, ...], turn: Complex, shift: Complex) -> Real:
-    """Return a copy in which points, given by the columns of their x, are turned, scaled and shifted."""
-    out = rows * np.abs(turn)[:, None]
-    for x in columns:
-        point = (rows[:, x] + 1j * rows[:, x + 1]) * turn + shift
-        out[:, x], out[:, x + 1] = point.real, point.imag
-    return out
-
-
 def _assembled(random: np.random.Generator, crank: Real, coupler: Real, grounds: tuple[Real, ...]) -> Real:
     """Return rows about the origin with a coupler point somewhere about the coupler's middle."""
     reach = 2.0 * np.sqrt(random.random(len(crank))) * np.maximum(coupler, crank)
@@ -148,6 +163,7 @@ class FourBarKind(LinkageKind):
     links = ("crank", "coupler", "rocker")
     pins = (0, 6)
     sides = ("left", "right")
+    mirror = (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0)
 
     def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
         """Close two bars on the pin and the pivot O4, by the signed root of both factors."""
@@ -186,33 +202,13 @@ class FourBarKind(LinkageKind):
         ground, crank = np.where(drags, (lengths[:, 0], longer[:, 0]), (longer[:, 0], lengths[:, 0]))
         return _assembled(random, crank, longer[:, 1], (ground, np.zeros(count), longer[:, 2]))
 
-    def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
-        """Turn, scale and shift both pivots, scale the lengths."""
-        return _moved_points(rows, self.pins, turn, shift)
-
-    def mirrored(self, rows: Real, closure: Real) -> tuple[Real, Real]:
-        """Mirror the pivots and the coupler point; left becomes right."""
-        return rows * (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, 1.0, -1.0, 1.0), -closure
-
-    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
-        """Return the tables of a four-bar, its pivots by their coordinates."""
-        return {
-            "ground": {"O2": [row["x"], row["y"]], "O4": [row["x4"], row["y4"]]},
-            "joints": {
-                "A": {"crank": "O2", "length": row["crank"]},
-                "B": {
-                    "from": ["A", "O4"],
-                    "length": [row["coupler"], row["rocker"]],
-                    "side": self.sides[closure < 0],
-                },
-                "P": {"on": ["A", "B"], "at": [row["along"], row["across"]]},
-            },
-            "bodies": {
-                "crank": {"joints": ["O2", "A"]},
-                "coupler": {"joints": ["A", "B", "P"]},
-                "rocker": {"joints": ["O4", "B"]},
-            },
-        }
+    def closing(self, row: Mapping[str, float]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+        """Return the pivot O4, the two bars that meet in B, and the rocker."""
+        return (
+            {"O4": [row["x4"], row["y4"]]},
+            {"from": ["A", "O4"], "length": [row["coupler"], row["rocker"]]},
+            {"rocker": {"joints": ["O4", "B"]}},
+        )
 
 
 class SliderCrankKind(LinkageKind):
@@ -224,6 +220,7 @@ class SliderCrankKind(LinkageKind):
     pins = (0,)
     carried = True
     sides = ("forward", "backward")
+    mirror = (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, 1.0)
 
     def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
         """Close a rod on the pin and the line."""
@@ -254,32 +251,55 @@ class SliderCrankKind(LinkageKind):
 
     def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
         """Turn, scale and shift the pivot, turn the line, scale the lengths."""
-        out = _moved_points(rows, self.pins, turn, shift)
+        out = super().placed(rows, turn, shift)
         out[:, 6] = rows[:, 6] + np.angle(turn)
         return out
 
-    def mirrored(self, rows: Real, closure: Real) -> tuple[Real, Real]:
-        """Mirror the pivot, the line and the coupler point; forward stays forward."""
-        return rows * (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0), closure
-
-    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
-        """Return the tables of a slider-crank."""
+    def closing(self, row: Mapping[str, float]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+        """Return no further pin, the rod that ends on a line, and the slider."""
         line = {"through": "O2", "angle": f"{row['line_angle']!r} rad", "offset": row["offset"]}
-        return {
-            "ground": {"O2": [row["x"], row["y"]]},
-            "joints": {
-                "A": {"crank": "O2", "length": row["crank"]},
-                "B": {"from": "A", "length": row["rod"], "line": line, "side": self.sides[closure < 0]},
-                "P": {"on": ["A", "B"], "at": [row["along"], row["across"]]},
-            },
-            "bodies": {
-                "crank": {"joints": ["O2", "A"]},
-                "rod": {"joints": ["A", "B", "P"]},
-                "slider": {"slider": "B"},
-            },
-        }
+        return {}, {"from": "A", "length": row["rod"], "line": line}, {"slider": {"slider": "B"}}
 
 
 FOUR_BAR, SLIDER_CRANK = FourBarKind(), SliderCrankKind()
 KINDS: Mapping[str, LinkageKind] = {kind.name: kind for kind in (FOUR_BAR, SLIDER_CRANK)}
 """The kinds by what `--kind` calls them."""
+
+
+class Linkage4(NamedTuple):
+    """A four-bar as its joints stand at one moment (x + yi): its bars are as long as they are apart."""
+
+    O2: complex
+    A: complex
+    B: complex
+    O4: complex
+    P: complex
+
+    @property
+    def row(self) -> tuple[float, ...]:
+        """Its parameters as those of `FOUR_BAR`."""
+        arm = (self.P - self.A) * (self.B - self.A).conjugate() / abs(self.B - self.A)
+        crank, coupler, rocker = abs(self.A - self.O2), abs(self.B - self.A), abs(self.B - self.O4)
+        pins = self.O2.real, self.O2.imag, self.O4.real, self.O4.imag
+        return (*pins[:2], crank, coupler, arm.real, arm.imag, *pins[2:], rocker)
+
+    @property
+    def closure(self) -> float:
+        """+1 where B lies left of A -> O4, else -1."""
+        across = ((self.O4 - self.A).conjugate() * (self.B - self.A)).imag
+        return 1.0 if across >= 0 else -1.0
+
+    @property
+    def angle(self) -> float:
+        """The crank's angle (rad)."""
+        way = self.A - self.O2
+        return math.atan2(way.imag, way.real)
+
+    @classmethod
+    def of(cls, row: Real, angle: float) -> Self:
+        """Return the joints of a row of closure +1 at a crank angle."""
+        pin, pivot = FOUR_BAR.pivots(row[None])[0]
+        crank = pin + row[2] * np.exp(1j * angle)
+        way = FOUR_BAR.close(row[None], np.ones((1, 1)), np.array([[crank]])).direction[0, 0]
+        joints = pin, crank, crank + row[3] * way, pivot, crank + complex(*row[4:6]) * way
+        return cls(*map(complex, joints))

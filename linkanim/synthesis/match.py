@@ -7,7 +7,7 @@ is their inner product; over all shifts along the curve the products are one Fou
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -41,22 +41,9 @@ class Candidates(NamedTuple):
         return Candidates(*(part[chosen] for part in self))
 
 
-class _Hit(NamedTuple):
-    """How well curves of the atlas fit (K,), which, from where along them (in points), and the product."""
-
-    score: Real
-    curve: Indices
-    start: Indices
-    share: float
-    variant: int
-
-
 def matched(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
     """Return the best `count` candidates for free timing, the best first."""
-    hits = list(_hits(atlas, curve, count))
-    score = np.concatenate([hit.score for hit in hits])
-    found = joined([_placed(atlas, curve, hit) for hit in hits])
-    return found.take(np.argsort(-score, kind="stable")[:count])
+    return _best(_hits(atlas, curve, count), count)
 
 
 def matched_in_time(
@@ -66,25 +53,23 @@ def matched_in_time(
 
     Where the start is not free a linkage may only be turned with its crank.
     """
-    rows, found = atlas.rows[:_TIMED], list[Candidates]()
+    rows, found = atlas.rows[:_TIMED], list[tuple[Real, Candidates]]()
     chosen = np.linspace(0, len(points) - 1, min(len(points), _TIMED_POINTS)).round().astype(np.intp)
-    scores = list[Real]()
     for mirrored in (False, True):
         own, angles = (np.conj(points), -timing) if mirrored else (points, timing)
         score, start = _timed(atlas, own[chosen], angles[chosen], free_start=free_start)
         best = np.argpartition(-score, count)[:count]
         own_angles = angles + start[best, None]
         placed = _laid(atlas, rows[best], own, own_angles, np.ones(count), mirrored=mirrored)
-        found.append(placed if free_start else placed._replace(angles=np.tile(timing, (count, 1))))
-        scores.append(score[best])
-    return joined(found).take(np.argsort(-np.concatenate(scores), kind="stable")[:count])
+        placed = placed if free_start else placed._replace(angles=np.tile(timing, (count, 1)))
+        found.append((score[best], placed))
+    return _best(found, count)
 
 
 def matched_few(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
     """Return candidates for points too few to say what lies between: crank angles are tried at random."""
     random = np.random.default_rng(_FEW_SEED)
-    parts, scores = list[Candidates](), list[Real]()
-    points = curve.points
+    found, points = list[tuple[Real, Candidates]](), curve.points
     reach = 2 * math.pi * (1.0 if curve.closed else 0.8)
     sought = points - points.mean()
     for mirrored, _ in _FEW_TRIES * VARIANTS:
@@ -96,8 +81,14 @@ def matched_few(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
         product = np.conj(shape) @ (np.conj(sought) if mirrored else sought)
         score = np.abs(product) ** 2 / (np.abs(shape) ** 2).sum(axis=1)
         best = np.argpartition(-score, count)[:count]
-        parts.append(_laid(atlas, atlas.rows[best], own, angles[best], np.ones(count), mirrored=mirrored))
-        scores.append(score[best])
+        placed = _laid(atlas, atlas.rows[best], own, angles[best], np.ones(count), mirrored=mirrored)
+        found.append((score[best], placed))
+    return _best(found, count)
+
+
+def _best(found: Iterable[tuple[Real, Candidates]], count: int) -> Candidates:
+    """Return the best `count` of sets of candidates with their scores."""
+    scores, parts = zip(*found, strict=True)
     return joined(parts).take(np.argsort(-np.concatenate(scores), kind="stable")[:count])
 
 
@@ -117,25 +108,29 @@ def _timed(atlas: Atlas, points: Complex, timing: Real, *, free_start: bool) -> 
     return best, where
 
 
-def joined(parts: list[Candidates]) -> Candidates:
+def joined(parts: Iterable[Candidates]) -> Candidates:
     """Return several sets of candidates as one."""
     return Candidates(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def _hits(atlas: Atlas, curve: DrawnCurve, count: int) -> Iterator[_Hit]:
+def _hits(atlas: Atlas, curve: DrawnCurve, count: int) -> Iterator[tuple[Real, Candidates]]:
     """Yield the best of each variant, and for an open curve of each share of the curve that it may be."""
     for share in (1.0,) if curve.closed else _SHARES:
         steps = POINTS if curve.closed else round(share * POINTS)
-        places = np.arange(steps) / (steps if curve.closed else steps - 1)
-        sought = curve.at(places)
+        last = steps if curve.closed else steps - 1
+        sought = curve.at(np.arange(steps) / last)
         sought = sought - sought.mean()
         sought /= np.sqrt((np.abs(sought) ** 2).sum())
         size = None if curve.closed else _window(atlas, steps)
-        for variant, (mirrored, reverse) in enumerate(VARIANTS):
+        for mirrored, reverse in VARIANTS:
             way = np.conj(sought) if mirrored else sought
             score, start = _correlated(atlas, way[::-1] if reverse else way, size)
             best = np.argpartition(-score, count)[:count]
-            yield _Hit(score[best], best, start[best], 1.0 if curve.closed else (steps - 1) / POINTS, variant)
+            places = (1.0 if curve.closed else curve.places[-1]) - curve.places if reverse else curve.places
+            angles = _angles(atlas, best, start[best, None] + last * places)
+            points = np.conj(curve.points) if mirrored else curve.points
+            sense = np.full(len(best), -1.0 if reverse else 1.0)
+            yield score[best], _laid(atlas, atlas.rows[best], points, angles, sense, mirrored=mirrored)
 
 
 def _window(atlas: Atlas, steps: int) -> Real:
@@ -158,18 +153,6 @@ def _correlated(atlas: Atlas, sought: Complex, size: Real | None) -> tuple[Real,
         score /= size**2
     start = score.argmax(axis=1)
     return np.take_along_axis(score, start[:, None], axis=1)[:, 0], start
-
-
-def _placed(atlas: Atlas, curve: DrawnCurve, hit: _Hit) -> Candidates:
-    """Return hits as linkages laid over the drawn curve, with the crank's angle at each of its points."""
-    mirrored, reverse = VARIANTS[hit.variant]
-    which, start, places = hit.curve, hit.start, curve.places
-    if reverse:
-        places = (1.0 if curve.closed else places[-1]) - places
-    angles = _angles(atlas, which, start[:, None] + hit.share * POINTS * places)
-    points = np.conj(curve.points) if mirrored else curve.points
-    sense = np.full(len(which), -1.0 if reverse else 1.0)
-    return _laid(atlas, atlas.rows[which], points, angles, sense, mirrored=mirrored)
 
 
 def _laid(

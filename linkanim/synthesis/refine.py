@@ -7,18 +7,15 @@ With prescribed timing both components count. Limits that a step would break hol
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.synthesis.kinds import Complex, LinkageKind, Real, TracedPoints
+from linkanim.synthesis.kinds import Real, TracedPoints
 from linkanim.synthesis.match import Candidates
-from linkanim.synthesis.requirements import Requirements
+from linkanim.synthesis.task import PathTask
 
-FEW = 12
-"""Points that say nothing about the way between them."""
 _FIRST_DAMPING, _LEAST_DAMPING = 1e-3, 1e-15
 _STANDING, _PATIENCE, _EXACT = 1e-6, 12, 1e-31
 """A share of the merit that is no gain, in how many steps on end, and a merit that is rounding."""
@@ -29,28 +26,6 @@ _OF_GAP = 0.45
 _BROKEN = 1e3
 """What a limit broken by one curve size weighs beside one point that is as far off."""
 _DIFFERENCE = 1e-7
-
-
-@dataclass(frozen=True, eq=False)
-class LeastSquares:
-    """Points (n,) of size 1 about the origin, their weights, how their crank angles are found, and limits.
-
-    `timing` is None where angles are free, else the crank's angle at each point; with `free_start` all of
-    those may be shifted by one angle.
-    """
-
-    kind: LinkageKind
-    points: Complex
-    weights: Real
-    requirements: Requirements
-    closed: bool
-    timing: Real | None = None
-    free_start: bool = True
-
-    @property
-    def dense(self) -> bool:
-        """Whether the points say where the curve goes between them."""
-        return self.timing is None and len(self.points) > FEW
 
 
 class _State(NamedTuple):
@@ -77,7 +52,7 @@ def _merged(mine: _State, other: _State, where: NDArray[np.bool_]) -> _State:
 
 
 def refined(
-    problem: LeastSquares, candidates: Candidates, steps: int, *, guarded: bool = True
+    problem: PathTask, candidates: Candidates, steps: int, *, guarded: bool = True
 ) -> tuple[Candidates, Real]:
     """Return the candidates after so many steps at the most, and each one's merit: its mean square error.
 
@@ -99,19 +74,19 @@ def refined(
     return state.found, state.cost
 
 
-def merit(problem: LeastSquares, candidates: Candidates) -> Real:
+def merit(problem: PathTask, candidates: Candidates) -> Real:
     """Return each candidate's merit, ways that stray between points counted."""
     return _state(problem, candidates, guarded=True).cost
 
 
-def _state(problem: LeastSquares, found: Candidates, *, guarded: bool) -> _State:
+def _state(problem: PathTask, found: Candidates, *, guarded: bool) -> _State:
     with np.errstate(all="ignore"):
         traced = problem.kind.trace(found.rows, found.closure, found.angles)
         slack = problem.requirements.slack(problem.kind, found.rows)
         mask, values = problem.requirements.held(problem.kind)
         missing = (found.rows - values) * mask
-        off = np.abs(problem.points - traced.point) ** 2 * problem.weights
-        between = _between(problem, found, traced) if guarded and problem.dense else 0.0
+        off = np.abs(problem.curve.points - traced.point) ** 2 * problem.weights
+        between = _between(problem, found, traced) if guarded and problem.is_dense else 0.0
         turning = 2 if problem.requirements.full_turn else 0
         broken = np.minimum(slack[:, turning:], 0.0)
         cost = off.mean(axis=1) + between + _BROKEN * ((broken**2).sum(axis=1) + (missing**2).sum(axis=1))
@@ -119,17 +94,17 @@ def _state(problem: LeastSquares, found: Candidates, *, guarded: bool) -> _State
     return _State(found, traced, slack, missing, cost)
 
 
-def _between(problem: LeastSquares, found: Candidates, traced: TracedPoints) -> Real:
+def _between(problem: PathTask, found: Candidates, traced: TracedPoints) -> Real:
     """Return the mean square of how far the curve strays halfway between points, beyond what is usual there.
 
     That is as far as the next point is, and as far as the curve is off at the points themselves.
     """
-    before = 0 if problem.closed else 1
-    points, angles, places = problem.points, found.angles, traced.point
+    before = 0 if problem.curve.closed else 1
+    points, angles, places = problem.curve.points, found.angles, traced.point
     last = angles[:, -1:] - 2 * np.pi * found.sense[:, None]
     angles = np.concatenate([last, angles], axis=1)[:, before:]
     points = np.append(points[-1], points)[before:]
-    off = np.abs(places - problem.points)
+    off = np.abs(places - problem.curve.points)
     off = np.concatenate([off[:, -1:], off], axis=1)[:, before:]
     halfway = problem.kind.points(found.rows, found.closure, (angles[:, 1:] + angles[:, :-1]) / 2)
     chord = np.diff(points)
@@ -139,7 +114,7 @@ def _between(problem: LeastSquares, found: Candidates, traced: TracedPoints) -> 
     return np.asarray((np.maximum(far - usual, 0.0) ** 2).sum(axis=1))
 
 
-def _stepped(problem: LeastSquares, state: _State, damping: Real) -> Candidates:
+def _stepped(problem: PathTask, state: _State, damping: Real) -> Candidates:
     """Return where one step leads from every candidate."""
     with np.errstate(all="ignore"):
         residual, slopes = _equations(problem, state)
@@ -149,10 +124,10 @@ def _stepped(problem: LeastSquares, state: _State, damping: Real) -> Candidates:
     return state.found._replace(rows=rows, angles=angles)
 
 
-def _equations(problem: LeastSquares, state: _State) -> tuple[Real, Real]:
+def _equations(problem: PathTask, state: _State) -> tuple[Real, Real]:
     """Return residuals (B, m) and their slopes (B, m, p), by a free start's angle, too."""
     root = np.sqrt(problem.weights)
-    off = (problem.points - state.traced.point) * root
+    off = (problem.curve.points - state.traced.point) * root
     slopes = state.traced.slopes * root[:, None]
     if problem.timing is None:
         back = np.conj(state.traced.rate) / np.abs(state.traced.rate)
@@ -165,7 +140,7 @@ def _equations(problem: LeastSquares, state: _State) -> tuple[Real, Real]:
     )
 
 
-def _change(problem: LeastSquares, state: _State, residual: Real, slopes: Real, damping: Real) -> Real:
+def _change(problem: PathTask, state: _State, residual: Real, slopes: Real, damping: Real) -> Real:
     """Return the damped step, with the limits that it would break and the given values as equations."""
     across = slopes.transpose(0, 2, 1)
     normal, right = across @ slopes, (across @ residual[..., None])[..., 0]
@@ -193,7 +168,7 @@ def _change(problem: LeastSquares, state: _State, residual: Real, slopes: Real, 
     )
 
 
-def _slack_slopes(problem: LeastSquares, rows: Real, slack: Real) -> Real:
+def _slack_slopes(problem: PathTask, rows: Real, slack: Real) -> Real:
     """Return how each slack changes with each parameter (B, m, p)."""
     count, size = rows.shape
     moved = (rows[:, None, :] + _DIFFERENCE * np.eye(size)).reshape(-1, size)
@@ -220,15 +195,17 @@ def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
     return np.asarray(np.linalg.solve(whole, both[..., None])[:, :count, 0])
 
 
-def _turned(problem: LeastSquares, state: _State, change: Real) -> Real:
+def _turned(problem: PathTask, state: _State, change: Real) -> Real:
     """Return how far the crank turns on at each point (B, n)."""
     if problem.timing is not None:
         return change[:, -1:] if problem.free_start else np.zeros((len(change), 1))
     traced, size = state.traced, state.found.rows.shape[1]
-    left = problem.points - traced.point - (traced.slopes @ change[:, :size, None])[..., 0]
+    left = problem.curve.points - traced.point - (traced.slopes @ change[:, :size, None])[..., 0]
     turn = (np.conj(traced.rate) * left).real / np.abs(traced.rate) ** 2
     gap = np.diff(state.found.angles, axis=1) * state.found.sense[:, None]
-    last = 2 * np.pi - gap.sum(axis=1, keepdims=True) if problem.closed else np.full((len(gap), 1), np.pi)
+    last = (
+        2 * np.pi - gap.sum(axis=1, keepdims=True) if problem.curve.closed else np.full((len(gap), 1), np.pi)
+    )
     before = np.concatenate([last, gap], axis=1) * _OF_GAP
     after = np.concatenate([gap, last], axis=1) * _OF_GAP
     forward = turn * state.found.sense[:, None]

@@ -90,10 +90,14 @@ def task_of(
     units.metre(unit)
     chosen = KINDS[kind]
     curve = drawn(points, closed=closed, timed=timing is not None)
+    if not (math.isfinite(largest) and largest > 0):
+        raise BadInput(f"largest={largest!r}: give the longest link in curve sizes, a number such as 3")
+    if not 0 <= least_angle < math.pi / 2:
+        raise BadInput(f"a least transmission angle of {math.degrees(least_angle):g} deg: give 0 to 90 deg")
     requirements = Requirements(
-        largest=_largest(largest) * curve.size,
+        largest=largest * curve.size,
         shortest=SHORTEST * curve.size,
-        least_angle=max(_least_angle(least_angle), LEAST_ANGLE),
+        least_angle=max(least_angle, LEAST_ANGLE),
         box=None if box is None else _box(box),
         given=_given(chosen, pivots, lengths or {}),
     )
@@ -102,18 +106,6 @@ def task_of(
     return PathTask(
         curve, chosen, requirements, _weights(weights, exactly, curve), angles, free, unit, name, source
     )
-
-
-def _largest(value: float) -> float:
-    if not (math.isfinite(value) and value > 0):
-        raise BadInput(f"largest={value!r}: give the longest link in curve sizes, a number such as 3")
-    return value
-
-
-def _least_angle(value: float) -> float:
-    if not 0 <= value < math.pi / 2:
-        raise BadInput(f"a least transmission angle of {math.degrees(value):g} deg: give 0 to 90 deg")
-    return value
 
 
 def _box(box: Sequence[float]) -> tuple[float, float, float, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class Requirements:
     largest: float
     shortest: float
     least_angle: float = LEAST_ANGLE
-    box: tuple[float, float, float, float] | None = None
+    box: tuple[float, ...] | None = None
     given: Mapping[str, float] = field(default_factory=dict)
     full_turn: bool = True
 
@@ -49,21 +49,14 @@ class Requirements:
 
     def placed(self, shift: complex, scale: float) -> Requirements:
         """Return the same in coordinates whose origin is `shift` and whose unit is `scale`."""
-        box = self.box and (
-            (self.box[0] - shift.real) / scale,
-            (self.box[1] - shift.imag) / scale,
-            self.box[2] / scale,
-            self.box[3] / scale,
-        )
-        given = {name: _placed(name, value, shift, scale) for name, value in self.given.items()}
-        return Requirements(
-            self.largest / scale, self.shortest / scale, self.least_angle, box, given, self.full_turn
-        )
 
+        def placed(name: str, value: float) -> float:
+            """Return a parameter's value in those coordinates."""
+            if name == "line_angle":
+                return value
+            return (value - {"x": shift.real, "y": shift.imag}.get(name[0], 0.0)) / scale
 
-def _placed(name: str, value: float, shift: complex, scale: float) -> float:
-    """Return a parameter's value in other coordinates."""
-    if name == "line_angle":
-        return value
-    origin = shift.real if name.startswith("x") else shift.imag if name.startswith("y") else 0.0
-    return (value - origin) / scale
+        box = self.box and tuple(map(placed, ("x", "y", "width", "height"), self.box))
+        given = {name: placed(name, value) for name, value in self.given.items()}
+        largest, shortest = self.largest / scale, self.shortest / scale
+        return replace(self, largest=largest, shortest=shortest, box=box, given=given)

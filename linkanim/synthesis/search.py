@@ -14,8 +14,8 @@ from linkanim.synthesis.check import checked
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import Indices, Real
 from linkanim.synthesis.match import Candidates, joined, matched, matched_few, matched_in_time
-from linkanim.synthesis.refine import FEW, merit, refined
-from linkanim.synthesis.task import PathTask
+from linkanim.synthesis.refine import merit, refined
+from linkanim.synthesis.task import FEW, PathTask
 
 Progress = Callable[[int, int], None]
 
@@ -63,17 +63,6 @@ def found(
     return fits
 
 
-def answers(task: PathTask, count: int) -> Iterator[tuple[Fit, ...]]:
-    """Yield the atlas's best as soon as it is known, where it is an answer, then the refined ones.
-
-    What is drawn can so be followed at once; `refitted` takes it on from there when points or given values
-    change. BadInput as `found`.
-    """
-    if first := glimpsed(task):
-        yield (first,)
-    yield found(task, count)
-
-
 def _none_fits(task: PathTask) -> str:
     limits = ["the box"] if task.requirements.box else []
     limits += [f"the given {name}" for name in task.requirements.given]
@@ -92,10 +81,6 @@ def glimpsed(task: PathTask) -> Fit | None:
     return None
 
 
-def _stages(task: PathTask) -> tuple[_Stage, ...]:
-    return _FEW_STAGES if len(task.curve.points) <= FEW else _STAGES
-
-
 def started(task: PathTask, count: int, among: int = CURVES) -> Candidates:
     """Return the best candidates of the atlas, or of its first curves, at size 1."""
     known, points = atlas(task.kind).first(among), task.normal
@@ -107,9 +92,10 @@ def started(task: PathTask, count: int, among: int = CURVES) -> Candidates:
 
 
 def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: bool) -> tuple[Fit, ...]:
-    fits = _through(task, _stages(task), count, progress)
+    few = len(task.curve.points) <= FEW
+    fits = _through(task, _FEW_STAGES if few else _STAGES, count, progress)
     off = fits[0].error / task.curve.size if fits else _FOLLOWED
-    if not widely or len(task.curve.points) <= FEW or off < _FOLLOWED:
+    if not widely or few or off < _FOLLOWED:
         return fits
     further = _WIDER_STAGES if off <= _FOREIGN else _FOREIGN_STAGES
     return best_of([*fits, *_through(task, further, count, progress)], count)

@@ -11,13 +11,19 @@ import numpy as np
 from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.kinds import Indices, LinkageKind, Real
 from linkanim.synthesis.match import Candidates
-from linkanim.synthesis.refine import LeastSquares
 from linkanim.synthesis.requirements import Requirements
+
+FEW = 12
+"""Points that say nothing about the way between them."""
 
 
 @dataclass(frozen=True, eq=False)
 class PathTask:
-    """A curve in its unit, with what its linkages have to be; the timing is as in `LeastSquares`."""
+    """A curve in its unit, with its points' weights and what its linkages have to be.
+
+    `timing` is None where crank angles are free, else the crank's angle at each point; with `free_start` all
+    of those may be shifted by one angle.
+    """
 
     curve: DrawnCurve
     kind: LinkageKind
@@ -34,29 +40,32 @@ class PathTask:
         """The curve about the origin, its size 1."""
         return DrawnCurve((self.curve.points - self.curve.centre) / self.curve.size, self.curve.closed)
 
-    def problem(self, chosen: Indices) -> LeastSquares:
-        """Return the least squares over some of the points, at size 1."""
-        return LeastSquares(
-            self.kind,
-            self.normal.points[chosen],
-            self.weights[chosen],
-            self.requirements.placed(self.curve.centre, self.curve.size),
-            self.curve.closed,
-            None if self.timing is None else self.timing[chosen],
-            self.free_start,
+    @property
+    def is_dense(self) -> bool:
+        """Whether the points say where the curve goes between them."""
+        return self.timing is None and len(self.curve.points) > FEW
+
+    def problem(self, chosen: Indices) -> PathTask:
+        """Return the same for some of the points, at size 1 about the origin."""
+        return replace(
+            self,
+            curve=DrawnCurve(self.normal.points[chosen], self.curve.closed),
+            requirements=self.requirements.placed(self.curve.centre, self.curve.size),
+            weights=self.weights[chosen],
+            timing=None if self.timing is None else self.timing[chosen],
         )
 
     def scaled(self, found: Candidates) -> Candidates:
         """Return candidates of size 1 in the curve's own unit and place."""
-        size, centre = self.curve.size, self.curve.centre
-        ones = np.ones(len(found.rows), np.complex128)
-        return found._replace(rows=self.kind.placed(found.rows, size * ones, centre * ones))
+        return self._placed(found, self.curve.size, self.curve.centre)
 
     def normalised(self, found: Candidates) -> Candidates:
         """Return candidates in the curve's unit at size 1 about the origin: `scaled` undone."""
-        size, centre = self.curve.size, self.curve.centre
+        return self._placed(found, 1 / self.curve.size, -self.curve.centre / self.curve.size)
+
+    def _placed(self, found: Candidates, scale: float, shift: complex) -> Candidates:
         ones = np.ones(len(found.rows), np.complex128)
-        return found._replace(rows=self.kind.placed(found.rows, ones / size, -centre / size * ones))
+        return found._replace(rows=self.kind.placed(found.rows, scale * ones, shift * ones))
 
     def swinging(self) -> PathTask:
         """Return the same task, the crank free to swing."""

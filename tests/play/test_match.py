@@ -21,7 +21,7 @@ from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.match.game import MatchGame, shares
 from linkanim.play.match.level import level_names, level_of, made
-from linkanim.play.match.worth import Linkage4, trace, worth
+from linkanim.play.match.worth import trace, worth
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import State, begin
@@ -30,7 +30,7 @@ from linkanim.player.tape.tape_file import from_document, read, to_document
 from linkanim.player.window import display
 from linkanim.scenes import load
 from linkanim.synthesis.curves.drawn import drawn
-from linkanim.synthesis.kinds import FOUR_BAR
+from linkanim.synthesis.kinds import FOUR_BAR, Linkage4
 from linkanim.synthesis.request import LARGEST, path
 
 TAPES = Path(__file__).parent / "match_tapes"

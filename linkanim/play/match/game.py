@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 from linkanim.digits import significant
 from linkanim.errors import BadInput, LinkanimError
@@ -16,15 +15,15 @@ from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import Box
 from linkanim.play.choosing import begun
 from linkanim.play.match.level import Level, level_names, level_of
-from linkanim.play.match.worth import Linkage4, Worth, trace, worth
+from linkanim.play.match.worth import Worth, trace, worth
 from linkanim.play.words import GameWords
 from linkanim.player.state.action import Action
 from linkanim.player.state.handlers.games import play, with_scene
 from linkanim.player.state.state import State, with_effect
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.fit import document_of, parameters_of
-from linkanim.synthesis.kinds import FOUR_BAR
+from linkanim.synthesis.fit import document_of
+from linkanim.synthesis.kinds import FOUR_BAR, Linkage4
 from linkanim.units import shown
 
 _LOOSEST = 30.0
@@ -80,8 +79,7 @@ class MatchGame:
     def entered(self, state: State) -> State:
         """Return the state with the four-bar standing beside the curve."""
         look = Look(hud=False, theme=state.look.theme)
-        scene = _scene_of(self)
-        phase = _phase(scene, self.joints)
+        scene, phase = _scene_of(self)
         return replace(with_scene(replace(state, look=look), scene, phase, paused=True), home=_home(self))
 
     def aged(self, state: State) -> State:
@@ -279,28 +277,23 @@ def _put(state: State, game: MatchGame, joints: Linkage4) -> State:
     game = replace(game, joints=joints)
     game = game if game.held else game.judged
     try:
-        scene = _scene_of(game)
-        phase = _phase(scene, joints)
+        scene, phase = _scene_of(game)
     except LinkanimError:
         return state
     clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed).go(state.frame, phase, paused=True)
     return replace(state, game=game, scene=scene, clock=clock, home=_home(game))
 
 
-def _scene_of(game: MatchGame) -> Scene:
-    """Return the four-bar as a scene that starts where the joints stand."""
-    joints = game.joints
-    document: dict[str, Any] = document_of(
-        FOUR_BAR, parameters_of(FOUR_BAR, joints.row), joints.closure, (joints.angle, 1.0)
-    )
-    document |= {"title": game.of_level.title, "source": "a level of linkanim"}
-    return scene_from(document, name="match", where=game.level)
+def _scene_of(game: MatchGame) -> tuple[Scene, float]:
+    """Return the four-bar as a scene that starts where the joints stand, and the phase at which they do.
 
-
-def _phase(scene: Scene, joints: Linkage4) -> float:
-    """Return the phase at which the joints stand as they are: of a swing on the closure that is named."""
+    Of a swing it is on the closure that is named.
+    """
+    joints, stated = game.joints, {"title": game.of_level.title, "source": "a level of linkanim"}
+    document = document_of(FOUR_BAR, joints.row, joints.closure, (joints.angle, 1.0), **stated)
+    scene = scene_from(document, name="match", where=game.level)
     near = 0.0 if scene.info.full_turn else math.pi / 2
-    return scene.mechanism.assembly.path.phase_of(joints.angle, near=near)
+    return scene, scene.mechanism.assembly.path.phase_of(joints.angle, near=near)
 
 
 def _home(game: MatchGame) -> Box:

@@ -14,10 +14,10 @@ import numpy as np
 from linkanim.document import Section, refuse_controls
 from linkanim.errors import BadInput
 from linkanim.intake import Intake
-from linkanim.play.match.worth import Linkage4, Worth, trace, worth
+from linkanim.play.match.worth import Worth, trace, worth
 from linkanim.scenes.editing.toml import parse
 from linkanim.synthesis.curves.drawn import DrawnCurve, drawn
-from linkanim.synthesis.kinds import FOUR_BAR, Complex
+from linkanim.synthesis.kinds import FOUR_BAR, Complex, Linkage4
 from linkanim.units import angle, shown
 
 FOLDER = files("linkanim.play.match") / "levels"
@@ -139,8 +139,7 @@ def made(seed: int) -> Level:
         good = np.flatnonzero((FOUR_BAR.slack(rows, math.radians(30)) > 0).all(axis=1))
         if len(good):
             break
-    row = rows[good[0]]
-    joints = _standing(row, 1.0, Random(seed).uniform(0, 2 * math.pi))
+    joints = Linkage4.of(rows[good[0]], Random(seed).uniform(0, 2 * math.pi))
     curve = trace(joints)[:-1:4]
     size = math.hypot(np.ptp(curve.real), np.ptp(curve.imag))
     middle = complex(curve.mean())
@@ -157,18 +156,4 @@ def made(seed: int) -> Level:
         frozenset(),
         full,
         answer,
-    )
-
-
-def _standing(row: np.ndarray, closure: float, turned: float) -> Linkage4:
-    """Return the joints of a four-bar at a crank angle."""
-    pin, pivot = complex(row[0], row[1]), complex(row[6], row[7])
-    crank = pin + row[2] * np.exp(1j * turned)
-    way = FOUR_BAR.close(row[None], np.array([[closure]]), np.array([[crank]])).direction[0, 0]
-    return Linkage4(
-        pin,
-        complex(crank),
-        complex(crank + row[3] * way),
-        pivot,
-        complex(crank + complex(row[4], row[5]) * way),
     )

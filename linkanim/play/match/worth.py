@@ -8,41 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.synthesis.curves.drawn import DrawnCurve
-from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
+from linkanim.synthesis.kinds import FOUR_BAR, Complex, Linkage4, Real
 
 _MOMENTS = 240
-Row = tuple[float, ...]
-"""A four-bar's parameters, as `FOUR_BAR.parameters` names them."""
-
-
-class Linkage4(NamedTuple):
-    """A four-bar as its joints stand at one moment (x + yi): its bars are as long as they are apart."""
-
-    O2: complex
-    A: complex
-    B: complex
-    O4: complex
-    P: complex
-
-    @property
-    def row(self) -> Row:
-        """Its parameters."""
-        arm = (self.P - self.A) * (self.B - self.A).conjugate() / abs(self.B - self.A)
-        crank, coupler, rocker = abs(self.A - self.O2), abs(self.B - self.A), abs(self.B - self.O4)
-        pins = self.O2.real, self.O2.imag, self.O4.real, self.O4.imag
-        return (*pins[:2], crank, coupler, arm.real, arm.imag, *pins[2:], rocker)
-
-    @property
-    def closure(self) -> float:
-        """+1 where B lies left of A -> O4, else -1."""
-        across = ((self.O4 - self.A).conjugate() * (self.B - self.A)).imag
-        return 1.0 if across >= 0 else -1.0
-
-    @property
-    def angle(self) -> float:
-        """The crank's angle (rad)."""
-        way = self.A - self.O2
-        return math.atan2(way.imag, way.real)
 
 
 class Worth(NamedTuple):

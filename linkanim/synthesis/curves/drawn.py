@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -87,12 +88,10 @@ def drawn(points: ArrayLike, *, closed: bool, timed: bool = False) -> DrawnCurve
 
 
 def _as_complex(points: ArrayLike) -> Complex:
-    try:
+    with suppress(TypeError, ValueError):
         array = np.array(points, dtype=np.complex128)
-    except (TypeError, ValueError):
-        raise BadInput("points are pairs of numbers, x and y, such as [[0, 0], [10, 5], [20, 0]]") from None
-    if array.ndim == 2 and array.shape[1] == 2:
-        return np.asarray(array[:, 0] + 1j * array[:, 1])
-    if array.ndim != 1:
-        raise BadInput("points are pairs of numbers, x and y, such as [[0, 0], [10, 5], [20, 0]]")
-    return array
+        if array.ndim == 2 and array.shape[1] == 2:
+            return np.asarray(array[:, 0] + 1j * array[:, 1])
+        if array.ndim == 1:
+            return array
+    raise BadInput("points are pairs of numbers, x and y, such as [[0, 0], [10, 5], [20, 0]]")

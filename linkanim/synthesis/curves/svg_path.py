@@ -174,9 +174,9 @@ def _drawn(pen: _Pen, letter: str, values: list[float]) -> tuple[_Pen, list[comp
     """Return where the pen is after a piece, and the points along that."""
     own, origin = letter.upper(), pen.at if letter.islower() else 0j
     if own in "HV":
-        straight = complex(values[0], pen.at.imag) if own == "H" else complex(pen.at.real, values[0])
-        if letter.islower():
-            straight = pen.at + (values[0] if own == "H" else 1j * values[0])
+        own_at = pen.at - origin
+        straight = complex(values[0], own_at.imag) if own == "H" else complex(own_at.real, values[0])
+        straight += origin
         return _Pen(straight, pen.start, straight, straight), [straight]
     if own == "A":
         end = complex(values[5], values[6]) + origin
@@ -230,8 +230,4 @@ def _arc(start: complex, values: list[float], end: complex) -> list[complex]:
     elif not sweep and angle > 0:
         angle -= 2 * math.pi
     places = (centre + cmath.rect(radius, begin + angle * k / _STEPS) for k in range(1, _STEPS))
-    return [*(_back(place, rx, ry, turn) for place in places), end]
-
-
-def _back(point: complex, rx: float, ry: float, turn: complex) -> complex:
-    return complex(point.real * rx, point.imag * ry) * turn
+    return [*(complex(place.real * rx, place.imag * ry) * turn for place in places), end]
