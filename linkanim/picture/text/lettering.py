@@ -17,8 +17,6 @@ from linkanim.picture.text.text import Type
 _FINE = 4
 """Words are set so many times larger and averaged, and placed to such a part of a pixel."""
 
-_Parts = list[list[NDArray[np.float32]]]
-
 
 class Lettering:
     """One line of text in a halo of another colour, drawn about its middle."""
@@ -35,9 +33,9 @@ class Lettering:
         self.size: tuple[float, float] = ((wide + around) / _FINE, (high + around) / _FINE)
 
     @cached_property
-    def _parts(self) -> _Parts:
-        """The words in their halo: many are measured and find no room."""
-        return _parts(_haloed(self._cover, round(_FINE * self.halo[1]), self.ink, self.halo[0]))
+    def _parts(self) -> NDArray[np.float32]:
+        """The words in their halo, worked out when drawn: many are measured and find no room."""
+        return _haloed(self._cover, round(_FINE * self.halo[1]), (self.ink, self.halo[0]))
 
     def draw(
         self, surface: pygame.Surface, middle: complex, shown: float = 1.0, *, whole: bool = False
@@ -79,42 +77,42 @@ def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.uint8], int]:
     return cover[first : last + 1], first - large // 2
 
 
-def _haloed(cover: NDArray[np.uint8], halo: int, ink: Colour, back: Colour) -> NDArray[np.float32]:
-    """Return letters in ink on a halo as (height, width, 4), colours times opacity, 0 to 1."""
-    middle = halo + 1
-    letters, around = np.pad(cover, middle), np.pad(cover, middle)
+def _haloed(cover: NDArray[np.uint8], halo: int, colours: tuple[Colour, Colour]) -> NDArray[np.float32]:
+    """Return letters in ink on a halo, in colours times opacity and opacity, 0 to 1, with nothing about.
+
+    They are parted by row and column within a pixel: (`_FINE`, `_FINE`, 4, height, width) in pixels, so that
+    an average is made of whole arrays, however far the line is shifted.
+    """
+    begin = _FINE + halo + 1
+    room = tuple(-(-(side + 2 * begin + _FINE) // _FINE) * _FINE for side in cover.shape)
+    letters = np.zeros(room, np.uint8)
+    letters[begin : begin + cover.shape[0], begin : begin + cover.shape[1]] = cover
+    around = letters.copy()
     for turn in directions(np.linspace(0, 2 * np.pi, 24, endpoint=False)):
-        top, left = middle + round(halo * turn.imag), middle + round(halo * turn.real)
+        top, left = begin + round(halo * turn.imag), begin + round(halo * turn.real)
         under = around[top : top + cover.shape[0], left : left + cover.shape[1]]
         np.maximum(under, cover, out=under)
-    share, opacity = (levels.astype(np.float32) / 255 for levels in (letters, around))
-    inks, backs = (np.array(colour, np.float32) / 255 for colour in (ink, back))
+    share, opacity = (
+        levels.reshape(-1, _FINE, room[1] // _FINE, _FINE).transpose(1, 3, 0, 2).astype(np.float32, order="C")
+        / 255
+        for levels in (letters, around)
+    )
+    inks, backs = (np.array(colour, np.float32) / 255 for colour in colours)
     rest = np.maximum(opacity - share, 0)
-    colours = (share * own + rest * other for own, other in zip(inks, backs, strict=True))
-    return np.stack([*colours, opacity], axis=-1)
+    mixed = (share * own + rest * other for own, other in zip(inks, backs, strict=True))
+    return np.stack([*mixed, opacity], axis=2)
 
 
-def _parts(large: NDArray[np.float32]) -> _Parts:
-    """Return a large line's rows and columns by their place within a pixel, with a pixel of nothing about.
-
-    So an average is made of whole arrays, however far the line is shifted.
-    """
-    room = np.pad(large, ((_FINE, 2 * _FINE), (_FINE, 2 * _FINE), (0, 0)))
-    rows = (room[row::_FINE] for row in range(_FINE))
-    return [[np.ascontiguousarray(row[:, column::_FINE]) for column in range(_FINE)] for row in rows]
-
-
-def _averaged(parts: _Parts, shift: tuple[int, int], size: tuple[int, int]) -> pygame.Surface:
+def _averaged(parts: NDArray[np.float32], shift: tuple[int, int], size: tuple[int, int]) -> pygame.Surface:
     """Return a line in pixels, shifted by parts of one right and down."""
     (right, down), (width, height) = shift, size
-    small: NDArray[np.float32] = np.zeros((height, width, 4), np.float32)
+    small = np.zeros((4, height, width), np.float32)
     for row, column in product(range(_FINE), repeat=2):
         top, left = (_FINE + row - down) // _FINE, (_FINE + column - right) // _FINE
-        part = parts[(row - down) % _FINE][(column - right) % _FINE]
-        small += part[top : top + height, left : left + width]
+        part = parts[(row - down) % _FINE, (column - right) % _FINE]
+        small += part[:, top : top + height, left : left + width]
     small /= _FINE**2
-    opacity = np.maximum(small[..., 3:], 1e-6)
+    small[:3] /= np.maximum(small[3], 1e-6)
+    levels = (255 * small + 0.5).astype(np.uint8)
     # in the order of a surface's bytes, which blits many times faster
-    straight: NDArray[np.float32] = np.concatenate((small[..., 2::-1] / opacity, small[..., 3:]), axis=-1)
-    levels = (255 * straight + 0.5).astype(np.uint8)
-    return pygame.image.frombuffer(levels.tobytes(), size, "BGRA")
+    return pygame.image.frombuffer(levels[[2, 1, 0, 3]].transpose(1, 2, 0).tobytes(), size, "BGRA")
