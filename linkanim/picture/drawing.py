@@ -176,7 +176,7 @@ class Drawing:
     def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
         """Yield the way the input turns, and its angle."""
         turning, drive = self.parts.turning, self.setting.figure.linkage.drive
-        if turning and self.setting.look.names > 1:
+        if isinstance(turning, Turning) and self.setting.look.names > 1:
             yield from turning.angle(places)
         if turning and pose.input_speed:
             yield from turning.direction(pose, places, abs(drive.speed / pose.input_speed))

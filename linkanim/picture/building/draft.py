@@ -12,20 +12,16 @@ from linkanim.picture.panels.building import DraftShown
 from linkanim.picture.parts.bodies import mark_stamp, pin_stamp
 from linkanim.picture.parts.fittings import block_layers, hatched
 from linkanim.picture.parts.ground import pedestal
-from linkanim.picture.parts.struts import Coil, barrel, piston
+from linkanim.picture.parts.struts import Coil, Damping, StrutSpan, damping
 from linkanim.picture.parts.turning import turning_arrow
 from linkanim.picture.raster.parts import glazed, lined
 from linkanim.picture.raster.raster import Layer, Loop
-from linkanim.picture.raster.shapes import disc, hull, rod, segments, stroke, unit
+from linkanim.picture.raster.shapes import disc, hull, segments, stroke, unit
 from linkanim.picture.text.text import subscripted
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
 
 _COILS = 10
-_BARREL, _PISTON = 0.95, 0.16
-"""A barrel's half width in those of a bar, and the piston's length in barrels."""
-_CYLINDER = (0.25, 0.75)
-"""Where a barrel begins and ends, and the piston is, between its ends."""
 _GUIDE = 11.0
 """How far a guide is drawn about a place, in half widths of a bar."""
 _WHEELS = 0.55
@@ -100,23 +96,17 @@ class DraftDrawing:
         at, *beside = self._placed(block.places)
         turn = unit(beside[0] - at) if beside else 1 + 0j
         share = 1.0 if block.kind == "sliders" else 0.62
-        for layer in block_layers(self._gauge, self._theme, turn, share):
-            yield layer._replace(loops=[at + loop for loop in layer.loops])
+        yield from (layer.placed(at) for layer in block_layers(self._gauge, self._theme, turn, share))
 
     def _strut(self, strut: Shape) -> list[Layer]:
         begin, end = self._placed(strut.places[:2])
-        gauge_, theme = self._gauge, self._theme
+        ends, span, gauge_ = ("begin", "end"), abs(end - begin), self._gauge
+        drawn: Coil | Damping
         if strut.kind == "springs":
-            coil = Coil(("begin", "end"), 1.15 * gauge_.bar, 1.5 * gauge_.bar, _COILS, gauge_, theme)
-            return coil.layers({"begin": begin, "end": end})
-        span, turn = abs(end - begin), unit(end - begin)
-        near, far = (share * span for share in _CYLINDER)
-        radius, thin, middle = _BARREL * gauge_.bar, 1.2 * gauge_.line, (near + far) / 2
-        head = piston(_PISTON * (far - near), radius, gauge_, theme)
-        head = head._replace(loops=[loop + middle for loop in head.loops])
-        rods = Layer(theme.outline, [rod(middle, max(span, middle), thin), rod(0.0, near, thin)])
-        layers = (*barrel(near, far, radius, gauge_, theme), rods, head)
-        return [Layer(one.colour, [begin + turn * loop for loop in one.loops]) for one in layers]
+            drawn = Coil(ends, 1.15 * gauge_.bar, 1.5 * gauge_.bar, _COILS, gauge_, self._theme)
+        else:
+            drawn = damping(ends, StrutSpan(span, span), (0.5 * span, 0.25 * span), gauge_, self._theme)
+        return drawn.layers({"begin": begin, "end": end})
 
     def _pins(self) -> Iterator[Layer]:
         joints = [one.places[0] for one in self._of("pins", "joints")]

@@ -87,13 +87,9 @@ def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
         )
         thin = cell.width / 22
         gauge = Gauge(bar=2.1 * thin, outline=0.8 * thin, pin=1.1 * thin, line=thin)
-        drawn = [_placed(layer, cell.middle) for layer in ICONS[tool.icon](gauge, theme)]
+        drawn = [layer.placed(cell.middle) for layer in ICONS[tool.icon](gauge, theme)]
         paint(sheet, [Layer(rim, [outer]), Layer(fill, [inner]), *drawn])
     return sheet
-
-
-def _placed(layer: Layer, at: complex) -> Layer:
-    return layer._replace(loops=[at + loop for loop in layer.loops])
 
 
 def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: ToolShown) -> None:
@@ -122,7 +118,7 @@ def _bar_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
 def _line_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     small = Gauge(bar=3.6 * gauge.line, outline=gauge.outline, pin=gauge.pin, line=gauge.line)
     ends = gauge.line * (-8 + 3j), gauge.line * (8 + 3j)
-    block = [_placed(one, -1.5j * gauge.line) for one in block_layers(gauge, theme, 1 + 0j)]
+    block = [one.placed(-1.5j * gauge.line) for one in block_layers(gauge, theme, 1 + 0j)]
     return [Layer(theme.outline, [*hatched(*ends, small, 1)]), *block]
 
 

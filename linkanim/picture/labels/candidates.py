@@ -343,8 +343,7 @@ class Surroundings:
     def _arrow(self) -> Iterator[Thing]:
         """Yield what shows how the input moves."""
         if self.turning:
-            ends = tuple(self._paths[name] for name in self.turning.joints)
-            for points, half in self.turning.tracks(ends, self._rates, angled=self.angled):
+            for points, half in self.turning.tracks(self._paths, self._rates, angled=self.angled):
                 for n in range(points.shape[1] - 1):
                     yield Thing(frozenset(), Solid(points[:, n : n + 2], half))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import count
+from itertools import count, pairwise
 from math import degrees
 from typing import NamedTuple
 
@@ -22,7 +22,6 @@ from linkanim.picture.raster.shapes import segments, unit
 from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import View
 
-_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _NONE = 1e-9
 """Of a figure's extent, and in radians: what is less is not stated."""
 
@@ -67,7 +66,7 @@ def symbols(figure: Figure) -> Symbols:
     its side; e is how far a guide is from the first pivot.
     """
     bodies = [body for body in figure.bodies if body.name or not figure.linkage.bodies]
-    ground = (*_ground(figure), *_tilt(figure), *_offsets(figure))
+    ground = (*_ground(figure), *_offsets(figure))
     if bodies and all(body.name.isdecimal() for body in bodies):
         named = [_bar(figure, body.name, *body.joints[:2], bare=len(body.joints) == 2) for body in bodies]
         return Symbols((*ground, *named), (), _angle(figure))
@@ -104,13 +103,9 @@ def pivots(figure: Figure) -> list[str]:
 
 
 def _ground(figure: Figure) -> Iterator[Measurement]:
-    for first, second in zip(pivots(figure)[:1], pivots(figure)[1:2], strict=False):
+    """Yield the length of the ground, and its angle where it does not lie level."""
+    for first, second in pairwise(pivots(figure)[:2]):
         yield _bar(figure, "1", first, second, bare=True)
-
-
-def _tilt(figure: Figure) -> Iterator[Measurement]:
-    """Yield the angle of the ground, where it does not lie level."""
-    for first, second in zip(pivots(figure)[:1], pivots(figure)[1:2], strict=False):
         way = figure.start(second) - figure.start(first)
         if abs(way.imag) > _NONE * figure.extent:
             value, about = degrees(float(np.angle(way))), f"{_named(first, second)} to the level"
@@ -128,7 +123,7 @@ def _offsets(figure: Figure) -> Iterator[Measurement]:
         if line.on is None and min(map(abs, off)) > _NONE * figure.extent:
             found.append((joint.name, off[0] * across))
     for n, (name, foot) in enumerate(found, start=1):
-        symbol = f"e{_lowered(str(n))}" if len(found) > 1 else "e"
+        symbol = subscripted(f"e{n}") if len(found) > 1 else "e"
         about = f"{_named(names[0])} to the guide of {_named(name)}"
         yield Measurement(symbol, abs(foot), about, (names[0], names[0]), 0, foot.conjugate(), frozenset())
 
@@ -159,10 +154,8 @@ def _with_angle(
     turn = (figure.start(name) - figure.start(at)) / (figure.start(side) - figure.start(at))
     if abs(turn.imag) > _NONE * abs(turn) and not isinstance(figure.linkage.joint(name), Brace):
         value, own = abs(degrees(float(np.angle(turn)))), frozenset() if bare else frozenset((at, side, name))
-        about = f"{_named(side, at, name)}"
-        yield Measurement(
-            f"β{_lowered(number)}", value, about, (at, side), 1, turn.conjugate(), own, angle=True
-        )
+        symbol, about = subscripted(f"β{number}"), _named(side, at, name)
+        yield Measurement(symbol, value, about, (at, side), 1, turn.conjugate(), own, angle=True)
 
 
 def _points(figure: Figure) -> list[Rigid]:
@@ -175,18 +168,12 @@ def _legs(figure: Figure, point: Rigid, numbers: Iterator[str]) -> Iterator[Meas
     (first, second), (along, left), name = point.on, point.at, point.name
     span, own = abs(figure.start(second) - figure.start(first)), frozenset((first, second, name))
     corner, there = complex(along) / span, complex(along, -left) / span
-    spans = [
-        (
-            along,
-            0j,
-            corner,
-            _named(first, name) if not left else f"{_named(first)} along {_named(first, second)}",
-        )
-    ]
-    spans += [(left, corner, there, f"{_named(name)} off {_named(first, second)}")]
-    for value, begin, end, about in spans:
+    aside = f"{_named(name)} off {_named(first, second)}"
+    level = f"{_named(first)} along {_named(first, second)}" if left else _named(first, name)
+    for value, begin, end, about in ((along, 0j, corner, level), (left, corner, there, aside)):
         if value:
-            yield Measurement(_symbol(next(numbers)), abs(value), about, point.on, begin, end, own)
+            symbol = subscripted(f"r{next(numbers)}")
+            yield Measurement(symbol, abs(value), about, point.on, begin, end, own)
 
 
 def _bar(figure: Figure, number: str, begin: str, end: str, *, bare: bool = False) -> Measurement:
@@ -198,7 +185,7 @@ def _bar(figure: Figure, number: str, begin: str, end: str, *, bare: bool = Fals
     apart = abs(figure.start(end) - figure.start(begin))
     value, ends = stated.get(frozenset((begin, end)), apart), (begin, end)
     own = frozenset(() if begin in figure.fixed and end in figure.fixed else ends)
-    return Measurement(_symbol(number), value, _named(*ends), ends, 0, 1, own, bare)
+    return Measurement(subscripted(f"r{number}"), value, _named(*ends), ends, 0, 1, own, bare)
 
 
 def _named(*joints: str) -> str:
@@ -209,12 +196,4 @@ def _angle(figure: Figure) -> str:
     driven = driven_body(figure.linkage)
     joints = set(driven.joints) if driven else {""}
     number = next((n for body, n in figure.numbers.items() if joints <= set(body.joints)), "2")
-    return f"θ{_lowered(number)}"
-
-
-def _symbol(number: str) -> str:
-    return f"r{_lowered(number)}"
-
-
-def _lowered(number: str) -> str:
-    return number.translate(_LOWERED)
+    return subscripted(f"θ{number}")

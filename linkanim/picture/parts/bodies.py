@@ -106,7 +106,7 @@ def _worked(bar: Bar, points: list[complex], bench: Bench, colours: tuple[Colour
     layers = [Layer(one.colour, [*one.loops, *other.loops]) for one, other in zip(rod, eye, strict=True)]
     if bar.piston:
         head = piston(PISTON * gauge.bar, BARREL * gauge.bar, gauge, bench.theme)
-        layers.append(Layer(head.colour, [end + along * loop for loop in head.loops]))
+        layers.append(head.placed(end, along))
     return layers
 
 

@@ -184,7 +184,7 @@ def _cylindered(name: str, far: str, along: complex, bench: Bench) -> Fitting:
     inner = box(crown + skirt - 2 * edge, wide - 2 * edge, 0.3 * gauge.bar) + middle
     rings = [box(2 * edge, wide - 2 * edge) + share * crown for share in _RINGS]
     shapes = ((bench.theme.outline, [outer]), (bench.theme.metal, [inner]), (bench.theme.outline, rings))
-    layers = tuple(Layer(colour, [out * loop for loop in loops]) for colour, loops in shapes)
+    layers = tuple(Layer(*shape).placed(0j, out) for shape in shapes)
     block = Part(name, name, name, layers, (name,))
     return Fitting((block,), guide=GuideRails(name, out, aside, (0.0, _HEAD * crown), head=True))
 
@@ -323,9 +323,8 @@ def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, bench: Bench) -
     gauge, (near, far) = bench.gauge, _slot_ends(slide, bench)
     length, room = bench.view.scale * dict(bench.figure.linkage.joint(bar[1]).bars)[bar[0]], 0.8 * gauge.bar
     ends = min(length - far.real, 0.0) - room, max(length - near.real, 0.0) + room
-    side = complex(0, near.imag)
     wall = barrel(*ends, BARREL * gauge.bar, gauge, bench.theme)
-    layers = tuple(Layer(layer.colour, [loop - side for loop in layer.loops]) for layer in wall)
+    layers = tuple(layer.placed(complex(0, -near.imag)) for layer in wall)
     cylinder = Part(slide.point, *bar, layers, (slide.point,))
     return Fitting(behind=(cylinder,), before=(collar,), bar=Bar(bar, piston=True))
 

@@ -14,7 +14,7 @@ from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster.directions import directions, length, lengths
 from linkanim.picture.raster.parts import Places
-from linkanim.picture.raster.raster import Colour, Layer, Loop, Outlines, outlines_of
+from linkanim.picture.raster.raster import Colour, Layer, Loop, Outlines
 from linkanim.picture.raster.shapes import box, cut_ribbon, offsets, ribbon, rod, stroke, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
@@ -70,12 +70,12 @@ class Coil:
         halves = turn * (pitch * along + round_)
         far, near = zip(halves, offsets(halves), strict=True)
         # the near halves' outlines hide where the far ones end
-        layers = [Layer(self._shade, _repeated(feet, cut_ribbon(*far, BACK * wire)))]
+        layers = [Layer(self._shade, [cut_ribbon(*far, BACK * wire)]).repeated(feet)]
         for colour, width in ((self.theme.outline, EDGE * wire), (self.theme.metal, CORE * wire)):
-            one, other = _leads(lead, self.radius, width)
-            points = np.concatenate((start + turn * one, end + turn * other))
-            leads = Outlines(points, (len(one), len(other)))
-            layers.append(Layer(colour, leads.joined(_repeated(feet, ribbon(*near, width)))))
+            (one, other), coil = _leads(lead, self.radius, width), ribbon(*near, width)
+            points = start + turn * one, end + turn * other, np.add.outer(feet, coil).ravel()
+            counts = len(one), len(other), *[len(coil)] * self.coils
+            layers.append(Layer(colour, Outlines(np.concatenate(points), counts)))
         return layers
 
     @property
@@ -106,13 +106,9 @@ def _leads(lead: float, radius: float, width: float) -> tuple[Loop, Loop]:
     return first, -first.conj()[::-1]
 
 
-def _repeated(feet: Loop, outline: Loop) -> Outlines:
-    return outlines_of([outline]).repeated(feet)
-
-
 @dataclass(frozen=True)
 class Damping:
-    """A damper to draw: how far it reaches, its cylinder's length in pixels, and what does not change.
+    """A damper to draw: how far it reaches, its cylinder's length and where that begins, in pixels.
 
     `cylinder` lies along the real axis from its closed end at 0, `head` about 0.
     """
@@ -120,6 +116,7 @@ class Damping:
     between: tuple[str, str]
     reach: StrutSpan
     length: float
+    foot: float
     rod: float
     cylinder: tuple[Layer, Layer]
     head: Layer
@@ -128,13 +125,12 @@ class Damping:
         """Return cylinder, rods and piston; the piston stands deeper the shorter the damper is."""
         start, end = (places[name] for name in self.between)
         span, turn = length(end - start), unit(end - start)
-        foot = max(0.5 * (self.reach.shortest - self.length), 0.0) * 0.6
-        piston = foot + self._piston(span)
-        rods = [rod(piston, max(span, piston), self.rod / 2), rod(0.0, foot, self.rod / 2)]
+        piston = self.foot + self._piston(span)
+        rods = [rod(piston, max(span, piston), self.rod / 2), rod(0.0, self.foot, self.rod / 2)]
         return [
-            *(_put(layer, start + turn * foot, turn) for layer in self.cylinder),
-            _put(Layer(self.cylinder[0].colour, rods), start, turn),
-            _put(self.head, start + turn * piston, turn),
+            *(layer.placed(start + turn * self.foot, turn) for layer in self.cylinder),
+            Layer(self.cylinder[0].colour, rods).placed(start, turn),
+            self.head.placed(start + turn * piston, turn),
         ]
 
     def _piston(self, span: float) -> float:
@@ -162,13 +158,19 @@ def dampings(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Da
         needed = (span.longest - span.shortest) / 0.68
         least = 5 * gauge.bar if item.forceful else max(5 * gauge.bar, _CYLINDER * span.shortest)
         length = min(max(needed, least), max(0.8 * span.shortest, 2 * gauge.bar))
-        radius = _BARREL * gauge.bar
-        cylinder, head = (
-            barrel(0.0, length, radius, gauge, theme),
-            piston(0.16 * length, radius, gauge, theme),
-        )
-        found.append(Damping(item.between, span, length, 2.4 * gauge.line, cylinder, head))
+        foot = max(0.5 * (span.shortest - length), 0.0) * 0.6
+        found.append(damping(item.between, span, (length, foot), gauge, theme))
     return tuple(found)
+
+
+def damping(
+    between: tuple[str, str], span: StrutSpan, size: tuple[float, float], gauge: Gauge, theme: Theme
+) -> Damping:
+    """Return a damper whose cylinder has a length and begins so far from the first joint, in pixels."""
+    (length, foot), radius = size, _BARREL * gauge.bar
+    cylinder = barrel(0.0, length, radius, gauge, theme)
+    head = piston(0.16 * length, radius, gauge, theme)
+    return Damping(between, span, length, foot, 2.4 * gauge.line, cylinder, head)
 
 
 def barrel(near: float, far: float, radius: float, gauge: Gauge, theme: Theme) -> tuple[Layer, Layer]:
@@ -183,7 +185,3 @@ def barrel(near: float, far: float, radius: float, gauge: Gauge, theme: Theme) -
 def piston(length: float, radius: float, gauge: Gauge, theme: Theme) -> Layer:
     """Return the piston about 0 that fits into a cylinder along the real axis."""
     return Layer(theme.metal, [box(length, 2 * radius - 3 * gauge.outline, 0.1 * radius)])
-
-
-def _put(layer: Layer, at: complex, turn: complex) -> Layer:
-    return Layer(layer.colour, [at + turn * loop for loop in layer.loops])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from math import pi, tau
@@ -16,8 +16,8 @@ from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster.directions import directions
-from linkanim.picture.raster.parts import Places
-from linkanim.picture.raster.raster import Colour, Layer, Loop, Outlines, outlines_of
+from linkanim.picture.raster.parts import Places, joined
+from linkanim.picture.raster.raster import Colour, Layer, Loop
 from linkanim.picture.raster.shapes import arrows, segments, strokes, unit
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import View
@@ -52,16 +52,11 @@ class Turning:
         """Return the bar's angle (rad) as it is told."""
         return self.middle + (angle - self.middle + pi) % tau - pi
 
-    @property
-    def joints(self) -> tuple[str, str]:
-        """The two joints that show it."""
-        return self.pivot, self.pin
-
     def tracks(
-        self, ends: tuple[Loop, ...], rates: NDArray[np.float64], *, angled: bool
+        self, paths: Mapping[str, Loop], rates: NDArray[np.float64], *, angled: bool
     ) -> Iterator[tuple[Loop, float]]:
-        """Yield points (n, k) along the arrow and the angle, for joints at `ends` (n); half their widths."""
-        centre, pin = ends
+        """Yield points (n, k) along the arrow and the angle, for joints on paths (n); half their widths."""
+        centre, pin = paths[self.pivot], paths[self.pin]
         way, share = (pin - centre) / np.abs(pin - centre), np.linspace(0, 1, 16)
         sweep = SWEEP * np.clip(-rates / (self.fastest or 1.0), -1, 1)[:, None]
         shaft = np.sign(sweep) * AHEAD + sweep * np.linspace(0, 1, 6)
@@ -79,12 +74,8 @@ class Turning:
         sweep = SWEEP * min(max(turning, -1.0), 1.0)
         if not abs(sweep) > 0.02:
             return []
-        centre, way = self._bar(places)
-        ink, back = self.colours
-        return [
-            Layer(colour, outlines.placed(centre, way))
-            for colour, outlines in zip((back, ink), _bent(sweep, self.arrow, self.gauge.line), strict=True)
-        ]
+        bent = _bent(sweep, self.arrow, self.gauge.line, self.colours)
+        return [layer.placed(*self._bar(places)) for layer in bent]
 
     def angle(self, places: Places) -> list[Layer]:
         """Return the arc from the horizontal to the bar, and the line it begins at."""
@@ -102,7 +93,7 @@ class Turning:
 
 
 @lru_cache(maxsize=16)
-def _bent(sweep: float, radius: float, thick: float) -> tuple[Outlines, Outlines]:
+def _bent(sweep: float, radius: float, thick: float, colours: tuple[Colour, Colour]) -> tuple[Layer, ...]:
     """Return an arrow about the pivot, the bar along the real axis, in its rim and without.
 
     It bends by `sweep` (rad, negative to the left); its head is smaller where it is short. An input of
@@ -113,8 +104,8 @@ def _bent(sweep: float, radius: float, thick: float) -> tuple[Outlines, Outlines
     head, turn = min(6.5 * thick, 0.8 * abs(sweep) * radius), bend[-1] / radius * 1j * side
     (rimmed,), (bare,) = strokes(bend, (line + 2 * rim, line))
     barbs = (bend[-1] + _barb(length) * turn for length in (head + 2 * rim, head))
-    first, second = (outlines_of(pair) for pair in zip((rimmed, bare), barbs, strict=True))
-    return first, second
+    loops = zip((rimmed, bare), barbs, strict=True)
+    return joined(map(Layer, reversed(colours), loops))
 
 
 def _barb(length: float) -> Loop:
@@ -145,46 +136,32 @@ class Sliding:
         rims = ((back, 0.9 * self.gauge.line), (ink, 0.0))
         return [Layer(colour, arrows([foot], [reach], width, rim)) for colour, rim in rims]
 
-    @property
-    def joints(self) -> tuple[str]:
-        """The joint that shows it."""
-        return (self.joint,)
-
     def tracks(
-        self, ends: tuple[Loop, ...], rates: NDArray[np.float64], *, angled: bool
+        self, paths: Mapping[str, Loop], rates: NDArray[np.float64], *, angled: bool
     ) -> Iterator[tuple[Loop, float]]:
-        """Yield the ends (n, 2) of the arrow of a joint at `ends`, and half its width; it has no angle."""
+        """Yield the ends (n, 2) of the arrow of a joint on its path, and half its width; it has no angle."""
         reach = self.along * self.longest * np.clip(rates / (self.fastest or 1.0), -1, 1)
-        foot = ends[0] + self.room * self.along * np.sign(rates)
+        foot = paths[self.joint] + self.room * self.along * np.sign(rates)
         yield np.stack((foot, foot + reach), axis=1), 4.2 * self.gauge.line
-
-    def angle(self, places: Places) -> list[Layer]:
-        """Return nothing: a slider has no angle."""
-        return []
 
 
 def motion_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | Sliding | None:
-    """Return what shows how the input moves: its bar's turning, or its slider's way along the guide."""
-    joint = figure.linkage.joint(figure.linkage.drive.joint)
-    if not isinstance(joint, DrivenSlider):
-        return turning_of(figure, view, gauge, theme)
-    along = complex(directions(-joint.line.angle))
+    """Return what shows how the input moves: its bar's turning, or its slider's way along the guide.
+
+    None where the input is neither a slider nor a crank on a pivot.
+    """
+    joint, info = figure.linkage.joint(figure.linkage.drive.joint), figure.scene.info
     fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
     ink = theme.ink, theme.background
-    return Sliding(joint.name, along, _CLEAR * gauge.bar, _LONGEST * gauge.bar, fastest, ink, gauge)
-
-
-def turning_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | None:
-    """Return the driven bar's turning; None where the input is no crank on a pivot."""
-    pin = figure.linkage.drive.joint
-    pivot = getattr(figure.linkage.joint(pin), "pivot", None)
+    if isinstance(joint, DrivenSlider):
+        along = complex(directions(-joint.line.angle))
+        return Sliding(joint.name, along, _CLEAR * gauge.bar, _LONGEST * gauge.bar, fastest, ink, gauge)
+    pivot = getattr(joint, "pivot", None)
     if pivot is None:
         return None
-    arc, arrow = _radii(view.scale * abs(figure.start(pin) - figure.start(pivot)), gauge)
-    fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
-    info = figure.scene.info
+    arc, arrow = _radii(view.scale * abs(figure.start(joint.name) - figure.start(pivot)), gauge)
     middle = pi if info.full_turn else sum(info.input_range) / 2
-    return Turning(pivot, pin, arc, arrow, fastest, (theme.ink, theme.background), gauge, middle)
+    return Turning(pivot, joint.name, arc, arrow, fastest, ink, gauge, middle)
 
 
 def _radii(length: float, gauge: Gauge) -> tuple[float, float]:
@@ -196,5 +173,5 @@ def _radii(length: float, gauge: Gauge) -> tuple[float, float]:
 def turning_arrow(pivot: complex, pin: complex, gauge: Gauge, theme: Theme) -> list[Layer]:
     """Return the arrow of a driven bar that stands still, in pixels, counter-clockwise."""
     _, arrow = _radii(abs(pin - pivot), gauge)
-    drawn = zip((theme.background, theme.ink), _bent(-SWEEP, arrow, gauge.line), strict=True)
-    return [Layer(colour, outlines.placed(pivot, unit(pin - pivot))) for colour, outlines in drawn]
+    bent = _bent(-SWEEP, arrow, gauge.line, (theme.ink, theme.background))
+    return [layer.placed(pivot, unit(pin - pivot)) for layer in bent]

@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import accumulate, pairwise
-from typing import NamedTuple
-
-import numpy as np
 
 from linkanim.picture.raster.directions import folded
-from linkanim.picture.raster.raster import Colour, Layer, Loop, Outlines, outlines_of
+from linkanim.picture.raster.raster import Colour, Layer, outlines_of
 from linkanim.picture.raster.shapes import rounded, unit
 
 _GLAZED = 0.6
@@ -19,39 +15,6 @@ _GLAZED = 0.6
 
 Places = Mapping[str, complex]
 """Where the joints lie in pixels, as x + yi."""
-
-
-class Cut(NamedTuple):
-    """What a layer is of a sheaf: its points from `begin` to `end`, so many in each of its loops."""
-
-    colour: Colour
-    begin: int
-    end: int
-    counts: tuple[int, ...]
-    alpha: float
-
-
-class Sheaf(NamedTuple):
-    """Layers whose points lie in one array, so that they are placed together."""
-
-    points: Loop
-    cuts: tuple[Cut, ...]
-
-    def laid(self, points: Loop, times: int = 1) -> list[Layer]:
-        """Return the layers at the points (n,) as they lie now, or `times` over in as many rows."""
-        return [
-            Layer(colour, Outlines(points[..., begin:end].ravel(), counts * times), alpha)
-            for colour, begin, end, counts, alpha in self.cuts
-        ]
-
-
-def sheaf(layers: Sequence[Layer]) -> Sheaf:
-    """Return layers in one array."""
-    counts = [tuple(map(len, layer.loops)) for layer in layers]
-    ends = pairwise((0, *accumulate(map(sum, counts))))
-    parts = zip(layers, ends, counts, strict=True)
-    cuts = tuple(Cut(layer.colour, *end, count, layer.alpha) for layer, end, count in parts)
-    return Sheaf(outlines_of([loop for layer in layers for loop in layer.loops]).points, cuts)
 
 
 @dataclass(frozen=True)
@@ -77,7 +40,8 @@ class Part:
 
     def placed(self, places: Places) -> list[Layer]:
         """Return the layers where the joints now lie."""
-        return self._sheaf.laid(places[self.at] + self.turn(places) * self._sheaf.points)
+        at, turn = places[self.at], self.turn(places)
+        return [layer.placed(at, turn) for layer in self._joined]
 
     def turn(self, places: Places) -> complex:
         """Return the direction that the part is turned by."""
@@ -85,8 +49,8 @@ class Part:
         return folded(turn, self.fold) if self.fold > 2 else turn
 
     @cached_property
-    def _sheaf(self) -> Sheaf:
-        return sheaf(self.layers)
+    def _joined(self) -> tuple[Layer, ...]:
+        return joined(self.layers)
 
 
 @dataclass(frozen=True)
@@ -97,12 +61,16 @@ class Stamp:
 
     def at(self, centres: Sequence[complex]) -> list[Layer]:
         """Return the layers at all places at once."""
-        places = np.array(centres, np.complex128)
-        return self._sheaf.laid(np.add.outer(places, self._sheaf.points), len(centres))
+        return [layer.repeated(centres) for layer in self._joined]
 
     @cached_property
-    def _sheaf(self) -> Sheaf:
-        return sheaf(self.layers)
+    def _joined(self) -> tuple[Layer, ...]:
+        return joined(self.layers)
+
+
+def joined(layers: Iterable[Layer]) -> tuple[Layer, ...]:
+    """Return layers whose loops lie in one array each, so that they are placed together."""
+    return tuple(layer._replace(loops=outlines_of(layer.loops)) for layer in layers)
 
 
 def placed(parts: Iterable[Part], places: Places) -> list[Layer]:

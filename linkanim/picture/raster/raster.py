@@ -38,10 +38,6 @@ class Outlines(Sequence[Loop]):
         points = np.add.outer(np.asarray(places, np.complex128), self.points).ravel()
         return Outlines(points, self.counts * len(places))
 
-    def joined(self, other: Outlines) -> Outlines:
-        """Return its loops and another's."""
-        return Outlines(np.concatenate((self.points, other.points)), self.counts + other.counts)
-
     def __len__(self) -> int:
         return len(self.counts)
 
@@ -76,6 +72,14 @@ class Layer(NamedTuple):
     loops: Sequence[Loop]
     alpha: float = 1.0
 
+    def placed(self, at: complex, turn: complex = 1 + 0j) -> Layer:
+        """Return it turned by a direction of length 1 about the origin, which then lies at `at`."""
+        return Layer(self.colour, outlines_of(self.loops).placed(at, turn), self.alpha)
+
+    def repeated(self, places: Sequence[complex] | Loop) -> Layer:
+        """Return it about each of the places."""
+        return Layer(self.colour, outlines_of(self.loops).repeated(places), self.alpha)
+
 
 class _Boxes(NamedTuple):
     """The pixels that each layer may cover: first columns and rows, and the ones after the last."""
@@ -84,13 +88,6 @@ class _Boxes(NamedTuple):
     top: Ints
     right: Ints
     end: Ints
-
-
-class _Inks(NamedTuple):
-    """The layers' colours as a surface keeps them, and how much of them is mixed in."""
-
-    words: Words
-    alphas: list[float]
 
 
 class _Pixels(NamedTuple):
@@ -121,8 +118,8 @@ class Cover:
         """Fill the pixels that are covered in full and mix the others, level by level."""
         if self._full is None:
             return
-        pixels, clear, full = pixels_of(surface), is_clear(surface), self._full
-        bounds = full.bounds.tolist()
+        pixels: Words = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
+        clear, full, bounds = is_clear(surface), self._full, self._full.bounds.tolist()
         for level in range(len(bounds) - 1):
             inside = slice(bounds[level], bounds[level + 1])
             if inside.start < inside.stop:
@@ -167,12 +164,6 @@ def keep_memory() -> None:
     np.empty(_KEPT_BYTES, np.uint8)
 
 
-def pixels_of(surface: pygame.Surface) -> Words:
-    """Return a surface's pixels, row by row, to be read and written."""
-    pixels: Words = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
-    return pixels
-
-
 def is_clear(surface: pygame.Surface) -> bool:
     """Return whether a surface lets light through."""
     return bool(surface.get_flags() & pygame.SRCALPHA)
@@ -198,9 +189,10 @@ def _covered(
     order = np.argsort(levels, kind="stable")
     within = room(boxes.top[order], (boxes.end - boxes.top)[order], limits[0][order], size[0])
     outline, spans = covered(edges._replace(layer=np.argsort(order)[edges.layer]), within)
-    inks = _inks(surface, [drawn[n][0] for n in order.tolist()])
+    filled = [drawn[n][0] for n in order.tolist()]
+    inks, alphas = words(surface, [layer.colour for layer in filled]), [layer.alpha for layer in filled]
     begins = np.searchsorted(levels[order], np.arange(levels.max() + 2))
-    edge, inside = (_inked(runs, within, inks, begins) for runs in (outline, spans))
+    edge, inside = (_inked(runs, within, (inks, alphas), begins) for runs in (outline, spans))
     full = inside.share == WHOLE
     return [_spread(inside, spans.length, full), edge, _spread(inside, spans.length, ~full)]
 
@@ -254,20 +246,14 @@ def _levels(boxes: _Boxes) -> Ints:
     return np.array(levels)
 
 
-def _inks(surface: pygame.Surface, layers: Sequence[Layer]) -> _Inks:
-    inks = words(surface, [layer.colour for layer in layers])
-    return _Inks(inks, [layer.alpha for layer in layers])
-
-
-def _inked(runs: Runs, within: Room, inks: _Inks, begins: Ints) -> _Pixels:
-    """Return the first pixel of each run; the levels begin at these layers."""
-    bounds = np.searchsorted(runs.line, within.first)
-    cover = runs.cover
-    for n, alpha in enumerate(inks.alphas):
+def _inked(runs: Runs, within: Room, drawn: tuple[Words, list[float]], begins: Ints) -> _Pixels:
+    """Return the first pixel of each run, for the layers' colours and opacities; levels begin at these."""
+    (inks, alphas), bounds, cover = drawn, np.searchsorted(runs.line, within.first), runs.cover
+    for n, alpha in enumerate(alphas):
         if alpha < 1:
             cover[bounds[n] : bounds[n + 1]] = alpha * cover[bounds[n] : bounds[n + 1]]
     place = within.starts.take(runs.line) + runs.column
-    return _Pixels(place, shares(cover), np.repeat(inks.words, np.diff(bounds)), bounds[begins])
+    return _Pixels(place, shares(cover), np.repeat(inks, np.diff(bounds)), bounds[begins])
 
 
 def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:

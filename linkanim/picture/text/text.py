@@ -99,27 +99,15 @@ class Type:
 
     def __init__(self) -> None:
         self._fonts = Fonts()
-        self._glyphs: dict[tuple[str, int, Colour, str, int], pygame.Surface] = {}
+        self._glyphs: dict[tuple[str, int, Colour, str, int], Inked] = {}
         self._steps: dict[tuple[str, str, int, str], int] = {}
         self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
         self._inked: dict[tuple[str, int, str, Colour], tuple[int, list[Inked]]] = {}
         self._inked_bytes = 0
-        self._inks: dict[tuple[str, int, Colour, bool, int], Inked] = {}
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
         """Return how wide a line is in pixels; `strong` is the semibold weight."""
         return -(-self._set(text, size, _face(strong))[-1].x // _FINE)
-
-    def glyph(
-        self, char: str, size: int, colour: Colour, *, strong: bool = False, part: int = 0
-    ) -> pygame.Surface:
-        """Return one character, anti-aliased on nothing, `part` quarters of a pixel further right."""
-        face = _face(strong)
-        key = (char, size, colour, face, part)
-        if key not in self._glyphs:
-            drawn = self._fonts.render(char, _em(size), colour, face=face)
-            self._glyphs[key] = _averaged(drawn, part, self._fonts.ascent(_em(size)), colour)
-        return self._glyphs[key]
 
     def draw(
         self,
@@ -138,18 +126,18 @@ class Type:
         at a whole pixel, for text that glides reads worse than text that steps; its glyphs stand
         to a quarter of one, which spaces small text evenly.
         """
-        width, inked = self._inked_of(text, size, colour, strong=strong)
+        width, inked = self._inked_of(text, size, colour, _face(strong))
         x, y = _left(at[0], width, anchor), round(at[1]) + round(_BASE * size)
         surface.blits([(sprite, (x + right, y + down)) for sprite, right, down in inked], doreturn=False)
         return width
 
-    def _inked_of(self, text: str, size: int, colour: Colour, *, strong: bool) -> tuple[int, list[Inked]]:
+    def _inked_of(self, text: str, size: int, colour: Colour, face: str) -> tuple[int, list[Inked]]:
         """Return a line's width and its letters, as many on one surface as do not touch: so it blits fast."""
-        key = (text, size, _face(strong), colour)
+        key = (text, size, face, colour)
         if key not in self._inked:
-            *places, end = self._set(text, size, _face(strong))
+            *places, end = self._set(text, size, face)
             inks = (
-                (self._ink(char, small, colour, strong=strong, part=x % _FINE), x // _FINE, y)
+                (self._glyph(char, small, colour, face, x % _FINE), x // _FINE, y)
                 for char, small, x, y in places
             )
             glyphs = (Inked(ink, x + right, y + down) for (ink, right, down), x, y in inks if ink.get_width())
@@ -165,14 +153,15 @@ class Type:
             self._inked.clear()
             self._inked_bytes = further
 
-    def _ink(self, char: str, size: int, colour: Colour, *, strong: bool, part: int) -> Inked:
-        """Return a character without what is empty around it, so far right and below its own corner."""
-        key = (char, size, colour, strong, part)
-        if key not in self._inks:
-            glyph = self.glyph(char, size, colour, strong=strong, part=part)
+    def _glyph(self, char: str, size: int, colour: Colour, face: str, part: int) -> Inked:
+        """Return one character, anti-aliased, `part` quarters of a pixel further right of its own corner."""
+        key = (char, size, colour, face, part)
+        if key not in self._glyphs:
+            drawn = self._fonts.render(char, _em(size), colour, face=face)
+            glyph = _averaged(drawn, part, self._fonts.ascent(_em(size)), colour)
             ink = glyph.get_bounding_rect()
-            self._inks[key] = Inked(glyph.subsurface(ink), ink.x, ink.y)
-        return self._inks[key]
+            self._glyphs[key] = Inked(glyph.subsurface(ink), ink.x, ink.y)
+        return self._glyphs[key]
 
     def _set(self, text: str, size: int, face: str) -> tuple[_Place, ...]:
         """Return where the glyphs of a line stand and its end; the last lines are kept, being drawn again."""
