@@ -121,8 +121,7 @@ def _pace(rates: Rates) -> Formula:
 
 
 def _forceful(rates: Rates) -> list[Spring | Damper]:
-    struts: tuple[Spring | Damper, ...] = (*rates.work.linkage.springs, *rates.work.linkage.dampers)
-    return [item for item in struts if item.forceful]
+    return [item for item in rates.work.linkage.springs + rates.work.linkage.dampers if item.forceful]
 
 
 def _strut_powers(rates: Rates) -> Iterator[Formula]:

@@ -21,7 +21,7 @@ from linkanim.explain.parts import Found, centre_of_mass, effort, strut
 from linkanim.explain.rates import BY_INPUT, IN_TIME, ORDERS, Order, Rates
 from linkanim.explain.work import Powers, Scale, Work
 from linkanim.mechanics.facts.register import input_symbol
-from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
+from linkanim.mechanics.linkage.linkage import Body
 from linkanim.picture.figure import figure
 
 _FEWEST, _MOST = 6, 12
@@ -226,8 +226,7 @@ class _Draft:
             if body.com is not None:
                 self._found(f"Link {body.name}", centre_of_mass(body, self.rates))
         yield from self._chapter("Centres of mass")
-        struts: tuple[Spring | Damper, ...] = (*self.linkage.springs, *self.linkage.dampers)
-        for item in struts:
+        for item in self.linkage.springs + self.linkage.dampers:
             word = self.linkage.strut_word(item)
             self._found(f"{word[:1].upper()}{word[1:]} {item.name}", strut(item, self.rates))
         yield from self._chapter("Springs and dampers")

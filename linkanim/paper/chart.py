@@ -79,17 +79,18 @@ class Page:
         """The colour under everything."""
         return self.pen.theme.background
 
-    @property
-    def about(self) -> str:
-        """What it shows, in words."""
-        return ", ".join(dict.fromkeys(curve.quantity.words for curve in self.curves.curves))
-
     def surface(self) -> pygame.Surface:
         """Return the chart drawn."""
         surface = offscreen(self.size)
         surface.fill(self.background)
         printed(surface, self.groups(), self.pen.type)
         return surface
+
+    @property
+    def title(self) -> str:
+        """What it shows, in words."""
+        words = dict.fromkeys(curve.quantity.words for curve in self.curves.curves)
+        return f"{self.curves.scene.title}: {', '.join(words)}"
 
     def groups(self) -> tuple[Group, ...]:
         """Return everything on the page, words over shapes."""

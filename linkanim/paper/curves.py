@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from math import degrees, tau
 from typing import NamedTuple
 
@@ -14,7 +15,7 @@ from linkanim.mechanics.closing.search import highest
 from linkanim.mechanics.facts.register import Quantity
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.picture.diagrams.axis import Axis, linear
-from linkanim.picture.diagrams.course import Course, Floats, course, gain_of, input_title
+from linkanim.picture.diagrams.course import Floats, course, gain_of, input_title
 from linkanim.picture.diagrams.quantities import quantity, series_of
 from linkanim.picture.look import Over
 from linkanim.scenes.scene import Scene
@@ -32,15 +33,6 @@ class Pace(NamedTuple):
 
 
 @dataclass(frozen=True)
-class ChartRequest:
-    """What a chart is to show: tokens of quantities, over what, at which speeds."""
-
-    tokens: tuple[str, ...]
-    paces: tuple[Pace, ...]
-    over: Over | None = None
-
-
-@dataclass(frozen=True)
 class Curve:
     """One curve: its places along the axis and values there, and the phase at each place."""
 
@@ -51,11 +43,6 @@ class Curve:
     x: Floats
     values: Floats
     phases: Floats
-
-    @property
-    def rises(self) -> bool:
-        """Whether the phase grows along the curve."""
-        return bool(self.phases[-1] > self.phases[0])
 
     def solved(self, scene: Scene, phases: Floats) -> Floats:
         """Return its values at any phases, of an angle in any turn."""
@@ -102,9 +89,11 @@ class Curves:
         return ", ".join(part for part in (words, curve.label, curve.pace.words if paces else "") if part)
 
 
-def curves_of(scene: Scene, request: ChartRequest) -> Curves:
-    """Return the curves requested; BadInput where the scene has no such quantity, or none is named."""
-    quantities = tuple(dict.fromkeys(request.tokens))
+def curves_of(
+    scene: Scene, tokens: tuple[str, ...], paces: tuple[Pace, ...], over: Over | None = None
+) -> Curves:
+    """Return the curves of quantities; BadInput where the scene has no such quantity, or none is named."""
+    quantities = tuple(dict.fromkeys(tokens))
     if not quantities:
         raise BadInput(
             "--quantity names none; give one, such as rocker.angle, or several with commas between"
@@ -112,23 +101,13 @@ def curves_of(scene: Scene, request: ChartRequest) -> Curves:
     known = [quantity(scene, token) for token in quantities]
     periods = min(round(scene.period / tau), _MOST_PERIODS)
     cycle = scene.cycle(SAMPLES * periods)
-    found = tuple(
-        curve
-        for one in known
-        for pace in request.paces
-        for curve in _of(scene, one, pace, request.over, cycle)
-    )
-    return _along(
-        scene, found, [course(scene, pace.speed, request.over) for pace in request.paces], request.over
-    )
-
-
-def _along(scene: Scene, found: tuple[Curve, ...], courses: list[Course], over: Over | None) -> Curves:
+    of_each = [_of(scene, one, pace, over, cycle) for one in known for pace in paces]
+    found = tuple(chain.from_iterable(of_each))
+    longest = max((course(scene, pace.speed, over) for pace in paces), key=lambda one: one.span)
     if _there_and_back(scene, over):
         low, high = map(degrees, scene.info.input_range)
         return Curves(scene, found, input_title(scene), low, high, "°", (), over)
-    longest = max(courses, key=lambda one: one.span)
-    marks = longest.marks if len(courses) == 1 else ()
+    marks = longest.marks if len(paces) == 1 else ()
     return Curves(scene, found, longest.title, 0.0, longest.span, longest.unit, marks, over)
 
 
@@ -182,7 +161,7 @@ def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
     if curve.quantity.unit == "rad":
         value += 360 * round((curve.values[index] - value) / 360)
     angle = scene.linkage.drive.coordinate.shown(scene.pose(phase, 0).coordinate)
-    way = slice(None) if curve.rises else slice(None, None, -1)
+    way = slice(None, None, 1 if curve.phases[-1] > curve.phases[0] else -1)
     x = float(np.interp(phase, curve.phases[way], curve.x[way]))
     return Peak(x, value, angle % 360 if scene.info.full_turn else angle)
 

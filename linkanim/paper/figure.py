@@ -5,27 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
 import pygame
 
-from linkanim.atomic_files import replacing
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.motion import Pose
-from linkanim.paper.latex import write_for_latex
-from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
 from linkanim.picture.parts.driven import driven_words
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen, png_bytes
+from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Colour
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes.scene import Scene
-
-SUFFIXES = (".svg", ".png", ".pdf")
 
 
 @dataclass(frozen=True)
@@ -82,34 +76,14 @@ class Figured:
 
     def document(self) -> str:
         """Return the figure as SVG."""
-        return svg(self.size, self.background, self.groups(), title=self.scene.title)
+        return svg(self.size, self.background, self.groups(), title=self.title)
 
-    def printed(self) -> bytes:
-        """Return the figure as PDF."""
-        return pdf(self.size, self.background, self.groups(), title=self.scene.title)
+    @property
+    def title(self) -> str:
+        """What it shows."""
+        return self.scene.title
 
     @property
     def background(self) -> Colour | None:
         """The colour under everything; None where it is left open."""
         return self.picture.theme.background if self.look.background else None
-
-
-def write(shown: Figured, target: Path, *, latex: bool = False) -> None:
-    """Write a figure as SVG, PNG or PDF, as the name ends; the file appears whole or not at all.
-
-    The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
-    `BadInput` for a PDF without what writes it.
-    """
-    if target.suffix.lower() == ".pdf":
-        require_pdf()
-    if latex:
-        write_for_latex(target, shown.size, shown.background, shown.groups(), title=shown.scene.title)
-        return
-    with replacing(target) as part:
-        match target.suffix.lower():
-            case ".png":
-                part.write_bytes(png_bytes(shown.surface()))
-            case ".pdf":
-                part.write_bytes(shown.printed())
-            case _:
-                part.write_text(shown.document(), encoding="utf-8")

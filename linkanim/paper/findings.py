@@ -16,7 +16,7 @@ from linkanim.mechanics.closing.search import sign_changes
 from linkanim.mechanics.facts.register import Quantity, input_symbol
 from linkanim.mechanics.motion.measures import output_body, output_slider
 from linkanim.mechanics.motion.motion import Motion
-from linkanim.paper.curves import SAMPLES, ChartRequest, Pace, curves_of, extremes
+from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
 
 _LEVEL = 1e-9
@@ -47,14 +47,6 @@ class Finding(NamedTuple):
     values: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Sheet:
-    """All quantities at one instant, by the sort of thing that they are told of."""
-
-    title: str
-    sections: tuple[tuple[str, tuple[Finding, ...]], ...]
-
-
 def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
     """Return the instants at angles of the input (rad); OutOfRange for one that it does not come to."""
     path = scene.mechanism.assembly.path
@@ -78,7 +70,7 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
     if place is not None and (slider or output is None or output.name not in scene.info.turning_links):
         rate = place + "_velocity" if slider else place.replace(".angle", ".angular_velocity")
         pace = Pace(abs(scene.linkage.drive.speed), "")
-        curve = curves_of(scene, ChartRequest((place,), (pace,), "phase")).curves[0]
+        curve = curves_of(scene, (place,), (pace,), "phase").curves[0]
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
             phase = _at_rest(scene, rate, float(np.radians(peak.x)))
             found.append(Instant(phase, f"{words} {curve.quantity.words.lower()}"))
@@ -159,8 +151,8 @@ class Values:
         return found
 
 
-def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int) -> Sheet:
-    """Return every quantity of a scene at one instant, at each speed.
+def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int) -> dict[str, list[Finding]]:
+    """Return every quantity of a scene at one instant, at each speed, by what it is told of.
 
     A vector is told by its components, which have tokens of their own.
     """
@@ -170,9 +162,7 @@ def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int
         if len(quantity.columns) == 1:
             found = tuple(rounded(values.of(quantity, instant, pace), digits) for pace in paces)
             rows.append(Finding(quantity, quantity.shown_unit(values.scene.length_unit), found))
-    return Sheet(
-        place_of(values.scene, instant), tuple((title, tuple(rows)) for title, rows in sections.items())
-    )
+    return sections
 
 
 def place_of(scene: Scene, instant: Instant) -> str:
@@ -188,8 +178,8 @@ def _section(quantity: Quantity) -> str:
     return quantity.words.partition(":")[0] if ":" in quantity.words else "Whole mechanism"
 
 
-def charted(values: Values) -> Iterator[tuple[str, str]]:
-    """Yield (heading, token) of each chart: all that changes over the motion of bodies, springs and dampers,
+def charted(values: Values) -> Iterator[str]:
+    """Yield the token of each chart: all that changes over the motion of bodies, springs and dampers,
     centres of mass, traced joints and the whole; of the other joints the tables tell.
 
     A vector is charted by its components, and a velocity and an acceleration by its size, too.
@@ -201,7 +191,7 @@ def charted(values: Values) -> Iterator[tuple[str, str]]:
         owner, _, rest = token.partition(".")
         in_tables = owner in joints - bodies or rest.startswith("pole")
         if not in_tables and rest not in ("position", "com_position") and values.changes(quantity):
-            yield _section(quantity), token
+            yield token
 
 
 def paces_of(scene: Scene, token: str, paces: tuple[Pace, ...]) -> tuple[Pace, ...]:
@@ -217,11 +207,8 @@ def table(scene: Scene, pace: Pace) -> tuple[list[str], np.ndarray]:
     """
     count = round(degrees(scene.period))
     motion = scene.solve(phase=np.arange(count + 1) * (scene.period / count), speed=pace.speed)
-    names, columns = (
-        ["phase", scene.linkage.drive.coordinate.name, "time"],
-        [motion.phase, motion.coordinate],
-    )
-    columns.append(motion.phase / abs(pace.speed))
+    names = ["phase", scene.linkage.drive.coordinate.name, "time"]
+    columns = [motion.phase, motion.coordinate, motion.phase / abs(pace.speed)]
     for token, quantity in scene.quantities.items():
         if len(quantity.columns) == 1:
             names.append(token)

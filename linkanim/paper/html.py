@@ -7,15 +7,15 @@ functions of this module alone; all else is text.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from itertools import count
 from typing import Literal
 
 from linkanim.explain.documents import MATH_STYLE
-from linkanim.paper.findings import Sheet
-from linkanim.paper.tables import Column, ValueTable, speed_words
+from linkanim.paper.findings import Finding
+from linkanim.paper.tables import Column, ValueTable
 
 _STYLE = """
 :root { color-scheme: light; }
@@ -70,13 +70,6 @@ def embedded(picture: str, title: str, style: str = "") -> str:
 
 
 @dataclass(frozen=True)
-class Markup:
-    """What is written as it is."""
-
-    text: str
-
-
-@dataclass(frozen=True)
 class FigurePart:
     """A picture as SVG, with what it shows, which its number comes before; how high it is at the most."""
 
@@ -104,7 +97,8 @@ class Beside:
     across: int = 2
 
 
-Part = Markup | FigurePart | TablePart | Beside
+Part = str | FigurePart | TablePart | Beside
+"""Of a chapter; a string is markup, which is written as it is."""
 
 
 @dataclass(frozen=True)
@@ -154,8 +148,8 @@ def _css_text(text: str) -> str:
 
 def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
     match part:
-        case Markup(text):
-            return text
+        case str():
+            return part
         case FigurePart(picture, caption, highest):
             title = f"Figure {next(figures)}. {caption}"
             drawn = embedded(picture, title, f"max-height: {highest}mm")
@@ -197,26 +191,26 @@ def _minus(text: str) -> str:
     return _HYPHEN.sub("−", text)
 
 
-def sheet_parts(sheet: Sheet, speeds: Sequence[str]) -> Iterator[TablePart]:
-    """Yield the tables of every quantity at one instant."""
+def sheet_parts(
+    sections: Mapping[str, Sequence[Finding]], place: str, speeds: Sequence[str]
+) -> Iterator[TablePart]:
+    """Yield the tables of every quantity at one instant, where the input is at a place."""
     heads = "".join(f"<th class='n' scope='col'>{escape(speed)}</th>" for speed in speeds)
     first, last = "<th scope='col'>quantity</th><th scope='col'>symbol</th>", "<th scope='col'>unit</th>"
     head = f"<thead><tr>{first}{heads}{last}</tr></thead>"
-    for title, rows in sheet.sections:
+    for title, rows in sections.items():
         if rows:
             lines = "".join(
-                f"<tr><th scope='row'>{escape(_head_of_row(row.quantity.words))}</th>"
-                f"<td>{symbol(row.quantity.symbol)}</td>"
-                + "".join(f"<td class='n'>{escape(value)}</td>" for value in row.values)
-                + f"<td>{escape(row.unit)}</td></tr>"
+                # without what the heading says
+                f"<tr><th scope='row'>{escape(row.quantity.words.rpartition(': ')[2])}</th>"
+                f"<td>{symbol(row.quantity.symbol)}</td>{_numbers(row.values)}<td>{escape(row.unit)}</td></tr>"
                 for row in rows
             )
-            yield TablePart(f"{title}, {sheet.title}", f"{head}<tbody>{lines}</tbody>", len(rows))
+            yield TablePart(f"{title}, {place}", f"{head}<tbody>{lines}</tbody>", len(rows))
 
 
-def _head_of_row(words: str) -> str:
-    """Return a quantity's words without what its heading says."""
-    return words.partition(": ")[2] or words
+def _numbers(values: Iterable[str]) -> str:
+    return "".join(f"<td class='n'>{escape(value)}</td>" for value in values)
 
 
 def values_part(table: ValueTable) -> TablePart:
@@ -224,19 +218,13 @@ def values_part(table: ValueTable) -> TablePart:
     columns, width = table.columns, len(table.columns) + 1
     groups = "".join(
         f"<tbody>{_group_head(title, width)}"
-        + "".join(
-            f"<tr><th scope='row'>{symbol(label)}</th>"
-            + "".join(f"<td class='n'>{escape(value)}</td>" for value in row)
-            + "</tr>"
-            for label, row in rows
-        )
+        + "".join(f"<tr><th scope='row'>{symbol(label)}</th>{_numbers(row)}</tr>" for label, row in rows)
         + "</tbody>"
         for title, rows in table.groups
     )
     lines = sum(len(rows) + 1 for _, rows in table.groups)
-    return TablePart(
-        f"{table.title}: {table.about}", _head(table.head, columns) + groups, lines, "values", table.notes
-    )
+    title, rows = f"{table.title}: {table.about}", _head(table.head, columns) + groups
+    return TablePart(title, rows, lines, "values", table.notes)
 
 
 def _spanning(columns: int) -> str:
@@ -259,7 +247,7 @@ def _head(first: str, columns: tuple[Column, ...]) -> str:
         for some in across.values()
     )
     below = "".join(
-        f"<th class='n' scope='col'>{escape(speed_words(one.pace))}</th>" if one.pace else "<td></td>"
+        f"<th class='n' scope='col'>{escape(one.pace.words)}</th>" if one.pace else "<td></td>"
         for one in columns
     )
     title = f"<th scope='col'>{escape(first)}</th>" if first else "<td></td>"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from itertools import chain
 
 from linkanim.explain.documents import HTML, chapters
 from linkanim.explain.inputs import PoseRequest
@@ -14,12 +14,12 @@ from linkanim.explain.solution import Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.paper import html
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import ChartRequest, Pace, curves_of
+from linkanim.paper.curves import Pace, curves_of
 from linkanim.paper.figure import Figured
 from linkanim.paper.findings import Instant, Values, charted, paces_of, place_of, sheet, table
-from linkanim.paper.html import Beside, FigurePart, Markup, Part, ReportChapter
+from linkanim.paper.html import Beside, FigurePart, Part, ReportChapter
 from linkanim.paper.svg import svg
-from linkanim.paper.tables import speed_words, value_tables
+from linkanim.paper.tables import value_tables
 from linkanim.paper.topics import topics
 from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
@@ -38,13 +38,8 @@ _UNSAFE = re.compile(r"[^\w.-]+")
 _LONGEST = 60
 """Letters of a chart's file name that come from its quantities."""
 
-
-class DrawnChart(NamedTuple):
-    """A chart as SVG: its quantities, and what it shows."""
-
-    tokens: tuple[str, ...]
-    caption: str
-    picture: str
+DrawnChart = tuple[tuple[str, ...], FigurePart]
+"""A chart's quantities, and how it is shown."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +62,9 @@ class Report:
         yield "figure.svg", self._figure.document()
         if self._worked.loops:
             yield "loops.svg", vectors_svg(self._worked)
-        for number, chart in enumerate(self._charts, start=1):
-            name = _UNSAFE.sub("-", "-".join(chart.tokens))[:_LONGEST].rstrip("-.")
+        charts = chain(*self._topics.values(), self._every)
+        for number, (tokens, chart) in enumerate(charts, start=1):
+            name = _UNSAFE.sub("-", "-".join(tokens))[:_LONGEST].rstrip("-.")
             yield f"chart-{number:03}-{name}.svg", chart.picture
         for number, pace in enumerate(self.paces, start=1):
             yield f"quantities-{number}.csv", _csv(self.scene, pace)
@@ -91,29 +87,22 @@ class Report:
         return solution(PoseRequest(self.scene, "phase", self._figure.shown_phase, self.paces[0].speed))
 
     @cached_property
-    def _charts(self) -> tuple[DrawnChart, ...]:
-        """All charts in the order of the page."""
-        return tuple(chart for some in self._by_topic.values() for chart in some)
+    def _topics(self) -> dict[str, list[DrawnChart]]:
+        """The charts of each topic."""
+        found = topics(self._values, self.paces).items()
+        return {title: [self._drawn(*chart) for chart in charts] for title, charts in found}
 
     @cached_property
-    def _by_topic(self) -> dict[str, tuple[DrawnChart, ...]]:
-        found = {
-            topic.title: tuple(self._drawn(*planned) for planned in topic.charts)
-            for topic in topics(self._values, self.paces)
-        }
-        if self.every:
-            known = ((token, f"{title}: {token}") for title, token in charted(self._values))
-            found["Every quantity over one period"] = tuple(
-                self._drawn((token,), self.scene.quantities[token].words) for token, _ in known
-            )
-        return found
+    def _every(self) -> list[DrawnChart]:
+        tokens = charted(self._values) if self.every else ()
+        return [self._drawn((token,), self.scene.quantities[token].words) for token in tokens]
 
     def _drawn(self, tokens: tuple[str, ...], caption: str) -> DrawnChart:
         order, paces = self.scene.quantities[tokens[0]].order, paces_of(self.scene, tokens[0], self.paces)
-        drawn = Page(curves_of(self.scene, ChartRequest(tokens, paces)), _CHART, brief=True)
+        drawn = Page(curves_of(self.scene, tokens, paces), _CHART, brief=True)
         picture = svg(_CHART, drawn.background, drawn.groups(), title=caption)
-        at = f", at {speed_words(paces[0])}" if order and len(paces) == 1 else ""
-        return DrawnChart(tokens, f"{caption}{at}", picture)
+        at = f", at {paces[0].words}" if order and len(paces) == 1 else ""
+        return tokens, FigurePart(picture, f"{caption}{at}")
 
     def _head(self) -> Iterator[str]:
         yield html.paragraph(self.scene.source, "source")
@@ -125,19 +114,20 @@ class Report:
         if self._worked.loops:
             yield ReportChapter("Vector loops", tuple(self._vector_loops()))
         yield ReportChapter("Values", tuple(self._tables()))
-        period = f"over one period, at {', '.join(map(speed_words, self.paces))}"
-        charts = self._by_topic
-        every = charts.get("Every quantity over one period")
-        for title, some in charts.items():
-            if some is not every:
-                yield ReportChapter(title, tuple(_in_rows(map(_figure_of, some))))
+        for title, charts in self._topics.items():
+            yield ReportChapter(title, tuple(_in_rows([chart for _, chart in charts])))
         yield ReportChapter("Velocity and acceleration polygons", tuple(self._polygons()))
-        if every is not None:
+        if self.every:
+            speeds = [pace.words for pace in self.paces]
             for instant in self.instants:
-                found = sheet(self._values, instant, self.paces, self.digits)
-                tables = html.sheet_parts(found, [speed_words(pace) for pace in self.paces])
-                yield ReportChapter(f"Every quantity at {found.title}", tuple(tables))
-            yield ReportChapter(f"Every quantity {period}", tuple(_in_rows(map(_figure_of, every))))
+                found, place = (
+                    sheet(self._values, instant, self.paces, self.digits),
+                    place_of(self.scene, instant),
+                )
+                tables = html.sheet_parts(found, place, speeds)
+                yield ReportChapter(f"Every quantity at {place}", tuple(tables))
+            title = f"Every quantity over one period, at {', '.join(speeds)}"
+            yield ReportChapter(title, tuple(_in_rows([chart for _, chart in self._every])))
 
     def _mechanism(self) -> Iterator[Part]:
         scene, shown = self.scene, self._figure
@@ -155,13 +145,13 @@ class Report:
         alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
         # behind the headings of both and the figure
         _, _, _, *equations = chapters(alone, HTML)
-        yield Beside((FigurePart(vectors_svg(alone), caption, 90), tuple(map(Markup, equations))))
+        yield Beside((FigurePart(vectors_svg(alone), caption, 90), tuple(equations)))
 
     def _tables(self) -> Iterator[Part]:
         for one in value_tables(self._values, self.instants, self.paces, self.digits):
             yield html.values_part(one)
         for note in self.scene.notes:
-            yield Markup(html.paragraph(note))
+            yield html.paragraph(note)
 
     def _polygons(self) -> Iterator[Part]:
         look = Look(trace=False, polygons=True, hud=False)
@@ -169,19 +159,14 @@ class Report:
         across = 3 if len(self.instants) % 3 == 0 else 2
         for instant in self.instants:
             shown = Figured(self.scene, _POLYGONS[across], look, instant.phase, speed=pace.speed)
-            caption = f"Polygons at {place_of(self.scene, instant)}, {speed_words(pace)}"
+            caption = f"Polygons at {place_of(self.scene, instant)}, {pace.words}"
             found.append(FigurePart(shown.document(), caption))
         yield from _in_rows(found, across)
 
 
-def _in_rows(parts: Iterable[FigurePart], across: int = 2) -> Iterator[Beside]:
+def _in_rows(parts: list[FigurePart], across: int = 2) -> Iterator[Beside]:
     """Yield figures side by side, so many in a row."""
-    known = tuple(parts)
-    yield from (Beside(known[n : n + across], across) for n in range(0, len(known), across))
-
-
-def _figure_of(chart: DrawnChart) -> FigurePart:
-    return FigurePart(chart.picture, chart.caption)
+    return (Beside(tuple(parts[n : n + across]), across) for n in range(0, len(parts), across))
 
 
 def _csv(scene: Scene, pace: Pace) -> str:

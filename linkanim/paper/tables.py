@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import isinf, isnan
 from typing import NamedTuple
 
-from linkanim.digits import rounded, rpm
+from linkanim.digits import rounded
 from linkanim.mechanics.facts.effort import effort_token
 from linkanim.mechanics.facts.register import Quantity, called
 from linkanim.paper.curves import Pace
@@ -74,11 +74,6 @@ class ValueTable:
     notes: tuple[str, ...]
 
 
-def speed_words(pace: Pace) -> str:
-    """Return a speed as it was asked for, or in turns a minute."""
-    return pace.words or rpm(pace.speed)
-
-
 def value_tables(
     values: Values, instants: tuple[Instant, ...], paces: tuple[Pace, ...], digits: int
 ) -> Iterator[ValueTable]:
@@ -99,10 +94,9 @@ def _families(values: Values) -> Iterator[Family]:
     massive = tuple((called(body, names), body.name) for body in linkage.bodies if body.com is not None)
     moving = [joint.name for joint in linkage.joints if not joint.fixed]
     moving.sort(key=lambda name: name not in scene.trace)
-    kept = moving if len(moving) <= _MOST_JOINTS else moving[:_MOST_JOINTS]
+    kept = moving[:_MOST_JOINTS]
     in_order = tuple((joint.name, joint.name) for joint in linkage.joints if joint.name in kept)
-    names_of = [*(spring.name for spring in linkage.springs), *(damper.name for damper in linkage.dampers)]
-    struts = tuple((name, name) for name in names_of)
+    struts = tuple((strut.name, strut.name) for strut in linkage.springs + linkage.dampers)
     yield Family("Links", _LINKS, "link", turning, _TURNING)
     yield Family("Sliders", _SLIDERS, "slider", sliding, _SLIDING)
     yield Family("Joints", _POINTS, "joint", in_order, _POINT)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import NamedTuple
 
 from linkanim.mechanics.facts.effort import effort_token
@@ -23,18 +24,10 @@ class PlannedChart(NamedTuple):
     caption: str
 
 
-class Topic(NamedTuple):
-    """The charts of one chapter."""
-
-    title: str
-    charts: tuple[PlannedChart, ...]
-
-
-def topics(values: Values, paces: tuple[Pace, ...]) -> tuple[Topic, ...]:
+def topics(values: Values, paces: tuple[Pace, ...]) -> dict[str, list[PlannedChart]]:
     """Return the charts by topic; nothing of what does not change, no topic without a chart."""
-    chosen = _ChartChoice(values, several=len(paces) > 1)
-    found = (Topic(title, tuple(charts)) for title, charts in chosen.topics())
-    return tuple(topic for topic in found if topic.charts)
+    found = {title: [*charts] for title, charts in _ChartChoice(values, several=len(paces) > 1).topics()}
+    return {title: charts for title, charts in found.items() if charts}
 
 
 @dataclass(frozen=True)
@@ -52,31 +45,17 @@ class _ChartChoice:
         turning = [body.name for body in bodies_in_chain(linkage) if body.name not in cranks]
         sliding = [body.name for body in linkage.bodies if body.slider]
         massive = [body.name for body in linkage.bodies if body.com is not None and body.name not in cranks]
-        struts = [*(spring.name for spring in linkage.springs), *(damper.name for damper in linkage.dampers)]
+        struts = [strut.name for strut in linkage.springs + linkage.dampers]
         traced = [] if self.several and turning else [*self.values.scene.trace]
-        coefficients = [
-            self._of((*turning, *sliding), name) for name in ("coefficient", "second_coefficient")
-        ]
-        whole = self._charts(["transmission_angle"])
-        yield (
-            "Positions",
-            [*self._of(turning, "angle"), *self._of(sliding, "travel"), *whole, *coefficients[0]],
+        links, whole = [*turning, *sliding], self._charts(["transmission_angle"])
+        places = self._all(("angle", turning), ("travel", sliding))
+        yield "Positions", chain(places, whole, self._all(("coefficient", links)))
+        rates = ("angular_{}", turning), ("travel_{}", sliding), ("{}", traced)
+        velocities, accelerations = (
+            [(form.format(rate), parts) for form, parts in rates] for rate in ("velocity", "acceleration")
         )
-        yield (
-            "Velocities",
-            self._all(("angular_velocity", turning), ("travel_velocity", sliding), ("velocity", traced)),
-        )
-        yield (
-            "Accelerations",
-            [
-                *coefficients[1],
-                *self._all(
-                    ("angular_acceleration", turning),
-                    ("travel_acceleration", sliding),
-                    ("acceleration", traced),
-                ),
-            ],
-        )
+        yield "Velocities", self._all(*velocities)
+        yield "Accelerations", self._all(("second_coefficient", links), *accelerations)
         yield "Centres of mass", self._all(("com_velocity", massive), ("com_acceleration", massive))
         effort = self._charts([effort_token(linkage)])
         of_struts = self._all(("length", struts), ("rate", struts), ("force", struts))
@@ -84,10 +63,7 @@ class _ChartChoice:
 
     def _all(self, *planned: tuple[str, list[str]]) -> Iterator[PlannedChart]:
         for measure, parts in planned:
-            yield from self._of(parts, measure)
-
-    def _of(self, parts: Iterable[str], measure: str) -> Iterator[PlannedChart]:
-        return self._charts([f"{part}.{measure}" for part in parts])
+            yield from self._charts([f"{part}.{measure}" for part in parts])
 
     def _charts(self, tokens: list[str]) -> Iterator[PlannedChart]:
         """Yield a chart of what the speed leaves as it is, and one of each that it changes."""

@@ -1,4 +1,4 @@
-"""A chart as a file: its name's ending says which."""
+"""A figure or a chart as a file: its name's ending says which."""
 
 from __future__ import annotations
 
@@ -8,35 +8,39 @@ from linkanim.atomic_files import replacing
 from linkanim.export import csv_head, csv_rows
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import table
+from linkanim.paper.figure import Figured
 from linkanim.paper.latex import write_for_latex
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
 from linkanim.picture.raster.offscreen import png_bytes
 
-SUFFIXES = (".svg", ".png", ".pdf", ".csv")
+OF_A_FIGURE = (".svg", ".png", ".pdf")
+OF_A_CHART = (*OF_A_FIGURE, ".csv")
 
 
-def write(page: Page, target: Path, *, latex: bool = False) -> None:
-    """Write a chart as SVG, PNG, PDF or CSV; the file appears whole or not at all.
+def write(shown: Figured | Page, target: Path, *, latex: bool = False) -> None:
+    """Write a figure or a chart as SVG, PNG or PDF, a chart also as CSV; a file appears whole or not at all.
 
     The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
     `BadInput` for a PDF without what writes it.
     """
-    title = f"{page.curves.scene.title}: {page.about}"
     if target.suffix.lower() == ".pdf":
         require_pdf()
     if latex:
-        write_for_latex(target, page.size, page.background, page.groups(), title=title)
+        write_for_latex(target, shown.size, shown.background, shown.groups(), title=shown.title)
         return
     with replacing(target) as part:
-        match target.suffix.lower():
-            case ".csv":
-                names, columns = table(page.curves)
-                part.write_text(csv_head(names) + csv_rows(columns), encoding="utf-8", newline="")
-            case ".png":
-                part.write_bytes(png_bytes(page.surface()))
-            case ".pdf":
-                part.write_bytes(pdf(page.size, page.background, page.groups(), title=title))
-            case _:
-                text = svg(page.size, page.background, page.groups(), title=title)
-                part.write_text(text, encoding="utf-8")
+        part.write_bytes(data(shown, target.suffix.lower()))
+
+
+def data(shown: Figured | Page, suffix: str) -> bytes:
+    """Return a figure or a chart as a kind of file."""
+    match suffix:
+        case ".csv" if isinstance(shown, Page):
+            names, columns = table(shown.curves)
+            return (csv_head(names) + csv_rows(columns)).encode()
+        case ".png":
+            return png_bytes(shown.surface())
+        case ".pdf":
+            return pdf(shown.size, shown.background, shown.groups(), title=shown.title)
+    return svg(shown.size, shown.background, shown.groups(), title=shown.title).encode()

@@ -10,7 +10,7 @@ import pytest
 
 from linkanim.paper.annotations import _apart
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import ChartRequest, Curve, Pace, curves_of, extremes
+from linkanim.paper.curves import Curve, Pace, curves_of, extremes
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.look import Over
 from linkanim.picture.raster.raster import Layer
@@ -25,7 +25,7 @@ TOLD = re.compile(r"([−\d.]+)°? at ")
 
 def page_of(name: str, *tokens: str, size: tuple[int, int] = (960, 540), over: Over | None = None) -> Page:
     paces = tuple(Pace(speed, f"{speed:g} rad/s") for speed in SPEEDS)
-    return Page(curves_of(load(name), ChartRequest(tokens, paces, over)), size)
+    return Page(curves_of(load(name), tokens, paces, over), size)
 
 
 def box_of(page: Page, words: Caption) -> Rect:

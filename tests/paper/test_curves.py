@@ -11,7 +11,7 @@ import pytest
 
 from linkanim.errors import BadInput
 from linkanim.mechanics.facts.register import register
-from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of, extremes, table
+from linkanim.paper.curves import Curves, Pace, curves_of, extremes, table
 from linkanim.picture.look import Over
 from linkanim.scenes import load
 
@@ -19,7 +19,7 @@ FIVE, TEN = Pace(5.0, "5 rad/s"), Pace(-10.0, "-10 rad/s")
 
 
 def _curves(name: str, *tokens: str, paces: tuple[Pace, ...] = (FIVE,), over: Over | None = None) -> Curves:
-    return curves_of(load(name), ChartRequest(tokens, paces, over))
+    return curves_of(load(name), tokens, paces, over)
 
 
 # scene, over, title, from, to
@@ -168,7 +168,7 @@ def test_the_table_holds_what_is_solved_in_radians() -> None:
 def test_an_extreme_beside_a_cusp_has_a_value() -> None:
     # The astroid's point rests in its cusps, and its path has no direction there.
     scene = load("epicyclic-hypocycloid")
-    curve = curves_of(scene, ChartRequest(("E.tangential_acceleration",), (Pace(1.0, "1 rad/s"),))).curves[0]
+    curve = curves_of(scene, ("E.tangential_acceleration",), (Pace(1.0, "1 rad/s"),)).curves[0]
     peaks = extremes(scene, curve)
     assert len(peaks) == 2
     assert all(np.isfinite([peak.value, peak.x, peak.angle]).all() for peak in peaks)

@@ -13,7 +13,7 @@ import pytest
 
 from linkanim.number_table import NumberRow
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import ChartRequest, Pace, curves_of
+from linkanim.paper.curves import Pace, curves_of
 from linkanim.paper.measured import MeasuredTable, beside
 from linkanim.paper.svg import svg
 from linkanim.picture.diagrams.quantities import telling
@@ -30,7 +30,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 def _page(name: str, *tokens: str, speeds: tuple[float, ...] = (5.0,), size: tuple[int, int] = SIZE) -> Page:
     paces = tuple(Pace(speed, f"{speed:g} rad/s") for speed in speeds)
-    return Page(curves_of(load(name), ChartRequest(tokens, paces)), size)
+    return Page(curves_of(load(name), tokens, paces), size)
 
 
 def _said(page: Page) -> list[str]:

@@ -13,6 +13,7 @@ from linkanim.cli import main
 from linkanim.errors import BadInput
 from linkanim.paper.figure import Figured
 from linkanim.paper.pdf import pdf, require_pdf
+from linkanim.paper.write import data
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look
 from linkanim.picture.raster.raster import Layer
@@ -61,7 +62,7 @@ def test_the_background_covers_the_page_in_its_colour_or_is_left_open() -> None:
 
 @pytest.mark.parametrize("background", [True, False])
 def test_a_figure_has_the_background_that_is_asked_for(background: bool) -> None:
-    drawn = content(Figured(load("kite"), (400, 200), Look(background=background)).printed())
+    drawn = content(data(Figured(load("kite"), (400, 200), Look(background=background)), ".pdf"))
     assert (" re f" in drawn) == background
 
 
@@ -100,7 +101,7 @@ def test_what_is_half_seen_through_is_so_in_print() -> None:
 
 @pytest.mark.slow
 def test_the_same_figure_has_the_same_bytes() -> None:
-    one, two = (Figured(load("press"), (640, 360), Look(hud=False, names=2)).printed() for _ in range(2))
+    one, two = (data(Figured(load("press"), (640, 360), Look(hud=False, names=2)), ".pdf") for _ in range(2))
     assert one == two
 
 
@@ -126,8 +127,7 @@ def test_only_a_pdf_asks_for_the_extra(
     def missing() -> None:
         raise BadInput("no extra")
 
-    for module in ("figure", "write"):
-        monkeypatch.setattr(f"linkanim.paper.{module}.require_pdf", missing)
+    monkeypatch.setattr("linkanim.paper.write.require_pdf", missing)
     ends = [main([*words, "-o", str(tmp_path / name)]) for name in ("x.svg", "x.pdf")]
     assert ends == [0, 2]
     assert [path.name for path in tmp_path.iterdir()] == ["x.svg"]

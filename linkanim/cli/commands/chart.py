@@ -9,18 +9,18 @@ from linkanim.cli.picture_options import scene_size_target
 from linkanim.digits import rpm, stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import ChartRequest, Curves, Pace, curves_of
+from linkanim.paper.curves import Curves, Pace, curves_of
 from linkanim.paper.latex import labels_path
 from linkanim.paper.measured import MeasuredCurve, beside, read_table, usual_over
-from linkanim.paper.write import SUFFIXES, write
+from linkanim.paper.write import OF_A_CHART, write
 from linkanim.scenes.scene import Scene
 
 
 def run(options: Namespace) -> None:
     """Write the chart that was asked for; print its path, and how far a table beside it differs."""
-    scene, size, target = scene_size_target(options, SUFFIXES, ".png")
+    scene, size, target = scene_size_target(options, OF_A_CHART, ".png")
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
-    curves = curves_of(scene, ChartRequest(tokens, paces(scene, options), options.over))
+    curves = curves_of(scene, tokens, paces(scene, options), options.over)
     measured = _measured(curves, options)
     write(Page(curves, size, options.theme, measured), target, latex=bool(options.text))
     if measured:

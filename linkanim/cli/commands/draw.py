@@ -7,14 +7,15 @@ from math import isnan
 
 from linkanim.cli.commands.solve import out_of_range
 from linkanim.cli.picture_options import look_of, scene_size_target
-from linkanim.paper.figure import SUFFIXES, Figured, write
+from linkanim.paper.figure import Figured
 from linkanim.paper.latex import labels_path
+from linkanim.paper.write import OF_A_FIGURE, write
 from linkanim.scenes.scene import Scene
 
 
 def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
-    scene, size, target = scene_size_target(options, SUFFIXES, ".svg")
+    scene, size, target = scene_size_target(options, OF_A_FIGURE, ".svg")
     look = look_of(scene, options)
     shown = Figured(scene, size, look, _phase(scene, options), options.poses or 0, options.speed)
     write(shown, target, latex=bool(options.text))
