@@ -21,7 +21,7 @@ On the chosen thing, also by keys (`chosen.py`, `dimensions.py`, `building.py`):
     trace(building)                its curve on or off                  drive(building)  it is the drive
     write(building, text), erase(building), take(building)              digits for its number `row`, Enter
     choose_number(building, further)                                    the next number of it
-    undo(building), redo(building), let_go(building)
+    undo(building), redo(building)
 
 A photograph behind it (`gestures.py`): `lay_photo(building, file, x, y, width)`, `move_photo(building, x, y,
 to_x, to_y)`, `fit_photo(building, x, y, to_x, to_y, x2, y2, to_x2, to_y2)`, by two known points.

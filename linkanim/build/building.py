@@ -66,30 +66,30 @@ def posed(building: Building, phase: float) -> Building:
     return replace(building, draft=replace(building.draft, places=places, phase=phase))
 
 
-def let_go(building: Building) -> Building:
-    """Return the building with nothing chosen, nothing typed and no sentence."""
-    return replace(building, chosen=None, row=0, typed="", sentence="")
+def choosing(building: Building, thing: Thing | None) -> Building:
+    """Return the building with a thing chosen, or nothing, and nothing typed."""
+    return replace(building, chosen=thing, row=0, typed="", sentence="")
 
 
 def undo(building: Building) -> Building:
     """Return the building before its last change; digits begun are let go of first."""
-    if building.typed or not building.past:
+    past, future = building.past, building.future
+    if building.typed or not past:
         return replace(building, typed="", sentence="")
-    *past, draft = building.past
-    future = (*building.future, building.draft)
-    return replace(_standing(building, draft), past=tuple(past), future=future)
+    return _standing(building, past[-1], past[:-1], (*future, building.draft))
 
 
 def redo(building: Building) -> Building:
     """Return the building with the change that undo took back last."""
-    if not building.future:
+    past, future = building.past, building.future
+    if not future:
         return replace(building, typed="", sentence="")
-    *future, draft = building.future
-    past = (*building.past, building.draft)
-    return replace(_standing(building, draft), past=past, future=tuple(future))
+    return _standing(building, future[-1], (*past, building.draft), future[:-1])
 
 
-def _standing(building: Building, draft: Draft) -> Building:
+def _standing(
+    building: Building, draft: Draft, past: tuple[Draft, ...], future: tuple[Draft, ...]
+) -> Building:
     """Return the building with another draft, what is chosen still so if it is in it."""
     chosen = building.chosen if building.chosen in set(draft.things()) else None
-    return replace(building, draft=draft, chosen=chosen, row=0, typed="", sentence="")
+    return choosing(replace(building, draft=draft, past=past, future=future), chosen)

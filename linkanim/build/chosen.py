@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import floor, log10
 from typing import Any
 
-from linkanim.build.building import Building, changed, refused
+from linkanim.build.building import Building, changed, choosing, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, named_in
 from linkanim.build.gestures import SHARES, SPEED, crank_drive, driven
 from linkanim.build.order import line_of, place_of
@@ -26,13 +26,13 @@ def choose(building: Building, further: int) -> Building:
     if not things:
         return refused(building, "Nothing is drawn yet: a click sets a ground pin")
     now = things.index(building.chosen) if building.chosen in things else -1 if further > 0 else 0
-    return _choosing(building, things[(now + further) % len(things)])
+    return choosing(building, things[(now + further) % len(things)])
 
 
 def choose_thing(building: Building, kind: str, name: str) -> Building:
     """Return the building with a thing chosen; with nothing where there is none of that name."""
     thing = (kind, name)
-    return _choosing(building, thing if thing in set(building.draft.things()) else None)
+    return choosing(building, thing if thing in set(building.draft.things()) else None)
 
 
 def move(building: Building, x: float, y: float, *, snap: float) -> Building:
@@ -93,18 +93,14 @@ def delete(building: Building) -> Building:
     return changed(building, left, None, f"Removed {_WORDS.get(thing[0], thing[0][:-1])} {thing[1]}{with_it}")
 
 
-def _choosing(building: Building, thing: Thing | None) -> Building:
-    return replace(building, chosen=thing, row=0, typed="", sentence="")
-
-
 def _drivable(draft: Draft, thing: Thing | None) -> str | None:
     """Return the joint that is driven where a thing is: the moving end of a crank, or a slider."""
+    pins = draft.of("pins")
     if thing and thing[0] == "bars":
-        pins = draft.of("pins")
-        grounded = [joint in pins for joint in draft.of("bars")[thing[1]]["joints"]]
-        return draft.of("bars")[thing[1]]["joints"][grounded[0]] if any(grounded) else None
-    if thing and thing[0] == JOINT and thing[1] not in draft.of("pins"):
-        is_crank = any(end in draft.of("pins") for _, end, _ in draft.bars_at(thing[1]))
+        first, second = draft.ends(thing[1])
+        return second if first in pins else first if second in pins else None
+    if thing and thing[0] == JOINT and thing[1] not in pins:
+        is_crank = any(end in pins for _, end, _ in draft.bars_at(thing[1]))
         return thing[1] if is_crank or thing[1] in draft.of("sliders") else None
     return None
 
@@ -164,14 +160,8 @@ def _hanging(draft: Draft, gone: set[Thing]) -> Iterator[Thing]:
                 lost = bool(gone & {*named_in(table), *own}) or axis in axes
             if lost:
                 yield kind, name
-    driven = draft.driven
-    if (
-        driven
-        and "slider" not in draft.drive
-        and not any(
-            end in draft.of("pins") and ("bars", name) not in gone for name, end, _ in draft.bars_at(driven)
-        )
-    ):
+    bars_left = [end for name, end, _ in draft.bars_at(draft.driven or "") if ("bars", name) not in gone]
+    if draft.driven and "slider" not in draft.drive and not draft.of("pins").keys() & set(bars_left):
         yield DRIVE
 
 

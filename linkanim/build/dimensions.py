@@ -104,7 +104,7 @@ def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
 def _is_crank(draft: Draft, name: str) -> bool:
     """Tell whether a bar is the crank that is driven."""
     driven = draft.driven
-    return driven is not None and {driven, crank_of(draft, driven)} == set(draft.of("bars")[name]["joints"])
+    return driven is not None and {driven, crank_of(draft, driven)} == set(draft.ends(name))
 
 
 def _of_form(form: Form, table: Mapping[str, Any], key: Key) -> Iterator[tuple[Key, Field]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -114,6 +114,19 @@ class Draft:
             if joint in table["joints"]:
                 first, second = table["joints"]
                 yield name, second if first == joint else first, table["length"]
+
+    def ends(self, bar: str) -> list[str]:
+        """Return the two joints of a bar."""
+        return list(self.of("bars")[bar]["joints"])
+
+    def with_bar(self, start: str, end: str, length: object) -> Draft:
+        """Return the draft with a bar between two joints, which is called by them."""
+        return self.having("bars", f"{start}–{end}", {"joints": [start, end], "length": length})
+
+    def body_of(self, joints: Iterable[str]) -> str | None:
+        """Return the name of the body that joints are on."""
+        bodies = self.of("bodies").items()
+        return next((name for name, body in bodies if {*joints} <= {*body.get("joints", ())}), None)
 
     def bar(self, one: str, other: str) -> str | None:
         """Return the name of the bar between two joints."""

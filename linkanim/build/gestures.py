@@ -40,7 +40,7 @@ def bar(building: Building, start: str, end: Thing | None, x: float, y: float, *
         if known := draft.bar(start, name):
             return refused(building, f"Bar {known} is there already")
     else:
-        if end and end[0] == "bars" and start in draft.of("bars")[end[1]]["joints"]:
+        if end and end[0] == "bars" and start in draft.ends(end[1]):
             return refused(building, f"{start} is an end of that bar: let go beside it, or on another bar")
         draft, name = _with_joint(draft, end, x, y, snap)
     if place_of(draft, name) == place_of(draft, start):
@@ -51,7 +51,7 @@ def bar(building: Building, start: str, end: Thing | None, x: float, y: float, *
 
 def point(building: Building, name: str, x: float, y: float, *, snap: float) -> Building:
     """Return the building with a point on the body of a bar."""
-    draft, on = building.draft, list(building.draft.of("bars")[name]["joints"])
+    draft, on = building.draft, building.draft.ends(name)
     new, at = joint_name(draft, point=True), at_on(draft, on, complex(x, y), snap)
     if at == [0, 0]:
         return refused(building, f"That is {on[0]} itself: a point of a body lies beside its joints")
@@ -103,7 +103,7 @@ def slot(building: Building, joint: str, end: Thing) -> Building:
     """Return the building with a joint in the slot of a bar, or of what slides on a guide: a yoke."""
     draft, (kind, name) = building.draft, end
     if kind == "bars":
-        if joint in draft.of("bars")[name]["joints"]:
+        if joint in draft.ends(name):
             return refused(building, f"{joint} is an end of that bar, and cannot slide in it")
         return changed(building, _with_slot(draft, name, joint), (JOINT, joint))
     if kind != JOINT or name not in draft.of("sliders") or name == joint:
@@ -221,10 +221,10 @@ def _carrier(draft: Draft, start: Thing | None) -> tuple[str | None, list[str]]:
             return start[1], []
         name = next((name for name, _, _ in draft.bars_at(start[1])), None)
         point = draft.of("points").get(start[1])
-        on = point["on"] if point else draft.of("bars")[name]["joints"] if name else []
+        on = point["on"] if point else draft.ends(name) if name else []
         return start[1], list(on)
     if start and start[0] == "bars":
-        on = list(draft.of("bars")[start[1]]["joints"])
+        on = draft.ends(start[1])
         return on[0], on
     return None, []
 
@@ -251,8 +251,7 @@ def _with_bar(draft: Draft, start: str, end: str, snap: float) -> Draft:
     if end in draft.of("pins"):
         start, end = end, start
     way = place_of(draft, end) - place_of(draft, start)
-    name = f"{start}–{end}"
-    draft = draft.having("bars", name, {"joints": [start, end], "length": round_length(abs(way), snap)})
+    draft = draft.with_bar(start, end, round_length(abs(way), snap))
     draft = draft.having("bodies", body_name(draft), {"joints": [start, end]})
     if draft.drive or start not in draft.of("pins"):
         return draft

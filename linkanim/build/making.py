@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from cmath import phase, rect
 from collections.abc import Mapping
 from math import pi
 from typing import Any, NamedTuple
@@ -14,9 +13,9 @@ from linkanim.build.photo import photo_table
 from linkanim.build.shorthand import shortened
 from linkanim.errors import BadInput
 from linkanim.mechanics.linkage.joint import Point
-from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.steering import phase_towards
 
 NAME = "draft"
 """What the scene of a draft is called, and its file, unless it has a name."""
@@ -65,14 +64,7 @@ def phase_of(scene: Scene, places: Mapping[str, Point]) -> float:
     """
     if scene.info.full_turn:
         return 0.0
-    joint = scene.linkage.by_name[scene.linkage.drive.joint]
-    place = complex(*places[joint.name])
-    if isinstance(joint, DrivenSlider):
-        way = rect(1.0, -joint.line.angle)
-        now = ((place - complex(*places[joint.line.through])) * way).real
-    else:
-        now = phase(place - complex(*places[joint.needs[0]]))
-    return scene.mechanism.assembly.path.phase_of(now, pi / 2)
+    return phase_towards(scene, pi / 2, places[scene.linkage.drive.joint])
 
 
 def _whole(spring: Mapping[str, Any]) -> Mapping[str, Any]:

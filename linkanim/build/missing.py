@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from linkanim.build.draft import Draft, named_in
-from linkanim.build.order import Found, plates_of
+from linkanim.build.order import Found, ends_of, plates_of
 from linkanim.errors import BadInput
 
 EMPTY = "An empty sheet: click where the first ground pin stands"
@@ -40,7 +40,7 @@ def reworded(draft: Draft, error: BadInput) -> str:
     text = str(error)
     if apart := _APART.search(text):
         joint = apart["joint"]
-        names = [_body_of(draft, {end, joint}) for _, end, _ in draft.bars_at(joint)]
+        names = [_body_of(draft, joint, end) for _, end, _ in draft.bars_at(joint)]
         return f"Bars {' and '.join(names[:2])} ({apart['lengths']}) cannot meet{text[apart.end() :]}"
     name = (_KEYS.match(text) or {"name": None})["name"]
     text = f"{name or ''}: {_KEYS.sub('', text)}".removeprefix(": ")
@@ -51,7 +51,7 @@ def _too_many(draft: Draft, known: Found) -> str:
     """Say what holds joints that are held already; "" where everything is needed."""
     pins, plates = draft.of("pins"), plates_of(draft)
     for name, table in known.items():
-        ends = _ends(table) if "from" in table else {name}
+        ends = set(ends_of(table)) if "from" in table else {name}
         if ends <= pins.keys() and "on" not in table.get("line", {}):
             if len(ends) < 2:
                 return f"{name} cannot move: its guide and its bar both stand on the ground; remove one"
@@ -62,23 +62,19 @@ def _too_many(draft: Draft, known: Found) -> str:
         both = all(end in known or end in pins for end in (one, other))
         if any({one, other} <= plate.keys() for plate in plates):
             continue
-        if both and other not in _ends(known.get(one, {})) and one not in _ends(known.get(other, {})):
+        if both and other not in ends_of(known.get(one, {})) and one not in ends_of(known.get(other, {})):
             why = f"{one} and {other} are held without it"
             if third := _third(draft, one, other):
                 why = f"{', '.join(sorted((one, other, third)))} are all three pins in one body"
-            return f"Bar {_body_of(draft, {one, other})} ({bar}) is one too many: {why}; remove a bar"
+            return f"Bar {_body_of(draft, one, other)} ({bar}) is one too many: {why}; remove a bar"
     for kind, key in (("sliders", "line"), ("yokes", "slide"), ("gears", "gear")):
         for name in draft.of(kind):
             table = known.get(name, {})
             if table and key not in table and not (kind == "sliders" and "slide" in table):
                 return f"The {_WORDS[kind]} of {name} is one too many: it is held without it; remove one"
     for name, slot in draft.of("slots").items():
-        ends = draft.of("bars")[slot["bar"]]["joints"]
-        if (
-            slot["through"] in {*known, *pins}
-            and known.keys() | pins.keys() >= set(ends)
-            and not _slides(known, slot, ends)
-        ):
+        held = {slot["through"], *draft.ends(slot["bar"])}
+        if {*known, *pins} >= held and not _slides(known, slot, draft.ends(slot["bar"])):
             return f"The slot of {name} is one too many: {slot['through']} is held without it; remove one"
     return ""
 
@@ -151,13 +147,6 @@ def _holds(draft: Draft) -> Iterator[tuple[int, set[str]]]:
             yield taken, (named | ({name} if kind in _OWN else set())) & draft.places.keys()
 
 
-def _ends(table: Mapping[str, Any]) -> set[str]:
-    """Return the other ends of the bars by which a joint's table finds it."""
-    ends = table.get("from", table.get("crank", table.get("slot", {}).get("pivot", [])))
-    return {ends} if isinstance(ends, str) else set(ends)
-
-
-def _body_of(draft: Draft, joints: set[str]) -> str:
-    """Return the name of the body that joints are on; theirs where it has none."""
-    bodies = ((name, set(body.get("joints", ()))) for name, body in draft.of("bodies").items())
-    return next((name for name, held in bodies if joints <= held), "–".join(sorted(joints)))
+def _body_of(draft: Draft, one: str, other: str) -> str:
+    """Return the name of the body that two joints are on; theirs where it has none."""
+    return draft.body_of([one, other]) or "–".join(sorted((one, other)))

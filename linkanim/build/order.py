@@ -37,7 +37,7 @@ def found(draft: Draft) -> dict[str, dict[str, Any]]:
 def sides(draft: Draft) -> dict[str, dict[str, Any]]:
     """Return the closures of a draft's dyads: of which joints each is one, and what it is called."""
     tables = ((name, table) for name, table in found(draft).items() if "side" in table)
-    return {name: {"joints": _ends(table), "side": table["side"]} for name, table in tables}
+    return {name: {"joints": ends_of(table), "side": table["side"]} for name, table in tables}
 
 
 def plates_of(draft: Draft) -> list[RigidBody]:
@@ -112,7 +112,7 @@ def _slotted(
 ) -> Iterator[dict[str, Any]]:
     """Yield the joint as the end of a bar that slides through a joint."""
     for slot in draft.of("slots").values():
-        (one, other), through = draft.of("bars")[slot["bar"]]["joints"], slot["through"]
+        (one, other), through = draft.ends(slot["bar"]), slot["through"]
         pivot = other if name == one else one
         if name in (one, other) and {pivot, through} <= known:
             length = dict(bars)[pivot]
@@ -123,9 +123,9 @@ def _slotted(
 def _carried(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any]]:
     """Yield the lines of the slots in known bars that a joint runs in."""
     for slot in draft.of("slots").values():
-        ends = draft.of("bars")[slot["bar"]]["joints"]
+        ends = draft.ends(slot["bar"])
         if slot["through"] == name and known.issuperset(ends):
-            yield {"on": list(ends), "through": ends[0], "offset": slot.get("offset", 0)}
+            yield {"on": ends, "through": ends[0], "offset": slot.get("offset", 0)}
 
 
 def _at(draft: Draft, point: Mapping[str, Any]) -> Point:
@@ -145,9 +145,9 @@ def _base(guide: Mapping[str, Any]) -> list[str]:
 def _with_side(draft: Draft, name: str, table: dict[str, Any]) -> dict[str, Any]:
     """Return a dyad with its closure: as it is known of the same dyad, else where the joint was drawn."""
     known = draft.of("sides").get(name)
-    if known and known["joints"] == _ends(table):
+    if known and known["joints"] == ends_of(table):
         return {**table, "side": known["side"]}
-    place, names = place_of(draft, name), _ends(table)
+    place, names = place_of(draft, name), ends_of(table)
     if "line" in table:
         start, way = place_of(draft, names[0]), line_of(draft, table["line"])[1]
         return {**table, "side": RRP.sides[((place - start) * way.conjugate()).real < 0]}
@@ -155,6 +155,7 @@ def _with_side(draft: Draft, name: str, table: dict[str, Any]) -> dict[str, Any]
     return {**table, "side": RRR.sides[((place - start) * (end - start).conjugate()).imag < 0]}
 
 
-def _ends(table: Mapping[str, Any]) -> list[str]:
-    ends = table["from"]
+def ends_of(table: Mapping[str, Any]) -> list[str]:
+    """Return the other ends of the bars by which a joint's table finds it."""
+    ends = table.get("from", table.get("crank", table.get("slot", {}).get("pivot", [])))
     return [ends] if isinstance(ends, str) else list(ends)

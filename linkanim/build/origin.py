@@ -63,11 +63,11 @@ def _apart(draft: Draft, name: str, table: Any) -> Draft:
     if "on" in table:
         return draft.having("points", name, table)
     if "crank" in table:
-        draft = _with_bar(draft, table["crank"], name, table["length"])
+        draft = draft.with_bar(table["crank"], name, table["length"])
         return draft.having("gears", name, table["gear"]) if "gear" in table else draft
     if "slot" in table:
         slot = table["slot"]
-        draft = _with_bar(draft, slot["pivot"], name, table["length"])
+        draft = draft.with_bar(slot["pivot"], name, table["length"])
         bar = f"{slot['pivot']}–{name}"
         aside = {"offset": slot["offset"]} if "offset" in slot else {}
         return draft.having(
@@ -83,11 +83,7 @@ def _apart(draft: Draft, name: str, table: Any) -> Draft:
     ends, lengths = table.get("from", []), table.get("length", [])
     both = [(ends, lengths)] if isinstance(ends, str) else list(zip(ends, lengths, strict=True))
     for end, length in both:
-        draft = _with_bar(draft, end, name, length)
+        draft = draft.with_bar(end, name, length)
     side = table.get("side", (RRP if "line" in table else RRR).sides[0])
     known = {"joints": [end for end, _ in both], "side": side}
     return draft.having("sides", name, known) if both and side else draft
-
-
-def _with_bar(draft: Draft, start: str, end: str, length: object) -> Draft:
-    return draft.having("bars", f"{start}–{end}", {"joints": [start, end], "length": length})

@@ -51,6 +51,13 @@ def foot(draft: Draft, guide: str, place: complex) -> complex:
     return start + way * ((place - start) * way.conjugate()).real
 
 
+def from_span(start: complex, end: complex, place: complex) -> complex:
+    """Return the way to a place from the nearest one between two others."""
+    way = end - start
+    share = ((place - start) * way.conjugate()).real / (abs(way) ** 2 or 1.0)
+    return place - start - way * min(max(share, 0.0), 1.0)
+
+
 def crank_of(draft: Draft, joint: str) -> str | None:
     """Return the pivot of the crank that ends in a joint: a ground pin, or that of a geared crank."""
     ends = [end for _, end, _ in draft.bars_at(joint)]

@@ -11,7 +11,7 @@ from linkanim.build.building import Building, refused
 from linkanim.build.chosen import choose_thing, move
 from linkanim.build.draft import JOINT, Draft, Thing
 from linkanim.build.order import place_of
-from linkanim.build.places import foot
+from linkanim.build.places import foot, from_span
 from linkanim.build.rounding import snapped
 
 TOOLS: Final = ("bar", "guide", "slider", "slot", "gear", "spring", "damper", "cylinder", "move")
@@ -23,7 +23,10 @@ def under(draft: Draft, x: float, y: float, reach: float) -> Thing | None:
     """Return what lies within `reach` of a point: the nearest joint, else bar or strut, else guide."""
     point = complex(x, y)
     joints = [((JOINT, name), abs(place_of(draft, name) - point)) for name in draft.places]
-    spans = [(thing, _from_span(draft, span, point)) for thing, span in _spans(draft)]
+    spans = [
+        (thing, abs(from_span(place_of(draft, one), place_of(draft, other), point)))
+        for thing, (one, other) in _spans(draft)
+    ]
     guides = [(("guides", name), abs(foot(draft, name, point) - point)) for name in draft.of("guides")]
     for kind in (joints, spans, guides):
         thing, off = min(kind, key=lambda pair: pair[1], default=((JOINT, ""), inf))
@@ -104,11 +107,3 @@ def _spans(draft: Draft) -> Iterator[tuple[Thing, tuple[str, str]]]:
             yield from ((("bars", bar), (end, point)) for end in table["on"])
     for kind in ("springs", "dampers"):
         yield from (((kind, name), tuple(table["between"])) for name, table in draft.of(kind).items())
-
-
-def _from_span(draft: Draft, span: tuple[str, str], point: complex) -> float:
-    """Return how far a point is from the line between two joints."""
-    start, end = (place_of(draft, joint) for joint in span)
-    way = end - start
-    share = ((point - start) * way.conjugate()).real / (abs(way) ** 2 or 1.0)
-    return abs(point - start - way * min(max(share, 0.0), 1.0))

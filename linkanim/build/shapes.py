@@ -40,10 +40,9 @@ def _shapes(draft: Draft) -> Iterator[Shape]:
     for name, gear in draft.of("gears").items():
         yield from _wheels(draft, name, gear["with"], float(Fraction(gear["ratio"])))
     for name, table in draft.of("bars").items():
-        body = _body(draft, table["joints"])
         points = [end for end in draft.of("points") if draft.of("points")[end]["on"] == table["joints"]]
         places = tuple(draft.places[end] for end in (*table["joints"], *points))
-        yield Shape(("bars", name), "bars", places, body or name)
+        yield Shape(("bars", name), "bars", places, draft.body_of(table["joints"]) or name)
     for kind in ("springs", "dampers"):
         for name, table in draft.of(kind).items():
             yield Shape((kind, name), kind, tuple(draft.places[end] for end in table["between"]), name)
@@ -72,7 +71,7 @@ def _blocks(draft: Draft) -> Iterator[Shape]:
             (JOINT, joint), "sliders", (draft.places[joint], _point(place_of(draft, joint) + way)), joint
         )
     for name, slot in draft.of("slots").items():
-        first, second = (place_of(draft, end) for end in draft.of("bars")[slot["bar"]]["joints"])
+        first, second = (place_of(draft, end) for end in draft.ends(slot["bar"]))
         at = place_of(draft, slot["through"])
         yield Shape(("slots", name), "slots", (_point(at), _point(at + second - first)), name)
     for joint, yoke in draft.of("yokes").items():
@@ -83,9 +82,3 @@ def _blocks(draft: Draft) -> Iterator[Shape]:
 
 def _point(place: complex) -> Point:
     return place.real, place.imag
-
-
-def _body(draft: Draft, joints: list[str]) -> str | None:
-    """Return the name of the body that two joints are on."""
-    bodies = draft.of("bodies").items()
-    return next((name for name, body in bodies if set(joints) <= set(body.get("joints", ()))), None)

@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from linkanim.player.input.steering import phase_towards
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import with_dimensions
+from linkanim.scenes.steering import phase_towards
 
 
 @pytest.mark.parametrize("name", names())

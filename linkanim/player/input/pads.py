@@ -8,9 +8,9 @@ from pygame.event import Event
 from linkanim.player.input.keyboard import Repeats
 from linkanim.player.input.keys import Bind, Press, bind_of
 from linkanim.player.input.pad_buttons import button_name, hat_name, key_of
-from linkanim.player.input.steering import phase_along
 from linkanim.player.state.action import Action, Mode
 from linkanim.player.state.state import State
+from linkanim.scenes.steering import phase_along
 
 PAD_EVENTS = (
     pygame.JOYDEVICEADDED,

@@ -10,10 +10,10 @@ from typing import Literal, NamedTuple
 import pygame
 from pygame.event import Event
 
-from linkanim.player.input.steering import phase_towards
 from linkanim.player.state.action import Action
 from linkanim.player.state.tools import TOOLS
 from linkanim.player.window.screen import Screen
+from linkanim.scenes.steering import phase_towards
 
 _REACH = 0.035  # of the window's height
 _TENTHS = 0.1

@@ -6,7 +6,8 @@ from math import atan2, degrees, hypot, isnan
 
 from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import JOINT, Draft, Thing
-from linkanim.build.order import line_of, place_of
+from linkanim.build.order import line_of
+from linkanim.build.places import foot, from_span
 from linkanim.build.pointing import under
 from linkanim.build.rounding import snapped
 from linkanim.build.shapes import Shape, drawn
@@ -116,9 +117,8 @@ def _met(seen: Draft, thing: Thing | None, at: Point) -> Point | None:
     if thing and thing[0] == JOINT:
         return seen.places[thing[1]]
     if thing and thing[0] == "guides":
-        start, way = line_of(seen, seen.of("guides")[thing[1]])
-        foot = start + way * ((complex(*at) - start) * way.conjugate()).real
-        return foot.real, foot.imag
+        place = foot(seen, thing[1], complex(*at))
+        return place.real, place.imag
     return None
 
 
@@ -132,21 +132,12 @@ def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
     if thing is None or sheet.tool == "photo" or (grip and sheet.tool == "move"):
         return None
     if thing[0] == "bars":
-        one, other = (seen.places[joint] for joint in seen.of("bars")[thing[1]]["joints"])
-        return Snap(
-            _on(place_of(seen, seen.of("bars")[thing[1]]["joints"][0]), complex(*other), at), (one, other)
-        )
+        one, other = (seen.places[joint] for joint in seen.ends(thing[1]))
+        place = complex(*at) - from_span(complex(*one), complex(*other), complex(*at))
+        return Snap((place.real, place.imag), (one, other))
     if thing[0] == "guides":
         start, way = line_of(seen, seen.of("guides")[thing[1]])
         ends = start - 1e3 * reach * way, start + 1e3 * reach * way
         return Snap(_met(seen, thing, at) or at, ((ends[0].real, ends[0].imag), (ends[1].real, ends[1].imag)))
     met = _met(seen, thing, at)
     return Snap(met) if met else None
-
-
-def _on(begin: complex, end: complex, at: Point) -> Point:
-    """Return the foot of a point on the line through two others."""
-    way = end - begin
-    share = ((complex(*at) - begin) * way.conjugate()).real / (abs(way) ** 2 or 1.0)
-    foot = begin + way * min(max(share, 0.0), 1.0)
-    return foot.real, foot.imag
