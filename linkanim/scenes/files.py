@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from types import MappingProxyType
 
 from linkanim import intake
 from linkanim.document import meant
@@ -17,41 +18,32 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 
 
-def chapters() -> dict[str, tuple[str, ...]]:
+@cache
+def chapters() -> Mapping[str, tuple[str, ...]]:
     """Return the names of the catalogue's scenes by chapter, both in the order in which they are shown.
 
     A chapter's name is what is shown of it, too ("exact and scaling"). Every scene is in one chapter;
     `names()` is all of them one after the other. The keys 1-9 choose within the chapter of the scene that
     is on: `chapters()[chapter_of(name)][digit - 1]`.
     """
-    return dict(_chapters())
-
-
-@cache
-def _chapters() -> Mapping[str, tuple[str, ...]]:
-    """Return the chapters as the package has them, which stay as they are."""
     listed = parse(_text("chapters.toml"), "chapters.toml")
-    return {chapter: tuple(names) for chapter, names in listed.items()}
+    return MappingProxyType({chapter: tuple(names) for chapter, names in listed.items()})
 
 
 def chapter_of(name: str) -> str | None:
     """Return the chapter of a catalogue scene; None for any other name."""
-    return next((chapter for chapter, names in _chapters().items() if name in names), None)
+    return next((chapter for chapter, names in chapters().items() if name in names), None)
 
 
 def names() -> tuple[str, ...]:
     """Return the names of the catalogue's scenes in the order in which they are shown, chapter by chapter."""
-    return tuple(name for names in _chapters().values() for name in names)
-
-
-def titles() -> dict[str, str]:
-    """Return each catalogue scene's title by its name, without checking the linkage in it."""
-    return dict(_titles())
+    return tuple(name for names in chapters().values() for name in names)
 
 
 @cache
-def _titles() -> Mapping[str, str]:
-    return {name: str(parse(_catalogue_text(name), name)["title"]) for name in names()}
+def titles() -> Mapping[str, str]:
+    """Return each catalogue scene's title by its name, without checking the linkage in it."""
+    return MappingProxyType({name: str(parse(_catalogue_text(name), name)["title"]) for name in names()})
 
 
 def load(name_or_path: str | os.PathLike[str]) -> Scene:

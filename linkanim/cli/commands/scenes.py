@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Mapping
 
 from linkanim.document import meant
 from linkanim.errors import BadInput
@@ -21,7 +22,7 @@ def run(options: Namespace) -> None:
         print("".join(f"{line}\n" for line in (f"# {chapter}", *lines) if lines), end="")
 
 
-def _found(word: str | None) -> dict[str, str]:
+def _found(word: str | None) -> Mapping[str, str]:
     """Return the titles by name of the scenes that a word is told of; all without one."""
     every = titles()
     if word is None:

@@ -21,17 +21,14 @@ class PadRow(NamedTuple):
     keys: Mapping[str, tuple[str, ...]]
 
 
+_WAYS = ("up", "down", "left", "right")
 PAD: tuple[PadRow, ...] = (
     PadRow("left stick", "turn the crank to the stick's angle", {}),
     PadRow("A, ×", "play / pause; Enter in a list", {"lower": ("space", "return")}),
     PadRow("B, ○", "Esc", {"right": ("escape",)}),
     PadRow("X, □", "direction", {"left": ("d",)}),
     PadRow("Y, △", "names", {"upper": ("n",)}),
-    PadRow(
-        "D-pad",
-        "the arrow keys",
-        {f"pad {way}": (way,) for way in ("up", "down", "left", "right")},
-    ),
+    PadRow("D-pad", "the arrow keys", {f"pad {way}": (way,) for way in _WAYS}),
     PadRow("LB, RB; L1, R1", "the mechanism before, the next", {"before": ("shift+tab",), "next": ("tab",)}),
     PadRow("Start, Options", "the shelf", {"start": ("o",)}),
     PadRow("Back, Share", "help", {"back": ("h",)}),
@@ -41,17 +38,8 @@ PAD: tuple[PadRow, ...] = (
 _KEYS: Mapping[str, tuple[str, ...]] = {name: keys for row in PAD for name, keys in row.keys.items()}
 _ALIKE = ("lower", "right", "left", "upper")
 _WITH_HAT = (*_ALIKE, "before", "next", "back", "start")
-_WITHOUT_HAT = (
-    *_ALIKE,
-    "back",
-    "",
-    "start",
-    "",
-    "",
-    "before",
-    "next",
-    *(f"pad {way}" for way in ("up", "down", "left", "right")),
-)
+_OF_WAYS = tuple(f"pad {way}" for way in _WAYS)
+_WITHOUT_HAT = (*_ALIKE, "back", "", "start", "", "", "before", "next", *_OF_WAYS)
 """The buttons in the order in which the two usual layouts number them, by whether the D-pad is a hat."""
 
 

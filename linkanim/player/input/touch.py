@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import dist, log
-from typing import Any
 
 import pygame
 from pygame.event import Event
@@ -57,9 +56,9 @@ class Fingers:
             self._pointer = finger
             return [_mouse(pygame.MOUSEMOTION, at), _mouse(pygame.MOUSEBUTTONDOWN, at)]
         held, self._pointer, self._apart = self._pointer, None, self._spread
-        return (
-            [_mouse(pygame.MOUSEBUTTONUP, self._down[held])] if held in self._down and held != finger else []
-        )
+        if held in self._down and held != finger:
+            return [_mouse(pygame.MOUSEBUTTONUP, self._down[held])]
+        return []
 
     def _lifted(self, finger: int, at: Place) -> list[Event]:
         self._down.pop(finger, None)
@@ -87,7 +86,6 @@ class Fingers:
 
 def _mouse(kind: int, at: Place) -> Event:
     """Return an event of the mouse, its left button the one that is meant."""
-    more: dict[str, Any] = (
-        {"rel": (0, 0), "buttons": (1, 0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
-    )
-    return Event(kind, pos=at, **more)
+    if kind == pygame.MOUSEMOTION:
+        return Event(kind, pos=at, rel=(0, 0), buttons=(1, 0, 0))
+    return Event(kind, pos=at, button=1)

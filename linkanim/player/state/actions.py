@@ -132,9 +132,7 @@ def _unused(state: State, _: object) -> State:
 
 def _stuck(words: str) -> Callable[[State, State], str | None]:
     """Return what says so where there was nothing to do; else the list or the sheet shows it."""
-    return lambda before, after: (
-        words if (before.editing, before.sheet) == (after.editing, after.sheet) else None
-    )
+    return lambda was, now: words if (was.editing, was.sheet) == (now.editing, now.sheet) else None
 
 
 def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any], State]:

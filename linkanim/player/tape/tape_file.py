@@ -58,9 +58,8 @@ def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:
         raise BadInput(f"{where}: is not JSON; a tape is a file that G or M wrote in the window") from None
     if isinstance(document, dict):
         refuse_controls(Section(where, document))
-    return (
-        _with_games(from_document(document, where), games, where) if games else from_document(document, where)
-    )
+    tape = from_document(document, where)
+    return _with_games(tape, games, where) if games else tape
 
 
 def _with_games(tape: Tape, games: Callable[[str], Game], where: str) -> Tape:
@@ -88,10 +87,7 @@ def to_document(tape: Tape) -> dict[str, Any]:
         "shelf": [entry if isinstance(entry, str) else _scene_document(entry) for entry in state.shelf],
         "size": list(tape.size),
         "frames": tape.frames,
-        "actions": [
-            [frame, action.name] if action.value is None else [frame, action.name, action.value]
-            for frame, action in tape.actions
-        ],
+        "actions": [[frame, *action[: 1 if action.value is None else 2]] for frame, action in tape.actions],
     }
 
 
@@ -176,13 +172,11 @@ def _start(top: Section) -> State:
 
 
 def _kept(entries: Section, places: int) -> tuple[Edited, ...]:
-    parts = (entries.table(key) for key in entries.values)
-    return tuple(
-        Edited(
-            part.whole("place", 0, places - 1), _scene(part.table("scene")), _editing(part.table("editing"))
-        )
-        for part in parts
-    )
+    def edited(part: Section) -> Edited:
+        place, scene = part.whole("place", 0, places - 1), _scene(part.table("scene"))
+        return Edited(place, scene, _editing(part.table("editing")))
+
+    return tuple(edited(entries.table(key)) for key in entries.values)
 
 
 def _entry(entries: Section, key: str) -> Scene | str:

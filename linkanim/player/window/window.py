@@ -234,11 +234,9 @@ class Window:
         elif sheet.grip:
             yield Action("hand_up")
         elif sheet.cursor:
-            click = (
-                Action("hand_down", self.screen.handed(*self.screen.pixel(*sheet.cursor), 1.0)),
-                Action("hand_up"),
-            )
-            on_paper = self.screen.sheet_at(*self.screen.pixel(*sheet.cursor)) == "paper"
+            at = self.screen.pixel(*sheet.cursor)
+            click = Action("hand_down", self.screen.handed(*at, 1.0)), Action("hand_up")
+            on_paper = self.screen.sheet_at(*at) == "paper"
             yield from 2 * click if action.value else click if on_paper else click[:1]
 
     def _of_the_tape(self) -> Iterator[Action]:

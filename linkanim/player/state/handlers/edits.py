@@ -38,9 +38,8 @@ def edit(state: State, _: None) -> State:
     """Open or close the list; a joint is dropped, values begun are let go of, undo and redo stay."""
     state = drop(state, None)
     state = choose(replace(state, editing=replace(state.editing, drafts=())), 0)
-    return replace(
-        state, editing=replace(state.editing, open=not state.editing.open), listing=None, browsing=None
-    )
+    editing = replace(state.editing, open=not state.editing.open)
+    return replace(state, editing=editing, listing=None, browsing=None)
 
 
 def choose(state: State, further: int) -> State:
