@@ -13,7 +13,7 @@ from playing import CTRL, SHIFT, Player
 
 from linkanim.build.draft import Photo
 from linkanim.picture.building.photograph import lack
-from linkanim.picture.building.tools import ICONS
+from linkanim.picture.building.tools import ICONS, tool_cells
 from linkanim.picture.shelf import NEW
 from linkanim.play.arcade import Arcade
 from linkanim.player.state.action import Action
@@ -70,7 +70,7 @@ def builder(here: object) -> Iterator[Builder]:
 
 def test_an_empty_sheet_says_what_to_do(builder: Builder) -> None:
     assert builder.state.mode == "build"
-    shown = builder.window.screen.built
+    shown = builder.window.screen.over.build
     assert shown
     assert shown.sentence == builder.sheet.building.made.missing
     assert "ground pin" in shown.sentence
@@ -97,7 +97,7 @@ def test_before_it_moves_what_is_drawn_is_shown_with_what_is_missing(builder: Bu
     builder.draw((0, 0), (30, 0))
     before = builder.pixels
     builder.draw((30, 0), (60, 80))
-    shown = builder.window.screen.built
+    shown = builder.window.screen.over.build
     assert shown
     assert shown.draft
     assert [one.kind for one in shown.draft.shapes] == ["bars", "bars", "pins", "joints", "joints"]
@@ -110,13 +110,13 @@ def test_the_hand_shows_its_bar_and_what_it_would_be_joined_to(builder: Builder)
     builder.click(100, 0)
     builder.mouse(pygame.MOUSEBUTTONDOWN, builder.at(0, 0), button=1)
     builder.mouse(pygame.MOUSEMOTION, builder.at(30, 40), rel=(0, 0), buttons=(1, 0, 0))
-    shown = builder.window.screen.built
+    shown = builder.window.screen.over.build
     assert shown
     assert shown.rubber
     assert shown.rubber.end == pytest.approx((30, 40), abs=1.0)
     assert shown.rubber.words.endswith("°")
     builder.mouse(pygame.MOUSEMOTION, builder.at(99, 1), rel=(0, 0), buttons=(1, 0, 0))
-    shown = builder.window.screen.built
+    shown = builder.window.screen.over.build
     assert shown
     assert shown.snap
     assert shown.snap.at == (100.0, 0.0)
@@ -210,14 +210,14 @@ def test_the_crank_is_turned_by_the_hand(builder: Builder) -> None:
 
 def test_icons_take_tools_and_act(builder: Builder) -> None:
     builder.click(0, 0)
-    cells = builder.window.screen.tool_cells
-    undo = next(n for n, tool in enumerate(builder.window.screen.built.tools.tools) if tool.icon == "undo")  # type: ignore[union-attr]
+    cells = tool_cells(builder.window.screen._framing.last.layout, len(TOOLS))
+    undo = next(n for n, tool in enumerate(TOOLS) if tool.icon == "undo")
     builder.drag((cells[undo].middle.real, cells[undo].middle.imag))
     assert not builder.sheet.building.draft.places
     builder.mouse(
         pygame.MOUSEMOTION, (cells[0].middle.real, cells[0].middle.imag), rel=(0, 0), buttons=(0, 0, 0)
     )
-    shown = builder.window.screen.built
+    shown = builder.window.screen.over.build
     assert shown
     assert shown.tools
     assert shown.tools.pointed == 0
@@ -245,11 +245,11 @@ def test_an_empty_sheet_is_asked_for_twice_where_a_draft_would_be_lost(builder: 
 def test_digits_are_the_number_of_what_is_chosen(builder: Builder) -> None:
     builder.click(0, 0)
     builder.draw((0, 0), (30, 0))
-    shown = builder.window.screen.built
+    shown = builder.window.screen.over.build
     assert shown
     assert shown.number == "length 30 mm"
     builder.type("32.5")
-    shown = builder.window.screen.built
+    shown = builder.window.screen.over.build
     assert shown
     assert shown.number == "length 32.5_"
     builder.press(pygame.K_RETURN)
@@ -266,7 +266,7 @@ def test_del_says_what_went_with_it(builder: Builder) -> None:
     builder.tick(200)
     builder.click(0, 0)
     builder.press(pygame.K_DELETE)
-    shown = builder.window.screen.built
+    shown = builder.window.screen.over.build
     assert shown
     assert shown.sentence.startswith("Removed joint O2, with ")
     assert shown.is_warning

@@ -70,10 +70,10 @@ class Mouse:
         self._far = max(self._far, math.dist(self._begun, self._at))
         height = screen.size[1]
         gesture = Gesture(kind, notches, ((self._at[0] - x) / height, (self._at[1] - y) / height))
-        if screen.is_shelf_open:
+        if screen.state.browsing:
             return self._on_the_shelf(gesture, screen)
         modes = {"build": self._of_the_sheet, "pencil": self._of_the_pencil, "game": self._in_a_game}
-        mode = modes.get(screen.mode)
+        mode = modes.get(screen.state.mode)
         found = mode(gesture, screen) if mode else None
         found = self._on_a_list(gesture, screen) if found is None else found
         return self._on_the_picture(gesture, screen) if found is None else found
@@ -101,7 +101,7 @@ class Mouse:
         row = screen.row_at(*self._at) if self._drag in (None, "row") else None
         if row is None:
             return None
-        editing = screen.mode == "edit"
+        editing = screen.state.mode == "edit"
         if gesture.kind == "wheel":
             # A list that is longer than its room moves on below a mouse that stands still.
             self._turned = row if self._turned is None else self._turned
@@ -122,7 +122,7 @@ class Mouse:
         if gesture.kind != "down" or self._drag is not None:
             return None
         option = screen.option_at(*self._at)
-        if option is None and (screen.has_handles or self._is_at_pin(screen)):
+        if option is None and (screen.over.handles or self._is_at_pin(screen)):
             return None
         return (Action("next") if option is None else Action("option", option),)
 
@@ -142,20 +142,20 @@ class Mouse:
 
     def pointed(self, screen: Screen) -> int | None:
         """Return the row of the open list that the mouse is over; None before the mouse was seen."""
-        if not self._seen or self._drag not in (None, "row") or screen.is_shelf_open:
+        if not self._seen or self._drag not in (None, "row") or screen.state.browsing:
             return None
-        found = screen.option_at if screen.mode == "game" else screen.row_at
+        found = screen.option_at if screen.state.mode == "game" else screen.row_at
         row = found(*self._at)
         return row if row is not None and row >= 0 else None
 
     def hovered(self, screen: Screen) -> str | None:
         """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
-        if not self._seen or screen.is_shelf_open or self._drag in ("pan", "chart", "row"):
+        if not self._seen or screen.state.browsing or self._drag in ("pan", "chart", "row"):
             return None
         on_a_list = self._drag is None and screen.row_at(*self._at) is not None
-        if on_a_list or screen.mode in ("pencil", "build"):
+        if on_a_list or screen.state.mode in ("pencil", "build"):
             return None
-        at_pin = screen.scene.linkage.drive.joint if self._is_at_pin(screen) else None
+        at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
         return screen.handle_at(*self._at, _REACH * screen.size[1]) or at_pin
 
     def _is_at_pin(self, screen: Screen) -> bool:
@@ -215,7 +215,7 @@ class Mouse:
 
     def over_sheet(self, screen: Screen) -> tuple[float, float] | None:
         """Return where the mouse is over an open sheet, in pixels; None elsewhere, and before it was seen."""
-        shown = self._seen and screen.mode == "build" and self._drag in (None, "hand")
+        shown = self._seen and screen.state.mode == "build" and self._drag in (None, "hand")
         return self._at if shown else None
 
     def _grabbed(self, screen: Screen) -> Literal["pan", "crank", "chart"]:
@@ -231,7 +231,12 @@ class Mouse:
 
     def _moved(self, screen: Screen) -> tuple[Action, ...]:
         if self._drag == "crank":
-            return (Action("scrub", phase_towards(screen.scene, screen.phase, screen.world(*self._at))),)
+            return (
+                Action(
+                    "scrub",
+                    phase_towards(screen.state.displayed, screen.state.phase, screen.world(*self._at)),
+                ),
+            )
         if self._drag == "joint":
             fine = _TENTHS if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1.0
             return (Action("carry", (*screen.world(*self._at), fine)),)

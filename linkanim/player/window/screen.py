@@ -11,9 +11,8 @@ import pygame
 from linkanim.build.draft import Draft, Thing
 from linkanim.build.pointing import under
 from linkanim.picture.answer_row import RowPrinter, row_cells
-from linkanim.picture.building.tools import ToolPrinter, tool_at, tool_cells
+from linkanim.picture.building.tools import ToolPrinter, tool_at
 from linkanim.picture.layout import layout
-from linkanim.picture.panels.building import BuildShown
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.panels.path import grid_step, pencil
 from linkanim.picture.picture import Picture
@@ -21,7 +20,7 @@ from linkanim.picture.shelf import Grid, ShelfPrinter, grid
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
-from linkanim.player.state.action import Action, Mode
+from linkanim.player.state.action import Action
 from linkanim.player.state.browsing import Browsing
 from linkanim.player.state.sheet import BuildSheet, driven_bar
 from linkanim.player.state.sketch import PIVOTS
@@ -33,7 +32,6 @@ from linkanim.player.window.fade import Fade
 from linkanim.player.window.sheet import Hover
 from linkanim.player.window.show import shelf_of
 from linkanim.scenes.editing.handles import handles
-from linkanim.scenes.scene import Scene
 
 _NEAR = 0.022
 """How near to a thing counts as on it, in the window's height."""
@@ -46,27 +44,27 @@ _VISIBLE = 1.0
 class Screen:
     """Paints states into the window; a picture that is there already is not painted again.
 
-    For the mouse it knows where things are in the picture it painted last.
+    For the mouse it knows where things are in the picture that it painted last, of `state` with `over` on it.
     """
 
     def __init__(self, state: State) -> None:
         self._framing = Framing(captioned=True)
         self._shown: object = None
-        self._state = state
+        self.state = state
         self._titled: str | None = None
         self._shelf = ShelfPrinter()
         self._fade = Fade()
         self._printer = SurfacePrinter()
-        self._over = Overlay()
+        self.over = Overlay()
         self._row, self._tools = RowPrinter(), ToolPrinter()
         self._pointer: object = None
 
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
         surface = display.surface()
-        if state.held and state.frame % 2 and over.panel and self._over.panel:
-            over = replace(over, panel=self._over.panel)  # the list follows the hand in every other frame
-        self._state, self._over = state, over
+        if state.held and state.frame % 2 and over.panel and self.over.panel:
+            over = replace(over, panel=self.over.panel)  # the list follows the hand in every other frame
+        self.state, self.over = state, over
         self._point(state)
         self._name(f"{state.scene.title}{' • edited' * (state.place in state.edited)}")
         picture, veiled = self._framing.at(state, surface.get_size()), self._fade.strength(state, surface)
@@ -106,19 +104,9 @@ class Screen:
 
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
         """Return the state painted on a surface of its own, as large as the window."""
-        surface, self._state = display.surface().copy(), state
+        surface, self.state = display.surface().copy(), state
         self._paint(surface, self._framing.fitting(state, surface.get_size()), state, over)
         return surface
-
-    @property
-    def scene(self) -> Scene:
-        """The scene that is shown, in the unit in which lengths are."""
-        return self._state.displayed
-
-    @property
-    def phase(self) -> float:
-        """The phase that is shown."""
-        return self._state.phase
 
     @property
     def size(self) -> tuple[int, int]:
@@ -127,24 +115,18 @@ class Screen:
 
     def crank_pin(self) -> tuple[float, float]:
         """Return where the input crank's pin is, in pixels."""
-        return self._framing.last.crank_pin_px(self.scene.pose(self.phase, 0))
+        return self._framing.last.crank_pin_px(self.state.displayed.pose(self.state.phase, 0))
 
     def handle_at(self, x: float, y: float, reach: float) -> str | None:
         """Return the joint under a pixel that can be dragged, in the list or in a game; None elsewhere."""
-        if not (self._state.editing.open or self._over.handles):
+        if not (self.state.editing.open or self.over.handles):
             return None
-        places = self.scene.pose(self.phase, 0).position.items()
+        scene, free = self.state.displayed, self.over.handles
+        places = scene.pose(self.state.phase, 0).position.items()
         away = {name: max(map(abs, self._from(place, x, y))) for name, place in places}
         near = sorted((far, name) for name, far in away.items() if far <= reach)
-        free = self._over.handles
-        return next(
-            (name for _, name in near if name in free or (not free and handles(self.scene, name))), None
-        )
-
-    @property
-    def has_handles(self) -> bool:
-        """Whether a game has joints to drag."""
-        return bool(self._over.handles)
+        found = (name for _, name in near if name in free or (not free and handles(scene, name)))
+        return next(found, None)
 
     def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
         px, py = self.pixel(*place)
@@ -152,17 +134,17 @@ class Screen:
 
     def answer_cells(self) -> tuple[Rect, ...]:
         """Return where the pictures of the answers are, in pixels."""
-        count = len(self._state.sketch.answers) if self._state.sketch else 0
+        count = len(self.state.sketch.answers) if self.state.sketch else 0
         return row_cells(self._framing.last.layout, count)
 
     def pencil_at(self, x: float, y: float, reach: float) -> Action:
         """Return what the pencil begins at a pixel: it takes an answer, a pin or a point, or it draws."""
-        sketch = self._state.sketch
+        sketch = self.state.sketch
         assert sketch
         place = next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
         if place is not None:
             return Action("answer", place)
-        pose = self.scene.pose(self.phase, 0)
+        pose = self.state.displayed.pose(self.state.phase, 0)
         pivots = [name for name in PIVOTS if name in pose.position] if sketch.follows else []
         for pivot in pivots:
             if max(map(abs, self._from(pose.position[pivot], x, y))) <= reach:
@@ -175,7 +157,7 @@ class Screen:
 
     def sheet_at(self, x: float, y: float) -> Literal["hand", "crank", "paper"]:
         """Return what the hand does at a pixel of a sheet: it draws, turns the crank, shifts the paper."""
-        sheet = self._state.building
+        sheet = self.state.building
         assert sheet
         near, *_ = self._under(x, y)
         if sheet.tool == "photo":
@@ -187,25 +169,15 @@ class Screen:
 
     def _under(self, x: float, y: float) -> tuple[Thing | None, Draft]:
         """Return what of a draft is under a pixel, and the draft as it is seen."""
-        sheet = self._state.building
+        sheet = self.state.building
         assert sheet
-        seen = sheet.seen(self._state.scene, self.phase)
+        seen = sheet.seen(self.state.scene, self.state.phase)
         return under(seen, *self.world(x, y), self._near), seen
 
     @property
     def _near(self) -> float:
         """How near counts as on a thing, in the sheet's unit."""
         return _NEAR * self.size[1] / self._framing.last.view.scale
-
-    @property
-    def built(self) -> BuildShown | None:
-        """What was shown last of an open sheet."""
-        return self._over.build
-
-    @property
-    def tool_cells(self) -> tuple[Rect, ...]:
-        """Where the tools of a sheet stand, in pixels."""
-        return tool_cells(self._framing.last.layout, len(TOOLS))
 
     def tool_at(self, x: float, y: float) -> int | None:
         """Return the number of the tool of the sheet under a pixel; None beside them."""
@@ -265,31 +237,21 @@ class Screen:
 
     def shelf_grid(self, browsing: Browsing) -> Grid:
         """Return where the mechanisms of a shelf stand; it need not be painted yet."""
-        return grid(self.size, shelf_of(self._state, browsing))
+        return grid(self.size, shelf_of(self.state, browsing))
 
     def shelf_at(self, x: float, y: float) -> int | None:
         """Return the place on the open shelf under a pixel; None between its pictures."""
-        assert self._state.browsing is not None
-        return self.shelf_grid(self._state.browsing).at(x, y)
-
-    @property
-    def is_shelf_open(self) -> bool:
-        """Whether the shelf lies over the picture."""
-        return self._state.browsing is not None
-
-    @property
-    def mode(self) -> Mode:
-        """What the keys are for, and whether a list is open."""
-        return self._state.mode
+        assert self.state.browsing is not None
+        return self.shelf_grid(self.state.browsing).at(x, y)
 
     def row_at(self, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
-        return self._printer.row_at(self._framing.last, self._over, x, y) if self._state.listed else None
+        return self._printer.row_at(self._framing.last, self.over, x, y) if self.state.listed else None
 
     def option_at(self, x: float, y: float) -> int | None:
         """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""
         reach = 1.6 * self._framing.last.layout.text_size
-        away = {n: hypot(*self._from(spot.at, x, y)) for n, spot in enumerate(self._over.spots)}
+        away = {n: hypot(*self._from(spot.at, x, y)) for n, spot in enumerate(self.over.spots)}
         near = min(away, key=lambda n: away[n], default=None)
         if near is not None and away[near] <= reach:
             return near
