@@ -30,11 +30,6 @@ class NumberTable(NamedTuple):
     rows: tuple[NumberRow, ...]
 
 
-class _CellRow(NamedTuple):
-    number: int
-    cells: list[str]
-
-
 def read_numbers(text: str, where: str, columns: str) -> NumberTable:
     """Return a text's numbers; `columns` are those that it has to have, in words with commas between.
 
@@ -44,13 +39,12 @@ def read_numbers(text: str, where: str, columns: str) -> NumberTable:
     """
     lines = _lines(text, where)
     between, comma = _form([line for _, line in lines])
-    table = [_CellRow(number, _cells(line, between)) for number, line in lines]
-    start = next((n for n, line in enumerate(table) if not _is_heading(line.cells)), len(table))
+    table = [(number, _cells(line, between)) for number, line in lines]
+    start = next((n for n, (_, cells) in enumerate(table) if not _is_heading(cells)), len(table))
     if start == len(table):
         raise BadInput(f"{where}: has no rows; give a table of numbers: {columns}")
-    heading = tuple(cell.strip() for cell in table[start - 1].cells) if start else ()
-    needed = columns.count(",") + 1
-    return NumberTable(heading, tuple(_row(line, needed, columns, where, comma) for line in table[start:]))
+    heading = tuple(cell.strip() for cell in table[start - 1][1]) if start else ()
+    return NumberTable(heading, tuple(_row(*line, columns, where, comma) for line in table[start:]))
 
 
 def _lines(text: str, where: str) -> list[tuple[int, str]]:
@@ -91,9 +85,8 @@ def _plain(cell: str) -> str:
     return cell.strip().removesuffix("°").replace("−", "-").replace("\N{NO-BREAK SPACE}", "")
 
 
-def _row(line: _CellRow, needed: int, columns: str, where: str, comma: bool) -> NumberRow:
-    place = f"{where}: line {line.number}"
-    cells = line.cells
+def _row(line: int, cells: list[str], columns: str, where: str, comma: bool) -> NumberRow:
+    place, needed = f"{where}: line {line}", columns.count(",") + 1
     while len(cells) > needed and not cells[-1].strip():
         cells = cells[:-1]
     if len(cells) < needed:
@@ -104,7 +97,7 @@ def _row(line: _CellRow, needed: int, columns: str, where: str, comma: bool) -> 
         if not math.isfinite(number):
             way_out = "; give a number" if cell.strip() else "; give a number, or leave the line out"
             raise BadInput(f"{place}, column {column}: {shown(cell)} is not a finite number{way_out}")
-    return NumberRow(line.number, tuple(numbers))
+    return NumberRow(line, tuple(numbers))
 
 
 def _number(cell: str, comma: bool) -> float:

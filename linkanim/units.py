@@ -55,7 +55,10 @@ class Units(NamedTuple):
 
     def read(self, value: object) -> float:
         """Return a quantity with its unit in the base unit; UnitError as in `angle`."""
-        return _with_unit(value, self)
+        number, unit = _split(value, self)
+        if not unit and math.isfinite(float(number)):
+            raise UnitError(f"{shown(value)} has no unit; write {self.noun} as {_examples(value, self)}")
+        return _rounded(number, self.factors.get(unit, Fraction(1)), value, self)
 
 
 _ONE = Fraction(1)
@@ -85,7 +88,7 @@ def angle(value: object) -> Angle:
     A multiple of 90 degrees comes back as that multiple of `math.pi / 2`, rounded once. UnitError
     where the unit is missing or unknown, or the number is not finite.
     """
-    nearest = _with_unit(value, ANGLE)
+    nearest = ANGLE.read(value)
     if nearest == 0.0:
         return Angle(nearest)
     number, unit = _split(value, ANGLE)
@@ -100,7 +103,7 @@ def angular_speed(value: object) -> float:
 
     UnitError as in `angle`, and for what is faster than anything turns.
     """
-    speed = _with_unit(value, SPEED)
+    speed = SPEED.read(value)
     if abs(speed) > _FASTEST:
         raise UnitError(f'{shown(value)} is faster than anything turns; write at most "1e7 rpm"')
     return speed
@@ -148,13 +151,6 @@ def shown(value: object) -> str:
     except ValueError:  # Python prints no integer of more than 4300 digits
         return "a number of thousands of digits"
     return text if len(text) <= 60 else text[:57] + "..."
-
-
-def _with_unit(value: object, units: Units) -> float:
-    number, unit = _split(value, units)
-    if not unit and math.isfinite(float(number)):
-        raise UnitError(f"{shown(value)} has no unit; write {units.noun} as {_examples(value, units)}")
-    return _rounded(number, units.factors.get(unit, Fraction(1)), value, units)
 
 
 def _split(value: object, units: Units) -> tuple[str, str]:

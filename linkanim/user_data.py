@@ -10,13 +10,9 @@ def kept_as(name: str) -> Path:
 
     Of a user without a home it is kept as long as the system keeps temporary files.
     """
+    from tempfile import gettempdir
+
     from platformdirs import user_data_path
 
     folder = user_data_path("linkanim", appauthor=False)
-    return (folder if folder.is_absolute() else _temporary()) / name
-
-
-def _temporary() -> Path:
-    from tempfile import gettempdir
-
-    return Path(gettempdir()) / "linkanim"
+    return (folder if folder.is_absolute() else Path(gettempdir()) / "linkanim") / name

@@ -30,7 +30,7 @@ def linkanim_lines() -> list[str]:
 
 
 def examples() -> list[str]:
-    return [example for command in COMMANDS.values() for example in command.examples]
+    return [example for _, *examples in COMMANDS.values() for example in examples]
 
 
 def test_the_first_two_blocks_do_all_their_own_set_up() -> None:

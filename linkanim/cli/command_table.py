@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -19,14 +18,6 @@ from linkanim.intake import control_in
 from linkanim.units import shown
 
 _WITHOUT_PYGAME = ("solve", "info", "scenes", "check", "path")
-
-
-@dataclass(frozen=True)
-class Command:
-    """A command: what it does in a line, and examples of its use."""
-
-    summary: str
-    examples: tuple[str, ...]
 
 
 def parse(argv: Sequence[str] | None = None) -> Namespace:
@@ -64,10 +55,9 @@ def build() -> Parser:
     add = parser.add_subparsers(
         dest="command", metavar="COMMAND", prog="linkanim", parser_class=Parser, title="commands"
     )
-    for name, command in COMMANDS.items():
-        about = command.summary
+    for name, (about, *examples) in COMMANDS.items():
         text = f"{about[0].upper()}{about[1:]}."
-        made = add.add_parser(name, help=about, description=text, examples=command.examples)
+        made = add.add_parser(name, help=about, description=text, examples=examples)
         for argument in ARGUMENTS[name]:
             argument(made)
     return parser
@@ -125,104 +115,96 @@ def _way_out() -> str:
     return f"`{pip} uninstall -y pygame pygame-ce`, then `{pip} install pygame-ce` (or pygame) mends it"
 
 
-COMMANDS = {
-    "play": Command(
+COMMANDS: Mapping[str, tuple[str, ...]] = {
+    "play": (
         "open the window (the default command)",
-        ("linkanim play press", "linkanim play my-linkage.toml --theme dark"),
+        "linkanim play press",
+        "linkanim play my-linkage.toml --theme dark",
     ),
-    "new": Command(
+    "new": (
         "open the window with an empty sheet, to build a linkage on",
-        ("linkanim new", "linkanim new --photo digger.jpg"),
+        "linkanim new",
+        "linkanim new --photo digger.jpg",
     ),
-    "record": Command(
+    "record": (
         "write a scene's true period as GIF, MP4 or numbered PNG",
-        (
-            "linkanim record press",
-            'linkanim record crank-rocker -o rocker.mp4 --speed "30 rpm" --chart rocker.angle',
-            "linkanim record press --for beamer",
-        ),
+        "linkanim record press",
+        'linkanim record crank-rocker -o rocker.mp4 --speed "30 rpm" --chart rocker.angle',
+        "linkanim record press --for beamer",
     ),
-    "solve": Command(
+    "solve": (
         "print positions, velocities and accelerations at an angle, or over a sweep",
-        (
-            'linkanim solve press --angle "87 deg" --speed "10 rad/s" --json',
-            "linkanim solve slider-crank --sweep 0:360:1 --csv slider.csv",
-            "linkanim solve double-rocker --sweep 0:360:5 --phase",
-        ),
+        'linkanim solve press --angle "87 deg" --speed "10 rad/s" --json',
+        "linkanim solve slider-crank --sweep 0:360:1 --csv slider.csv",
+        "linkanim solve double-rocker --sweep 0:360:5 --phase",
     ),
-    "chart": Command(
+    "chart": (
         "draw quantities over one true period as PNG, SVG or PDF, or write them as CSV",
-        (
-            "linkanim chart press --quantity 5.travel_velocity -o ram.svg",
-            'linkanim chart press --quantity 3.angular_velocity --speeds "5 rad/s,10 rad/s,20 rad/s"',
-            "linkanim chart double-rocker --quantity rocker.angle --over angle -o rocker.csv",
-        ),
+        "linkanim chart press --quantity 5.travel_velocity -o ram.svg",
+        'linkanim chart press --quantity 3.angular_velocity --speeds "5 rad/s,10 rad/s,20 rad/s"',
+        "linkanim chart double-rocker --quantity rocker.angle --over angle -o rocker.csv",
     ),
-    "report": Command(
+    "report": (
         "write a hand-out of a few A4 pages: figure, loops, tables, charts; their SVG and CSV",
-        (
-            "linkanim report press -o press-report --all",
-            'linkanim report press -o press-report --angles "87 deg,306 deg" --speeds "5 rad/s,10 rad/s"',
-        ),
+        "linkanim report press -o press-report --all",
+        'linkanim report press -o press-report --angles "87 deg,306 deg" --speeds "5 rad/s,10 rad/s"',
     ),
-    "info": Command(
+    "info": (
         "print class, input range, toggles, change points, transmission angle, stroke",
-        ("linkanim info crank-rocker", "linkanim info my-linkage.toml --json"),
+        "linkanim info crank-rocker",
+        "linkanim info my-linkage.toml --json",
     ),
-    "check": Command(
+    "check": (
         "name every problem of scene files at once, with their lines",
-        ("linkanim check my-linkage.toml", "linkanim check *.toml --json", "linkanim check --schema"),
+        "linkanim check my-linkage.toml",
+        "linkanim check *.toml --json",
+        "linkanim check --schema",
     ),
-    "scenes": Command(
+    "scenes": (
         "list the built-in scenes by chapter, name first",
-        ("linkanim scenes", "linkanim scenes slider", 'linkanim scenes "six-bars and more"'),
+        "linkanim scenes",
+        "linkanim scenes slider",
+        'linkanim scenes "six-bars and more"',
     ),
-    "draw": Command(
+    "draw": (
         "draw one pose as a figure, SVG, PNG or PDF",
-        (
-            "linkanim draw crank-rocker --names --names",
-            'linkanim draw press -o press.png --angle "87 deg" --vectors v --instant-centres',
-            "linkanim draw kite -o kite.svg --poses 12 --no-trace",
-        ),
+        "linkanim draw crank-rocker --names --names",
+        'linkanim draw press -o press.png --angle "87 deg" --vectors v --instant-centres',
+        "linkanim draw kite -o kite.svg --poses 12 --no-trace",
     ),
-    "explain": Command(
+    "explain": (
         "work one pose out line by line: vector loops, closed forms, linear equations, with numbers",
-        (
-            'linkanim explain press --angle "87 deg"',
-            'linkanim explain crank-rocker --angle "60 deg" --speed "10 rad/s" -o solution.html',
-            'linkanim explain slider-crank --angle "40 deg" --exercise --seed 3 -o sheet.tex',
-        ),
+        'linkanim explain press --angle "87 deg"',
+        'linkanim explain crank-rocker --angle "60 deg" --speed "10 rad/s" -o solution.html',
+        'linkanim explain slider-crank --angle "40 deg" --exercise --seed 3 -o sheet.tex',
     ),
-    "quiz": Command(
+    "quiz": (
         "ask about a scene or a chapter: which way, how fast, where; made from what is solved",
-        (
-            "linkanim quiz crank-rocker",
-            "linkanim quiz press -n 10 --seed 7 -o sheet.html",
-            "linkanim quiz four-bars --json",
-        ),
+        "linkanim quiz crank-rocker",
+        "linkanim quiz press -n 10 --seed 7 -o sheet.html",
+        "linkanim quiz four-bars --json",
     ),
-    "share": Command(
+    "share": (
         "write one page that moves in any browser, without a network",
-        (
-            "linkanim share press",
-            'linkanim share crank-rocker -o rocker.html --chart rocker.angle --names --speed "30 rpm"',
-            "linkanim share --all site",
-        ),
+        "linkanim share press",
+        'linkanim share crank-rocker -o rocker.html --chart rocker.angle --names --speed "30 rpm"',
+        "linkanim share --all site",
     ),
-    "path": Command(
+    "path": (
         "find linkages whose coupler point follows a drawn curve, and write them as scenes",
-        (
-            "linkanim path curve.csv -o follower.toml",
-            'linkanim path stroke.svg --open --kind slider-crank --least-angle "30 deg" --json',
-            'linkanim path points.csv --timing "20 deg" --box 0,0,200,100 --round "0.1 mm"',
-        ),
+        "linkanim path curve.csv -o follower.toml",
+        'linkanim path stroke.svg --open --kind slider-crank --least-angle "30 deg" --json',
+        'linkanim path points.csv --timing "20 deg" --box 0,0,200,100 --round "0.1 mm"',
     ),
-    "gallery": Command(
+    "gallery": (
         "record every built-in scene as a small GIF, and draw the chart of bench",
-        ("linkanim gallery", "linkanim gallery --into slides/linkages"),
+        "linkanim gallery",
+        "linkanim gallery --into slides/linkages",
     ),
-    "bench": Command(
+    "bench": (
         "measure speed against error, beside the usual ways to solve a linkage",
-        ("linkanim bench", "linkanim bench --json"),
+        "linkanim bench",
+        "linkanim bench --json",
     ),
 }
+"""Each command: what it does in a line, and examples of its use."""

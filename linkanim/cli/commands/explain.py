@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import isnan
 
 from linkanim.atomic_files import checked_target, replacing
-from linkanim.cli.commands.solve import out_of_range
+from linkanim.cli.commands.solve import phase_at
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.inputs import PoseRequest
 from linkanim.explain.solution import Solution, solution
@@ -64,6 +64,5 @@ def _pose(scene: Scene, options: Namespace) -> PoseRequest:
     if options.angle is None:
         phase = figure(scene).clearest if options.phase is None else options.phase
         return PoseRequest(scene, "phase", float(phase), speed)
-    if isnan(scene.solve(angle=options.angle, derivatives=0).phase):
-        raise out_of_range(scene, options.angle)
+    phase_at(scene, options.angle)  # which says why where it is not reached
     return PoseRequest(scene, "angle", float(options.angle), speed)

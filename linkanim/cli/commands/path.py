@@ -49,7 +49,11 @@ def run(options: Namespace) -> None:
             progress=progress,
         )
     files = write(fits, target)
-    print(_json(fits, files) if options.json else _table(fits, files))
+    found = list(zip(fits, files, strict=True))
+    if options.json:
+        print(json_text([_object(fit, file) for fit, file in found], indent=2))
+    else:
+        print(columns([_TITLES, *(_cells(fit, file) for fit, file in found)]))
     _remark(fits)
 
 
@@ -65,23 +69,11 @@ def _percent(distance: float, fit: Fit) -> float:
     return 100 * distance / fit.task.curve.size
 
 
-def _table(fits: Sequence[Fit], files: Sequence[Path]) -> str:
-    rows = [_cells(fit, file) for fit, file in zip(fits, files, strict=True)]
-    return columns([_TITLES, *rows])
-
-
 def _cells(fit: Fit, file: Path) -> tuple[str, ...]:
-    distances = [
-        significant(value, 3)
-        for distance in (fit.rms, fit.largest)
-        for value in (distance, _percent(distance, fit))
-    ]
+    distances = (fit.rms, _percent(fit.rms, fit), fit.largest, _percent(fit.largest, fit))
     angle = f"{significant(math.degrees(fit.transmission_angle), 3)} deg"
-    return (str(file), *distances, angle, significant(fit.size, 4), fit.class_name)
-
-
-def _json(fits: Sequence[Fit], files: Sequence[Path]) -> str:
-    return json_text([_object(fit, file) for fit, file in zip(fits, files, strict=True)], indent=2)
+    cells = (significant(distance, 3) for distance in distances)
+    return (str(file), *cells, angle, significant(fit.size, 4), fit.class_name)
 
 
 def _object(fit: Fit, file: Path) -> dict[str, object]:

@@ -28,16 +28,14 @@ def _found(word: str | None) -> Mapping[str, str]:
     if word is None:
         return every
     chapter = {name: chapter for chapter, members in chapters().items() for name in members}
-    found = {
-        name: title
-        for name, title in every.items()
-        if any(word.casefold() in text.casefold() for text in (name, title, chapter[name], _class(name)))
-    }
+    sought = word.casefold()
+
+    def has_it(name: str) -> bool:
+        texts = (name, every[name], chapter[name], load(name).info.class_name)
+        return any(sought in text.casefold() for text in texts)
+
+    found = {name: title for name, title in every.items() if has_it(name)}
     if not found:
         near = meant(word, (*every, *chapters()))
         raise BadInput(f"no scene's title, class or chapter has {shown(word)} in it{near}")
     return found
-
-
-def _class(name: str) -> str:
-    return load(name).info.class_name

@@ -45,7 +45,7 @@ def run(options: Namespace) -> None:
     In a sweep such an angle has a row of nulls.
     """
     inputs = _inputs(options)
-    target = _target(options.csv)
+    target = None if options.csv in (None, "-") else checked_target(options.csv, (".csv",))
     scene = in_unit(load(options.scene), options.unit)
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     found = _blocks(scene, inputs, speed, options.acceleration)
@@ -91,13 +91,20 @@ def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> 
         return
     motion = solve(np.array([inputs.value]))
     if any(np.isnan(points).any() for points in motion.position.values()):
-        raise out_of_range(scene, inputs.value)
+        raise _out_of_range(scene, inputs.value)
     where = {input_key(scene): motion.coordinate, "phase": motion.phase, inputs.by: np.array([inputs.value])}
     yield RowBlock(np.degrees([inputs.value]), {**where, **tree(scene, motion)})
 
 
-def out_of_range(scene: Scene, angle: float) -> OutOfRange:
-    """Return the refusal of an angle (rad) that the input does not reach."""
+def phase_at(scene: Scene, angle: float) -> float:
+    """Return the phase at an angle (rad) of the input; OutOfRange where it does not come there."""
+    phase = float(scene.solve(angle=angle, derivatives=0).phase)
+    if math.isnan(phase):
+        raise _out_of_range(scene, angle)
+    return phase
+
+
+def _out_of_range(scene: Scene, angle: float) -> OutOfRange:
     low, high = (f"{significant(math.degrees(limit), 6)} deg" for limit in scene.info.input_range)
     return OutOfRange(
         f"{scene.name}: --angle {significant(math.degrees(angle), 6)} deg cannot be reached; "
@@ -124,11 +131,6 @@ def _objects(block: Tree) -> Iterator[str]:
     form = marked.replace("%", "%%").replace(json_text(_NUMBER), "%s")
     columns = [leaf for _, leaf in leaves(block) if isinstance(leaf, np.ndarray)]
     return (form % tuple(line.split(",")) for line in lines(columns))
-
-
-def _target(name: str | None) -> Path | None:
-    """Return the CSV file to write, None for stdout; `BadInput` where it could not be written."""
-    return None if name in (None, "-") else checked_target(str(name), (".csv",))
 
 
 def _write_csv(target: Path | None, by: str, found: Iterator[RowBlock]) -> None:
