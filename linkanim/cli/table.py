@@ -54,13 +54,17 @@ def _tables(scene: Scene, pose: Tree) -> Iterator[list[list[str]]]:
     for title, key, measures in (("body", "angle", turning), ("slider", "travel", sliding)):
         found = [[called[name], *_cells(measures, _flat(body))] for name, body in bodies if key in body]
         yield [[title, *_titles(measures, unit)], *found]
-    struts = ((linkage.springs, SPRING, pose["springs"]), (linkage.dampers, DAMPER, pose["dampers"]))
+    force = slice(3)  # length, rate and force
+    struts = (
+        (linkage.springs, SPRING[force], pose["springs"]),
+        (linkage.dampers, DAMPER[force], pose["dampers"]),
+    )
     elements = [
         [linkage.strut_words(item), *_cells(measures, found[item.name])]
         for items, measures, found in struts
         for item in items
     ]
-    yield [["element", *_titles(SPRING, unit)], *elements]
+    yield [["element", *_titles(SPRING[force], unit)], *elements]
     yield [["whole", "value"], *_whole(linkage, unit, pose)]
 
 

@@ -9,8 +9,8 @@ Symbols are those of the textbooks; their subscripts are Unicode's digits (ω₃
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import lru_cache, partial
 from types import MappingProxyType
 from typing import Any
@@ -26,7 +26,6 @@ from linkanim.mechanics.motion.measures import (
     CENTRE,
     CENTRE_PATH,
     DAMPER,
-    DIRECTIONS,
     PATH,
     POINT,
     SPRING,
@@ -196,54 +195,39 @@ def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> I
     for body in linkage.bodies:
         yield from _of_body(linkage, body, labels[body.name], called(body, names))
     for joint in linkage.joints:
-        moves, path = not isinstance(joint, Pin), ("joints", joint.name)
-        for measure in POINT if moves or still else ():
-            yield from _of_point(measure, joint.name, joint.name, joint.name, path)
-        for measure in PATH if moves else ():
-            symbol = indexed(measure.symbol, joint.name)
-            yield _bound(measure, joint.name, symbol, joint.name, (*path, measure.key))
+        moves, name = not isinstance(joint, Pin), joint.name
+        own, bent = POINT if moves or still else (), PATH if moves else ()
+        yield from _of_point(own, bent, (name, name, name), ("joints", name))
     for body in linkage.bodies:
         if body.com is not None:
-            label, words = f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
-            centre = ("bodies", body.name, "com")
-            for measure in CENTRE:
-                yield from _of_point(measure, body.name, label, words, centre)
-            for measure in CENTRE_PATH:
-                symbol = indexed(measure.symbol, label)
-                yield _bound(measure, body.name, symbol, words, (*centre, measure.key))
+            called_ = body.name, f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
+            yield from _of_point(CENTRE, CENTRE_PATH, called_, ("bodies", body.name, "com"))
     for strut in linkage.springs + linkage.dampers:
         words = linkage.strut_words(strut)
-        called_ = words if strut.name in labels else strut.name
-        yield from _of_strut(strut, called_, words[:1].upper() + words[1:], every=still)
+        index = words if strut.name in labels else strut.name
+        yield from _of_strut(strut, index, words[:1].upper() + words[1:], every=still)
     for body in linkage.bodies:
         if body.slider is None:
-            yield from _of_pole(body, labels[body.name], called(body, names))
+            called_ = body.name, f"P1{labels[body.name]}", called(body, names)
+            yield from _vector(_POLE, called_, ("bodies", body.name))
     yield from _of_whole(linkage)
 
 
-def _of_pole(body: Body, label: str, words: str) -> Iterator[Quantity]:
-    """Yield where a body's instant centre to the ground lies, and each coordinate."""
-    token, centre, index = f"{body.name}.pole", f"{words}: instant centre to the ground", f"P1{label}"
+def _pole(motion: Any, name: str) -> Any:
+    found = pole(motion, motion.setting.body(name))
+    return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
 
-    def whole(motion: Any) -> Any:
-        found = pole(motion, body)
-        return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
 
-    yield Quantity(token, indexed("r", index), centre, "{}", 0, whole, ("x", "y"))
-    for place, axis in enumerate("xy"):
-        symbol = indexed(axis, index)
-        path = ("bodies", body.name, "pole", place)
-        words, read = f"{centre}, {axis}", _component(whole, place)
-        yield Quantity(f"{token}.{axis}", symbol, words, "{}", 0, read, path=path)
+_POLE = Measure("pole", "pole", "r", "instant centre to the ground", "{}", 0, "", _pole)
 
 
 def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     """Yield what is known of the linkage as a whole: its input, transmission and advantage."""
-    yield from map(_keyed, _of_input(linkage))
+    yield from _of_input(linkage)
     dyads = dyads_of(linkage)
     if dyads:
         read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
-        yield _keyed(Quantity("transmission_angle", "μ", "Transmission angle", "rad", 0, read))
+        yield _whole("transmission_angle", "μ", "Transmission angle", "rad", 0, read)
     for dyad in dyads if len(dyads) > 1 else ():
         read, words = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
         token, path = f"{dyad}.transmission_angle", ("joints", dyad, "transmission_angle")
@@ -251,37 +235,33 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     output = output_body(linkage)
     if output is not None and (output.slider or linkage.drive.coordinate.is_angle):
         read = mechanical_advantage(linkage)
-        yield _keyed(Quantity("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read))
+        yield _whole("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
 
 
 def _of_input(linkage: Linkage) -> Iterator[Quantity]:
     """Yield how fast the input moves, how long its cylinder is, and what it delivers."""
-    coordinate, ends = linkage.drive.coordinate, linkage.drive.actuator.along
-    symbol = "ω_{in}" if coordinate.is_angle else "v_{in}"
-    words = f"Input: {coordinate.velocity}"
-    yield Quantity(coordinate.rate_token, symbol, words, f"{coordinate.unit}/s", 1, input_rate)
-    if ends is not None:
+    coordinate, actuator = linkage.drive.coordinate, linkage.drive.actuator
+    symbol, words = "ω_{in}" if coordinate.is_angle else "v_{in}", f"Input: {coordinate.velocity}"
+    yield _whole(coordinate.rate_token, symbol, words, f"{coordinate.unit}/s", 1, input_rate)
+    if (ends := actuator.along) is not None:
 
         def length(motion: Any) -> Any:
             return size(between(motion.position, ends))
 
-        yield Quantity("input.length", "L_{in}", "Input: length of the cylinder", "{}", 0, length)
+        yield _whole("input.length", "L_{in}", "Input: length of the cylinder", "{}", 0, length)
     if linkage.forceful:
-        yield _effort(linkage)
+        damped = any(damper.forceful for damper in linkage.dampers)
+        order = 2 if any(body.forceful for body in linkage.bodies) else int(damped)
+        name, unit = actuator.effort
+        symbol = f"{name[0].upper()}_{{in}}"
+        yield _whole(effort_token(linkage), symbol, f"Input: {name}", unit, order, input_effort)
 
 
-def _keyed(quantity: Quantity) -> Quantity:
-    """Return a quantity that stands in JSON under its own token."""
-    return replace(quantity, path=tuple(quantity.token.split(".")))
-
-
-def _effort(linkage: Linkage) -> Quantity:
-    """Return the torque at the input, or the force of what drives in a straight line."""
-    damped = any(damper.forceful for damper in linkage.dampers)
-    order = 2 if any(body.forceful for body in linkage.bodies) else int(damped)
-    name, unit = linkage.drive.actuator.effort
-    symbol = f"{name[0].upper()}_{{in}}"
-    return Quantity(effort_token(linkage), symbol, f"Input: {name}", unit, order, input_effort)
+def _whole(
+    token: str, symbol: str, words: str, unit: str, order: int, read: Callable[[Any], Any]
+) -> Quantity:
+    """Return a quantity of the linkage as a whole, which stands in JSON under its own token."""
+    return Quantity(token, symbol, words, unit, order, read, path=tuple(token.split(".")))
 
 
 def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:
@@ -301,9 +281,24 @@ def _bound(measure: Measure, part: str, symbol: str, words: str, path: Path) -> 
     return Quantity(*known, lambda motion: measure.read(motion, part), path=path)
 
 
-def _of_point(measure: Measure, part: str, label: str, words: str, path: Path) -> Iterator[Quantity]:
-    """Yield a vector, a position as its two components and else its magnitude, and each component."""
-    token, words = f"{part}.{measure.name}", f"{words}: {measure.words}"
+def _of_point(
+    own: Iterable[Measure], bent: Iterable[Measure], names: tuple[str, str, str], path: Path
+) -> Iterator[Quantity]:
+    """Yield the vectors of a joint or centre of mass, and how its path bends; `names` as in `_vector`."""
+    part, label, words = names
+    for measure in own:
+        yield from _vector(measure, names, path)
+    for measure in bent:
+        yield _bound(measure, part, indexed(measure.symbol, label), words, (*path, measure.key))
+
+
+def _vector(measure: Measure, names: tuple[str, str, str], path: Path) -> Iterator[Quantity]:
+    """Yield a vector, a position as its two components and else its magnitude, and each component.
+
+    `names` are those of the part, in symbols and in words.
+    """
+    part, label, called_ = names
+    token, words = f"{part}.{measure.name}", f"{called_}: {measure.words}"
 
     def vector(motion: Any) -> Any:
         return measure.read(motion, part)
@@ -313,17 +308,10 @@ def _of_point(measure: Measure, part: str, label: str, words: str, path: Path) -
         yield Quantity(token, *whole, lambda motion: _size(vector(motion)))
     else:
         yield Quantity(token, *whole, vector, ("x", "y"))
-    for index, axis in enumerate("xy"):
+    for n, axis in enumerate("xy"):
         symbol = indexed(measure.symbol, f"{label}{axis}") if measure.order else indexed(axis, label)
-        yield Quantity(
-            f"{token}.{axis}",
-            symbol,
-            f"{words}, {axis}",
-            measure.unit,
-            measure.order,
-            _component(vector, index),
-            path=(*path, measure.key, index),
-        )
+        part_of = f"{token}.{axis}", symbol, f"{words}, {axis}", measure.unit, measure.order
+        yield Quantity(*part_of, _component(vector, n), path=(*path, measure.key, n))
 
 
 def _component(vector: Callable[[Any], Any], index: int) -> Callable[[Any], Any]:
@@ -341,7 +329,7 @@ def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) ->
     `index` is what it is called in symbols.
     """
     kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
-    for measure in (*measures, *DIRECTIONS[kind]):
+    for measure in measures:
         if measure.name != "force" or strut.forceful or every:
             symbol = indexed(measure.symbol, index)
             path = (f"{kind}s", strut.name, measure.key)
