@@ -83,11 +83,11 @@ class Scene:
     @cached_property
     def info(self) -> Info:
         """The linkage's class, input range, toggles, change points and what else is told of it."""
-        from linkanim.mechanics.facts.classify import classify
+        from linkanim.mechanics.facts.classify import Info
 
         if self.towards is not None:
             return self.towards.info
-        return classify(self.mechanism, self.length_unit)
+        return Info(self.mechanism, self.length_unit)
 
     @cached_property
     def quantities(self) -> Mapping[str, Quantity]:

@@ -11,7 +11,7 @@ import pytest
 from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.facts.classify import Info
 from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPR, RRR
 from linkanim.mechanics.linkage.linkage import Linkage
@@ -46,18 +46,18 @@ CLASSES = [
 def test_a_four_bar_is_classed_by_its_lengths(
     lengths: tuple[float, float, float, float], name: str, turns: bool, circuits: int
 ) -> None:
-    info = classify(mechanism(four_bar(lengths)), "mm")
+    info = Info(mechanism(four_bar(lengths)), "mm")
     assert (info.class_name, info.full_turn, info.circuits) == (name, turns, circuits)
 
 
 def test_the_crossed_parallelogram_is_the_antiparallelogram() -> None:
-    assert classify(mechanism(four_bar((4, 2, 4, 2), side=-1)), "mm").class_name == "antiparallelogram"
+    assert Info(mechanism(four_bar((4, 2, 4, 2), side=-1)), "mm").class_name == "antiparallelogram"
 
 
 # The first report's limits: acos((r1² + r2² - (r3 ± r4)²) / 2 r1 r2).
 def test_input_limits_are_the_cosine_rule_s() -> None:
     g, r, a, b = 100.0, 80.0, 30.0, 90.0
-    info = classify(mechanism(four_bar((g, r, a, b))), "mm")
+    info = Info(mechanism(four_bar((g, r, a, b))), "mm")
     ends = [math.acos((g * g + r * r - (a + s * b) ** 2) / (2 * g * r)) for s in (-1, 1)]
     assert info.input_range == pytest.approx(ends, rel=1e-14)
     assert info.toggles == info.input_range
@@ -76,15 +76,15 @@ def test_the_range_is_the_same_from_whichever_end_the_ground_is_written(
     assert isinstance(o2, Pin)
     assert isinstance(o4, Pin)
     turned = (replace(o2, polar=Polar(lengths[0], angle, "O4")), replace(o4, polar=None))
-    written = classify(mechanism(replace(plain, joints=(*turned, *plain.joints[2:]))), "mm")
-    assert written.input_range == pytest.approx(classify(mechanism(plain), "mm").input_range, abs=1e-12)
+    written = Info(mechanism(replace(plain, joints=(*turned, *plain.joints[2:]))), "mm")
+    assert written.input_range == pytest.approx(Info(mechanism(plain), "mm").input_range, abs=1e-12)
 
 
 def test_change_points_are_told_as_crank_angles() -> None:
-    both = classify(mechanism(four_bar((4, 2, 4, 2), ground_angle=0.25)), "mm")
+    both = Info(mechanism(four_bar((4, 2, 4, 2), ground_angle=0.25)), "mm")
     assert sorted(both.change_points) == pytest.approx([0.25, 0.25 + math.pi])
-    assert classify(mechanism(four_bar((4, 2, 5, 3))), "mm").change_points == pytest.approx((0.0,))
-    assert classify(mechanism(four_bar((100, 30, 90, 80))), "mm").change_points == ()
+    assert Info(mechanism(four_bar((4, 2, 5, 3))), "mm").change_points == pytest.approx((0.0,))
+    assert Info(mechanism(four_bar((100, 30, 90, 80))), "mm").change_points == ()
 
 
 def crank_where_rocker_lies(lengths: tuple[float, float, float, float], *, outward: bool) -> float:
@@ -154,7 +154,7 @@ CHANGE_POINTS_DOWN_THE_CHAIN = [
 def test_change_points_down_the_chain_are_told_as_crank_angles(
     name: str, linkage: Linkage, angles: tuple[float, ...]
 ) -> None:
-    assert classify(mechanism(linkage), "mm").change_points == pytest.approx(angles, abs=1e-12)
+    assert Info(mechanism(linkage), "mm").change_points == pytest.approx(angles, abs=1e-12)
 
 
 def test_a_slot_between_two_geared_cranks_is_named_too() -> None:
@@ -168,7 +168,7 @@ def test_a_slot_between_two_geared_cranks_is_named_too() -> None:
         ),
         Drive("A", 1.0),
     )
-    assert classify(mechanism(linkage), "mm").class_name == "inverted slider-crank"
+    assert Info(mechanism(linkage), "mm").class_name == "inverted slider-crank"
 
 
 PERIODS = [
@@ -252,7 +252,7 @@ SECOND_LOOPS = [
 def test_the_second_loop_of_a_six_bar_is_classed_too(
     second: tuple[float, float, float, float], name: str
 ) -> None:
-    assert classify(mechanism(six_bar((100, 30, 90, 80), second)), "mm").class_name == name
+    assert Info(mechanism(six_bar((100, 30, 90, 80), second)), "mm").class_name == name
 
 
 # However the second dyad is written, it is the same four-bar; one on a coupler point is none.
@@ -271,7 +271,7 @@ def test_a_second_dyad_is_classed_by_what_it_hangs_on(
     *others, _ = linkage.joints
     dyad = RRR("D", ends, lengths, side)
     changed = replace(linkage, joints=(*others, Rigid("P", ("A", "B"), (45, 30)), dyad))
-    assert classify(mechanism(changed), "mm").class_name == f"six-bar: Grashof crank-rocker{rest}"
+    assert Info(mechanism(changed), "mm").class_name == f"six-bar: Grashof crank-rocker{rest}"
 
 
 # A row of rockers, each carried along by the one before: four names are read, a page of them is not.
@@ -291,12 +291,12 @@ def test_of_many_loops_in_a_row_the_first_is_named(dyads: int, name: str) -> Non
         for begin, end, pin in zip(moving, moving[1:], pins, strict=False)
     ]
     chain = replace(linkage, joints=(*linkage.joints, *pins, *rockers))
-    assert classify(mechanism(chain), "mm").class_name == name
+    assert Info(mechanism(chain), "mm").class_name == name
 
 
 @pytest.mark.parametrize(("side", "name"), [(1, "then parallelogram"), (-1, "then antiparallelogram")])
 def test_a_parallelogram_down_the_chain_is_told_from_the_crossed_one(side: int, name: str) -> None:
-    info = classify(mechanism(six_bar((100, 30, 90, 80), PARALLELOGRAM, side=side)), "mm")
+    info = Info(mechanism(six_bar((100, 30, 90, 80), PARALLELOGRAM, side=side)), "mm")
     assert info.class_name.endswith(name)
 
 
@@ -320,7 +320,7 @@ gear = {{ with = "A", ratio = "{ratio}", offset = "0 deg" }}
 
 @pytest.mark.parametrize("ratio", ["1", "1/2", "1/5", "3/7"])
 def test_a_time_ratio_does_not_hang_on_a_wheel_that_makes_the_period_longer(ratio: str) -> None:
-    info = classify(mechanism(_with_wheel(ratio)), "mm")
+    info = Info(mechanism(_with_wheel(ratio)), "mm")
     lean = math.asin(30 / 80) - math.asin(30 / 160)  # of the crank between its two dead centres
     assert info.time_ratio == pytest.approx((math.pi + lean) / (math.pi - lean), rel=1e-9)
     assert info.dead_centres is not None

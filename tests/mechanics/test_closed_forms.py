@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from build import four_bar, slider_crank, slotted
 
-from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.facts.classify import Info
 from linkanim.mechanics.motion.mechanism import mechanism
 
 TURN = np.linspace(-7.0, 7.0, 201)
@@ -53,7 +53,7 @@ SLIDERS = [(40.0, 120.0, 0.0), (40.0, 120.0, 20.0), (40.0, 120.0, -20.0), (30.0,
 @pytest.mark.parametrize(("crank", "rod", "offset"), SLIDERS)
 def test_stroke_and_time_ratio_are_those_of_the_dead_centres(crank: float, rod: float, offset: float) -> None:
     # Term report on a mechanism simulator: stroke and time ratio of an offset slider-crank.
-    info = classify(mechanism(slider_crank(crank, rod, offset)), "mm")
+    info = Info(mechanism(slider_crank(crank, rod, offset)), "mm")
     far, near = math.sqrt((crank + rod) ** 2 - offset**2), math.sqrt((rod - crank) ** 2 - offset**2)
     lean = abs(math.asin(offset / (rod - crank)) - math.asin(offset / (rod + crank)))
     assert info.stroke == pytest.approx(far - near, rel=1e-13)
@@ -62,7 +62,7 @@ def test_stroke_and_time_ratio_are_those_of_the_dead_centres(crank: float, rod: 
 
 def test_the_transmission_angle_is_least_or_greatest_where_the_crank_lies_on_the_ground_line() -> None:
     g, r, a, b = 100.0, 30.0, 90.0, 80.0
-    info = classify(mechanism(four_bar((g, r, a, b))), "mm")
+    info = Info(mechanism(four_bar((g, r, a, b))), "mm")
     ends = [math.acos((a * a + b * b - (g + s * r) ** 2) / (2 * a * b)) for s in (-1, 1)]
     worst = min(*ends, *(math.pi - end for end in ends))
     assert info.transmission_angle == pytest.approx((worst, math.pi / 2), rel=1e-13)

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from linkanim.mechanics.facts.classify import classify
+from linkanim.mechanics.facts.classify import Info
 from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPP, RRP
 from linkanim.mechanics.linkage.joint import Line
@@ -87,10 +87,10 @@ def test_a_rod_may_hang_on_the_yoke() -> None:
 
 
 def test_what_is_told_of_it() -> None:
-    info = classify(mechanism(yoke(60.0, Line("O2", 0.0))), "mm")
+    info = Info(mechanism(yoke(60.0, Line("O2", 0.0))), "mm")
     assert (info.class_name, info.full_turn) == ("Scotch yoke", True)
     assert info.stroke == pytest.approx(120.0)
     assert info.time_ratio == pytest.approx(1.0)
-    oblique = classify(mechanism(yoke(60.0, Line("O2", 0.0), 1.0)), "mm")
+    oblique = Info(mechanism(yoke(60.0, Line("O2", 0.0), 1.0)), "mm")
     assert oblique.class_name == "Scotch yoke, oblique slot"
     assert oblique.stroke == pytest.approx(120.0 / math.sin(1.0))

@@ -376,7 +376,7 @@ def test_nothing_is_classified_on_the_way(monkeypatch: pytest.MonkeyPatch) -> No
         raise AssertionError("classified on the way")
 
     monkeypatch.setattr("linkanim.mechanics.motion.mechanism.restricted", never)
-    monkeypatch.setattr("linkanim.mechanics.facts.classify.classify", never)
+    monkeypatch.setattr("linkanim.mechanics.facts.classify.Info", never)
     seen = set()
     while state.glide:
         seen.add(state.shown.linkage)

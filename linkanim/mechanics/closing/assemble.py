@@ -10,8 +10,7 @@ import numpy as np
 
 from linkanim.bounds import MOST_DYAD_TURNS, MOST_GEARED_TURNS, MOST_TURNS
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.closing.kinds import CLOSERS
-from linkanim.mechanics.closing.kinematics import walk_at
+from linkanim.mechanics.closing.kinds import CLOSERS, walk_at
 from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.drive.ranges import Arc, arcs_of, open_arcs

@@ -25,7 +25,7 @@ from linkanim.mechanics.closing.chain import (
     Stationary,
     Zero,
 )
-from linkanim.mechanics.closing.kinematics import walk_at, walked
+from linkanim.mechanics.closing.kinds import walk_at, walked
 from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.drive.swing import Swing

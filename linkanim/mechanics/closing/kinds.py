@@ -32,7 +32,7 @@ from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Pin
 from linkanim.mechanics.linkage.rigid_bodies import Brace, Rigid
-from linkanim.mechanics.loops.input_state import TravelState
+from linkanim.mechanics.loops.input_state import InputState, TravelState
 from linkanim.mechanics.loops.loop import Gearing, Loop, aside_of, own_loop, pin_against_pin
 from linkanim.mechanics.loops.roots import four_bar_root, slider_root, slot_root
 from linkanim.mechanics.loops.signed import Reduced, SignedRoot
@@ -306,3 +306,16 @@ CLOSERS: Mapping[type[Joint], Closer] = {
     RPP: Closer(close_yoke, name=yoke_name),
 }
 """Every kind that a linkage can be made of."""
+
+
+def walked(assembly: Assembly, state: InputState) -> Walk:
+    """Return a walk over the whole linkage at the state's instant."""
+    walk = Walk(assembly, state)
+    for joint in assembly.linkage.joints:
+        CLOSERS[type(joint)].close(joint, walk)
+    return walk
+
+
+def walk_at(assembly: Assembly, phase: Value, pace: Slope) -> Walk:
+    """Return a walk at a phase that runs at `pace`: floats, or symbolic expressions."""
+    return walked(assembly, assembly.path.state(phase, pace))

@@ -22,7 +22,7 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.assemble import JUST_AFTER, most_turns, resigned
 from linkanim.mechanics.closing.chain import ChainRoot, Dip, End, Touch
 from linkanim.mechanics.closing.fitting import fitted, refined
-from linkanim.mechanics.closing.kinematics import walk_at
+from linkanim.mechanics.closing.kinds import walk_at
 from linkanim.mechanics.closing.search import ends_of
 from linkanim.mechanics.closing.separation import Separations, separations
 from linkanim.mechanics.closing.walk import Assembly

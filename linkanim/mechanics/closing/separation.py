@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.closing.fitting import extreme
-from linkanim.mechanics.closing.kinematics import walk_at
+from linkanim.mechanics.closing.kinds import walk_at
 from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, ends_of
 from linkanim.mechanics.closing.walk import AT_ITS_LIMIT, Assembly
 from linkanim.mechanics.drive.input_path import InputPath

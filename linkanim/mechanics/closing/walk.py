@@ -93,6 +93,23 @@ class Walk:
     pieces: list[Piece] = field(default_factory=lambda: [Piece()])
     travels: dict[str, Moving] = field(default_factory=dict)
     closings: dict[str, Closing] = field(default_factory=dict)
+    """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
+
+    @property
+    def bodies(self) -> dict[str, Slope]:
+        """How each named body turns."""
+        turning = (body for body in self.linkage.bodies if body.slider is None)
+        return {body.name: self.turning_of(body.joints, f"body {body.name}") for body in turning}
+
+    @property
+    def centres(self) -> dict[str, MovingPoint]:
+        """The centre of mass of each body that states one."""
+        bodies = self.linkage.bodies
+        return {
+            body.name: self.attached((body.joints[0], body.joints[1]), body.com)
+            for body in bodies
+            if body.com is not None
+        }
 
     @property
     def exact(self) -> bool:

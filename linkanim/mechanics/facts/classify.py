@@ -23,7 +23,6 @@ from linkanim.mechanics.facts.naming import (
 from linkanim.mechanics.facts.register import driven_body, input_symbol
 from linkanim.mechanics.facts.transmission import Transmission, transmission
 from linkanim.mechanics.formulas.program import Array
-from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.mechanics.motion.measures import output_body, output_slider
 from linkanim.mechanics.motion.mechanism import Mechanism
@@ -52,7 +51,11 @@ class Info:
     @cached_property
     def grashof(self) -> str | None:
         """Grashof's rule with the four-bar's numbers; None for other linkages."""
-        return _grashof(self._four_bar) if self._four_bar else None
+        if (bar := self._four_bar) is None:
+            return None
+        s, p, q, longest = sorted(bar.links.values())
+        relation = "=" if bar.change_points else "<" if bar.margin > 0 else ">"
+        return f"s + l = {significant(s + longest, 6)} {relation} p + q = {significant(p + q, 6)}"
 
     @property
     def why_swinging(self) -> str | None:
@@ -99,9 +102,10 @@ class Info:
 
     @property
     def circuits(self) -> int | None:
-        """How many separate motions the lengths allow; None for other linkages than a single four-bar."""
-        bar = self._four_bar
-        return _circuits(bar) if bar and len(self.mechanism.assembly.loops) == 1 else None
+        """How many separate motions the lengths allow, two for Grashof; None for more than one four-bar."""
+        if self._four_bar is None or len(self.mechanism.assembly.loops) != 1:
+            return None
+        return 2 if self._four_bar.margin > 0 else 1
 
     @property
     def true_period(self) -> int:
@@ -147,8 +151,16 @@ class Info:
 
     @cached_property
     def counts(self) -> Counts:
-        """How many links, the ground among them, and joints there are, and the mobility by Grübler."""
-        return _counts(self.mechanism.linkage)
+        """How many links, the ground among them, and joints there are, and the mobility by Grübler.
+
+        A crank or a driven slider is a link and a joint, a dyad or a driving cylinder are two and three.
+        """
+        linkage = self.mechanism.linkage
+        inputs = len(tuple(linkage.cranks)) + isinstance(linkage.joint(linkage.drive.joint), DrivenSlider)
+        pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
+        links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
+        meshes = sum(crank.gear is not None for crank in linkage.cranks)
+        return Counts(links, joints, 3 * (links - 1) - 2 * joints - meshes)
 
     @cached_property
     def swing(self) -> _ToAndFro | None:
@@ -218,7 +230,7 @@ class Info:
     @cached_property
     def lines(self) -> tuple[tuple[str, str], ...]:
         """Label and value of each fact, in words."""
-        return tuple(_lines(self, self.length_unit))
+        return tuple((label, value) for label, value in _facts(self) if value)
 
     @cached_property
     def _four_bar(self) -> FourBar | None:
@@ -226,24 +238,8 @@ class Info:
 
     @cached_property
     def _slider(self) -> _ToAndFro | None:
-        return _stroke(self.mechanism)
-
-
-def classify(mechanism: Mechanism, length_unit: str) -> Info:
-    """Return what is known of a linkage."""
-    return Info(mechanism, length_unit)
-
-
-def _grashof(bar: FourBar) -> str:
-    s, p, q, longest = sorted(bar.links.values())
-    relation = "=" if bar.change_points else "<" if bar.margin > 0 else ">"
-    outer, inner = significant(s + longest, 6), significant(p + q, 6)
-    return f"s + l = {outer} {relation} p + q = {inner}"
-
-
-def _circuits(bar: FourBar) -> int:
-    """Return how many separate motions the lengths allow: two for Grashof, else one."""
-    return 2 if bar.margin > 0 else 1
+        slider = output_slider(self.mechanism.linkage)
+        return _to_and_fro(self.mechanism, slider.name, "travel", "travel_velocity") if slider else None
 
 
 class Counts(NamedTuple):
@@ -254,27 +250,12 @@ class Counts(NamedTuple):
     mobility: int
 
 
-def _counts(linkage: Linkage) -> Counts:
-    """Count a crank or driven slider as a link and a joint, a dyad or a driving cylinder as two and three."""
-    inputs = len(tuple(linkage.cranks)) + isinstance(linkage.joint(linkage.drive.joint), DrivenSlider)
-    pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
-    links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
-    meshes = sum(crank.gear is not None for crank in linkage.cranks)
-    return Counts(links, joints, 3 * (links - 1) - 2 * joints - meshes)
-
-
 class _ToAndFro(NamedTuple):
     """How a slider or rocker goes to and fro: the phases of its dead centres are None where it rests."""
 
     stroke: float
     time_ratio: float
     dead_centres: tuple[float, float] | None
-
-
-def _stroke(mechanism: Mechanism) -> _ToAndFro | None:
-    """Return how the output slider goes to and fro; None without one."""
-    slider = output_slider(mechanism.linkage)
-    return _to_and_fro(mechanism, slider.name, "travel", "travel_velocity") if slider else None
 
 
 def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAndFro:
@@ -303,43 +284,31 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
     return _ToAndFro(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
 
 
-def _lines(info: Info, unit: str) -> Iterator[tuple[str, str]]:
-    yield "class", info.class_name
+def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
+    """Yield label and value of each fact, in words; None where there is none."""
     links, joints, mobility = info.counts
+    turning = (info.link_names[name] for name in info.turning_links)
+    yield "class", info.class_name
     yield "links, joints", f"{links}, {joints}; mobility {mobility}"
-    if info.grashof:
-        yield "Grashof", info.grashof
+    yield "Grashof", info.grashof
     yield "input", info.input_words
-    if info.mechanism.retraced:
-        yield "returns", "on the same closure; velocities change sign at the limits"
-    if info.turning_links:
-        called = (info.link_names[name] for name in info.turning_links)
-        yield "turns fully", ", ".join(f"link {name}" if name.isdecimal() else name for name in called)
-    if info.toggles:
-        yield "toggles at", _places(info, info.toggles)
-    if info.change_points:
-        yield "change points", _places(info, info.change_points)
-    if info.circuits:
-        yield "circuits", str(info.circuits)
-    if info.transmission:
-        yield "transmission angle", _worst(info, info.transmission)
-    if info.stroke is not None:
-        yield "stroke", f"{significant(info.stroke, 6)} {unit}"
-    if info.swing is not None:
-        yield "swing", f"{degrees(info.swing.stroke)} of the {info.output_name}"
-    if info.time_ratio is not None:
-        yield "time ratio", f"{info.time_ratio:.4f}"
+    kept = "on the same closure; velocities change sign at the limits"
+    yield "returns", kept if info.mechanism.retraced else None
+    yield "turns fully", ", ".join(f"link {name}" if name.isdecimal() else name for name in turning)
+    yield "toggles at", _places(info, info.toggles)
+    yield "change points", _places(info, info.change_points)
+    yield "circuits", str(info.circuits or "")
+    yield "transmission angle", info.transmission and _worst(info, info.transmission)
+    yield "stroke", None if info.stroke is None else f"{significant(info.stroke, 6)} {info.length_unit}"
+    yield "swing", info.swing and f"{degrees(info.swing.stroke)} of the {info.output_name}"
+    yield "time ratio", None if info.time_ratio is None else f"{info.time_ratio:.4f}"
     if info.demand is not None:
-        yield from _demand_lines(info, info.demand)
+        (work, *efforts), (name, unit) = info.demand, info.effort
+        yield "work per period", f"{significant(work, 6)} J"
+        for word, value in zip(("peak", "mean"), efforts, strict=True):
+            yield f"{word} {name}", "unbounded" if value is None else f"{significant(value, 6)} {unit}"
     turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
     yield "true period", f"{turns}, {short(info.period_seconds)} s"
-
-
-def _demand_lines(info: Info, found: Demand) -> Iterator[tuple[str, str]]:
-    name, unit = info.effort
-    yield "work per period", f"{significant(found.work, 6)} J"
-    for label, value in ((f"peak {name}", found.peak), (f"mean {name}", found.mean)):
-        yield label, "unbounded" if value is None else f"{significant(value, 6)} {unit}"
 
 
 def _worst(info: Info, found: Transmission) -> str:
@@ -359,7 +328,7 @@ def _worst(info: Info, found: Transmission) -> str:
 
 
 def _places(info: Info, places: tuple[float, ...], between: str = ", ") -> str:
-    """Return places of the input in words: its angles, or how far a slider has travelled."""
+    """Return places of the input in words: its angles, or how far a slider has travelled; "" for none."""
     if info.mechanism.linkage.drive.coordinate.is_angle:
         return between.join(map(degrees, places))
-    return f"{between.join(significant(place, 6) for place in places)} {info.length_unit}"
+    return f"{between.join(significant(place, 6) for place in places)} {info.length_unit}" if places else ""

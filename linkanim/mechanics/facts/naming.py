@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -42,28 +43,15 @@ _ORDINALS = {2: "second", 3: "third"}
 
 @dataclass(frozen=True)
 class FourBar:
-    """The four lengths of a four-bar seen from its input, and which of the two closures it has.
+    """The four links of a four-bar by their part, seen from its input, and which of two closures it has.
 
     `joint` is the one in which coupler and output meet.
     """
 
     joint: str
-    ground: float
-    input: float
-    coupler: float
-    output: float
+    links: Mapping[str, float]
     sign: int
     change_points: int
-
-    @property
-    def links(self) -> dict[str, float]:
-        """The links by their part."""
-        return {
-            "ground": self.ground,
-            "input": self.input,
-            "coupler": self.coupler,
-            "output": self.output,
-        }
 
     @property
     def shortest(self) -> str:
@@ -78,6 +66,10 @@ class FourBar:
         return 0.0 if self.change_points else math.fsum((p, q, -s, -longest))
 
 
+def _links(*lengths: float) -> Mapping[str, float]:
+    return dict(zip(("ground", "input", "coupler", "output"), lengths, strict=True))
+
+
 def four_bar_of(mechanism: Mechanism) -> FourBar | None:
     """Return the four-bar loop that the input drives directly, where there is one."""
     for name, loop in mechanism.assembly.loops.items():
@@ -87,7 +79,8 @@ def four_bar_of(mechanism: Mechanism) -> FourBar | None:
             sign = mechanism.assembly.signs[name] * (-1 if loop.swapped else 1)
             scale = mechanism.assembly.unscale
             touching = (loop.root.u.kind, loop.root.w.kind).count(Kind.CHANGE_POINT)
-            return FourBar(name, loop.ground.length * scale, loop.crank.length * scale, a, b, sign, touching)
+            links = _links(loop.ground.length * scale, loop.crank.length * scale, a, b)
+            return FourBar(name, links, sign, touching)
     return None
 
 
@@ -161,7 +154,8 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
                 along = cycle.position[joint.name] - cycle.position[moving]
                 apart = along - (cycle.position[fixed] - cycle.position[pivot])
                 sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
-                yield FourBar(joint.name, ground, crank, a, b, sign, _change_point_count(ground, crank, a, b))
+                links = _links(ground, crank, a, b)
+                yield FourBar(joint.name, links, sign, _change_point_count(ground, crank, a, b))
                 break
 
 
@@ -194,12 +188,11 @@ def _part(bar: FourBar, pick: Callable[..., str]) -> str:
 
 
 def _change_point_name(bar: FourBar) -> str:
-    same = math.isclose
-    if same(bar.ground, bar.coupler, rel_tol=1e-15) and same(bar.input, bar.output, rel_tol=1e-15):
+    g, r, a, b = bar.links.values()
+    same = partial(math.isclose, rel_tol=1e-15)
+    if same(g, a) and same(r, b):
         return "parallelogram" if bar.sign > 0 else "antiparallelogram"
-    g, r, a, b = bar.ground, bar.input, bar.coupler, bar.output
-    pairs = (g, r, a, b), (g, b, a, r)
-    if any(same(a, b, rel_tol=1e-15) and same(c, d, rel_tol=1e-15) for a, b, c, d in pairs):
+    if (same(g, r) and same(a, b)) or (same(g, b) and same(a, r)):
         return "kite (change point)"
     return "change-point " + GRASHOF[_part(bar, min)]
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.mechanics.closing.kinematics import walk_at
+from linkanim.mechanics.closing.kinds import walk_at
 from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, changes_by_row, highest, own_rows
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope

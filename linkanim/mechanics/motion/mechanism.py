@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkanim.mechanics.closing.assemble import assemble
-from linkanim.mechanics.closing.kinematics import Kinematics, walked
+from linkanim.mechanics.closing.kinds import walked
 from linkanim.mechanics.closing.limits import restricted
-from linkanim.mechanics.closing.walk import Assembly
+from linkanim.mechanics.closing.walk import Assembly, Walk
 from linkanim.mechanics.drive.input_path import retraced
 from linkanim.mechanics.formulas.expression import Graph, Value
-from linkanim.mechanics.formulas.planar import MovingPoint, Slope
+from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import Array, Batch, batch, scalar
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.input_state import InputState
@@ -251,24 +251,22 @@ def _kept(values: Array, shape: tuple[int, ...]) -> Array:
     return values if values.ndim == 1 else values.reshape(-1)
 
 
-def _quantities(k: Kinematics, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:
+def _quantities(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:
+    joints, centres = walk.points, walk.centres
     for kind in VECTORS:
         part = ("position", "velocity", "acceleration")[DERIVATIVE_OF[kind]]
-        points = k.centres if kind.startswith("com_") else k.points
-        yield kind, {name: _pair(point, part, unscale) for name, point in points.items()}
-    turnings = {name: (turning.value, turning.rate) for name, turning in k.bodies.items()}
-    travels = {name: (way.value, way.rate, way.second) for name, way in k.travels.items()}
+        points = (centres if kind.startswith("com_") else joints).items()
+        vectors = ((name, getattr(point, part).scaled(unscale)) for name, point in points)
+        yield kind, {name: (vector.x, vector.y) for name, vector in vectors}
+    turnings = {name: (turning.value, turning.rate) for name, turning in walk.bodies.items()}
+    sliding = ((body.name, walk.travels[body.slider]) for body in walk.linkage.bodies if body.slider)
+    travels = {name: (way.value, way.rate, way.second) for name, way in sliding}
     for kind in NUMBERS:
         order = DERIVATIVE_OF[kind]
         if kind.startswith("angular"):
             yield kind, {name: (rates[order - 1],) for name, rates in turnings.items()}
         else:
             yield kind, {name: (ways[order] * unscale,) for name, ways in travels.items()}
-
-
-def _pair(point: MovingPoint, part: str, unscale: float) -> tuple[Value, Value]:
-    vector = getattr(point, part).scaled(unscale)
-    return vector.x, vector.y
 
 
 @lru_cache(maxsize=8)
