@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from itertools import groupby
+from operator import attrgetter
 
 import pygame
 
@@ -13,7 +14,7 @@ from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.panels.panels import Panels
 from linkanim.picture.panels.path import SHEET
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.raster import Cover, cover, is_clear, keep_memory, paints
+from linkanim.picture.raster.raster import Cover, Shapes, covers, is_clear, keep_memory, paints
 from linkanim.picture.text.lettering import Lettering
 from linkanim.picture.text.text import Type
 
@@ -64,8 +65,12 @@ class SurfacePrinter:
             self._covers.clear()
         first, *others = _runs(picture.groups(pose, overlay, faint=faint))
         canvas = self._on_still(surface, picture, first)
-        for n, run in enumerate(others):
-            self._shapes(canvas, run, n)
+        parted = [_parts(run, n) for n, run in enumerate(others)]
+        fresh = [_shapes(groups) for parts in parted for key, groups in parts if key is None]
+        found = iter(covers(canvas, fresh))
+        for run, parts in zip(others, parted, strict=True):
+            for key, groups in parts:
+                (next(found) if key is None else self._kept(canvas, key, groups)).put(canvas)
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
         self._panels_of(picture).draw(canvas, overlay)
@@ -111,18 +116,6 @@ class SurfacePrinter:
             _cover(drawn, [paper]).put(drawn)
             self._paper = paper, drawn
         return self._paper[1]
-
-    def _shapes(self, canvas: pygame.Surface, run: tuple[Group, ...], n: int) -> None:
-        """Fill the shapes of groups that lie over each other in their order."""
-        if run[0].still:
-            self._kept(canvas, n, run).put(canvas)
-            return
-        for key, groups in groupby(run, key=lambda group: group.key):
-            some = tuple(groups)
-            if key is None:
-                _cover(canvas, some).put(canvas)
-            else:
-                self._kept(canvas, key, some).put(canvas)
 
     def _kept(self, canvas: pygame.Surface, key: Hashable, groups: tuple[Group, ...]) -> Cover:
         """Return what groups do to the canvas, worked out once for each key."""
@@ -198,12 +191,26 @@ def _same(one: tuple[Group, ...], other: tuple[Group, ...]) -> bool:
     return len(one) == len(other) and all(a is b for a, b in zip(one, other, strict=True))
 
 
-def _cover(surface: pygame.Surface, groups: Sequence[Group]) -> Cover:
-    """Return what the shapes of groups do to a surface."""
+def _parts(run: tuple[Group, ...], n: int) -> list[tuple[Hashable, tuple[Group, ...]]]:
+    """Return the groups of a run in parts that are filled one after the other, with their keys.
+
+    What stands still has its number for one; None is that of what is filled anew at every pose.
+    """
+    if run[0].still:
+        return [(n, run)]
+    return [(key, tuple(groups)) for key, groups in groupby(run, key=attrgetter("key"))]
+
+
+def _shapes(groups: Sequence[Group]) -> Shapes:
+    """Return the shapes of groups, which end where what these are within does."""
     edge = next((group.within for group in groups if group.within), None)
     kept, free = ([group for group in groups if bool(group.within) is bounded] for bounded in (True, False))
-    ends = (int(edge.right), int(edge.bottom)) if edge else None
-    return cover(surface, flat(kept), ends=ends, over=flat(free))
+    return Shapes(flat(kept), (int(edge.right), int(edge.bottom)) if edge else None, flat(free))
+
+
+def _cover(surface: pygame.Surface, groups: Sequence[Group]) -> Cover:
+    """Return what the shapes of groups do to a surface."""
+    return covers(surface, [_shapes(groups)])[0]
 
 
 def printed(surface: pygame.Surface, groups: Iterable[Group], type_: Type) -> None:

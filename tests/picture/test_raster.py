@@ -11,7 +11,7 @@ from fidelity import Pixels, averaged, centre, jitter, psnr
 from pictures import alphas, coverage, filled
 
 from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Layer, Loop, cover, paint, paints
+from linkanim.picture.raster.raster import Layer, Loop, Shapes, cover, covers, paint, paints
 from linkanim.picture.raster.shapes import box, disc, rounded
 
 WHITE = (255, 255, 255)
@@ -195,14 +195,24 @@ def test_rows_from_the_end_on_are_left_as_they_are() -> None:
 
 def test_what_lies_over_the_layers_may_reach_beyond_their_ends() -> None:
     surface = filled([])
-    paint(
-        surface,
-        [Layer(WHITE, [box(20, 20) + 32 + 32j])],
-        ends=(64, 30),
-        over=[Layer(WHITE, [_rect(0, 28, 5, 34)])],
-    )
+    limited, free = [Layer(WHITE, [box(20, 20) + 32 + 32j])], [Layer(WHITE, [_rect(0, 28, 5, 34)])]
+    covers(surface, [Shapes(limited, (64, 30), free)])[0].put(surface)
     cover = coverage(surface)
     assert (cover[29, 32], cover[30, 32], cover[33, 3]) == (1, 0, 1)
+
+
+def test_parts_worked_out_together_are_filled_one_after_the_other() -> None:
+    parts = [
+        [Layer((200, 0, 0), [_rect(5, 5, 40, 40)])],
+        [],
+        [Layer((0, 0, 200), [_rect(20.5, 3, 50, 30)], 0.5)],
+    ]
+    together, in_turn = filled([]), filled([])
+    for found, part in zip(covers(together, [Shapes(part) for part in parts]), parts, strict=True):
+        for surface, one in ((together, found), (in_turn, covers(in_turn, [Shapes(part)])[0])):
+            one.put(surface)
+            paint(surface, [Layer((0, 200, 0), [_rect(0, 25, 64, 28.25)])])
+    assert pygame.image.tobytes(together, "RGBA") == pygame.image.tobytes(in_turn, "RGBA")
 
 
 @pytest.mark.parametrize("right", [0, 1, 20, 33, 64])

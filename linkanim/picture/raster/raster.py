@@ -7,13 +7,14 @@ Those that lie apart are mixed in together, too: each on the lowest level above 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import accumulate, pairwise
 from typing import NamedTuple, overload
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from linkanim.picture.raster.blend import WHOLE, Shares, Words, mix, mixed_in, shares, words
+from linkanim.picture.raster.blend import WHOLE, Mix, Shares, Words, mix, mixed_in, shares, words
 from linkanim.picture.raster.cells import Edges, Ints, Room, Runs, covered, on_grid, pixel_of, room
 from linkanim.picture.raster.cells import Loop as Loop
 
@@ -99,28 +100,37 @@ class _Pixels(NamedTuple):
     bounds: Ints
 
 
+_NONE = np.zeros(0, np.int64)
+_NO_PIXELS = _Pixels(_NONE, _NONE.astype(np.uint16), _NONE.astype(np.uint32), _NONE)
+
+
+class Shapes(NamedTuple):
+    """Layers in their order, which end before some column and row, and those over them, which do not."""
+
+    layers: Iterable[Layer]
+    ends: tuple[int, int] | None = None
+    over: Iterable[Layer] = ()
+
+
 class Cover:
     """What layers do to every surface of a size and kind: worked out once, put on it any number of times."""
 
-    def __init__(self, found: Sequence[_Pixels]) -> None:
-        self._full: _Pixels | None = found[0] if found else None
-        self._mixes = [
-            (mixed_in(part.place, part.share, part.ink), part.bounds.tolist()) for part in found[1:]
-        ]
+    def __init__(self, full: _Pixels, mixes: list[tuple[Mix, list[int]]], levels: range) -> None:
+        self._full, self._mixes, self._levels = full, mixes, levels
 
     @property
     def nbytes(self) -> int:
         """The memory that it takes."""
-        full = self._full.place.nbytes + self._full.ink.nbytes if self._full else 0
+        full = self._full.place.nbytes + self._full.ink.nbytes
         return full + sum(what.place.nbytes + what.keep.nbytes + what.add.nbytes for what, _ in self._mixes)
 
     def put(self, surface: pygame.Surface) -> None:
         """Fill the pixels that are covered in full and mix the others, level by level."""
-        if self._full is None:
+        if not self._levels:
             return
         pixels: Words = np.frombuffer(surface.get_buffer(), np.uint32)  # type: ignore[call-overload]
         clear, full, bounds = is_clear(surface), self._full, self._full.bounds.tolist()
-        for level in range(len(bounds) - 1):
+        for level in self._levels:
             inside = slice(bounds[level], bounds[level + 1])
             if inside.start < inside.stop:
                 pixels[full.place[inside]] = full.ink[inside]
@@ -129,30 +139,25 @@ class Cover:
                     mix(pixels, mixed.part(at[level], at[level + 1]), clear=clear)
 
 
-def cover(
-    surface: pygame.Surface,
-    layers: Iterable[Layer],
-    *,
-    ends: tuple[int, int] | None = None,
-    over: Iterable[Layer] = (),
-) -> Cover:
+def covers(surface: pygame.Surface, parts: Sequence[Shapes]) -> list[Cover]:
+    """Return what each part does to surfaces like this one; all go through the arithmetic together."""
+    (full, *others), levels = _covered(surface, parts)
+    mixes = [(mixed_in(some.place, some.share, some.ink), some.bounds.tolist()) for some in others]
+    return [Cover(full, mixes, range(*ends)) for ends in pairwise((0, *accumulate(levels)))]
+
+
+def cover(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int] | None = None) -> Cover:
     """Return what `paint` would do to surfaces like this one."""
-    return Cover(_covered(surface, layers, ends or surface.get_size(), over))
+    return covers(surface, [Shapes(layers, ends)])[0]
 
 
-def paint(
-    surface: pygame.Surface,
-    layers: Iterable[Layer],
-    *,
-    ends: tuple[int, int] | None = None,
-    over: Iterable[Layer] = (),
-) -> None:
+def paint(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int] | None = None) -> None:
     """Fill the layers in their order on a 32-bit surface whose rows touch; loops may leave it.
 
-    Where there are `ends`, columns and rows from them on are left as they are; those `over` the layers may
-    reach beyond. Where the surface has alpha, it is kept straight (not multiplied into the colours).
+    Where there are `ends`, columns and rows from them on are left as they are. Where the surface has alpha,
+    it is kept straight (not multiplied into the colours).
     """
-    cover(surface, layers, ends=ends, over=over).put(surface)
+    cover(surface, layers, ends=ends).put(surface)
 
 
 def keep_memory() -> None:
@@ -174,27 +179,34 @@ def paints(surface: pygame.Surface) -> bool:
     return surface.get_bytesize() == 4 and surface.get_pitch() == 4 * surface.get_width()
 
 
-def _covered(
-    surface: pygame.Surface, layers: Iterable[Layer], ends: tuple[int, int], over: Iterable[Layer]
-) -> list[_Pixels]:
-    """Return the pixels that are covered in full, those on outlines, and those of spans covered in part."""
+def _covered(surface: pygame.Surface, parts: Sequence[Shapes]) -> tuple[list[_Pixels], list[int]]:
+    """Return the pixels that are covered in full, those on outlines, and those of spans covered in part.
+
+    Also how many levels each of the parts has.
+    """
     size = surface.get_size()
-    limited, free = (_with_loops(some) for some in (layers, over))
-    drawn = [*limited, *free]
+    drawn: list[tuple[Layer, Outlines]] = []
+    limits, ends = [], [0]
+    for part in parts:
+        for layers, limit in ((part.layers, np.minimum(part.ends or size, size)), (part.over, size)):
+            some = _with_loops(layers)
+            drawn += some
+            limits += [limit] * len(some)
+        ends.append(len(drawn))
     if not drawn:
-        return []
-    limits = np.repeat([np.minimum(ends, size), size], (len(limited), len(free)), axis=0).T
-    edges, boxes = _outlined([outlines for _, outlines in drawn], limits)
-    levels = _levels(boxes)
+        return [_NO_PIXELS], [0] * len(parts)
+    edge = np.array(limits).T
+    edges, boxes = _outlined([outlines for _, outlines in drawn], edge)
+    levels, counts = _levels(boxes, ends)
     order = np.argsort(levels, kind="stable")
-    within = room(boxes.top[order], (boxes.end - boxes.top)[order], limits[0][order], size[0])
+    within = room(boxes.top[order], (boxes.end - boxes.top)[order], edge[0][order], size[0])
     outline, spans = covered(edges._replace(layer=np.argsort(order)[edges.layer]), within)
     filled = [drawn[n][0] for n in order.tolist()]
     inks, alphas = words(surface, [layer.colour for layer in filled]), [layer.alpha for layer in filled]
-    begins = np.searchsorted(levels[order], np.arange(levels.max() + 2))
-    edge, inside = (_inked(runs, within, (inks, alphas), begins) for runs in (outline, spans))
+    begins = np.searchsorted(levels[order], np.arange(sum(counts) + 1))
+    rim, inside = (_inked(runs, within, (inks, alphas), begins) for runs in (outline, spans))
     full = inside.share == WHOLE
-    return [_spread(inside, spans.length, full), edge, _spread(inside, spans.length, ~full)]
+    return [_spread(inside, spans.length, full), rim, _spread(inside, spans.length, ~full)], counts
 
 
 def _with_loops(layers: Iterable[Layer]) -> list[tuple[Layer, Outlines]]:
@@ -227,23 +239,29 @@ def _boxes(points: Loop, starts: Ints, limits: Ints) -> _Boxes:
     return _Boxes(left, top, right, bottom)
 
 
-def _levels(boxes: _Boxes) -> Ints:
-    """Return a level for each layer: above all layers before it that it may touch, and else the lowest."""
+def _levels(boxes: _Boxes, ends: Sequence[int]) -> tuple[Ints, list[int]]:
+    """Return a level for each layer: above all layers before it that it may touch, and else the lowest.
+
+    Those of a part, up to its end, are above all of the part before. Also how many each part has.
+    """
     left, top, right, end = (side[:, None] for side in boxes)
     meet = (left < boxes.right) & (right > boxes.left) & (top < boxes.end) & (end > boxes.top)
     taken: list[int] = []
-    levels = []
+    levels, counts = [], []
     bits, wide = np.packbits(meet, axis=1, bitorder="little").tobytes(), -(-len(meet) // 8)
-    for n in range(len(meet)):
-        touched = int.from_bytes(bits[n * wide : (n + 1) * wide], "little")
-        level = len(taken)
-        while level and not taken[level - 1] & touched:
-            level -= 1
-        if level == len(taken):
-            taken.append(0)
-        taken[level] |= 1 << n
-        levels.append(level)
-    return np.array(levels)
+    for begin, after in pairwise(ends):
+        lowest = len(taken)
+        for n in range(begin, after):
+            touched = int.from_bytes(bits[n * wide : (n + 1) * wide], "little")
+            level = len(taken)
+            while level > lowest and not taken[level - 1] & touched:
+                level -= 1
+            if level == len(taken):
+                taken.append(0)
+            taken[level] |= 1 << n
+            levels.append(level)
+        counts.append(len(taken) - lowest)
+    return np.array(levels), counts
 
 
 def _inked(runs: Runs, within: Room, drawn: tuple[Words, list[float]], begins: Ints) -> _Pixels:
