@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import ceil
 
 from linkanim.picture.view import Rect
@@ -63,7 +64,7 @@ class Layout:
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
 
-    @property
+    @cached_property
     def reach(self) -> Rect:
         """How far the scene may be drawn when it is zoomed: to chart and polygons, under the edit list."""
         right, bottom = self.size

@@ -217,7 +217,7 @@ class Picture:
             yield from groups
             return
         for group in groups:
-            words = [*filter(self._clear, group.captions)] if group.captions else ()
+            words = [line for line in group.captions if self._ends_before(edge, line)]
             yield group._replace(captions=words, within=edge)
 
     @cached_property
@@ -306,12 +306,11 @@ class Picture:
         assert self.names
         return self.names.parts(self.figure, self.view, self.gauge, self.theme.dim)
 
-    def _clear(self, line: Caption) -> bool:
+    def _ends_before(self, edge: Rect, line: Caption) -> bool:
         """Return whether a line of text ends before what stands beside the scene."""
-        edge = self.edge
-        wide = self.type.width(line.text, line.size, strong=line.strong) if edge else 0
+        wide = self.type.width(line.text, line.size, strong=line.strong)
         right = line.at[0] + {"left": 1.0, "centre": 0.5, "right": 0.0}[line.anchor] * wide
-        return edge is None or (right <= edge.right and line.at[1] + line.size <= edge.bottom)
+        return right <= edge.right and line.at[1] + line.size <= edge.bottom
 
     def _words(self, pose: Pose, *, noted: bool) -> Iterator[Group]:
         """Yield the words about the scene, on a backing where something may lie under them."""

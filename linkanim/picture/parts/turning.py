@@ -82,14 +82,19 @@ class Turning:
         centre, way = self._bar(places)
         turned = self.turned(float(np.angle(way.conjugate())))
         path = centre + self.arc * directions(np.linspace(0, -turned, max(round(abs(turned) * 12), 2)))
-        dashes = np.arange(0, 1.45 * self.arc, 3.5 * self.gauge.line)
-        ends = centre + dashes, centre + dashes + 2.2 * self.gauge.line
         ink, back = self.colours
         halo, line = strokes(path, (2.6 * self.gauge.line, 0.9 * self.gauge.line))
-        return [Layer(back, halo), Layer(ink, [*line, *segments(*ends, 0.8 * self.gauge.line)])]
+        return [Layer(back, halo), Layer(ink, [*line, *_dashes(centre, 1.45 * self.arc, self.gauge.line)])]
 
     def _bar(self, places: Places) -> tuple[complex, complex]:
         return places[self.pivot], unit(places[self.pin] - places[self.pivot])
+
+
+@lru_cache(maxsize=16)
+def _dashes(begin: complex, room: float, thick: float) -> list[Loop]:
+    """Return a dashed line to the right; a pivot mostly stands still: the last ones are kept."""
+    dashes = begin + np.arange(0, room, 3.5 * thick)
+    return segments(dashes, dashes + 2.2 * thick, 0.8 * thick)
 
 
 @lru_cache(maxsize=16)

@@ -7,7 +7,7 @@ braces (`I_{13}`, `v_{BA}`); either is typeset smaller and lower. `subscripted` 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from math import prod
 from typing import Literal, NamedTuple
 from unicodedata import normalize
@@ -104,6 +104,7 @@ class Type:
         self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
         self._inked: dict[tuple[str, int, str, Colour], tuple[int, list[Inked]]] = {}
         self._inked_bytes = 0
+        self._once: set[Hashable] = set()
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
         """Return how wide a line is in pixels; `strong` is the semibold weight."""
@@ -132,7 +133,10 @@ class Type:
         return width
 
     def _inked_of(self, text: str, size: int, colour: Colour, face: str) -> tuple[int, list[Inked]]:
-        """Return a line's width and its letters, as many on one surface as do not touch: so it blits fast."""
+        """Return a line's width and its letters: of one that comes again on as few surfaces as can be.
+
+        So it blits fast; values that change with every frame are not worth that.
+        """
         key = (text, size, face, colour)
         if key not in self._inked:
             *places, end = self._set(text, size, face)
@@ -140,10 +144,16 @@ class Type:
                 (self._glyph(char, small, colour, face, x % _FINE), x // _FINE, y)
                 for char, small, x, y in places
             )
-            glyphs = (Inked(ink, x + right, y + down) for (ink, right, down), x, y in inks if ink.get_width())
-            inked = [_joined(run) for run in _apart(glyphs)]
+            inked = [Inked(ink, x + right, y + down) for (ink, right, down), x, y in inks if ink.get_width()]
+            width = -(-end.x // _FINE)
+            if key not in self._once:
+                if len(self._once) >= _KEPT:
+                    self._once.clear()
+                self._once.add(key)
+                return width, inked
+            inked = [_joined(run) for run in _apart(inked)]
             self._make_room(sum(4 * prod(letters.sprite.get_size()) for letters in inked))
-            self._inked[key] = -(-end.x // _FINE), inked
+            self._inked[key] = width, inked
         return self._inked[key]
 
     def _make_room(self, further: int) -> None:
