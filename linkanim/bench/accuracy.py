@@ -52,7 +52,7 @@ def score(solve: Solve, answer: Answer) -> Score:
             _farthest(places, exact) / np.maximum(_largest(exact), longest)
             for places, exact in zip(found[1:], answer.orders[1:], strict=False)
         ]
-    position, velocity, acceleration = (_worst(values, right) for values in _three(error, rates))
+    position, velocity, acceleration, *_ = (*(_worst(one, right) for one in (error, *rates)), np.nan, np.nan)
     return Score(error.size, position, velocity, acceleration, int(wrong.sum()), int(missing.sum()))
 
 
@@ -64,10 +64,6 @@ def together(scores: Sequence[Score]) -> Score:
     )
     poses, wrong, nan = map(sum, zip(*((one.poses, one.wrong, one.nan) for one in scores), strict=True))
     return Score(poses, position, velocity, acceleration, wrong, nan)
-
-
-def _three(position: Floats, rates: Sequence[Floats]) -> list[Floats]:
-    return [position, *rates, *[np.full_like(position, np.nan)] * (2 - len(rates))]
 
 
 def _worst(errors: Floats, right: Any) -> float:

@@ -110,34 +110,23 @@ def built_in(name: str) -> Scene:
 
 def stretched(lengths: Lengths) -> Swing:
     """Return the swing of a crank between the two poses in which coupler and rocker are in line."""
-
-    def ends(mp: Any) -> tuple[Any, Any]:
-        g, r, a, b = map(mp.mpf, lengths)
-        far = mp.acos((g * g + r * r - (a + b) ** 2) / (2 * g * r))
-        return -far, far
-
-    return ends
+    return lambda mp: (-_in_line(mp, lengths, 1), _in_line(mp, lengths, 1))
 
 
 def between(lengths: Lengths) -> Swing:
     """Return the swing of a double-rocker above its ground line: folded at one end, stretched after."""
+    return lambda mp: (_in_line(mp, lengths, -1), _in_line(mp, lengths, 1))
 
-    def ends(mp: Any) -> tuple[Any, Any]:
-        g, r, a, b = map(mp.mpf, lengths)
-        folded, far = ((g * g + r * r - bars**2) / (2 * g * r) for bars in (a - b, a + b))
-        return mp.acos(folded), mp.acos(far)
 
-    return ends
+def _in_line(mp: Any, lengths: Lengths, sign: int) -> Any:
+    """Return the crank's angle with coupler and rocker in line, stretched (`sign` +1) or folded (-1)."""
+    g, r, a, b = map(mp.mpf, lengths)
+    return mp.acos((g * g + r * r - (a + sign * b) ** 2) / (2 * g * r))
 
 
 def upright(crank: float, rod: float) -> Swing:
     """Return the swing of a slider-crank with a rod shorter than its crank: upright at both ends."""
-
-    def ends(mp: Any) -> tuple[Any, Any]:
-        far = mp.asin(mp.mpf(rod) / mp.mpf(crank))
-        return -far, far
-
-    return ends
+    return lambda mp: (-mp.asin(mp.mpf(rod) / crank), mp.asin(mp.mpf(rod) / crank))
 
 
 ONE_TURN = beside(degrees(90, 450), TURN / 2, TURN)

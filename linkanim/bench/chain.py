@@ -178,6 +178,21 @@ def point_on(step: FixedStep, at: Places) -> Any:
     return first + (second - first) * (step.at / step.length)
 
 
+def circle_dyad(dyad: Dyad, at: Places, side: Any, root: Callable[[Any], Any] = np.sqrt) -> Any:
+    """Go along the line of centres, then √(r² - x²) to the side; a circle and a line likewise.
+
+    Paul Bourke, Circles and spheres (1997). `root` is that of the numbers.
+    """
+    if isinstance(dyad, MeetStep):
+        p, q = (at[end] for end in dyad.ends)
+        (a, b), way = dyad.lengths, q - p
+        distance = abs(way)
+        along = (a**2 - b**2 + distance * distance) / (2 * distance)
+        return p + way / distance * (along + 1j * (side * root(a**2 - along * along)))
+    seen = (at[dyad.end] - dyad.base) * dyad.along.conjugate()
+    return dyad.base + dyad.along * (seen.real + side * root(dyad.length**2 - seen.imag**2))
+
+
 def joined(vectors: Floats) -> Complexes:
     """Return vectors (..., 2) as complex numbers."""
     numbers: Complexes = vectors[..., 0] + 1j * vectors[..., 1]

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from linkanim.bench import methods, others
 from linkanim.bench.accuracy import Solve
 from linkanim.bench.cases import FOUR_BAR, CaseSet
-from linkanim.bench.chain import TURN, Orders, Places, Question
+from linkanim.bench.chain import TURN, Orders, Places, Question, circle_dyad
 from linkanim.bench.reference import answer
 
 FEW, MANY = 10_000, 1_000_000
@@ -97,7 +98,7 @@ def _usual(few: Question, one: Question) -> Iterator[Entry]:
     """Yield closed forms, what goes on from pose to pose, and tables."""
     norton = "Norton, Design of Machinery"
     yield _rated("half-angle", "half-angle formula", norton, methods.closed(methods.half_angle_dyad), few)
-    yield _rated("circles", "circle intersection", "Bourke 1997", methods.closed(methods.circle_dyad), few)
+    yield _rated("circles", "circle intersection", "Bourke 1997", methods.closed(circle_dyad), few)
     for count in (1, 2, 3):
         name = f"Newton, {count} iteration{'s' if count > 1 else ''}"
         yield _rated(f"newton {count}", name, _DYADS, methods.newton(count), one)
@@ -129,19 +130,17 @@ def _packages(turns: list[Question], one: Question, fewest: Question) -> Iterato
     for key, turn in zip(("pylinkage", "pylinkage, many"), turns, strict=False):
         count = turn.angles.size
         model = others.pylinkage_model(turn, TURN / count).linkage
-        runs = (_stepped(work, count) for work in (model.step_fast, model.step_fast_with_kinematics))
+        runs = (
+            Timed(partial(work, count), count) for work in (model.step_fast, model.step_fast_with_kinematics)
+        )
         solve, name = others.pylinkage_fast(round(count / 360)), f"pylinkage step_fast, {count:,} at once"
         yield Entry("", key, name, "pylinkage, numba", solve, *runs)
     count = one.angles.size
     model = others.pylinkage_model(one, TURN / count).linkage
-    runs = (_walked(work, count) for work in (model.step, model.step_with_derivatives))
+    runs = (Timed(_walked(work, count), count) for work in (model.step, model.step_with_derivatives))
     yield Entry("", "pylinkage step", "pylinkage step()", "pylinkage", others.pylinkage_step, *runs)
     yield Entry("", "fsolve", "scipy fsolve", "scipy.optimize", others.fsolve, _timed(others.fsolve, fewest))
 
 
-def _stepped(work: Callable[[int], object], count: int) -> Timed:
-    return Timed(lambda: work(count), count)
-
-
-def _walked(work: Callable[[int], Iterator[object]], count: int) -> Timed:
-    return Timed(lambda: deque(work(count), maxlen=0), count)
+def _walked(work: Callable[[int], Iterator[object]], count: int) -> Callable[[], object]:
+    return lambda: deque(work(count), maxlen=0)

@@ -12,6 +12,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -62,22 +63,6 @@ def half_angle_dyad(dyad: Dyad, at: Places, side: Any) -> Any:
     return origin + arm * np.exp(1j * angle)
 
 
-def circle_dyad(dyad: Dyad, at: Places, side: Any) -> Any:
-    """Go along the line of centres, then √(r² - x²) to the side; a circle and a line likewise.
-
-    Paul Bourke, Circles and spheres (1997).
-    """
-    if isinstance(dyad, MeetStep):
-        p, q = (at[end] for end in dyad.ends)
-        (a, b), way = dyad.lengths, q - p
-        distance = np.abs(way)
-        along = (a**2 - b**2 + distance * distance) / (2 * distance)
-        height = np.sqrt(a**2 - along * along)
-        return p + way / distance * (along + 1j * (side * height))
-    seen = (at[dyad.end] - dyad.base) * np.conj(dyad.along)
-    return dyad.base + dyad.along * (seen.real + side * np.sqrt(dyad.length**2 - seen.imag**2))
-
-
 def closed(close: Close) -> Callable[[Question], Places]:
     """Return the method that closes dyad by dyad so, all poses at once."""
 
@@ -93,14 +78,10 @@ def rated(places: Callable[[Question], Places]) -> Callable[[Question], Orders]:
 
     def solve(question: Question) -> Orders:
         at, (speed, gain) = places(question), question.rates
-        first = _rates(question.chain, at, lambda r: 1j * r * speed, lambda dyad: (0.0, 0.0))
-        second = _rates(
-            question.chain,
-            at,
-            lambda r: 1j * r * gain - (r * speed) ** 2,
-            lambda dyad: _centripetal(dyad, first),
-        )
-        return at, first, second
+        chain = question.chain
+        first = _rates(chain, at, lambda r: 1j * r * speed, lambda dyad: (0.0, 0.0))
+        loads = partial(_centripetal, first=first)
+        return at, first, _rates(chain, at, lambda r: 1j * r * gain - (r * speed) ** 2, loads)
 
     return solve
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkanim.bench.chain import Dyad, MeetStep, Orders, Places, Question, SlideStep, TurnStep, placed
+from linkanim.bench.chain import Dyad, MeetStep, Orders, Places, Question, SlideStep, TurnStep, joined, placed
 from linkanim.bench.methods import NOWHERE
 
 
@@ -34,10 +34,10 @@ def pylinkage_model(question: Question, rate: float) -> Model:
     parts, cranks = [*made.values()], []
     rows = {name: row for row, name in enumerate(made)}
     for step in question.chain.steps:
-        if isinstance(step, SlideStep):
-            guide = [Ground(at.real, at.imag) for at in (step.base, step.base + step.along)]
-            parts += guide
-        part = _part(step, made, question, rate, guide if isinstance(step, SlideStep) else [])
+        ends = (step.base, step.base + step.along) if isinstance(step, SlideStep) else ()
+        guide = [Ground(at.real, at.imag) for at in ends]
+        parts += guide
+        part = _part(step, made, question, rate, guide)
         if isinstance(step, TurnStep):
             cranks.append((part, step.ratio))
         rows[step.name] = len(parts)
@@ -107,8 +107,8 @@ def pylinkage_step(question: Question) -> Orders:
 
 
 def _orders(found: Any, model: Model) -> Orders:
-    joined = found[..., 0] + 1j * found[..., 1]
-    return tuple({name: joined[:, order, row] for name, row in model.rows.items()} for order in range(3))
+    orders = np.moveaxis(joined(found), 1, 0)
+    return tuple({name: order[:, row] for name, row in model.rows.items()} for order in orders)
 
 
 def fsolve(question: Question) -> Orders:

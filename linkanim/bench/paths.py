@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from linkanim.bench.result import Progress
 from linkanim.export import columns, json_text, markdown
 from linkanim.synthesis.curves.drawn import drawn
 from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
@@ -32,8 +33,6 @@ _SEED = 7
 _SAMPLES = 240
 _BOUNDS = [(-4, 4)] * 2 + [(0.01, 4), (0.01, 8), (-8, 8), (-8, 8)] + [(-4, 4)] * 2 + [(0.01, 8), (-1, 1)]
 """Of the search, in curve sizes: the four-bar's parameters, and the closure's sign."""
-
-Progress = Callable[[int, int], None]
 
 
 class PathRow(NamedTuple):

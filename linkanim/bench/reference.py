@@ -29,6 +29,7 @@ from linkanim.bench.chain import (
     Step,
     TurnStep,
     chain_of,
+    circle_dyad,
     longest_of,
     placed,
 )
@@ -196,25 +197,13 @@ class CasePath:
 
 
 def closed(dyad: Dyad, at: Places, side: int) -> Any:
-    """Return where a dyad's joint lies, its lengths in many digits."""
-    if isinstance(dyad, MeetStep):
-        p, q = (at[end] for end in dyad.ends)
-        return crossing(p, q, *dyad.lengths, side)
-    seen = (at[dyad.end] - dyad.base) / dyad.along
-    square = dyad.length**2 - mp.im(seen) ** 2
-    return dyad.base + dyad.along * (mp.re(seen) + side * mp.sqrt(max(square, mpf(0))))
+    """Return where a dyad's joint lies, in many digits; what misses by rounding touches."""
+    return circle_dyad(dyad, at, side, lambda square: mp.sqrt(max(square, mpf(0))))
 
 
 def crossing(p: Any, q: Any, a: Any, b: Any, side: int) -> Any:
-    """Return where circles of radius a about p and b about q cross, left of p -> q for side +1.
-
-    Circles that miss each other by rounding touch.
-    """
-    way = q - p
-    distance = abs(way)
-    along = (distance**2 + a**2 - b**2) / (2 * distance)
-    square = a**2 - along**2
-    return p + way / distance * mpc(along, side * mp.sqrt(max(square, mpf(0))))
+    """Return where circles of radius a about p and b about q cross, left of p -> q for side +1."""
+    return closed(MeetStep("", ("p", "q"), (a, b), side), {"p": p, "q": q}, side)
 
 
 def _floats(values: list[Any]) -> Floats:

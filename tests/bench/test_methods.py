@@ -12,7 +12,7 @@ import pytest
 from linkanim.bench import methods, others
 from linkanim.bench.accuracy import Solve, score
 from linkanim.bench.cases import FOUR_BAR, MECHANISMS, SLIDER_CRANK, Case, CaseSet, degrees
-from linkanim.bench.chain import Orders, Question
+from linkanim.bench.chain import Orders, Question, circle_dyad
 from linkanim.bench.reference import Answer, answer
 
 EPS = 2.0**-52
@@ -43,7 +43,7 @@ def read(way: Read) -> Solve:
         pytest.param(methods.batch, 0, 16 * EPS, id="linkanim, batch"),
         pytest.param(methods.single, 0, 16 * EPS, id="linkanim, single"),
         pytest.param(methods.rated(methods.closed(methods.half_angle_dyad)), 0, 1e-13, id="half-angle"),
-        pytest.param(methods.rated(methods.closed(methods.circle_dyad)), 0, 1e-13, id="circles"),
+        pytest.param(methods.rated(methods.closed(circle_dyad)), 0, 1e-13, id="circles"),
         pytest.param(methods.rated(methods.newton(1)), 1e-6, 1e-3, id="newton 1"),
         pytest.param(methods.rated(methods.newton(2)), 1e-12, 1e-7, id="newton 2"),
         pytest.param(methods.rated(methods.newton(3)), 0, 1e-13, id="newton 3"),
@@ -89,7 +89,7 @@ def test_this_solver_is_exact_on_the_hard_cases(mechanism: CaseSet, case: Case) 
 )
 def test_a_change_point_costs_the_closed_forms_half_the_poses(case: Case) -> None:
     posed = thinned(case)
-    for close in (methods.half_angle_dyad, methods.circle_dyad):
+    for close in (methods.half_angle_dyad, circle_dyad):
         found = score(methods.rated(methods.closed(close)), posed)
         assert found.wrong > found.poses / 3
 
