@@ -12,12 +12,13 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim import child
@@ -46,9 +47,10 @@ class Stream:
     alpha: bool = False
 
 
+@contextmanager
 def encoding(
     stream: Stream, form: Format, part: Path, palette: Callable[[], Sequence[Colour]]
-) -> AbstractContextManager[Callable[[Frame], None]]:
+) -> Iterator[Callable[[Frame], None]]:
     """Give a function that takes the frames, one after the other, and have them encoded into `part`.
 
     `part` is a file, for PNG a folder that gets 0001.png, ...; `palette` gives a GIF's colours, 255 at
@@ -56,7 +58,17 @@ def encoding(
     done; whatever else ends it, the encoder is gone. `RecordingFailed` where the encoder cannot be
     started, stops early or reports an error.
     """
-    return running(_command(stream, form, part, palette), ahead=_AHEAD[form])
+    with running(_command(stream, form, part, palette), ahead=_AHEAD[form]) as write:
+        yield (lambda frame: write(_opaque(frame))) if _is_made_opaque(stream, form) else write
+
+
+def _is_made_opaque(stream: Stream, form: Format) -> bool:
+    """Return whether frames get their opacity here: a GIF's need one, and ffmpeg is slow in giving it."""
+    return form == "gif" and not stream.alpha
+
+
+def _opaque(frame: Frame) -> Frame:
+    return (np.frombuffer(frame, "<u4") | np.uint32(0xFF000000)).data
 
 
 def count_frames(part: Path, form: Format) -> int:
@@ -94,7 +106,7 @@ def ffmpeg() -> str:
 
 def _command(stream: Stream, form: Format, part: Path, palette: Callable[[], Sequence[Colour]]) -> list[str]:
     width, height = stream.size
-    pixels = "bgra" if stream.alpha else "bgr0"
+    pixels = "bgra" if stream.alpha or _is_made_opaque(stream, form) else "bgr0"
     raw = f"-f rawvideo -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
     match form:
         case "gif":
