@@ -87,10 +87,10 @@ def delete(building: Building) -> Building:
     if thing is None:
         return refused(building, "Choose what is to be removed")
     left = _without(draft, thing)
-    also = [one for one in draft.things() if one not in set(left.things()) and one != thing]
-    words = ", ".join(f"{_WORDS.get(kind, kind[:-1])} {name}" for kind, name in also if kind != "drive")
-    with_it = f", with {words}" if words else ""
-    return changed(building, left, None, f"Removed {_WORDS.get(thing[0], thing[0][:-1])} {thing[1]}{with_it}")
+    gone = (one for one in draft.things() if one not in {*left.things(), thing, DRIVE})
+    first, *others = (f"{_WORDS.get(kind, kind[:-1])} {name}" for kind, name in (thing, *gone))
+    with_it = f", with {', '.join(others)}" if others else ""
+    return changed(building, left, None, f"Removed {first}{with_it}")
 
 
 def _drivable(draft: Draft, thing: Thing | None) -> str | None:

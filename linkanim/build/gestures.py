@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import phase, rect
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -11,7 +12,6 @@ from linkanim.build.draft import DRIVE, JOINT, Draft, Photo, Thing
 from linkanim.build.making import made
 from linkanim.build.naming import body_name, joint_name, numbered, pin_name
 from linkanim.build.order import line_of, place_of
-from linkanim.build.photo import fitted_photo
 from linkanim.build.places import at_on, crank_of, foot, gear_offset, moved
 from linkanim.build.rounding import round_angle, round_length, round_number, snapped
 
@@ -188,10 +188,15 @@ def fit_photo(building: Building, *points: float) -> Building:
 
 
 def _fitted(building: Building, scale: complex, shift: complex) -> Building:
+    """Return the building with its photograph's places z, as x + yi, brought to scale·z + shift."""
     photo = building.draft.photo
     if photo is None:
         return refused(building, "There is no photograph: drop one on the window")
-    return _photographed(building, fitted_photo(photo, scale, shift))
+    place = scale * complex(*photo.place) + shift
+    turn = phase(scale * rect(1.0, photo.turn))
+    return _photographed(
+        building, Photo(photo.file, (place.real, place.imag), photo.width * abs(scale), turn)
+    )
 
 
 def _photographed(building: Building, photo: Photo | None) -> Building:

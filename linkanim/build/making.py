@@ -41,8 +41,9 @@ def document(draft: Draft, joints: Found) -> Mapping[str, Any]:
     trace = [name for name in draft.trace if name in draft.of("pins") or name in joints]
     stated |= {"trace": {"joints": trace}}
     stated |= {"photo": photo_table(draft.photo) if draft.photo else {}}
-    plain = {key: _plain(value) for key, value in stated.items() if value != {} and value != {"joints": []}}
-    return shortened(draft, plain)
+    return shortened(
+        draft, {key: value for key, value in stated.items() if value not in ({}, {"joints": []})}
+    )
 
 
 def made(draft: Draft, name: str = NAME) -> Made:
@@ -70,10 +71,3 @@ def phase_of(scene: Scene, places: Mapping[str, Point]) -> float:
 def _whole(spring: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return a spring without its force as long as only half of that is typed."""
     return spring if spring.keys() >= _FORCE else {key: spring[key] for key in spring.keys() - _FORCE}
-
-
-def _plain(value: Any) -> Any:
-    """Return a value as TOML has it: tables and lists, no tuples."""
-    if isinstance(value, Mapping):
-        return {key: _plain(item) for key, item in value.items()}
-    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value

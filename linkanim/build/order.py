@@ -9,9 +9,9 @@ from math import cos, sin
 from typing import Any
 
 from linkanim import units
-from linkanim.build.draft import Draft
+from linkanim.build.draft import Draft, named_in
 from linkanim.mechanics.linkage.dyads import RRP, RRR
-from linkanim.mechanics.linkage.joint import Point, RigidBody
+from linkanim.mechanics.linkage.joint import RigidBody
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 
 Found = Mapping[str, Mapping[str, Any]]
@@ -47,9 +47,10 @@ def plates_of(draft: Draft) -> list[RigidBody]:
         for table in draft.of("bars").values()
         for first, second in [table["joints"]]
     )
-    points = [
-        Rigid(name, tuple(table["on"]), _at(draft, table)) for name, table in draft.of("points").items()
-    ]
+    points = []
+    for name, table in draft.of("points").items():
+        along, left = (units.length(part, unit=draft.unit) for part in table["at"])
+        points.append(Rigid(name, tuple(table["on"]), (along, left)))
     bodies = reduce(lambda bodies, point: point.placed(bodies), points, tuple(bars))
     return [body for body in bodies if len(body) > 2]
 
@@ -74,7 +75,7 @@ def _ways(draft: Draft, name: str, known: set[str], plates: list[RigidBody]) -> 
     """Yield the ways in which a joint can be found from those that are known."""
     bars = [(end, length) for _, end, length in draft.bars_at(name) if end in known]
     guide = draft.of("guides").get(draft.of("sliders").get(name, {}).get("guide"))
-    line = guide if guide and all(joint in known for joint in _base(guide)) else None
+    line = guide if guide and known.issuperset(joint for _, joint in named_in(guide)) else None
     gear, point, yoke = (draft.of(kind).get(name) for kind in ("gears", "points", "yokes"))
     if name == draft.driven:
         yield from _driven(draft, bars, line)
@@ -128,18 +129,9 @@ def _carried(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any
             yield {"on": ends, "through": ends[0], "offset": slot.get("offset", 0)}
 
 
-def _at(draft: Draft, point: Mapping[str, Any]) -> Point:
-    along, left = (units.length(part, unit=draft.unit) for part in point["at"])
-    return along, left
-
-
 def _round(length: float) -> float:
     """Return a length that follows from others without what rounding left in its last digits."""
     return round(length, 9)
-
-
-def _base(guide: Mapping[str, Any]) -> list[str]:
-    return [*guide.get("on", ()), *([guide["through"]] if "through" in guide else [])]
 
 
 def _with_side(draft: Draft, name: str, table: dict[str, Any]) -> dict[str, Any]:

@@ -2,20 +2,12 @@
 
 from __future__ import annotations
 
-from cmath import phase, rect
 from collections.abc import Mapping
 from math import degrees
 from typing import Any
 
 from linkanim import units
 from linkanim.build.draft import Photo
-
-
-def fitted_photo(photo: Photo, scale: complex, shift: complex) -> Photo:
-    """Return a photograph whose places z, as x + yi, are brought to scale·z + shift."""
-    place = scale * complex(*photo.place) + shift
-    turn = phase(scale * rect(1.0, photo.turn))
-    return Photo(photo.file, (place.real, place.imag), photo.width * abs(scale), turn)
 
 
 def photo_table(photo: Photo) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import polar, rect
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from functools import partial
 from math import degrees, sqrt
@@ -116,7 +116,7 @@ def _following(
 def _fitted(draft: Draft, name: str) -> complex:
     """Return where a joint is by its numbers, those before it at their places."""
     place, pin, point = place_of(draft, name), draft.of("pins").get(name), draft.of("points").get(name)
-    length = _lengths(draft)
+    length = partial(units.length, unit=draft.unit)
     if isinstance(pin, Mapping):
         return rect(length(pin["length"]), units.angle(pin["angle"]))
     if pin:
@@ -161,7 +161,3 @@ def _meeting(place: complex, one: tuple[complex, float], other: tuple[complex, f
         return None
     ends = (a + way * complex(share, part * sqrt(height)) for part in (1, -1))
     return min(ends, key=lambda end: abs(end - place))
-
-
-def _lengths(draft: Draft) -> Callable[[object], float]:
-    return partial(units.length, unit=draft.unit)

@@ -85,19 +85,14 @@ def track_of(name: str, level: int) -> RamTrack:
     cycle = (np.asarray(motion.travel[ram.name]) - low) / (high - low)
     random = Random(crc32(f"{name} {level}".encode()))
     places = _places(cycle, scene, random)
-    joint = ram.slider
     return RamTrack(
         places,
         _HALF_WIDTHS[level - 1],
         ram.name,
         (low, high),
-        _point(back.position[joint]),
-        _point(forward.position[joint]),
+        back.position[ram.slider],
+        forward.position[ram.slider],
     )
-
-
-def _point(place: tuple[float, float]) -> Point:
-    return float(place[0]), float(place[1])
 
 
 def _places(cycle: NDArray[np.float64], scene: Scene, random: Random) -> tuple[float, ...]:

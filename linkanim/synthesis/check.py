@@ -153,16 +153,11 @@ def _between(curve: DrawnCurve, angles: Real) -> Real:
 
 
 def _stray(way: Complex, curve: DrawnCurve) -> float:
-    """Return how far the coupler point goes from the points' polyline."""
-    return float(_distances(way, curve.polyline).max())
-
-
-def _distances(points: Complex, polyline: Complex) -> Real:
-    """Return each point's distance to the nearest of the polyline's segments."""
-    least = np.full(len(points), np.inf)
-    for start, end in pairwise(polyline):
+    """Return how far the coupler point goes from the points' polyline: from the nearest of its segments."""
+    least = np.full(len(way), np.inf)
+    for start, end in pairwise(curve.polyline):
         side = end - start
         square = abs(side) ** 2
-        share = np.clip((np.conj(side) * (points - start)).real / square, 0, 1) if square else 0.0
-        np.minimum(least, np.abs(points - start - share * side), out=least)
-    return least
+        share = np.clip((np.conj(side) * (way - start)).real / square, 0, 1) if square else 0.0
+        np.minimum(least, np.abs(way - start - share * side), out=least)
+    return float(least.max())
