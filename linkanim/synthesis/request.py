@@ -52,7 +52,10 @@ def path(
         raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
     if cognates and options.get("kind", "four-bar") != "four-bar":
         raise BadInput(f"a {options['kind']} has no cognates; leave them out, or take a four-bar")
-    fits = found(task_of(points, closed, **options), count, progress)  # type: ignore[arg-type]
+    task = task_of(points, closed, **options)  # type: ignore[arg-type]
+    if rounding is not None and not (math.isfinite(rounding) and rounding > 0):
+        raise BadInput(f"rounding to {rounding!r}: give a length above zero, such as 0.1")
+    fits = found(task, count, progress)
     if rounding is not None:
         fits = with_round_lengths(fits, rounding)
     return with_cognates(fits) if cognates else fits

@@ -14,11 +14,8 @@ from linkanim.synthesis.task import PathTask
 def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
     """Return answers whose lengths and pivots are multiples of a step, the best first.
 
-    Each knows what it was before (`exact`). BadInput for a step that is no length, and where nothing that
-    follows the curve is left.
+    Each knows what it was before (`exact`). BadInput where nothing that follows the curve is left.
     """
-    if not (math.isfinite(step) and step > 0):
-        raise BadInput(f"rounding to {step!r}: give a length above zero, such as 0.1")
     found = [fit for fit in (_rounded(fit, step) for fit in fits) if fit is not None]
     if not found:
         raise BadInput(f"rounded to {step:g} no linkage is left that follows the curve; take a finer step")
