@@ -20,7 +20,7 @@ from linkanim.picture.text.text import Type
 
 _MOST_PICTURES = 8
 """What is kept of shapes that come again takes no more memory than so many pictures."""
-_SPARE_LABELS = 48
+_SPARE_LABELS = 8
 """So many labels are kept that the last frame had not."""
 
 

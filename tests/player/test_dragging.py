@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import pairwise
+
 import pygame
 import pytest
 from playing import Player
 
+from linkanim.picture.items import Group
+from linkanim.picture.look import Look
+from linkanim.picture.panels.overlay import Overlay
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import State, begin
@@ -306,3 +312,28 @@ def test_the_view_stands_still_under_the_hand_as_long_as_there_is_room() -> None
     assert framing.fitting(far, size).view.scale < before.scale
     left = after(near, "drop")
     assert framing.fitting(left, size).view != before
+
+
+def test_under_the_hand_the_chart_follows_in_every_other_frame_and_at_once_where_the_hand_rests() -> None:
+    state = replace(opened("crank-rocker", 1.0), look=Look(chart="P.velocity"))
+    framing, size = Framing(captioned=True), (640, 360)
+
+    def charted(state: State, framing: Framing) -> tuple[Group, ...]:
+        picture = framing.at(state, size)
+        assert picture.scene is state.scene  # the linkage follows in every frame
+        groups = picture.groups(picture.scene.pose(state.phase), Overlay())
+        return tuple(group for group in groups if group.name in ("chart", "reading"))
+
+    charted(state, framing)
+    state = after(state, Action("grab", "B"))
+    x, y = place(state, "B")
+    drawn = []
+    for step in range(1, 6):
+        state = after(state, Action("carry", (x + 3.0 * step, y, 1.0)))
+        drawn.append((state.frame % 2 == 0, charted(state, framing)))
+    for (_, before), (kept, now) in pairwise(drawn):
+        assert [one is other for one, other in zip(before, now, strict=True)] == [kept, kept]
+    while state.frame % 2 == 0:
+        state = advance(state, [])
+    rested, anew = charted(state, framing), charted(state, Framing(captioned=True))
+    assert [group.captions for group in rested] == [group.captions for group in anew]

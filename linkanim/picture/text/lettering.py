@@ -71,7 +71,7 @@ def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.uint8], int]:
     sheet = pygame.Surface((kind.width(text, large, strong=True) + _FINE, 2 * large), pygame.SRCALPHA, 32)
     kind.draw(sheet, text, (_FINE // 2, large // 2), size=large, colour=(255, 255, 255), strong=True)
     levels = np.frombuffer(pygame.image.tobytes(sheet, "RGBA"), np.uint8)
-    cover = levels[3::4].reshape(sheet.get_height(), sheet.get_width())
+    cover = levels[3::4].copy().reshape(sheet.get_height(), sheet.get_width())
     rows = np.flatnonzero(cover.any(axis=1))
     first, last = (int(rows[0]), int(rows[-1])) if rows.size else (0, 0)
     return cover[first : last + 1], first - large // 2
