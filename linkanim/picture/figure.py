@@ -197,6 +197,11 @@ class Figure:
         x, y = self.cycle.position[name][0]
         return complex(float(x), float(y))
 
+    def pixel(self, name: str, view: View) -> complex:
+        """Return the pixel at which a joint stands as the cycle begins."""
+        start = self.start(name)
+        return view.place((start.real, start.imag))
+
     def path(self, name: str, view: View) -> Loop:
         """Return the pixels a joint passes through in one cycle, at equal steps of phase."""
         points = self.cycle.position[name]

@@ -109,8 +109,8 @@ class DraftDrawing:
         return drawn.layers({"begin": begin, "end": end})
 
     def _pins(self) -> Iterator[Layer]:
-        joints = [one.places[0] for one in self._of("pins", "joints")]
-        yield from pin_stamp(self._gauge, self._theme).at(self._placed(tuple(joints)))
+        joints = tuple(one.places[0] for one in self._of("pins", "joints"))
+        yield from pin_stamp(self._gauge, self._theme).at(self._placed(joints))
         for n, at in enumerate(self._placed(self._draft.traced)):
             colour = self._theme.traces[n % len(self._theme.traces)]
             yield from mark_stamp(colour, self._gauge, self._theme).at([at])

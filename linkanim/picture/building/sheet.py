@@ -93,10 +93,9 @@ def hand(shown: BuildShown, place: SheetView, type_: Type) -> Iterator[Group]:
         yield from _rubber(shown.rubber, place, type_)
     if shown.snap:
         yield Group("snap", [*_snap(shown.snap, place)], over=True)
-    if shown.anchor:
-        yield Group("anchor", [*_crosshair(place.view.place(shown.anchor), place)], over=True)
-    if shown.cursor:
-        yield Group("cursor", [*_crosshair(place.view.place(shown.cursor), place)], over=True)
+    for name, at in (("anchor", shown.anchor), ("cursor", shown.cursor)):
+        if at:
+            yield Group(name, [_crosshair(place.view.place(at), place)], over=True)
     if shown.hand and not shown.tools:
         yield Group("hand", [*_pointer(place.view.place(shown.hand), place)], over=True)
     yield _words(shown, place, type_)
@@ -149,9 +148,9 @@ def _snap(snap: Snap, place: SheetView) -> Iterator[Layer]:
     yield Layer(theme.velocity, stroke(at + disc(1.9 * gauge.bar), 1.8 * gauge.line, closed=True))
 
 
-def _crosshair(at: complex, place: SheetView) -> Iterator[Layer]:
+def _crosshair(at: complex, place: SheetView) -> Layer:
     arms = 0.9 * place.gauge.bar * np.array([1, 1j])
-    yield Layer(place.theme.velocity, segments(at - arms, at + arms, 1.3 * place.gauge.line))
+    return Layer(place.theme.velocity, segments(at - arms, at + arms, 1.3 * place.gauge.line))
 
 
 def _pointer(at: complex, place: SheetView) -> Iterator[Layer]:
@@ -164,26 +163,15 @@ def _pointer(at: complex, place: SheetView) -> Iterator[Layer]:
 def _words(shown: BuildShown, place: SheetView, type_: Type) -> Group:
     """Return what is missing or what the linkage is, at the top, off the tools, on a backing."""
     layout, theme = place.layout, place.theme
-    beside = (
-        max((cell.right for cell in tool_cells(layout, len(shown.tools.tools))), default=0)
-        if shown.tools
-        else 0
-    )
-    left = beside + layout.margin if layout.size[0] >= layout.size[1] else layout.margin
-    room, y = 0.93 * (layout.stage.right - layout.margin - left), layout.margin
-    lines = [
-        (line, layout.text_size, theme.warning if shown.is_warning else theme.ink)
-        for line in type_.wrapped(shown.sentence, layout.text_size, room)
-    ]
-    lines += [
-        (line, layout.small_size, theme.dim)
-        for fact in shown.facts
-        for line in type_.wrapped(fact, layout.small_size, room)
-    ]
-    captions = []
-    for text, size, colour in lines:
-        captions.append(Caption(text, (left, y), size, colour, strong=size == layout.text_size))
-        y += 1.35 * size
+    cells = tool_cells(layout, len(shown.tools.tools)) if shown.tools else ()
+    beside = max((cell.right for cell in cells), default=0) if layout.size[0] >= layout.size[1] else 0
+    left, y, captions = beside + layout.margin, layout.margin, []
+    room = 0.93 * (layout.stage.right - layout.margin - left)
+    sentence = shown.sentence, layout.text_size, theme.warning if shown.is_warning else theme.ink
+    for words, size, colour in (sentence, *((fact, layout.small_size, theme.dim) for fact in shown.facts)):
+        for line in type_.wrapped(words, size, room):
+            captions.append(Caption(line, (left, y), size, colour, strong=size == layout.text_size))
+            y += 1.35 * size
     if not captions:
         return Group("build-words", ())
     wide = max(type_.width(one.text, one.size, strong=one.strong) for one in captions)

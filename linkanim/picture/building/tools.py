@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
+from itertools import chain
 from math import ceil
 
 import numpy as np
@@ -107,85 +109,68 @@ def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: ToolShown)
 
 
 def _bar_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    one, other = gauge.line * (-6 + 6j), gauge.line * (6 - 6j)
-    colours = theme.outline, theme.bodies[0]
-    return [
-        *lined([one, other], 1.5 * gauge.bar, gauge.outline, colours),
-        *pin_stamp(gauge, theme).at([one, other]),
-    ]
+    ends = [gauge.line * (-6 + 6j), gauge.line * (6 - 6j)]
+    bar = lined(ends, 1.5 * gauge.bar, gauge.outline, (theme.outline, theme.bodies[0]))
+    return [*bar, *pin_stamp(gauge, theme).at(ends)]
 
 
 def _line_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    small = Gauge(bar=3.6 * gauge.line, outline=gauge.outline, pin=gauge.pin, line=gauge.line)
     ends = gauge.line * (-8 + 3j), gauge.line * (8 + 3j)
-    block = [one.placed(-1.5j * gauge.line) for one in block_layers(gauge, theme, 1 + 0j)]
-    return [Layer(theme.outline, [*hatched(*ends, small, 1)]), *block]
+    ground = Layer(theme.outline, [*hatched(*ends, replace(gauge, bar=3.6 * gauge.line), 1)])
+    return [ground, *(one.placed(-1.5j * gauge.line) for one in block_layers(gauge, theme, 1 + 0j))]
 
 
 def _slider_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    line = gauge.line
-    rails = [
-        loop for side in (-4.6j, 4.6j) for loop in segments(line * (-9 + side), line * (9 + side), 1.2 * line)
-    ]
+    line, begins = gauge.line, np.array([-9 - 4.6j, -9 + 4.6j])
+    rails = segments(line * begins, line * (begins + 18), 1.2 * line)
     block = block_layers(replace(gauge, bar=2.4 * line), theme, 1 + 0j)
     return [Layer(theme.ground, rails), *block, *pin_stamp(gauge, theme).at([0j])]
 
 
 def _slot_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    line = gauge.line
-    ends = line * (-6 + 5j), line * (6 - 5j)
-    colours = theme.outline, theme.bodies[2]
-    bar = slotted(ends, ends, (3.2 * line, 1.3 * line), gauge.outline, colours)
+    line, ends = gauge.line, (gauge.line * (-6 + 5j), gauge.line * (6 - 5j))
+    bar = slotted(ends, ends, (3.2 * line, 1.3 * line), gauge.outline, (theme.outline, theme.bodies[2]))
     return [*bar, *pin_stamp(replace(gauge, pin=1.5 * line), theme).at([0j])]
 
 
 def _move_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    line = gauge.line
     corners = (-4 - 8j, -4 + 5.5j, -0.8 + 2.6j, 1.4 + 7.4j, 4 + 6.2j, 1.8 + 1.6j, 6 + 1.4j)
-    hand = line * np.array(corners, np.complex128)
-    inner = [Layer(theme.pin, [hand])]
-    return [Layer(theme.outline, stroke(hand, 2.2 * line, closed=True)), *inner]
+    hand = gauge.line * np.array(corners, np.complex128)
+    return [Layer(theme.outline, stroke(hand, 2.2 * gauge.line, closed=True)), Layer(theme.pin, [hand])]
 
 
 def _gear_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     layers: list[Layer] = []
     for at, radius, teeth in ((-3.2 + 2.2j, 5.0, 12), (4.6 - 3.4j, 3.4, 8)):
-        spokes = directions(np.arange(teeth) * 2 * np.pi / teeth)
-        middle = gauge.line * at
-        reach = gauge.line * radius
-        cogs = segments(middle + 0.8 * reach * spokes, middle + 1.28 * reach * spokes, 1.4 * gauge.line)
-        layers += [Layer(theme.outline, [middle + disc(reach), *cogs])]
-        layers += [
-            Layer(theme.gear, [middle + disc(0.72 * reach)]),
-            Layer(theme.outline, [middle + disc(gauge.line)]),
-        ]
+        middle, reach = gauge.line * at, gauge.line * radius
+        spokes = reach * directions(np.arange(teeth) * 2 * np.pi / teeth)
+        cogs = segments(middle + 0.8 * spokes, middle + 1.28 * spokes, 1.4 * gauge.line)
+        layers.append(Layer(theme.outline, [middle + disc(reach), *cogs]))
+        layers.append(Layer(theme.gear, [middle + disc(0.72 * reach)]))
+        layers.append(Layer(theme.outline, [middle + disc(gauge.line)]))
     return layers
 
 
 def _spring_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    thin = Gauge(bar=gauge.bar, outline=gauge.outline, pin=gauge.pin, line=0.9 * gauge.line)
+    thin = replace(gauge, line=0.9 * gauge.line)
     coil = Coil(("a", "b"), 3.4 * gauge.line, 2.5 * gauge.line, 4, thin, theme)
     return coil.layers({"a": gauge.line * (-8 + 0j), "b": gauge.line * (8 + 0j)})
 
 
 def _strut(gauge: Gauge, theme: Theme, *, drives: bool) -> list[Layer]:
-    near, far, line = -7 * gauge.line, (4 if drives else 2) * gauge.line, gauge.line
-    wall, inside = barrel(near, far, 3.6 * line, gauge, theme)
-    head = 2 * line if drives else -2 * line
-    fill = Layer(theme.bodies[0], inside.loops) if drives else inside
-    rods = [rod(head, 9 * line, 0.9 * line), *segments(head - 2.6j * line, head + 2.6j * line, 1.8 * line)]
-    return [wall, fill, Layer(theme.outline, rods)]
+    line, (far, head) = gauge.line, (4, 2) if drives else (2, -2)
+    wall, inside = barrel(-7 * line, far * line, 3.6 * line, gauge, theme)
+    fill = inside._replace(colour=theme.bodies[0]) if drives else inside
+    seal = segments((head - 2.6j) * line, (head + 2.6j) * line, 1.8 * line)
+    return [wall, fill, Layer(theme.outline, [rod(head * line, 9 * line, 0.9 * line), *seal])]
 
 
 def _photo_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     line = gauge.line
-    frame = [
-        Layer(theme.outline, [box(17 * line, 13 * line, line)]),
-        Layer(theme.pin, [box(15 * line, 11 * line)]),
-    ]
     hill = line * np.array([-7.5 + 5.5j, -2 - 2.5j, 1.5 + 2.5j, 4 - 0.5j, 7.5 + 5.5j], np.complex128)
     return [
-        *frame,
+        Layer(theme.outline, [box(17 * line, 13 * line, line)]),
+        Layer(theme.pin, [box(15 * line, 11 * line)]),
         Layer(theme.bodies[4], [hill]),
         Layer(theme.bodies[3], [line * (3.5 - 3j) + disc(1.4 * line)]),
     ]
@@ -194,31 +179,23 @@ def _photo_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
 def _trace_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     turn = np.linspace(0, 2 * np.pi, 48)
     curve = gauge.line * np.asarray(7 * np.cos(turn) + 1j * (4.6 * np.sin(turn) - 2.2 * np.cos(2 * turn)))
-    at = complex(curve[6])
-    dot = [
-        Layer(theme.outline, [at + disc(2.6 * gauge.line)]),
-        Layer(theme.traces[0], [at + disc(1.8 * gauge.line)]),
-    ]
-    return [Layer(theme.traces[0], stroke(curve, 1.5 * gauge.line, closed=True)), *dot]
+    rim, dot = (curve[6] + disc(radius * gauge.line) for radius in (2.6, 1.8))
+    line = Layer(theme.traces[0], stroke(curve, 1.5 * gauge.line, closed=True))
+    return [line, Layer(theme.outline, [rim]), Layer(theme.traces[0], [dot])]
 
 
 def _drive_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     pivot, pin = gauge.line * (-4 + 5j), gauge.line * (4 - 1j)
-    small = Gauge(bar=0.7 * gauge.line, outline=gauge.outline, pin=gauge.pin, line=0.75 * gauge.line)
+    small = replace(gauge, bar=0.7 * gauge.line, line=0.75 * gauge.line)
     bar = lined([pivot, pin], gauge.bar, gauge.outline, (theme.outline, theme.bodies[0]))
-    return [
-        *bar,
-        *pin_stamp(gauge, theme).at([pivot, pin]),
-        *turning_arrow(pivot, pivot + 0.95 * (pin - pivot), small, theme),
-    ]
+    arrow = turning_arrow(pivot, pivot + 0.95 * (pin - pivot), small, theme)
+    return [*bar, *pin_stamp(gauge, theme).at([pivot, pin]), *arrow]
 
 
 def _delete_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
     reach = 5 * gauge.line
-    cross = [
-        loop for way in (1 + 1j, 1 - 1j) for loop in stroke([-reach * way, reach * way], 2.2 * gauge.line)
-    ]
-    return [Layer(theme.warning, cross)]
+    strokes = (stroke([-reach * way, reach * way], 2.2 * gauge.line) for way in (1 + 1j, 1 - 1j))
+    return [Layer(theme.warning, [*chain.from_iterable(strokes)])]
 
 
 def _undo_icon(gauge: Gauge, theme: Theme, side: int = 1) -> list[Layer]:
@@ -226,13 +203,7 @@ def _undo_icon(gauge: Gauge, theme: Theme, side: int = 1) -> list[Layer]:
     tip = arc[0]
     head = tip + gauge.line * np.array([-3.2 - 1.6j, 3.4 - 2.4j, 0.2 + 4.2j])
     loops = [*stroke(arc, 1.8 * gauge.line), head]
-    if side < 0:
-        loops = [-loop.conj() for loop in loops]
-    return [Layer(theme.ink, [loop]) for loop in loops]
-
-
-def _redo_icon(gauge: Gauge, theme: Theme) -> list[Layer]:
-    return _undo_icon(gauge, theme, -1)
+    return [Layer(theme.ink, [loop if side > 0 else -loop.conj()]) for loop in loops]
 
 
 ICONS: Mapping[str, Icon] = {
@@ -243,13 +214,13 @@ ICONS: Mapping[str, Icon] = {
     "move": _move_icon,
     "gear": _gear_icon,
     "spring": _spring_icon,
-    "damper": lambda gauge, theme: _strut(gauge, theme, drives=False),
-    "cylinder": lambda gauge, theme: _strut(gauge, theme, drives=True),
+    "damper": partial(_strut, drives=False),
+    "cylinder": partial(_strut, drives=True),
     "photo": _photo_icon,
     "trace": _trace_icon,
     "drive": _drive_icon,
     "delete": _delete_icon,
     "undo": _undo_icon,
-    "redo": _redo_icon,
+    "redo": partial(_undo_icon, side=-1),
 }
 """How each tool's icon is drawn."""

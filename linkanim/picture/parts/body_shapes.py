@@ -13,7 +13,7 @@ from linkanim.picture.layout import Gauge
 from linkanim.picture.parts.fittings import SLOT, SLOTTED
 from linkanim.picture.raster.parts import glazed, lined, slotted
 from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.raster.shapes import disc, stroke, unit
+from linkanim.picture.raster.shapes import disc, strokes, unit
 
 Colours = tuple[Colour, Colour]
 """Of an edge and of what it encloses."""
@@ -105,18 +105,10 @@ def _bucket(points: list[complex], gauge: Gauge, colours: Colours) -> list[Layer
     return [Layer(colours[0], [tooth]), *shell]
 
 
-def _nothing(points: list[complex], gauge: Gauge, colours: Colours) -> list[Layer]:
-    return []
-
-
 def _drawn(path: np.ndarray, gauge: Gauge, colours: Colours) -> list[Layer]:
     """Return a bar along a path, its edge inside its width."""
-    edge, fill = colours
-    width = 2 * gauge.bar
-    return [
-        Layer(edge, list(stroke(path, width))),
-        Layer(fill, list(stroke(path, max(width - 2 * gauge.outline, 0.2)))),
-    ]
+    widths = 2 * gauge.bar, max(2 * gauge.bar - 2 * gauge.outline, 0.2)
+    return [Layer(*layer) for layer in zip(colours, strokes(path, widths), strict=True)]
 
 
 SHAPES: Mapping[str, Callable[..., list[Layer]]] = {
@@ -128,6 +120,6 @@ SHAPES: Mapping[str, Callable[..., list[Layer]]] = {
     "hook": _hook,
     "pad": _pad,
     "bucket": _bucket,
-    "none": _nothing,
+    "none": lambda *_: [],
 }
 """How a body is drawn that says its `look`."""

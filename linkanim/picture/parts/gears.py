@@ -12,7 +12,7 @@ from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts.wheels import FOOT, TIP, Wheel, WheelPair, pairs
 from linkanim.picture.raster.directions import directions
-from linkanim.picture.raster.parts import Part, Stamp
+from linkanim.picture.raster.parts import Part
 from linkanim.picture.raster.raster import Colour, Layer, Loop
 from linkanim.picture.raster.shapes import disc, segments, stroke
 from linkanim.picture.theme import Theme, mixed
@@ -36,14 +36,15 @@ def wheel_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list
     for pair in pairs(figure):
         for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel)):
             if wheel.pitch:
-                circle = _pitch_circle(wheel.radius * view.scale, gauge)
-                layers += Stamp((Layer(theme.ground, circle),)).at([_centre(figure, view, wheel)])
-                continue
-            still = [Layer(_tone(wheel, pair, theme), [disc(_root(wheel, view, gauge))])]
-            shown = still if wheel.arm else _wheel(wheel, pair, (view, gauge, theme), moving=True)
-            layers += Stamp(tuple(shown)).at([_centre(figure, view, wheel)])
+                shown = [Layer(theme.ground, _pitch_circle(wheel.radius * view.scale, gauge))]
+            elif wheel.arm:
+                shown = [Layer(_tone(wheel, pair, theme), [disc(_root(wheel, view, gauge))])]
+            else:
+                shown = [*_wheel(wheel, pair, (view, gauge, theme), moving=True)]
+            layers += [layer.placed(figure.pixel(wheel.centre, view)) for layer in shown]
         if pair.belted and not pair.planetary:
-            layers.append(Layer(theme.ground, list(_belt(_pulled(pair, figure, view), gauge))))
+            one, other = (figure.pixel(wheel.centre, view) for wheel in pair.wheels)
+            layers.append(Layer(theme.ground, list(_belt(pair, one, other, view, gauge))))
     return layers
 
 
@@ -68,9 +69,9 @@ def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple
             parts += [Part(*ends, (hole,), fold=_HOLES if stays else 1) for hole in holes]
         if pair.planetary and pair.belted:
             far = abs(figure.start(pair.driven.centre) - figure.start(pair.driver.centre)) * view.scale
-            belt = (0j, complex(far), pair.driver.radius * view.scale, pair.driven.radius * view.scale)
             ends = pair.driver.centre, pair.driver.centre, pair.driven.centre
-            parts.append(Part(*ends, (Layer(theme.ground, list(_belt(belt, gauge))),)))
+            belt = list(_belt(pair, 0j, complex(far), view, gauge))
+            parts.append(Part(*ends, (Layer(theme.ground, belt),)))
     return tuple(parts)
 
 
@@ -95,11 +96,10 @@ def _pitch_circle(radius: float, gauge: Gauge) -> list[Loop]:
     """Return a circle about 0 in dashes and dots."""
     step = 2 * pi / max(round(2 * pi * radius / (9 * gauge.line)), 8)
     ways = directions(np.arange(0, 2 * pi - step / 2, step))
-    edges, marks = (radius - 0.4 * gauge.line, radius + 0.4 * gauge.line), []
-    for ends in _DASHES:
-        arc = directions(np.linspace(*ends) * step)
-        # Ends that are not round: there are many, and a file holds each point.
-        marks.append(np.concatenate([edges[0] * arc, edges[1] * arc[::-1]]))
+    inner, outer = radius - 0.4 * gauge.line, radius + 0.4 * gauge.line
+    arcs = [directions(np.linspace(*ends) * step) for ends in _DASHES]
+    # Ends that are not round: there are many, and a file holds each point.
+    marks = [np.concatenate([inner * arc, outer * arc[::-1]]) for arc in arcs]
     return [way * mark for way in ways for mark in marks]
 
 
@@ -116,11 +116,6 @@ def _tone(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:
 
 def _edge(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:
     return theme.ground if wheel is pair.driver else mixed(theme.ground, theme.outline, 0.5)
-
-
-def _centre(figure: Figure, view: View, wheel: Wheel) -> complex:
-    place = figure.start(wheel.centre)
-    return view.place((place.real, place.imag))
 
 
 def _module(wheel: Wheel, view: View) -> float:
@@ -168,15 +163,9 @@ def _involute(angle: ArrayLike) -> NDArray[np.float64]:
     return flank
 
 
-def _pulled(pair: WheelPair, figure: Figure, view: View) -> tuple[complex, complex, float, float]:
-    """Return the centres of two pulleys in pixels, and their radii."""
-    radii = pair.driver.radius * view.scale, pair.driven.radius * view.scale
-    return _centre(figure, view, pair.driver), _centre(figure, view, pair.driven), *radii
-
-
-def _belt(pulled: tuple[complex, complex, float, float], gauge: Gauge) -> Iterator[Loop]:
-    """Yield the two straight runs of an open belt."""
-    one, other, first, second = pulled
+def _belt(pair: WheelPair, one: complex, other: complex, view: View, gauge: Gauge) -> Iterator[Loop]:
+    """Yield the two straight runs of an open belt between two pulleys about these places."""
+    first, second = pair.driver.radius * view.scale, pair.driven.radius * view.scale
     along = (other - one) / abs(other - one)
     lean = np.arccos((first - second) / abs(other - one))
     for side in (1, -1):

@@ -19,12 +19,10 @@ from linkanim.picture.view import View
 
 def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
     """Return pedestals and guides."""
-    lines = [loop for loops in rails_of(Bench(figure, view, gauge, theme)) for loop in loops]
-    layers = [
-        Layer(theme.ground, [*lines, *(loop for rail in rails_under(figure, view, gauge) for loop in rail)])
-    ]
+    rails = *rails_of(Bench(figure, view, gauge, theme)), *rails_under(figure, view, gauge)
+    layers = [Layer(theme.ground, [loop for rail in rails for loop in rail])]
     for name in figure.fixed:
-        layers += pedestal(_pixel(figure, view, name), away(figure, name), gauge, theme)
+        layers += pedestal(figure.pixel(name, view), away(figure, name), gauge, theme)
     return layers
 
 
@@ -34,15 +32,10 @@ def rails_under(figure: Figure, view: View, gauge: Gauge) -> Iterator[list[Loop]
     for body in figure.bodies:
         if figure.scene.style(body.name).outline == "railwheel" and body.joints[0] in figure.fixed:
             radius = view.scale * figure.wheel_reach(body)
-            foot = _pixel(figure, view, body.joints[0]) + 1j * radius
+            foot = figure.pixel(body.joints[0], view) + 1j * radius
             feet.setdefault(round(foot.imag, 3), []).extend((foot - radius, foot + radius))
     for ends in feet.values():
         yield list(hatched(min(ends, key=np.real), max(ends, key=np.real), gauge, 1))
-
-
-def _pixel(figure: Figure, view: View, name: str) -> complex:
-    place = figure.start(name)
-    return view.place((place.real, place.imag))
 
 
 def away(figure: Figure, name: str) -> complex:
@@ -61,7 +54,7 @@ def away(figure: Figure, name: str) -> complex:
 def ground_line(names: Sequence[str], figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
     """Return the line of the ground from pivot to pivot, in dashes and dots."""
     loops = []
-    for one, other in pairwise(_pixel(figure, view, name) for name in names):
+    for one, other in pairwise(figure.pixel(name, view) for name in names):
         marks = np.arange(0, abs(other - one), 9 * gauge.line)
         along = unit(other - one)
         dashes, dots = one + along * marks, one + along * (marks + 6.8 * gauge.line)
@@ -72,7 +65,7 @@ def ground_line(names: Sequence[str], figure: Figure, view: View, gauge: Gauge, 
 
 def pedestal_corners(figure: Figure, view: View, gauge: Gauge, name: str) -> list[complex]:
     """Return the corners of a triangle that holds a pedestal: its pin, and the ends of its hatching."""
-    pin, turn = _pixel(figure, view, name), away(figure, name) / 1j
+    pin, turn = figure.pixel(name, view), away(figure, name) / 1j
     wide, deep = 1.35 * 1.75 * gauge.bar + 0.5 * gauge.bar, 3.1 * gauge.bar
     return [pin, pin + turn * complex(-wide, deep), pin + turn * complex(wide, deep)]
 

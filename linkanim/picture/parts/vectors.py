@@ -82,8 +82,7 @@ def arrow_layers(
 
 
 def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[Any, Any]]:
-    values: Mapping[str, Any] = pose.velocity if kind == "v" else pose.acceleration
-    of_mass: Mapping[str, Any] = pose.com_velocity if kind == "v" else pose.com_acceleration
+    values, of_mass = _rates(pose, kind)
     at_joints = [(pose.position[joint], values[joint]) for joint in joints]
     return at_joints + [(pose.com_position[body], value) for body, value in of_mass.items()]
 
@@ -99,11 +98,14 @@ def arrows_of(figure: Figure, kind: Kind, height: int, gauge: Gauge, theme: Them
 
 
 def _most(cycle: Motion, kind: Kind, joints: tuple[str, ...]) -> float:
-    values = cycle.velocity if kind == "v" else cycle.acceleration
-    of_mass = cycle.com_velocity if kind == "v" else cycle.com_acceleration
+    values, of_mass = _rates(cycle, kind)
     rows = [np.atleast_2d(row) for row in (*(values[joint] for joint in joints), *of_mass.values())]
-    sizes = (
-        np.concatenate([np.sqrt(row[:, 0] ** 2 + row[:, 1] ** 2) for row in rows]) if rows else np.zeros(1)
-    )
-    finite = sizes[np.isfinite(sizes)]
-    return float(finite.max()) if finite.size else 0.0
+    sizes = np.concatenate([np.zeros(1), *(np.sqrt(row[:, 0] ** 2 + row[:, 1] ** 2) for row in rows)])
+    return float(sizes[np.isfinite(sizes)].max())
+
+
+def _rates(motion: Motion | Pose, kind: Kind) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Return the velocities or the accelerations of the joints, and of the centres of mass."""
+    if kind == "v":
+        return motion.velocity, motion.com_velocity
+    return motion.acceleration, motion.com_acceleration

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, floor, pi
 
 import numpy as np
@@ -103,12 +103,8 @@ def _pair(figure: Figure, crank: Crank, cranks: dict[str, Crank]) -> WheelPair |
 
 
 def _pulleys(cranks: tuple[Crank, Crank], apart: float, ratio: float) -> WheelPair:
-    driver, driven = cranks
-    large = _BELT * apart
-    return WheelPair(
-        Wheel(driver.pivot, driver.name, large * min(ratio, 1)),
-        Wheel(driven.pivot, driven.name, large * min(1 / ratio, 1)),
-    )
+    radii = _BELT * apart * min(ratio, 1), _BELT * apart * min(1 / ratio, 1)
+    return WheelPair(*(Wheel(one.pivot, one.name, radius) for one, radius in zip(cranks, radii, strict=True)))
 
 
 def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> WheelPair:
@@ -117,19 +113,15 @@ def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> Whe
     assert driven.gear is not None
     ratio = abs(driven.gear.ratio)
     radius = abs(apart) * float(ratio / (1 + ratio))
-    second = abs(apart) - radius
-    contact = float(np.angle(apart))
+    second, contact = abs(apart) - radius, float(np.angle(apart))
     at, facing = contact - _angle(figure, driver), contact + pi - _angle(figure, driven)
+    one = Wheel(driver.pivot, driver.name, radius, tooth=at, pitch=True)
+    other = Wheel(driven.pivot, driven.name, second, tooth=facing, pitch=True)
     if radius > _DWARFED * driver.length and second > _DWARFED * driven.length:
-        return WheelPair(
-            Wheel(driver.pivot, driver.name, radius, tooth=at, pitch=True),
-            Wheel(driven.pivot, driven.name, second, tooth=facing, pitch=True),
-        )
+        return WheelPair(one, other)
     some, others = _teeth(ratio.numerator, ratio.denominator, _turns(figure, driven))
-    return WheelPair(
-        Wheel(driver.pivot, driver.name, radius, some, at),
-        Wheel(driven.pivot, driven.name, second, others, facing + pi / others),
-    )
+    toothed = replace(other, teeth=others, tooth=facing + pi / others, pitch=False)
+    return WheelPair(replace(one, teeth=some, pitch=False), toothed)
 
 
 def _teeth(one: int, other: int, turns: float) -> tuple[int, int]:
@@ -146,23 +138,17 @@ def _planet(figure: Figure, planet: Crank, arm: Crank) -> WheelPair | None:
     and 1 + R/r times outside a sun, where R + r = d; a belt from it, 1 - R/r times.
     """
     assert planet.gear is not None
-    ratio, long = planet.gear.ratio, arm.length
-    contact, turns = _angle(figure, arm), _turns(figure, planet)
-    if ratio < 0:
-        still, small = _teeth(ratio.denominator - ratio.numerator, ratio.denominator, turns)
-        tooth = contact - _angle(figure, planet)
-        rolling = Wheel(planet.pivot, planet.name, long / float(-ratio), small, tooth)
-        return WheelPair(Wheel(arm.pivot, None, long + rolling.radius, still, contact, ring=True), rolling)
-    if ratio > 1:
-        still, small = _teeth(ratio.numerator - ratio.denominator, ratio.denominator, turns)
-        facing = contact + pi - _angle(figure, planet) + pi / small
-        rolling = Wheel(planet.pivot, planet.name, long / float(ratio), small, facing)
-        return WheelPair(Wheel(arm.pivot, None, long - rolling.radius, still, contact), rolling)
-    if ratio < 1:
-        large = _BELT * long
-        still_wheel = Wheel(arm.pivot, None, large * float(1 - ratio))
-        return WheelPair(still_wheel, Wheel(planet.pivot, planet.name, large))
-    return None
+    ratio, long, inside = planet.gear.ratio, arm.length, planet.gear.ratio < 0
+    if 0 < ratio <= 1:
+        pulley = Wheel(planet.pivot, planet.name, _BELT * long)
+        still = Wheel(arm.pivot, None, pulley.radius * float(1 - ratio))
+        return WheelPair(still, pulley) if ratio < 1 else None
+    contact, radius = _angle(figure, arm), long / abs(float(ratio))
+    teeth, small = _teeth(abs(ratio.numerator - ratio.denominator), ratio.denominator, _turns(figure, planet))
+    tooth = contact - _angle(figure, planet) + (0.0 if inside else pi + pi / small)
+    large = long + radius if inside else long - radius
+    rolling = Wheel(planet.pivot, planet.name, radius, small, tooth)
+    return WheelPair(Wheel(arm.pivot, None, large, teeth, contact, ring=inside), rolling)
 
 
 def _angle(figure: Figure, crank: Crank) -> float:
