@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -16,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim import units
-from linkanim.cli.values import SweepSteps
 from linkanim.mechanics.facts.register import Path, recorded
 from linkanim.mechanics.formulas.exact import two_product
 from linkanim.mechanics.motion.motion import Motion
@@ -110,11 +110,10 @@ class Steps:
     rows: int
 
     @staticmethod
-    def of(sweep: SweepSteps) -> Steps:
+    def of(first: Decimal, step: Decimal, rows: int) -> Steps:
         """Return a sweep's decimals in whole numbers of their last digit."""
-        first, step = Fraction(sweep.first), Fraction(sweep.step)
-        scale = max(math.lcm(first.denominator, step.denominator), 1)
-        return Steps(int(first * scale), int(step * scale), scale, sweep.rows)
+        scale = math.lcm(Fraction(first).denominator, Fraction(step).denominator)
+        return Steps(int(Fraction(first) * scale), int(Fraction(step) * scale), scale, rows)
 
     def degrees(self, start: int, stop: int) -> Leaf:
         """Return rows in degrees, each rounded once."""

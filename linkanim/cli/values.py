@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
 from linkanim import units
@@ -17,17 +16,11 @@ MOST_ROWS = 1_000_000
 _MOST_DIGITS = 15
 
 
-@dataclass(frozen=True)
-class SweepSteps:
-    """Angles `first`, `first + step`, ... in degrees, `rows` of them; exact decimals as they were typed."""
+def sweep(text: str) -> tuple[Decimal, Decimal, int]:
+    """Read `a:b:step` in degrees, exact as it is typed: the first, the step, and how many there are.
 
-    first: Decimal
-    step: Decimal
-    rows: int
-
-
-def sweep(text: str) -> SweepSteps:
-    """Read `a:b:step` in degrees; b is included where it falls on a step."""
+    b is included where it falls on a step.
+    """
     parts = text.split(":")
     if len(parts) != 3:
         raise BadInput(f"{text!r} is not FIRST:LAST:STEP in degrees, such as 0:360:1")
@@ -36,7 +29,7 @@ def sweep(text: str) -> SweepSteps:
         raise BadInput(f"the step of {text!r} does not lead from {first} to {last}; give one that does")
     if abs(last - first) >= abs(step) * MOST_ROWS:
         raise BadInput(f"{text!r} has more than {MOST_ROWS:,} rows; take a longer step")
-    return SweepSteps(first, step, int((last - first) / step) + 1)
+    return first, step, int((last - first) / step) + 1
 
 
 def _decimal(part: str, text: str) -> Decimal:

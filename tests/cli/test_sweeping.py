@@ -30,15 +30,15 @@ TYPED = [
 
 @pytest.mark.parametrize("typed", TYPED)
 def test_every_input_is_the_decimal_that_was_typed_rounded_once(typed: str) -> None:
-    typed_steps = sweep(typed)
-    steps = Steps.of(typed_steps)
-    degrees = [float(typed_steps.first + typed_steps.step * row) for row in range(typed_steps.rows)]
-    assert steps.degrees(0, typed_steps.rows).tolist() == degrees
-    assert steps.radians(0, typed_steps.rows).tolist() == [units.angle(f"{value!r} deg") for value in degrees]
+    first, step, rows = sweep(typed)
+    steps = Steps.of(first, step, rows)
+    degrees = [float(first + step * row) for row in range(rows)]
+    assert steps.degrees(0, rows).tolist() == degrees
+    assert steps.radians(0, rows).tolist() == [units.angle(f"{value!r} deg") for value in degrees]
 
 
 def test_quarter_turns_are_multiples_of_half_pi() -> None:
-    found = Steps.of(sweep("-720:720:90")).radians(0, 17)
+    found = Steps.of(*sweep("-720:720:90")).radians(0, 17)
     assert found.tolist() == [k * (math.pi / 2) for k in range(-8, 9)]
 
 
@@ -56,7 +56,7 @@ JOINED = [
 def test_blocks_join_without_a_seam(
     name: str, typed: str, by: str, size: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    scene, steps = linkanim.load(name), Steps.of(sweep(typed))
+    scene, steps = linkanim.load(name), Steps.of(*sweep(typed))
 
     def joined(block: int) -> dict[str, np.ndarray[tuple[int, ...], np.dtype[np.float64]]]:
         monkeypatch.setattr(solved, "BLOCK", block)

@@ -70,7 +70,7 @@ def _inputs(options: Namespace) -> Inputs:
     if options.sweep is not None:
         if given and not (every and angle is None):
             raise BadInput("--sweep goes with no other angle; write --phase alone to sweep the phase")
-        return Inputs("phase" if every else "angle", steps=Steps.of(options.sweep))
+        return Inputs("phase" if every else "angle", steps=Steps.of(*options.sweep))
     if options.csv:
         raise BadInput("--csv is for a sweep; add --sweep 0:360:1, or take --json")
     if every:
