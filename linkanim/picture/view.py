@@ -89,6 +89,14 @@ class View:
         return complex(self.x + self.scale * point[0], self.y - self.scale * point[1])
 
 
+def view_of(box: Box, room: Rect, share: float = 1.0) -> View:
+    """Return the view in which a box lies in the middle of a room, as large as fits, or a share of that."""
+    wide, high = max(box.right - box.left, 1e-9), max(box.high - box.low, 1e-9)
+    scale = share * min(room.width / wide, room.height / high)
+    (x, y), middle = box.middle, room.middle
+    return View(scale, middle.real - scale * x, middle.imag + scale * y)
+
+
 def moved(view: View, about: tuple[float, float], *, zoom: float, pan: tuple[float, float]) -> View:
     """Return the view enlarged `zoom` times about a pixel, then shifted right and down in pixels."""
     x = about[0] + (view.x - about[0]) * zoom + pan[0]

@@ -24,7 +24,7 @@ from linkanim.picture.raster.raster import Layer, Loop
 from linkanim.picture.raster.shapes import box, disc, segments, stroke, unit
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import ORANGE, Theme, mixed
-from linkanim.picture.view import Box, View
+from linkanim.picture.view import Box, View, view_of
 
 _ROOM = 0.86
 """The share of the window that the home of a sheet takes."""
@@ -44,10 +44,7 @@ def home_view(home: Box, layout: Layout) -> View:
     """Return the view in which a rectangle of the scene lies in the middle of a window, as large as fits."""
     above = layout.margin + _LINES * layout.text_size
     room = layout.stage._replace(y=layout.stage.y + above, height=max(layout.stage.height - above, 1))
-    wide, high = max(home.right - home.left, 1e-9), max(home.high - home.low, 1e-9)
-    scale = _ROOM * min(room.width / wide, room.height / high)
-    (x, y), middle = home.middle, room.middle
-    return View(scale, middle.real - scale * x, middle.imag + scale * y)
+    return view_of(home, room, _ROOM)
 
 
 class SheetView(NamedTuple):

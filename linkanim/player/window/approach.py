@@ -10,7 +10,7 @@ from functools import partial
 
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Charted, Picture
-from linkanim.picture.view import Box, View, eased, joined
+from linkanim.picture.view import Box, Rect, View, eased, joined, view_of
 from linkanim.player.state.sketch import Sketch
 from linkanim.player.state.state import State
 
@@ -140,21 +140,17 @@ class Framing:
 
 def _is_in_sight(picture: Picture, sketch: Sketch) -> bool:
     """Return whether linkage and stroke lie in their room; where it is zoomed they need not."""
-    view, box, stage = picture.view, _box(picture, sketch), picture.layout.stage
-    (left, bottom), (right, top) = view.to_pixel(box.left, box.low), view.to_pixel(box.right, box.high)
-    return picture.look.framed or (stage.holds(left, top) and stage.holds(right, bottom))
+    return picture.look.framed or _holds(picture.layout.stage, picture.view, _box(picture, sketch))
 
 
 def _seen_whole(picture: Picture, sketch: Sketch) -> View:
     """Return the view that fits a linkage, further away where its stroke would not be seen whole."""
     view, box, stage = picture.fit.arrangement.view, _box(picture, sketch), picture.layout.stage
-    (left, bottom), (right, top) = view.to_pixel(box.left, box.low), view.to_pixel(box.right, box.high)
-    if stage.holds(left, top) and stage.holds(right, bottom):
-        return view
-    room = stage.inset(2 * picture.layout.margin)
-    scale = min(room.width / (box.right - box.left), room.height / (box.high - box.low))
-    (x, y), middle = box.middle, (room.x + room.width / 2, room.y + room.height / 2)
-    return View(scale, middle[0] - scale * x, middle[1] + scale * y)
+    return view if _holds(stage, view, box) else view_of(box, stage.inset(2 * picture.layout.margin))
+
+
+def _holds(stage: Rect, view: View, box: Box) -> bool:
+    return stage.holds(*view.to_pixel(box.left, box.high)) and stage.holds(*view.to_pixel(box.right, box.low))
 
 
 def _box(picture: Picture, sketch: Sketch) -> Box:
