@@ -17,7 +17,6 @@ Values = Mapping[str, Any]
 
 CYLINDER = form(
     "a cylinder that drives",
-    dict,
     Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body"),
     Field("from", LENGTH, "its length at one end", label="Cylinder, from"),
     Field("to", LENGTH, "its length at the other end", label="Cylinder, to"),
@@ -25,14 +24,12 @@ CYLINDER = form(
 )
 SLIDER = form(
     "a slider that drives",
-    dict,
     Field("joint", NAME, "the slider, declared by its line alone"),
     Field("from", OFFSET, "its travel at one end", label="Slider, from"),
     Field("to", OFFSET, "its travel at the other end", label="Slider, to"),
 )
 DRIVE = form(
     "the input",
-    dict,
     Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
     Field("slider", SLIDER, "what drives instead of a crank", None),
     Field("joint", NAME, "the crank that is driven: the first one without a gear", None),

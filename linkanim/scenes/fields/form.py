@@ -118,9 +118,9 @@ class Form:
         return self.make(*given, **values)
 
 
-def form(words: str, make: Callable[..., Any], *fields: Field, **how: Any) -> Form:
-    """Return the form of a table: what it is, what makes a value of it, its fields; `how` as in `Form`."""
-    return Form(fields, make, words, **how)
+def form(words: str, *fields: Field, **how: Any) -> Form:
+    """Return the form of a table: what it is and its fields; `how` as in `Form`."""
+    return Form(fields, words=words, **how)
 
 
 @dataclass(frozen=True)

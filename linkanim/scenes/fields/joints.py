@@ -69,26 +69,24 @@ _LENGTHS = listed(LENGTH, 2)
 _AT = aside("{name} on {on}")
 
 LINE = form(
-    "a line", _line, Field("on", PAIR, "the axis of a body that carries the line", None), *_LINE_FIELDS
+    "a line", Field("on", PAIR, "the axis of a body that carries the line", None), *_LINE_FIELDS, make=_line
 )
-FIXED_LINE = form("a fixed line", Line, Field("on", _FREE, usual=None), *_LINE_FIELDS)
+FIXED_LINE = form("a fixed line", Field("on", _FREE, usual=None), *_LINE_FIELDS, make=Line)
 GEAR = form(
     "a gear pair",
-    Gear,
     Field("with", JOINT, "the crank that it is geared to", into="mate", must="crank"),
     Field("ratio", RATIO, "its angle to that crank's", label="gear ratio"),
     Field("offset", ANGLE, "its angle where that crank's is 0", "0 deg", label="gear offset"),
+    make=Gear,
 )
 SLOT = form(
     "a slotted bar",
-    dict,
     Field("pivot", JOINT, "the joint that the bar turns about"),
     Field("through", JOINT, "the joint in its slot", must="moving"),
     Field("offset", OFFSET, "how far to the left of the pivot the slot runs", 0, label="offset of its slot"),
 )
 SLIDE = form(
     "a bar with a slot, on a line",
-    dict,
     Field("pin", JOINT, "the joint in the slot", must="moving"),
     Field("slot", ANGLE, "the slot's direction from the line's", "90 deg", label="direction of its slot"),
     Field("line", LINE, "the line that the bar slides along"),
@@ -97,48 +95,48 @@ SLIDE = form(
 
 CRANK = form(
     "a crank pin",
-    Crank,
     Field("crank", JOINT, "the fixed pin that it turns about", into="pivot", must="fixed", unless="gear"),
     _BAR,
     Field("gear", GEAR, "what turns it if not the drive, then about any joint", None),
     mark="crank",
+    make=Crank,
 )
 DRIVEN_SLIDER = form(
     "a slider that drives",
-    DrivenSlider,
     Field("line", FIXED_LINE, "the line that it is driven along"),
     Field("side", _ONE_CLOSURE, usual=None),
     mark="line",
     without=("from", "length"),
+    make=DrivenSlider,
 )
 SLIDER = form(
     "a slider that a bar moves",
-    RRP,
     Field("from", JOINT, "the bar's other end", into="end", must="moving"),
     _BAR,
     Field("line", LINE, "the line that it slides along"),
     Field("side", side(*RRP.sides), "of two closures the one further along the line, or back", RRP.sides[0]),
     mark="line",
+    make=RRP,
 )
 DYAD = form(
     "a joint of two bars",
-    RRR,
     Field("from", PAIR, "the bars' other ends", into="ends"),
     Field("length", _LENGTHS, "the bars' lengths", into="lengths", label=("{bar}",) * 2, drag="distance"),
     Field("side", side(*RRR.sides), "of the line from the first end to the second", RRR.sides[0]),
     mark="from",
+    make=RRR,
 )
 _SLOT = Field("slot", SLOT, "the slotted bar", into=SPREAD)
-SLOTTED_BAR = form("the end of a bar that slides through a joint", RPR, _SLOT, _BAR, mark="slot")
+SLOTTED_BAR = form("the end of a bar that slides through a joint", _SLOT, _BAR, mark="slot", make=RPR)
 _SLIDE = Field("slide", SLIDE, "the bar with the slot", into=SPREAD)
-YOKE = form("a yoke, where its slot crosses its line", RPP, _SLIDE, mark="slide")
+YOKE = form("a yoke, where its slot crosses its line", _SLIDE, mark="slide", make=RPP)
 BODY_POINT = form(
     "a point of a body",
-    Rigid,
     Field("on", PAIR, "two joints of the body: its axis"),
     Field("at", POINT, "the place along the axis, and to its left", label=_AT, drag="place"),
     mark="on",
     refuse=_refuse_own,
+    make=Rigid,
 )
 
 JOINTS = Named((CRANK, DRIVEN_SLIDER, SLIDER, DYAD, SLOTTED_BAR, YOKE, BODY_POINT))
@@ -146,9 +144,9 @@ JOINTS = Named((CRANK, DRIVEN_SLIDER, SLIDER, DYAD, SLOTTED_BAR, YOKE, BODY_POIN
 
 POLAR_PIN = form(
     "a fixed pin, by its distance",
-    polar_pin,
     Field("length", LENGTH, "the distance from the origin", label="Pin {name}, distance", drag="distance"),
     Field("angle", ANGLE, "the direction from there", label="Pin {name}, direction", drag="direction"),
+    make=polar_pin,
 )
 PLACE = Field("", POINT, "x and y", label=("Pin {name}, x", "Pin {name}, y"), drag="place")
 PINS = Named((POLAR_PIN,), PLACE, Pin)

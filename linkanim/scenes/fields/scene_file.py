@@ -94,17 +94,16 @@ _COM = aside("{name} centre of mass")
 
 BLOCK = form(
     "the block of a slider",
-    _drawn,
     Field("slider", JOINT, "the joint that it travels with"),
     _MASS,
     Field("look", choice(*get_args(Block)), "how it is drawn", None),
     _COLOUR,
     mark="slider",
     refuse=_refuse_block,
+    make=_drawn,
 )
 BAR = form(
     "a body",
-    _drawn,
     Field("joints", MEMBERS, "the joints on it; its angle is that of the first to the second"),
     Field("com", POINT, "its centre of mass along first–second, and to the left", None, label=_COM),
     _MASS,
@@ -114,32 +113,31 @@ BAR = form(
     _COLOUR,
     refuse=_refuse_bar,
     together={"mass": "com"},
+    make=_drawn,
 )
 SPRING = form(
     "a spring",
-    Spring,
     _BETWEEN,
     Field("stiffness", STIFFNESS, "its stiffness; with it the force is known", None, label="stiffness"),
     Field("free_length", LENGTH, "its length without force", None, label="free length"),
     refuse=_refuse_half,
     together={"stiffness": "free_length", "free_length": "stiffness"},
+    make=Spring,
 )
 _COEFFICIENT = Field("coefficient", DAMPING, "its force by its rate", None, label="damping coefficient")
-DAMPER = form("a damper", Damper, _BETWEEN, _COEFFICIENT)
+DAMPER = form("a damper", _BETWEEN, _COEFFICIENT, make=Damper)
 
 PHOTO = form(
     "a photograph to build over, behind the sheet",
-    dict,
     Field("file", TEXT, "its path from the scene file's folder"),
     Field("place", replace(POINT, measure=None), "x and y of its lower left corner"),
     Field("width", replace(LENGTH, measure=None), "how wide it is"),
     Field("turn", replace(ANGLE, measure=None), "by what angle it is turned about that corner", "0 deg"),
 )
-TRACE = form("the curves", dict, Field("joints", MEMBERS, "the joints whose curves are drawn", None))
+TRACE = form("the curves", Field("joints", MEMBERS, "the joints whose curves are drawn", None))
 
 SCENE_FILE = form(
     "the file",
-    dict,
     Field("title", TEXT, "what it is called: the file's name", None),
     Field("source", TEXT, "where its dimensions come from", ""),
     Field("chapter", TEXT, "the part of a collection that it belongs to", ""),

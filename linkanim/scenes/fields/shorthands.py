@@ -114,7 +114,6 @@ _OPEN = side("open", "crossed")
 SHORTHANDS: Mapping[str, Form] = {
     "four-bar": form(
         "pins O2, A, B, O4; bodies crank, coupler, rocker",
-        _four_bar,
         _bars("ground", ("Ground 1", "O2", "O4")),
         _bars("crank", ("{Crank} 2", "O2", "A")),
         _bars("coupler", ("{Coupler} 3", "A", "B")),
@@ -124,10 +123,10 @@ SHORTHANDS: Mapping[str, Form] = {
         Field("assembly", _OPEN, "of the two closures; open is B to the left of A–O4", "open"),
         Field("driver", choice("crank", "rocker"), "the link that is driven", "crank"),
         refuse=_refuse_own,
+        make=_four_bar,
     ),
     "slider-crank": form(
         "pins O2, A, slider B; bodies crank, rod, slider",
-        _slider_crank,
         _bars("crank", ("{Crank} 2", "O2", "A")),
         _bars("rod", ("{Rod} 3", "A", "B")),
         Field("offset", OFFSET, "how far to the left of O2 the line runs", 0, label="Offset"),
@@ -135,10 +134,10 @@ SHORTHANDS: Mapping[str, Form] = {
         Field("assembly", side(*RRP.sides), "of the two closures, along the line", RRP.sides[0]),
         _COUPLER_POINT,
         refuse=_refuse_own,
+        make=_slider_crank,
     ),
     "six-bar": form(
         "two four-bars in a row, O2 A B O4 and O4 C D O6; bodies crank, coupler, rocker, coupler2, rocker2",
-        _six_bar,
         _bars(
             "lengths",
             ("Ground 1", "O2", "O4"),
@@ -157,6 +156,7 @@ SHORTHANDS: Mapping[str, Form] = {
         _COUPLER_POINT,
         _coupler_point("coupler_point2", "Second coupler point", "CD", "P2"),
         refuse=_refuse_own,
+        make=_six_bar,
     ),
 }
 """The shorthands by the name of their table."""
