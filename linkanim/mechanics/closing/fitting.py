@@ -307,7 +307,7 @@ def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[D
     """Return the margin as a function of half the way to a limit."""
     graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
-    state = swing_by_angle((v - u, u, v), Slope(0.0), path.middle, path.amplitude)
+    state = swing_by_angle((v - u, u, v), Slope(0.0), path.low, path.high)
     run = decimals(("u", "v"), _outputs(walked(precise(assembly), state).closings[name])[:1])
     amplitude = (exactly(path.high) - exactly(path.low)) / 2
 

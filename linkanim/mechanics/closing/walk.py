@@ -133,7 +133,7 @@ class Walk:
     def loop_root(self, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
         """Return the root of a loop on a crank pin, ψ/2, and ψ' with its derivative."""
         pace = self.pace(loop.gearing)
-        root, half = loop.closed(self.state, self.assembly.path.swinging(self.state), pace)
+        root, half = loop.closed(self.state, pace)
         return root.times(sign), half, pace
 
     def pin_loop(self, loop: Loop, sign: int) -> tuple[SignedRoot, PinLoop]:

@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,6 @@ from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.loops.input_state import InputState, turn
-from linkanim.mechanics.loops.signed import Swinging
 
 NEARLY_ZERO = 1e-8
 """Half a last digit of this is more than a limit is off by."""
@@ -32,13 +31,8 @@ Limit = tuple[Sum, str | None]
 """The phase of a limit, and the dyad that sets it; None where the path itself ends."""
 
 
-class Shortened(NamedTuple):
-    """The angles between which a path is cut back, the dyads that limit it there, and its repeats."""
-
-    low: Sum
-    high: Sum
-    ends: tuple[str, str]
-    repeats: int
+Shortened = tuple[Sum, Sum, tuple[str, str], int]
+"""The angles between which a path is cut back, the dyads that limit it there, and its repeats."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,10 +142,6 @@ class InputPath(ABC):
     def solved_from(self, distances: LimitDistances) -> tuple[Array, ...]:
         """Return what the program by angle takes: the angle, and what else its state is known by."""
         return (distances.angle,)
-
-    def swinging(self, state: InputState) -> Swinging | None:
-        """Return the swing as the state has it; None where no dyad limits it."""
-        return None
 
     def same(self, place: float, other: float) -> bool:
         """Tell whether two places of the input are one."""

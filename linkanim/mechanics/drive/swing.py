@@ -23,8 +23,13 @@ from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.precise import context, cosine, exactly, nearest_sum, sine
 from linkanim.mechanics.formulas.program import Array
-from linkanim.mechanics.loops.input_state import InputState, swing_by_angle, swing_by_phase, swing_per_input
-from linkanim.mechanics.loops.signed import Swinging
+from linkanim.mechanics.loops.input_state import (
+    InputState,
+    half_way,
+    swing_by_angle,
+    swing_by_phase,
+    swing_per_input,
+)
 
 SOLVED_FROM = ("x", "u", "v", "rest")
 
@@ -61,7 +66,7 @@ class Swing(ThereAndBack):
     @property
     def amplitude(self) -> float:
         """Half the angle of the swing."""
-        return (self.high - self.low).times(0.5).constant
+        return half_way(self.low, self.high)
 
     @property
     def limits(self) -> tuple[float, ...]:
@@ -96,12 +101,9 @@ class Swing(ThereAndBack):
 
     def cut(self, low: Limit, high: Limit) -> Shortened:
         """Return the angles between two phases; at one without a dyad the input goes to its own limit."""
-        return Shortened(
-            self.low if low[1] is None else self._angle(low[0]),
-            self.high if high[1] is None else self._angle(high[0]),
-            (low[1] or self.ends[0], high[1] or self.ends[1]),
-            self.repeats,
-        )
+        first = self.low if low[1] is None else self._angle(low[0])
+        last = self.high if high[1] is None else self._angle(high[0])
+        return first, last, (low[1] or self.ends[0], high[1] or self.ends[1]), self.repeats
 
     def _angle(self, phase: Sum) -> Sum:
         """Return the angle at a phase on the way up, from the nearer end: twice the way is known exactly."""
@@ -117,24 +119,20 @@ class Swing(ThereAndBack):
 
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or symbolic expressions."""
-        return swing_by_phase(phase, pace, self.middle, self.amplitude)
+        return swing_by_phase(phase, pace, self.low, self.high)
 
     def state_per_input(self, phase: Value) -> InputState:
         """Return the input's state at a phase, its rates those by its own angle."""
-        return swing_per_input(phase, self.middle, self.amplitude)
+        return swing_per_input(phase, self.low, self.high)
 
     def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state: its angle and half the ways left."""
         x, u, v, rest = (graph.input(name) for name in SOLVED_FROM)
-        return SOLVED_FROM, swing_by_angle((x, u, v), pace, self.middle, self.amplitude, rest)
+        return SOLVED_FROM, swing_by_angle((x, u, v), pace, self.low, self.high, rest)
 
     def solved_from(self, distances: LimitDistances) -> tuple[Array, ...]:
         """Return what the program by angle takes: the angle from the middle, half the ways left, the rest."""
         return distances.angle, distances.u, distances.v, distances.rest
-
-    def swinging(self, state: InputState) -> Swinging | None:
-        """Return the swing as the state has it; None for a state without ends."""
-        return None if state.ends is None else Swinging(state.ends, state.pace, self.low, self.high)
 
     def distances(self, angle: Array) -> LimitDistances:
         """Return how far angles are from the limits."""

@@ -65,7 +65,7 @@ class Turn(InputPath):
     def cut(self, low: Limit, high: Limit) -> Shortened:
         """Return the angles between two phases, at each of which a dyad limits the input."""
         first, last = (dyad for _, dyad in (low, high) if dyad is not None)
-        return Shortened(self.place(low[0]), self.place(high[0]), (first, last), self.periods)
+        return self.place(low[0]), self.place(high[0]), (first, last), self.periods
 
     def place(self, phase: Sum) -> Sum:
         """Return the angle at a phase, by which a place on this path is known."""

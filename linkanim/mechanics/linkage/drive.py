@@ -53,7 +53,7 @@ TRAVEL = Coordinate("travel", "s", "{}", "velocity")
 
 @dataclass(frozen=True, slots=True)
 class Actuator(Stated):
-    """What drives the input.
+    """What drives the input: as it is, a motor on the crank.
 
     `effort` is what it delivers, and its unit. `noun` is the input's name where it is no bar that turns;
     `moves` says what an input does that turns back, `cycles` what each way there and back is counted as;
@@ -71,11 +71,6 @@ class Actuator(Stated):
     def along(self) -> tuple[str, str] | None:
         """The two joints whose distance it changes; None where it drives a joint itself."""
         return None
-
-
-@dataclass(frozen=True, slots=True)
-class Motor(Actuator):
-    """What turns the crank itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +110,8 @@ class Travel(Actuator):
     linkage_name: ClassVar[str | None] = "slider"
 
 
-MOTOR = Motor()
+MOTOR = Actuator()
+"""What turns the crank itself."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,21 +37,29 @@ class InputPlaces(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Ends:
-    """The two limits of a swing: half the way left to each, and its root, which may be `signed`."""
+    """The two limits of a swing: half the way left to each, and its root, which may be `signed`.
+
+    They lie at the angles `low` and `high`; `pace` is the derivative of what drives the input.
+    """
 
     u: Slope
     v: Slope
     root_u: Moving
     root_v: Moving
+    pace: Slope
+    low: Sum
+    high: Sum
     by_phase: bool
     signed: bool = True
 
-    def share_of_rate(self, rate: Slope, upper: bool, lower: bool) -> Slope:
+    @property
+    def middle(self) -> Sum:
+        """The angle in the middle."""
+        return (self.low + self.high).times(0.5)
+
+    def share_of_rate(self, upper: bool, lower: bool) -> Slope:
         """Return θ' divided by √u where `upper` and by √v where `lower`: regular by phase."""
-        if not self.by_phase:
-            share = rate / self.root_u.slope if upper else rate
-            return share / self.root_v.slope if lower else share
-        share = rate.scaled(2.0)
+        share = self.pace.scaled(2.0)
         share = share if upper else share * self.root_u.slope
         return share if lower else share * self.root_v.slope
 
@@ -153,9 +161,9 @@ def turn(x: Value, pace: Slope, origin: Sum) -> InputState:
     return InputState(x, origin, pace.value, pace.rate, pace)
 
 
-def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> InputState:
-    """Return the state of a swing driven by its phase."""
-    half, amplitude = sharp_half_angle(phase), beside(amplitude, phase)
+def swing_by_phase(phase: Value, pace: Slope, low: Sum, high: Sum) -> InputState:
+    """Return the state of a swing between two angles, driven by its phase."""
+    half, amplitude = sharp_half_angle(phase), beside(half_way(low, high), phase)
     scale = root(amplitude)
     root_u, root_v = half.cosine * scale, half.sine * scale
     half_rate, bend = pace.value * 0.5, pace.rate * 0.5
@@ -166,27 +174,30 @@ def swing_by_phase(phase: Value, pace: Slope, middle: Sum, amplitude: float) -> 
         Slope(v, both * pace.value),
         Moving(root_u, -(root_v * half_rate), -(root_u * square) - root_v * bend),
         Moving(root_v, root_u * half_rate, root_u * bend - root_v * square),
+        pace,
+        low,
+        high,
         by_phase=True,
     )
     rate = (both + both) * pace.value
     second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
     # A cosine of its own, not v - u: near the middle of the swing it keeps all its digits.
-    return InputState(cosine_of(phase) * -amplitude, middle, rate, second, pace, ends, phase, amplitude)
+    return InputState(cosine_of(phase) * -amplitude, ends.middle, rate, second, pace, ends, phase, amplitude)
 
 
-def swing_per_input(phase: Value, middle: Sum, amplitude: float) -> InputState:
+def swing_per_input(phase: Value, low: Sum, high: Sum) -> InputState:
     """Return the state of a swing at a phase, its rates those by its own angle: infinite at a limit."""
-    half = sharp_half_angle(phase)
+    half, amplitude, pace = sharp_half_angle(phase), half_way(low, high), Slope(1.0)
     scale = math.sqrt(amplitude)
     roots = half.cosine * scale, half.sine * scale
-    root_u, root_v = (_rated(root, sign, Slope(1.0)) for root, sign in zip(roots, (-1.0, 1.0), strict=True))
+    root_u, root_v = (_rated(root, sign, pace) for root, sign in zip(roots, (-1.0, 1.0), strict=True))
     u, v = roots[0] * roots[0], roots[1] * roots[1]
-    ends = Ends(Slope(u, -0.5), Slope(v, 0.5), root_u, root_v, by_phase=False)
-    return InputState(cosine_of(phase) * -amplitude, middle, 1.0, 0.0, Slope(1.0), ends, phase, amplitude)
+    ends = Ends(Slope(u, -0.5), Slope(v, 0.5), root_u, root_v, pace, low, high, by_phase=False)
+    return InputState(cosine_of(phase) * -amplitude, ends.middle, 1.0, 0.0, pace, ends, phase, amplitude)
 
 
 def swing_by_angle(
-    ways: tuple[Value, Value, Value], pace: Slope, middle: Sum, amplitude: float, rest: Value = 0.0
+    ways: tuple[Value, Value, Value], pace: Slope, low: Sum, high: Sum, rest: Value = 0.0
 ) -> InputState:
     """Return the state of a swing driven by its angle.
 
@@ -194,15 +205,17 @@ def swing_by_angle(
     upper and the lower limit.
     """
     angle, u, v = ways
-    root_u, root_v = (_root_of_way(way, sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
+    root_u, root_v = (_rated(sqrt(way), sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
     half_rate = pace.value * 0.5
-    ends = Ends(Slope(u, -half_rate), Slope(v, half_rate), root_u, root_v, by_phase=False, signed=False)
-    return InputState(angle, middle, pace.value, pace.rate, pace, ends, within=amplitude, rest=rest)
+    ways_left = Slope(u, -half_rate), Slope(v, half_rate)
+    ends = Ends(*ways_left, root_u, root_v, pace, low, high, by_phase=False, signed=False)
+    within = half_way(low, high)
+    return InputState(angle, ends.middle, pace.value, pace.rate, pace, ends, within=within, rest=rest)
 
 
-def _root_of_way(way: Value, sign: float, pace: Slope) -> Moving:
-    """Return the root of half the way to a limit, which the angle's pace changes with that sign."""
-    return _rated(sqrt(way), sign, pace)
+def half_way(low: Sum, high: Sum) -> float:
+    """Return half of the way from one angle to another."""
+    return (high - low).times(0.5).constant
 
 
 def _rated(root: Value, sign: float, pace: Slope) -> Moving:

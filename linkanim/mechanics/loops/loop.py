@@ -21,7 +21,7 @@ from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
 from linkanim.mechanics.loops.input_state import InputPlaces, InputState
 from linkanim.mechanics.loops.roots import Kind, LoopRoot
-from linkanim.mechanics.loops.signed import SignedRoot, Swinging, sharpened, sign_of_root, signed_root
+from linkanim.mechanics.loops.signed import SignedRoot, sharpened, sign_of_root, signed_root
 
 STRAIGHT = Sum(0.0)
 
@@ -84,13 +84,10 @@ class Loop:
             places = (first + turn * step for turn in range(abs(p)))
             yield from (place for place in places if path.holds(place, q))
 
-    def closed(self, state: InputState, swing: Swinging | None, pace: Slope) -> tuple[SignedRoot, Half]:
-        """Return the loop's root and ψ/2 at the state's instant, ψ running at `pace`.
-
-        `swing` is the input's, None where no dyad limits it.
-        """
-        half = sharpened(self.root, self._half(state), swing)
-        return signed_root(self.root, half, pace, swing), half
+    def closed(self, state: InputState, pace: Slope) -> tuple[SignedRoot, Half]:
+        """Return the loop's root and ψ/2 at the state's instant, ψ running at `pace`."""
+        half = sharpened(self.root, self._half(state), state.ends)
+        return signed_root(self.root, half, pace, state.ends), half
 
     def sign(self, state: InputState) -> int:
         """Return the sign of the loop's root at an instant between its limits, in plain floats."""

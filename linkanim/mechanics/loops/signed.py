@@ -54,7 +54,7 @@ from typing import NamedTuple
 
 from linkanim.mechanics.formulas.circular import Half, cosine_within, half_of, sine_within
 from linkanim.mechanics.formulas.constant import root as root_of
-from linkanim.mechanics.formulas.exact import FULL_TURN, HALF_TURN, Sum
+from linkanim.mechanics.formulas.exact import FULL_TURN, HALF_TURN
 from linkanim.mechanics.formulas.expression import Value, maximum, minimum, select, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope
 from linkanim.mechanics.loops.input_state import Ends
@@ -108,7 +108,7 @@ def plain_root(u: Value, w: Value, separation: Moving, half_difference: Value) -
     return SignedRoot(q, Slope(ratio, (separation.second - ratio * ratio * half_difference) / q))
 
 
-def signed_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:
+def signed_root(root: LoopRoot, half: Half, pace: Slope, swing: Ends | None) -> SignedRoot:
     """Return q of a loop closed from a crank pin, signed through change points and limits.
 
     `half` is ψ/2, sharpened where the loop limits the input; `pace` is ψ'.
@@ -153,16 +153,6 @@ def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value]:
 
 
 @dataclass(frozen=True, slots=True)
-class Swinging:
-    """The ends of a swing as the input has them, and the angles at which they lie."""
-
-    ends: Ends
-    pace: Slope
-    low: Sum
-    high: Sum
-
-
-@dataclass(frozen=True, slots=True)
 class _Ways:
     """Half the ways x and y to a factor's own two limits, and which of them are ends of the swing.
 
@@ -198,7 +188,7 @@ class _Ways:
         return sine_within(minimum(x, y + self.short)) * sine_within(minimum(y, x + self.short))
 
 
-def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | None:
+def _ways(root: LoopRoot, factor: Factor, swing: Ends | None) -> _Ways | None:
     """Return the ways to the limits that a factor sets; None where it sets none."""
     if swing is None or factor.kind is not Kind.LIMIT:
         return None
@@ -208,9 +198,9 @@ def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | Non
     best = best + FULL_TURN.times(float(turns))
     upper, lower = (best + factor.reach - swing.high).constant, (swing.low - (best - factor.reach)).constant
     at_upper, at_lower = upper <= OWN_LIMIT, lower <= OWN_LIMIT
-    u, v = swing.ends.u, swing.ends.v
+    u, v = swing.u, swing.v
     return _Ways(
-        swing.ends,
+        swing,
         u if at_upper else Slope(u.value + 0.5 * upper, u.rate),
         v if at_lower else Slope(v.value + 0.5 * lower, v.rate),
         at_upper,
@@ -220,7 +210,7 @@ def _ways(root: LoopRoot, factor: Factor, swing: Swinging | None) -> _Ways | Non
     )
 
 
-def sharpened(root: LoopRoot, half: Half, swing: Swinging | None) -> Half:
+def sharpened(root: LoopRoot, half: Half, swing: Ends | None) -> Half:
     """Return ψ/2 with the sine or cosine that a limit keeps from vanishing right to its own last digit."""
     ways_u, ways_w = _ways(root, root.u, swing), _ways(root, root.w, swing)
     cosine = ways_u.touching if ways_u else half.cosine
@@ -229,9 +219,9 @@ def sharpened(root: LoopRoot, half: Half, swing: Swinging | None) -> Half:
     return half_of(half.sine, cosine) if ways_u else half
 
 
-def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | None) -> SignedRoot:
+def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Ends | None) -> SignedRoot:
     """Return q as the product of its two signed roots, and ρ with what vanishes in both divided out."""
-    if swing is not None and not swing.ends.by_phase:
+    if swing is not None and not swing.by_phase:
         return _root_by_angle(root, half, pace, swing)
     half_rate, scale = pace.value * 0.5, root_of(root.spread)
     first = half.squares(root.spread).product * pace.value
@@ -244,13 +234,13 @@ def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Swinging | Non
     upper, lower = part_u.upper or part_w.upper, part_u.lower or part_w.lower
     share = pace
     if swing is not None and (upper or lower):
-        share = swing.ends.share_of_rate(swing.pace, upper, lower)
+        share = swing.share_of_rate(upper, lower)
     numerator = share.scaled(root.spread) * part_u.left * part_w.left
     ratio = numerator / (part_u.regular * part_w.regular)
     return SignedRoot(part_u.whole * part_w.whole, ratio, part_u.whole)
 
 
-def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Swinging) -> SignedRoot:
+def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Ends) -> SignedRoot:
     """Return q and ρ where the input's angle is given, so that nothing vanishes above a limit's root.
 
     ρ = K s c ψ'/(√U √W) with s, c of ψ/2, and at a steady pace ρ' = ρ ψ' (cW c/(s W) - cU s/(c U))/2: of what
