@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import Decimal, localcontext
 from typing import NamedTuple
 
@@ -91,19 +91,12 @@ def refined(assembly: Assembly, name: str, phase: Sum) -> Sum:
         return phase if place is None else nearest_sum(place)
 
 
-class NearestLimit(NamedTuple):
-    """Where a dyad's separation is extreme, by how much of a length it closes there, and how far it does not.
+def extreme(assembly: Assembly, name: str, phase: float) -> tuple[Sum, float, float]:
+    """Return the extreme of a dyad's separation, from that phase in floats (Newton's method).
 
-    It does not close within `reach` of the phase where `gap` is negative.
+    With its phase comes by how much of a length the dyad closes there; where that is negative it does not
+    within so far, the last, of the phase.
     """
-
-    phase: Sum
-    gap: float
-    reach: float
-
-
-def extreme(assembly: Assembly, name: str, phase: float) -> NearestLimit:
-    """Return the extreme of a dyad's separation, from that phase in floats (Newton's method)."""
     closing = _closing(assembly, name)
     run = decimals(("x",), (closing.u * closing.w, closing.gap))
     with localcontext(context()):
@@ -112,7 +105,7 @@ def extreme(assembly: Assembly, name: str, phase: float) -> NearestLimit:
         margin, gap = run(place)
         bend = sum(run(place + way)[0] for way in (-NUDGE, NUDGE)) - 2 * margin
         reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
-        return NearestLimit(nearest_sum(place), float(gap), float(reach))
+        return nearest_sum(place), float(gap), float(reach)
 
 
 def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decimal]:
@@ -169,7 +162,7 @@ def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
 def _settled(assembly: Assembly, name: str, dip: Dip) -> Dip:
     """Return a dip at the extreme itself, which floats have found to half their digits."""
     start = _start(assembly.path, dip)
-    place = extreme(assembly, name, float(dip.place - start)).phase + start
+    place = extreme(assembly, name, float(dip.place - start))[0] + start
     return replace(dip, place=place)
 
 
@@ -206,13 +199,13 @@ def _near(assembly: Assembly, name: str, zero: Fitted) -> Near | None:
     points = POINTS_OF_A_DIP if isinstance(zero, Dip) else POINTS
     for _ in range(TRIES):
         half = width / 2 if isinstance(zero, End) else width
-        stretch = _Stretch(width, half if isinstance(zero, End) else 0.0, half)
-        samples = [sampled(Decimal(stretch.centre) + Decimal(half) * node) for node in nodes(points)]
+        stretch = width, half if isinstance(zero, End) else 0.0, half
+        samples = [sampled(Decimal(stretch[1]) + Decimal(half) * node) for node in nodes(points)]
         squares = _squares(samples, zeroth.margin)
-        root = stretch.fit(samples, squares if isinstance(zero, Dip) else [one.sqrt() for one in squares])
+        root = _fit(stretch, samples, squares if isinstance(zero, Dip) else [one.sqrt() for one in squares])
         meeting = not isinstance(zero, Dip) and _meet(zeroth.across, samples)
         shares = [_shares(samples, zeroth, k) for k in (0, 1)] if meeting else []
-        fits = [root, *(stretch.fit(samples, values) for values in shares)]
+        fits = [root, *(_fit(stretch, samples, values) for values in shares)]
         last = max(_last(fits[:1]), _last(fits[1:]))
         if last <= least and width >= narrowest:
             rest = float(zeroth.margin) if isinstance(zero, Dip) else 0.0
@@ -238,18 +231,15 @@ def _near(assembly: Assembly, name: str, zero: Fitted) -> Near | None:
     return best
 
 
-@dataclass(frozen=True, slots=True)
-class _Stretch:
-    """Where a fit is made: its width, and the middle and the half of its arguments."""
+_Stretch = tuple[float, float, float]
+"""Where a fit is made: its width, and the middle and the half of its arguments."""
 
-    width: float
-    centre: float
-    half: float
 
-    def fit(self, samples: list[Sample], values: list[Decimal]) -> PolynomialFit:
-        """Return the polynomial through the values at the samples' ways."""
-        places = [(sample.argument - Decimal(self.centre)) / Decimal(self.half) for sample in samples]
-        return PolynomialFit(self.width, self.centre, self.half, tuple(interpolated(places, values)))
+def _fit(stretch: _Stretch, samples: list[Sample], values: list[Decimal]) -> PolynomialFit:
+    """Return the polynomial through the values at the samples' ways."""
+    _, centre, half = stretch
+    places = [(sample.argument - Decimal(centre)) / Decimal(half) for sample in samples]
+    return PolynomialFit(*stretch, tuple(interpolated(places, values)))
 
 
 def _squares(samples: list[Sample], rest: Decimal) -> list[Decimal]:

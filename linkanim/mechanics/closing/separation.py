@@ -10,7 +10,7 @@ margin U·W could come to zero between them, until rate and slope leave no room 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -146,11 +146,7 @@ def separations(assembly: Assembly) -> Separations:
     scale, barely = np.array([*scales.values()]).T
     found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
     closings = {name: found[name] for name in scales}
-    run = _program(closings)
-
-    def sampled(phases: Array) -> Sampled:
-        return _over(scale, phases, run(phases))
-
+    sampled = _sampler(closings.values(), scale)
     samples = _halved(sampled, sampled(phases))
     extremes = _places(sampled, samples, _turning(samples, barely), 0)
     peaks = _places(sampled, samples, _passing(samples), 3)
@@ -174,10 +170,9 @@ def separations(assembly: Assembly) -> Separations:
     )
 
 
-def _program(closings: Mapping[str, Closing]) -> Callable[[Array], Array]:
-    """Return the function of phases (N,) that gives s', s'', U·W and U - W (4, D, N)."""
-    found = closings.values()
-    return _compiled(
+def _sampler(found: Collection[Closing], scale: Array) -> Callable[[Array], Sampled]:
+    """Return the function of phases (N,) that gives s', s'', and over their scale U·W and U - W (4, D, N)."""
+    run = _compiled(
         [
             [closing.separation.rate for closing in found],
             [closing.separation.second for closing in found],
@@ -185,6 +180,14 @@ def _program(closings: Mapping[str, Closing]) -> Callable[[Array], Array]:
             [closing.half_difference * 2.0 for closing in found],
         ]
     )
+
+    def sampled(phases: Array) -> Sampled:
+        rows = run(phases)
+        with np.errstate(all="ignore"):
+            rows[2:] /= scale[:, None]
+        return Sampled(phases, rows)
+
+    return sampled
 
 
 def _compiled(rows: Sequence[Sequence[Value]]) -> Callable[[Array], Array]:
@@ -203,14 +206,9 @@ def _phases(assembly: Assembly) -> Array:
 
     The start is among them, and the ends of a way there and back.
     """
-    count = max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * _fastest(assembly)))
+    count = max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * assembly.quickest))
     marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
     return np.sort(np.concatenate([around(assembly.path.periods, count), marks]))
-
-
-def _fastest(assembly: Assembly) -> float:
-    """Return how often the crank that turns most turns while the input turns once, at least once."""
-    return max([1.0, *(float(abs(gearing.ratio)) for gearing in assembly.gears.values())])
 
 
 def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, float]]:
@@ -248,12 +246,6 @@ def _behind(shut: Bools) -> Bools:
 
 def _longest(assembly: Assembly) -> float:
     return max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
-
-
-def _over(scale: Array, phases: Array, rows: Array) -> Sampled:
-    """Return the rates, and margins and differences over their scale."""
-    with np.errstate(all="ignore"):
-        return Sampled(phases, np.concatenate([rows[:2], rows[2:] / scale[:, None]]))
 
 
 def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
@@ -366,7 +358,7 @@ def _settled(assembly: Assembly, name: str, phases: Array) -> Iterator[Extreme]:
     AssemblyError where there are so many that they are rounding on a stretch of nothing.
     """
     longest = _longest(assembly)
-    if len(phases) > MOST_TOUCHING * assembly.path.periods * _fastest(assembly):
+    if len(phases) > MOST_TOUCHING * assembly.path.periods * assembly.quickest:
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     for phase in phases.tolist():
         place, gap, reach = extreme(assembly, name, phase)

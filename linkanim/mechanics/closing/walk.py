@@ -65,6 +65,11 @@ class Assembly:
         """How each crank turns with the input."""
         return gearings(self.linkage)
 
+    @property
+    def quickest(self) -> float:
+        """How many times as fast as the input the quickest crank turns, at least once."""
+        return max([1.0, *(abs(float(gearing.ratio)) for gearing in self.gears.values())])
+
 
 AT_ITS_LIMIT = (
     "it is at its limit at every angle of the input, or at many in a row, where rounding alone would"

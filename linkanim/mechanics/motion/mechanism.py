@@ -32,6 +32,8 @@ from linkanim.mechanics.motion.motion import (
 )
 
 Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
+_Key = tuple[int, bool, bool]
+"""Which poses a program gives: how many derivatives, whether the input accelerates, whether `per_input`."""
 
 
 class Traced(NamedTuple):
@@ -73,7 +75,7 @@ class Mechanism(Setting):
         return any(root.zeros for root in self.assembly.chain.values())
 
     @cached_property
-    def _poses(self) -> dict[tuple[int, bool, bool], Callable[..., dict[str, Any]]]:
+    def _poses(self) -> dict[_Key, Callable[..., dict[str, Any]]]:
         return {}
 
     @cached_property
@@ -88,35 +90,32 @@ class Mechanism(Setting):
         self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
     ) -> Pose:
         """Return one instant, solved in plain floats; its rates by the input instead of time `per_input`."""
-        if self.retraced and not per_input:
-            way, sign = (float(part) for part in retraced(phase))
-            found = self._pose(way, sign * speed, sign * acceleration, derivatives)
-            vars(found).update(phase=phase, input_speed=speed, input_acceleration=acceleration)
-            return found
-        at = float(retraced(phase)[0]) if self.retraced else phase
-        return self._pose(at, speed, acceleration, derivatives, per_input)
-
-    def _pose(
-        self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
-    ) -> Pose:
+        at, w, a = phase, speed, acceleration
+        if self.retraced:
+            at, sign = (float(part) for part in retraced(phase))
+            w, a = (w, a) if per_input else (sign * w, sign * a)
         key = derivatives, acceleration != 0.0, per_input
-        if self.passing:
-            return Pose(self._from_arrays(key, phase, speed, acceleration))
-        program = self._poses.get(key) or self._program_of_poses(key)
-        try:
-            return Pose(program(phase, speed, acceleration, self))
-        except (ZeroDivisionError, ValueError):
-            return Pose(self._from_arrays(key, phase, speed, acceleration))
+        found = None if self.passing else self._in_floats(key, at, w, a)
+        pose = Pose(found or self._from_arrays(key, at, w, a))
+        if self.retraced and not per_input:
+            vars(pose).update(phase=phase, input_speed=speed, input_acceleration=acceleration)
+        return pose
 
     def pose_per_input(self, phase: float) -> Pose:
         """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
         return self.pose(phase, 1.0, 0.0, 2, not self.assembly.path.full_turn)
 
-    def _program_of_poses(self, key: tuple[int, bool, bool]) -> Callable[..., dict[str, Any]]:
-        derivatives, accelerates, per_input = key
-        trace = self.trace(Variant(True, accelerates, per_input=per_input))
-        found = self._poses[key] = _scalar(trace, derivatives)
-        return found
+    def _in_floats(self, key: _Key, *instant: float) -> dict[str, Any] | None:
+        """Return an instant solved in plain floats; None where they raise."""
+        program = self._poses.get(key)
+        if program is None:
+            derivatives, accelerates, per_input = key
+            trace = self.trace(Variant(True, accelerates, per_input=per_input))
+            program = self._poses[key] = _scalar(trace, derivatives)
+        try:
+            return program(*instant, self)
+        except (ZeroDivisionError, ValueError):
+            return None
 
     def trace(self, variant: Variant) -> Traced:
         """Record the formulas of all quantities, lengths in the scene's unit."""
@@ -143,9 +142,7 @@ class Mechanism(Setting):
             return ("x",), path.state(graph.input("x"), pace)
         return path.state_by_angle(graph, pace)
 
-    def _from_arrays(
-        self, key: tuple[int, bool, bool], phase: float, speed: float, second: float
-    ) -> dict[str, Any]:
+    def _from_arrays(self, key: _Key, phase: float, speed: float, second: float) -> dict[str, Any]:
         """Return what the scalar program gives, NaN and infinities included, where floats raise."""
         derivatives, _, per_input = key
         motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)

@@ -111,7 +111,7 @@ class Setting(ABC):
     @property
     def quickest(self) -> float:
         """How many times as fast as the input the quickest crank turns, at least once."""
-        return max([1.0, *(abs(float(gearing.ratio)) for gearing in self.assembly.gears.values())])
+        return self.assembly.quickest
 
     def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
         """Return how a crank's body turns with the input, and whether it is named from its pin."""
