@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.closing.walk import Assembly, Walk, guide
@@ -99,10 +99,9 @@ def close_bars(joint: RRR, walk: Walk) -> None:
         across = q - p
         root = walk.span_root(joint.name, across, lengths).times(sign)
         triangle = moving_triangle(across, lengths, root)
-    found = _meet(p, q, lengths, triangle)
-    walk.points[joint.name] = found.point
-    arms = ((found.turning_a, first, found.arm_a), (found.turning_b, second, found.arm_b))
-    for turning, end, arm in reversed(arms) if swapped else arms:
+    walk.points[joint.name], *bars = _meet(p, q, lengths, triangle)
+    ends = zip((first, second), bars, strict=True)
+    for end, (turning, arm) in reversed([*ends]) if swapped else ends:
         walk.add_piece(turning, (end, joint.name), arm)
 
 
@@ -111,18 +110,14 @@ def _turned(joint: RRR, swapped: bool) -> tuple[tuple[str, str], tuple[float, fl
     return (joint.ends[::-1], joint.lengths[::-1]) if swapped else (joint.ends, joint.lengths)
 
 
-class _Meeting(NamedTuple):
-    """The joint in which two bars meet: the bars as vectors, and how they turn."""
-
-    arm_a: Vec
-    arm_b: Vec
-    turning_a: Slope
-    turning_b: Slope
-    point: MovingPoint
+_Bar = tuple[Slope, Vec]
+"""How a bar turns, and it as a vector."""
 
 
-def _meet(p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle: Triangle) -> _Meeting:
-    """Return where two bars meet, and how they turn.
+def _meet(
+    p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle: Triangle
+) -> tuple[MovingPoint, _Bar, _Bar]:
+    """Return where two bars meet, and both bars.
 
     The shorter bar carries the joint, since its direction is sharper; the longer one, which turns
     less, has its rate worked out, and the shorter one's is ρ away.
@@ -133,12 +128,12 @@ def _meet(p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle
         arm_b = arm_a - d
         turning_b = t.turn_of_longer(True)
         turning_a = turning_b.plus(-rho.value, -rho.rate)
-        return _Meeting(arm_a, arm_b, turning_a, turning_b, p + carried(arm_a, turning_a))
+        return p + carried(arm_a, turning_a), (turning_a, arm_a), (turning_b, arm_b)
     arm_b = t.lift - d.scaled(t.far)
     arm_a = arm_b + d
     turning_a = t.turn_of_longer(False)
     turning_b = turning_a.plus(rho.value, rho.rate)
-    return _Meeting(arm_a, arm_b, turning_a, turning_b, q + carried(arm_b, turning_b))
+    return q + carried(arm_b, turning_b), (turning_a, arm_a), (turning_b, arm_b)
 
 
 def loop_of_slider(joint: RRP, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:

@@ -343,10 +343,6 @@ class SliderStroke(Stroke):
         travel = Moving(by_phase.value, 1.0, 0.0)
         return TravelState(phase, Sum(0.0), rate, second, Slope(rate, second), travel=travel)
 
-    def state_by_angle(self, graph: Graph, pace: Slope) -> NoReturn:
-        """Raise BadInput: it has no angle."""
-        raise BadInput(NO_ANGLE)
-
     def distances(self, angle: Array) -> NoReturn:
         """Raise BadInput: it has no angle."""
         raise BadInput(NO_ANGLE)

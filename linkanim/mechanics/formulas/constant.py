@@ -20,6 +20,19 @@ DIGITS = 50
 Number = Fraction | Decimal | float
 
 
+def _arithmetic(
+    operate: Callable[[Any, Any], Any],
+) -> tuple[Callable[[Any, Any], Any], Callable[[Any, Any], Any]]:
+    """Return what an operation makes of floats and of the numbers they stand for, and it turned round."""
+
+    def apply(a: Any, b: Any) -> Any:
+        if not (isinstance(a, int | float) and isinstance(b, int | float)):
+            return NotImplemented
+        return Constant(operate(float(a), float(b)), lambda: operate(Fraction(a), Fraction(b)))
+
+    return apply, lambda b, a: apply(a, b)
+
+
 class Constant(float):
     """A float, and the `number` that it stands for: itself, where none is given.
 
@@ -67,36 +80,10 @@ class Constant(float):
     def __abs__(self) -> Constant:
         return Constant(abs(float(self)), lambda: abs(self.number))
 
-    def __add__(self, other: Any) -> Any:
-        return _both(operator.add, self, other)
-
-    def __radd__(self, other: Any) -> Any:
-        return _both(operator.add, other, self)
-
-    def __sub__(self, other: Any) -> Any:
-        return _both(operator.sub, self, other)
-
-    def __rsub__(self, other: Any) -> Any:
-        return _both(operator.sub, other, self)
-
-    def __mul__(self, other: Any) -> Any:
-        return _both(operator.mul, self, other)
-
-    def __rmul__(self, other: Any) -> Any:
-        return _both(operator.mul, other, self)
-
-    def __truediv__(self, other: Any) -> Any:
-        return _both(operator.truediv, self, other)
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return _both(operator.truediv, other, self)
-
-
-def _both(operate: Callable[[Any, Any], Any], a: Any, b: Any) -> Any:
-    """Return what an operation makes of floats and of the numbers that they stand for."""
-    if not (isinstance(a, int | float) and isinstance(b, int | float)):
-        return NotImplemented
-    return Constant(operate(float(a), float(b)), lambda: operate(Fraction(a), Fraction(b)))
+    __add__, __radd__ = _arithmetic(operator.add)
+    __sub__, __rsub__ = _arithmetic(operator.sub)
+    __mul__, __rmul__ = _arithmetic(operator.mul)
+    __truediv__, __rtruediv__ = _arithmetic(operator.truediv)
 
 
 def nearest(number: Fraction) -> Constant:

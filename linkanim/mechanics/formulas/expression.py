@@ -76,10 +76,17 @@ class Expr:
         """What is recorded as -x knows x."""
 
     def __add__(self, other: Value) -> Value:
-        return _add(self, other)
+        if isinstance(other, (int, float)):
+            other = self.graph.constant(other)
+            if other == 0:
+                return self
+        elif other.positive is not None:
+            return _subtract(self, other.positive)
+        if self.positive is not None:
+            return _subtract(other, self.positive)
+        return self.graph.node("add", self, other)
 
-    def __radd__(self, other: Value) -> Value:
-        return _add(self, other)
+    __radd__ = __add__
 
     def __sub__(self, other: Value) -> Value:
         return _subtract(self, other)
@@ -88,10 +95,19 @@ class Expr:
         return _subtract(other, self)
 
     def __mul__(self, other: Value) -> Value:
-        return _multiply(self, other)
+        if isinstance(other, (int, float)):
+            return _scale(self, self.graph.constant(other))
+        if self.uniform != other.uniform:
+            x, y = (self, other) if self.uniform else (other, self)
+            factor, rest = _factored(y)
+            return self.graph.node("mul", x, y) if factor is None else (x * factor) * rest
+        if self.positive is not None:
+            return -(self.positive * other)
+        if other.positive is not None:
+            return -(other.positive * self)
+        return self.graph.node("mul", self, other)
 
-    def __rmul__(self, other: Value) -> Value:
-        return _multiply(self, other)
+    __rmul__ = __mul__
 
     def __truediv__(self, other: Value) -> Value:
         return _divide(self, other)
@@ -130,18 +146,6 @@ def _is_uniform(value: Expr | float | str) -> bool:
     return value.uniform if isinstance(value, Expr) else True
 
 
-def _add(a: Expr, b: Value) -> Value:
-    if isinstance(b, (int, float)):
-        b = a.graph.constant(b)
-        if b == 0:
-            return a
-    elif b.positive is not None:
-        return _subtract(a, b.positive)
-    if a.positive is not None:
-        return _subtract(b, a.positive)
-    return a.graph.node("add", a, b)
-
-
 def _subtract(a: Value, b: Value) -> Value:
     graph = _graph_of(a, b)
     a, b = _recorded(graph, a), _recorded(graph, b)
@@ -162,20 +166,6 @@ def _graph_of(a: Value, b: Value) -> Graph:
 
 def _recorded(graph: Graph, value: Value) -> Value:
     return value if isinstance(value, Expr) else graph.constant(value)
-
-
-def _multiply(a: Expr, b: Value) -> Value:
-    if isinstance(b, (int, float)):
-        return _scale(a, a.graph.constant(b))
-    if a.uniform != b.uniform:
-        x, y = (a, b) if a.uniform else (b, a)
-        factor, rest = _factored(y)
-        return a.graph.node("mul", x, y) if factor is None else (x * factor) * rest
-    if a.positive is not None:
-        return -(a.positive * b)
-    if b.positive is not None:
-        return -(b.positive * a)
-    return a.graph.node("mul", a, b)
 
 
 def _scale(a: Expr, factor: float) -> Value:
