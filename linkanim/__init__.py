@@ -48,7 +48,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from linkanim.errors import LinkanimError
     from linkanim.picture.look import Look
-    from linkanim.recorder import record
+    from linkanim.recorder.scene_frames import record
     from linkanim.scenes import load, names
     from linkanim.scenes.scene import Scene
     from linkanim.synthesis.request import path
@@ -67,7 +67,7 @@ _HOME = {
     "load": "linkanim.scenes",
     "names": "linkanim.scenes",
     "path": "linkanim.synthesis.request",
-    "record": "linkanim.recorder",
+    "record": "linkanim.recorder.scene_frames",
 }
 
 

@@ -132,9 +132,14 @@ def _recorded(into: Path, target: Path, name: str, progress: Progress | None) ->
 
     One that is too large even so is recorded at a smaller size.
     """
+    scene, tape = load(name), into / f"{name}{TAPE}"
     for share in SHARES:
-        for fps in rates(load(name)):
-            made = _recorded_at(fps, share, into / f"{name}{TAPE}", target, name, progress)
+        size = round(share * SIZE[0]), round(share * SIZE[1])
+        for fps in rates(scene):
+            if tape.is_file():
+                made = record_tape(tape, target, size=size, fps=fps, progress=progress)
+            else:
+                made = record(scene, target, size=size, fps=fps, look=LOOK, progress=progress)
             if made.file_bytes <= LARGEST:
                 break
         if made.file_bytes <= MOST:
@@ -142,19 +147,9 @@ def _recorded(into: Path, target: Path, name: str, progress: Progress | None) ->
     return made
 
 
-def _recorded_at(
-    fps: float, share: float, tape: Path, target: Path, name: str, progress: Progress | None
-) -> Recording:
-    size = round(share * SIZE[0]), round(share * SIZE[1])
-    if tape.is_file():
-        return record_tape(tape, target, size=size, fps=fps, progress=progress)
-    return record(load(name), target, size=size, fps=fps, look=LOOK, progress=progress)
-
-
 def _tile(scene: Scene) -> Bytes:
     """Return (height, width, 3) of one picture of a scene."""
-    plan = make_plan(
-        Clip(scene.linkage.drive.speed, scene.period, start=_EARLY * scene.period, seconds=1.0), "png"
-    )
+    clip = Clip(scene.linkage.drive.speed, scene.period, start=_EARLY * scene.period, seconds=1.0)
+    plan = make_plan(clip, "png")
     pixels = np.frombuffer(SceneFrames(scene, plan, SIZE, Look()).draw(0), np.uint8)
     return pixels.reshape(SIZE[1], SIZE[0], 4)[..., 2::-1]

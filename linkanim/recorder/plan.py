@@ -43,6 +43,11 @@ class Clip(NamedTuple):
     reverse: bool = False
     start: float = 0.0
 
+    @property
+    def length(self) -> float:
+        """The length in seconds."""
+        return self.periods * self.period / abs(self.speed) if self.seconds is None else self.seconds
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -73,31 +78,16 @@ class Plan:
         return self.sweep / self.seconds
 
     @property
-    def period_seconds(self) -> float:
-        """The length of one true period as recorded."""
-        return self.clip.period / abs(self.speed)
-
-    @property
-    def speed_text(self) -> str:
-        """The speed as recorded, in words."""
-        return rpm(self.speed)
-
-    @property
-    def moved(self) -> bool:
-        """Whether rounding moved the clip's length by more than a hundredth of a second."""
-        return abs(self.seconds - float(_requested_seconds(self.clip))) > 0.01 + 1e-9
-
-    @property
     def summary(self) -> str:
-        """The clip in words: frames, length, periods and speed, with what rounding moved."""
+        """The clip in words: frames, length, periods and speed, with what rounding moved by over 1 cs."""
         clip = f"{self.frames} frames at {short(float(self.rate))} fps, {short(self.seconds)} s"
-        text = f"{clip}, {self._extent} at {self.speed_text}"
+        text = f"{clip}, {self._extent} at {rpm(self.speed)}"
+        if abs(self.seconds - float(_requested_seconds(self.clip))) <= 0.01 + 1e-9:
+            return text
+        if not self.closes:
+            return f"{text} ({short(self.clip.length)} s asked)"
         requested = rpm(math.copysign(self.clip.speed, self.speed))
-        if self.moved and self.closes:
-            text += f" ({requested} asked, {self.speed_text} recorded)"
-        elif self.moved:
-            text += f" ({short(self.clip.seconds or 0.0)} s asked)"
-        return text
+        return f"{text} ({requested} asked, {rpm(self.speed)} recorded)"
 
     @property
     def _extent(self) -> str:
@@ -105,7 +95,7 @@ class Plan:
             return "not closed"
         if self.clip.periods == 1:
             return "one period"
-        return f"{self.clip.periods} periods of {short(self.period_seconds)} s"
+        return f"{self.clip.periods} periods of {short(self.clip.period / abs(self.speed))} s"
 
 
 def make_plan(clip: Clip, form: Format) -> Plan:
@@ -139,8 +129,7 @@ def refuse_size(size: tuple[int, int]) -> None:
 
 def _requested_seconds(clip: Clip) -> Fraction:
     """Return the clip's length asked for, as the simplest fraction that a file can hold."""
-    seconds = clip.periods * clip.period / abs(clip.speed) if clip.seconds is None else clip.seconds
-    return Fraction(seconds).limit_denominator(_FINEST)
+    return Fraction(clip.length).limit_denominator(_FINEST)
 
 
 def _cut(length: Fraction, fps: Fraction, clip: Clip, form: Format) -> tuple[int, Fraction]:
@@ -179,10 +168,9 @@ def _refuse_nonsense(clip: Clip) -> None:
         raise BadInput(f"{clip.periods} periods cannot be recorded; give a whole number from 1")
     if clip.seconds is not None and not (math.isfinite(clip.seconds) and clip.seconds > 0.0):
         raise BadInput(f"{short(clip.seconds)} s cannot be recorded; give a positive number of seconds")
-    seconds = clip.periods * clip.period / abs(clip.speed) if clip.seconds is None else clip.seconds
-    if seconds * clip.fps > MOST_FRAMES:
+    if clip.length * clip.fps > MOST_FRAMES:
         raise BadInput(
-            f"{short(seconds)} s at {short(clip.fps)} fps are {short(seconds * clip.fps)} frames,"
+            f"{short(clip.length)} s at {short(clip.fps)} fps are {short(clip.length * clip.fps)} frames,"
             f" more than {MOST_FRAMES}; raise the speed, or lower the frames a second or the length"
         )
 
@@ -198,5 +186,5 @@ def _refuse_too_few(clip: Clip, frames: int) -> None:
         )
     if frames < 1:
         raise BadInput(
-            f"{short(clip.seconds or 0.0)} s at {short(clip.fps)} fps is less than a frame; ask for longer"
+            f"{short(clip.length)} s at {short(clip.fps)} fps is less than a frame; ask for longer"
         )

@@ -112,7 +112,10 @@ def write(
     refuse_size(frames.size)
     if frames.alpha and form == "mp4":
         raise BadInput(f"{target.name}: MP4 has no transparency; record a GIF or PNG, or keep the background")
-    made = _frame_files(target, plan.frames) if form == "png" else [target]
+    made = [target]
+    if form == "png":  # NAME-0001.png, NAME-0002.png, ...
+        numbers = range(1, plan.frames + 1)
+        made = [target.with_name(f"{target.stem}-{number:04}{target.suffix}") for number in numbers]
     finished = _numbering(target, made) if form == "png" else atomic_files.replacing(target)
     with _saying_why(target), finished as part:
         _encode(frames, plan, part, form, progress)
@@ -120,11 +123,6 @@ def write(
         if held != plan.frames:
             raise RecordingFailed(f"{held} of {plan.frames} frames came out")
     return Recording(made[0], plan, frames.size, sum(file.stat().st_size for file in made))
-
-
-def _frame_files(target: Path, count: int) -> list[Path]:
-    """Return the names of the frames of NAME.png: NAME-0001.png, NAME-0002.png, ..."""
-    return [target.with_name(f"{target.stem}-{number:04}{target.suffix}") for number in range(1, count + 1)]
 
 
 @contextmanager

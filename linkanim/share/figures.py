@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.mechanics.motion.motion import Motion
-from linkanim.picture.diagrams.axis import Axis
 from linkanim.picture.diagrams.chart import Pen
 from linkanim.picture.diagrams.chart_panel import ChartPanel
 from linkanim.picture.diagrams.quantities import cleared, quantity
@@ -52,7 +51,7 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     title = "input speed" if scene.info.full_turn else "input rate"
     yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]}
     for _, label, of, step in measured(scene):
-        found = [_cleared(of.shown(one), of.rounding(one)) for one in both]
+        found = [cleared(np.asarray(of.shown(one), float), of.rounding(one)) for one in both]
         yield _row(label, of.shown_unit(scene.length_unit), step, found)
 
 
@@ -60,10 +59,6 @@ def _motion(scene: Scene, speed: float) -> Motion:
     """Return the motion at equal steps over the true period, with its end."""
     count = min(_MOMENTS * round(scene.period / radians(360)), _MOST)
     return scene.solve(phase=np.linspace(0.0, scene.period, count + 1), speed=speed)
-
-
-def _cleared(values: Any, rounding: float) -> NDArray[np.float64]:
-    return cleared(np.asarray(values, float), rounding)
 
 
 def _row(label: str, unit: str, step: float, values: list[NDArray[np.float64]]) -> dict[str, Any]:
@@ -85,19 +80,15 @@ def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float]
     """
     token, speed = shown
     of = quantity(figure.scene, token)
-    panels = [ChartPanel(figure, of, Rect(0, 0, *CHART), _pen(theme), speed) for theme in themes]
-    one, other = panels
-    return [_chart(one.at(way * speed), other.at(way * speed), pairs) for way in (1, -1)]
-
-
-def _pen(theme: Theme) -> Pen:
     text, small = _TEXT
-    return Pen(Type(), theme, small, text, _LINE)
+    pens = (Pen(Type(), theme, small, text, _LINE) for theme in themes)
+    one, other = (ChartPanel(figure, of, Rect(0, 0, *CHART), pen, speed) for pen in pens)
+    return [_chart(one.at(way * speed), other.at(way * speed), pairs) for way in (1, -1)]
 
 
 def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
     course, (x, values) = light.course, light.curves
-    even = np.linspace(0.0, course.span, _motion_length(light))
+    even = np.linspace(0.0, course.span, min(len(light.figure.cycle.phase), _MOST) + 1)
     curves = [
         {
             "label": light.series.labels[n],
@@ -108,10 +99,10 @@ def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
     ]
     span = light.plot.y.high - light.plot.y.low
     return {
-        "frame": "".join(pairs.elements(light.frame(), dark.frame())),
+        "frame": pairs.elements(light.frame(), dark.frame()),
         "title": light.quantity.title(light.figure.scene.length_unit),
         "area": list(light.plot.area),
-        "y": _ends(light.plot.y),
+        "y": [light.plot.y.low, light.plot.y.high],
         "course": [course.origin, course.scale, course.span],
         "unit": light.series.unit,
         "digits": _digits(span / 500),
@@ -120,11 +111,3 @@ def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
         "text": light.pen.text,
         "curves": curves,
     }
-
-
-def _motion_length(panel: ChartPanel) -> int:
-    return min(len(panel.figure.cycle.phase), _MOST) + 1
-
-
-def _ends(axis: Axis) -> list[float]:
-    return [axis.low, axis.high]

@@ -76,11 +76,11 @@ class Mobile:
             case (Coil() | Damping() | Trace() | Arrows() | Turning() | Sliding()) as live, dark:
                 yield Movable("", self._live(one, live, dark))
             case _:
-                if shapes := "".join(self.pairs.elements(_items(one), _items(other))):
+                if shapes := self.pairs.elements(_items(one), _items(other)):
                     yield Movable(shapes)
 
     def _part(self, light: Part, dark: Part) -> Movable:
-        shapes = "".join(self.pairs.elements(light.layers, dark.layers))
+        shapes = self.pairs.elements(light.layers, dark.layers)
         mover = {"kind": "part", "at": light.at, "tail": light.tail, "head": light.head}
         link = self.light.scene.info.link_names.get(light.name)
         mover |= {"link": link} if link else {}
@@ -90,11 +90,10 @@ class Mobile:
 
     def _names(self, light: Names, dark: Names) -> Iterator[Movable]:
         tables = ([*names.table.captions()] if names.table else [] for names in (light, dark))
-        if table := "".join(self.pairs.elements(*tables)):
+        if table := self.pairs.elements(*tables):
             yield Movable(table)
         for label, other in zip(light.labels, dark.labels, strict=True):
-            lines = (_line(some, names) for some, names in ((label, light), (other, dark)))
-            shapes = "".join(self.pairs.elements(*([line] for line in lines)))
+            shapes = self.pairs.elements([_line(label, light)], [_line(other, dark)])
             yield Movable(shapes, {"kind": "label", **_placed(label, light), **_shown(label)})
 
     def _live(self, group: Group, light: Any, dark: Any) -> Mover:
@@ -106,9 +105,9 @@ class Mobile:
                 return self._damping(light, dark)
             case Trace():
                 kind, width = ("curve" if group.still else "recent"), light.width
-                shades = zip((light.back, *light.shades), (dark.back, *dark.shades), strict=True)
-                colours = [self.pairs.variable(*pair) for pair in shades]
-                return {"kind": kind, "at": light.joint, "width": width, "colours": colours} | _RECENT
+                colours = self.pairs.variables((light.back, *light.shades), (dark.back, *dark.shades))
+                recent = {"phase": RECENT, "swell": SWELL}
+                return {"kind": kind, "at": light.joint, "width": width, "colours": colours} | recent
             case Arrows():
                 return self._arrows(light, dark)
             case Sliding():
@@ -120,30 +119,24 @@ class Mobile:
         return {**bar, **reach, "angle": self.light.look.names > 1, **self._driven(light, dark)}
 
     def _driven(self, light: Any, dark: Any) -> Mover:
-        colours = [self.pairs.variable(*pair) for pair in zip(light.colours, dark.colours, strict=True)]
+        colours = self.pairs.variables(light.colours, dark.colours)
         drive = self.light.scene.linkage.drive
         read = abs(drive.speed) / drive.coordinate.shown(1.0)
         gain = read / light.fastest if light.fastest > 0 else 0.0
         return {"gain": gain, "line": light.gauge.line, "colours": colours}
 
     def _coil(self, light: Coil, dark: Coil) -> Mover:
-        layers = (coil.layers(dict(zip(coil.between, (0j, 1 + 0j), strict=True))) for coil in (light, dark))
-        colours = [self.pairs.variable(one.colour, other.colour) for one, other in zip(*layers, strict=True)]
+        ends = dict(zip(light.between, (0j, 1 + 0j), strict=True))
+        both = ([layer.colour for layer in coil.layers(ends)] for coil in (light, dark))
         between, widths = list(light.between), [wide * light.wire for wide in (BACK, EDGE, CORE)]
-        size = {
-            "radius": light.radius,
-            "lead": light.lead,
-            "coils": light.coils,
-            "widths": widths,
-            "tilt": TILT,
-        }
-        return {"kind": "coil", "between": between, **size, "colours": colours}
+        size = {"radius": light.radius, "lead": light.lead, "coils": light.coils, "widths": widths}
+        return {
+            "kind": "coil", "between": between, **size, "tilt": TILT, "colours": self.pairs.variables(*both)
+        }  # fmt: skip
 
     def _damping(self, light: Damping, dark: Damping) -> Mover:
-        barrel, head = (
-            "".join(self.pairs.elements(*some))
-            for some in ((light.cylinder, dark.cylinder), ([light.head], [dark.head]))
-        )
+        barrel = self.pairs.elements(light.cylinder, dark.cylinder)
+        head = self.pairs.elements([light.head], [dark.head])
         colour = self.pairs.variable(light.cylinder[0].colour, dark.cylinder[0].colour)
         size = {"reach": list(light.reach), "length": light.length, "rod": light.rod, "colour": colour}
         return {"kind": "damping", "between": list(light.between), **size, "barrel": barrel, "head": head}
@@ -152,14 +145,10 @@ class Mobile:
         """Return arrows; `gain` is their length in pixels for one pixel by radian (or radian²) of phase."""
         order, scene = ORDER[light.kind], self.light.scene
         gain = light.scale(light.drive) * abs(light.drive) ** order / self.light.view.scale
-        both = ((light.colour, dark.colour), (light.halo, dark.halo))
-        colours = [self.pairs.variable(*pair) for pair in both]
+        colours = self.pairs.variables((light.colour, light.halo), (dark.colour, dark.halo))
         feet = [*scene.trace, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None)]
         line = {"longest": light.longest, "line": light.gauge.line, "colours": colours}
         return {"kind": "arrows", "order": order, "at": feet, "gain": gain, **line}
-
-
-_RECENT = {"phase": RECENT, "swell": SWELL}
 
 
 def _items(group: Group) -> list[Item]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from html import escape
 from importlib.resources import files
+from itertools import count
 from string import Template
 from typing import Any
 
@@ -21,7 +21,7 @@ from linkanim.picture.picture import Picture
 from linkanim.scenes.editing.closures import closure_name, ghost_of
 from linkanim.scenes.scene import Scene
 from linkanim.share.figures import CHART, charts, input_words, rows
-from linkanim.share.movers import Mobile, Movable
+from linkanim.share.movers import Mobile
 from linkanim.share.pairs import Pairs
 from linkanim.share.tracks import packed_tracks, tracks
 
@@ -51,6 +51,11 @@ class Shared:
     theme: ThemeName | None = None
     chart: str | None = None
     names: int = 0
+
+    @property
+    def themes(self) -> tuple[ThemeName, ThemeName]:
+        """The themes of a page by its reader's setting, light and dark; twice the one that is stated."""
+        return (self.theme, self.theme) if self.theme else ("light", "dark")
 
 
 def document(shared: Shared) -> str:
@@ -88,10 +93,11 @@ def _whole(shared: Shared, closures: tuple[Scene, ...]) -> str:
         "theme": shared.theme,
         "sides": [side.data() for side in sides],
     }
-    sheet = pairs.styles(themes_of(shared), shared.theme)
+    sheet = pairs.styles(shared.themes, shared.theme)
     script, kind = packaged("page.js"), scene.info.class_name
+    digest = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     return Template(packaged("page.html")).substitute(
-        policy=_POLICY.format(script=_digest(script)),
+        policy=_POLICY.format(script=digest),
         title=escape(scene.title),
         about=escape(f"{kind[:1].upper()}{kind[1:]}. {scene.look_at}".strip()),
         styles="\n".join((sheet, packaged("page.css"))),
@@ -113,17 +119,12 @@ def _size(scene: Scene) -> tuple[int, int]:
     return _WIDTH, round(min(max(_WIDTH * high / wide, low), tall)) if wide > 0 else tall
 
 
-def themes_of(shared: Shared) -> tuple[ThemeName, ThemeName]:
-    """Return the themes of a page by its reader's setting, light and dark; twice the one that is stated."""
-    return (shared.theme, shared.theme) if shared.theme else ("light", "dark")
-
-
 class _Side:
     """One of a scene's closures on a page."""
 
     def __init__(self, shared: Shared, scene: Scene, size: tuple[int, int], pairs: Pairs) -> None:
         look = Look(names=shared.names, hud=False, vectors=frozenset((VELOCITY, ACCELERATION)))
-        light, dark = (replace(look, theme=name) for name in themes_of(shared))
+        light, dark = (replace(look, theme=name) for name in shared.themes)
         self._shared, self._scene, self._pairs = shared, scene, pairs
         self._picture = Picture(scene, size, light, apart=True)
         other = Picture(scene, size, dark, self._picture, apart=True)
@@ -134,12 +135,12 @@ class _Side:
 
         Shapes that are `known`, by the name of the group that has them, are used again.
         """
-        count = iter(range(len(self._movables)))
-        groups = (
-            f"<g{_placing(one)}{_numbered(one, count)}>{_once(one.shapes, known)}</g>"
-            for one in self._movables
-        )
-        return f"<g id='side{number}'{' hidden' if number else ''}>{''.join(groups)}</g>"
+        moving, groups = count(), ""
+        for one in self._movables:
+            placed = f' transform="{one.transform}"' if one.transform else ""
+            numbered = f' data-m="{next(moving)}"' if one.mover else ""
+            groups += f"<g{placed}{numbered}>{_once(one.shapes, known)}</g>"
+        return f"<g id='side{number}'{' hidden' if number else ''}>{groups}</g>"
 
     def data(self) -> dict[str, Any]:
         """Return what its script knows of it."""
@@ -158,10 +159,6 @@ class _Side:
         }
 
 
-def _numbered(one: Movable, count: Iterator[int]) -> str:
-    return f' data-m="{next(count)}"' if one.mover else ""
-
-
 def _once(shapes: str, known: dict[str, str]) -> str:
     """Return shapes, or what uses the same ones again."""
     if shapes in known:
@@ -170,10 +167,6 @@ def _once(shapes: str, known: dict[str, str]) -> str:
         return shapes
     known[shapes] = f"s{len(known)}"
     return f'<g id="{known[shapes]}">{shapes}</g>'
-
-
-def _placing(one: Movable) -> str:
-    return f' transform="{one.transform}"' if one.transform else ""
 
 
 def _short(value: Any) -> Any:
@@ -192,8 +185,3 @@ def _short(value: Any) -> Any:
 def packaged(name: str) -> str:
     """Return the text of a file of this room."""
     return files("linkanim.share").joinpath(name).read_text(encoding="utf-8")
-
-
-def _digest(script: str) -> str:
-    """Return what a page's policy knows its script by."""
-    return f"sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}"

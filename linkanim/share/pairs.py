@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -24,10 +24,14 @@ class Pairs:
         """Return the pair as a style's value."""
         return f"var(--c{self._number(light, dark)})"
 
-    def elements(self, light: Iterable[Item], dark: Iterable[Item]) -> Iterator[str]:
-        """Yield the same items, described in both themes, as SVG."""
+    def variables(self, light: Iterable[Colour], dark: Iterable[Colour]) -> list[str]:
+        """Return colours of both themes as a style's values."""
+        return [self.variable(*pair) for pair in zip(light, dark, strict=True)]
+
+    def elements(self, light: Iterable[Item], dark: Iterable[Item]) -> str:
+        """Return the same items, described in both themes, as SVG."""
         coded = [self._coded(*pair) for pair in zip(light, dark, strict=True)]
-        yield from map(_shorter, drawn(coded, lambda colour: f"var(--c{int.from_bytes(colour)})"))
+        return "".join(map(_shorter, drawn(coded, lambda colour: f"var(--c{int.from_bytes(colour)})")))
 
     def styles(self, themes: tuple[ThemeName, ThemeName], stated: ThemeName | None) -> str:
         """Return the style sheet of the colours, ink and background among them by their names.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
 from html import escape
 from itertools import groupby
@@ -16,7 +16,7 @@ from linkanim.picture.picture import Picture
 from linkanim.scenes import load
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
-from linkanim.share.page import Shared, document, packaged, themes_of
+from linkanim.share.page import Shared, document, packaged
 from linkanim.share.pairs import Pairs
 
 INDEX = "index.html"
@@ -50,23 +50,18 @@ def _index(scenes: Iterable[Scene], shared: Shared) -> str:
         f"<ul>{''.join(_entry(scene, shared, pairs) for scene in some)}</ul>"
         for chapter, some in groupby(scenes, lambda scene: scene.chapter)
     ]
-    return Template(packaged(INDEX)).substitute(
-        styles=pairs.styles(themes_of(shared), shared.theme), chapters="\n".join(chapters)
-    )
+    styles = pairs.styles(shared.themes, shared.theme)
+    return Template(packaged(INDEX)).substitute(styles=styles, chapters="\n".join(chapters))
 
 
 def _entry(scene: Scene, shared: Shared, pairs: Pairs) -> str:
-    picture = "".join(_drawn(scene, shared, pairs))
+    light, dark = (
+        Picture(scene, _SIZE, Look(hud=False, trace=False, theme=theme)) for theme in shared.themes
+    )
+    pose, _ = light.poses(_EARLY * scene.period)
+    groups = zip(light.groups(pose), dark.groups(pose), strict=True)
+    picture = "".join(pairs.elements(clipped(one), clipped(other)) for one, other in groups)
     words = f"<b>{escape(scene.title)}</b><span>{escape(scene.info.class_name)}</span>"
     size = f"0 0 {_SIZE[0]} {_SIZE[1]}"
     drawn = f'<svg viewBox="{size}" aria-hidden="true">{picture}</svg>'
     return f'<li><a href="{escape(scene.name)}.html">{drawn}{words}</a></li>'
-
-
-def _drawn(scene: Scene, shared: Shared, pairs: Pairs) -> Iterator[str]:
-    light, dark = (
-        Picture(scene, _SIZE, Look(hud=False, trace=False, theme=theme)) for theme in themes_of(shared)
-    )
-    pose, _ = light.poses(_EARLY * scene.period)
-    for one, other in zip(light.groups(pose), dark.groups(pose), strict=True):
-        yield from pairs.elements(clipped(one), clipped(other))

@@ -10,7 +10,7 @@ import base64
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,13 +37,6 @@ _NOWHERE = complex(-1e4, -1e4)
 Whole = NDArray[np.int64]
 
 
-class Points(NamedTuple):
-    """What moves, by name, and where: joints, then centres of mass, which are called by `centre`."""
-
-    names: tuple[str, ...]
-    still: frozenset[str]
-
-
 def centre(body: str) -> str:
     """Return what a body's centre of mass is called among the points."""
     return f"{body} (centre of mass)"
@@ -60,7 +53,9 @@ class Track:
 
 def tracks(scene: Scene, view: View) -> dict[str, Track]:
     """Return the tracks of all joints and centres of mass over one true period of phase."""
-    names, fixed = _points(scene)
+    joints = scene.linkage.joints
+    centres = (centre(body.name) for body in scene.linkage.bodies if body.com is not None)
+    names, fixed = (*(one.name for one in joints), *centres), {one.name for one in joints if one.fixed}
     first = min(max(_FIRST, 1 << math.ceil(math.log2(_FIRST * scene.period / math.tau))), GRID)
     step = GRID // first
     begins = {name: np.arange(0, GRID if name not in fixed else 1, step) for name in names}
@@ -74,13 +69,6 @@ def tracks(scene: Scene, view: View) -> dict[str, Track]:
     kept = {name: np.unique(np.concatenate(some)) for name, some in nodes.items()}
     solved = _Solved(scene, view, names, np.unique(np.concatenate([*kept.values()])))
     return {name: solved.track(name, some) for name, some in kept.items()}
-
-
-def _points(scene: Scene) -> Points:
-    joints = scene.linkage.joints
-    centres = (centre(body.name) for body in scene.linkage.bodies if body.com is not None)
-    fixed = frozenset(joint.name for joint in joints if joint.fixed)
-    return Points((*(joint.name for joint in joints), *centres), fixed)
 
 
 def _looked_at(open_: Mapping[str, Whole], step: int) -> Whole:
