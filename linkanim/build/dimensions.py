@@ -81,13 +81,17 @@ def take(building: Building) -> Building:
 
 
 def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
-    """Yield the fields of a thing that are numbers, with their keys."""
+    """Yield the fields of a thing that are numbers, with their keys.
+
+    Those of a fixed pin are x and y, then its distance and direction from the origin.
+    """
     if thing is None:
         return
     kind, name = thing
     if kind == JOINT:
         if name in draft.of("pins"):
-            yield from _of_pin(draft, name)
+            yield from ((("pins", name, part), forms.PLACE) for part in (0, 1))
+            yield from ((("pins", name, one.key), one) for one in forms.POLAR_PIN.fields)
         for own in ("points", "yokes", "gears"):
             if name in draft.of(own):
                 yield from _of_form(_FORMS[own], draft.of(own)[name], (own, name))
@@ -115,13 +119,6 @@ def _of_form(form: Form, table: Mapping[str, Any], key: Key) -> Iterator[tuple[K
             yield from (((*key, one.key, part), one) for part in (0, 1))
         elif one.plain and one.plain.measure and not ("slider" in table and one.key == "start"):
             yield (*key, one.key), one
-
-
-def _of_pin(draft: Draft, name: str) -> Iterator[tuple[Key, Field]]:
-    """Yield what may be typed of a fixed pin: x and y, or its distance and direction from the origin."""
-    plain: list[tuple[Key, Field]] = [(("pins", name, part), forms.PLACE) for part in (0, 1)]
-    polar: list[tuple[Key, Field]] = [(("pins", name, one.key), one) for one in forms.POLAR_PIN.fields]
-    yield from [*plain, *polar]
 
 
 def _dimension(draft: Draft, key: Key, one: Field) -> Dimension:

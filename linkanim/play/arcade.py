@@ -10,6 +10,7 @@ from linkanim.errors import LinkanimError
 from linkanim.play.games import game_of
 from linkanim.play.words import GameWords
 from linkanim.player.state.state import Game
+from linkanim.user_data import kept_as
 
 if TYPE_CHECKING:
     from linkanim.play.question import QuestionId
@@ -94,9 +95,7 @@ class Arcade:
 
     @property
     def _file(self) -> Path:
-        from linkanim.play.scores import usual_path
-
-        return self._path or usual_path()
+        return self._path or kept_as("scores.json")
 
     def _scores(self) -> Scores:
         from linkanim.play.scores import loaded

@@ -59,11 +59,9 @@ class Menu(OverWhatRuns):
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the chapters."""
-        best = dict(self.best)
+        best = {name: f"best {score}" for name, score in self.best}
         choices = tuple(
-            Choice(
-                f"{n}", titled(chapter), below=_best(best.get(f"{chapter.replace(' ', '_')}.{self.level}"))
-            )
+            Choice(f"{n}", titled(chapter), below=best.get(f"{chapter.replace(' ', '_')}.{self.level}", ""))
             for n, chapter in enumerate(self._rows(state), 1)
         )
         level = Choice(f"{len(choices) + 1}", f"Level {self.level}", below=_ABOUT[self.level])
@@ -75,10 +73,6 @@ class Menu(OverWhatRuns):
             chosen=self._rows(state).index(self.chapter),
         )
         return replace(over, game=panel)
-
-
-def _best(score: int | None) -> str:
-    return "" if score is None else f"best {score}"
 
 
 def read(words: GameWords) -> Menu:

@@ -15,7 +15,6 @@ from linkanim.document import Section
 from linkanim.errors import BadInput, LinkanimError, WorkFailed
 from linkanim.intake import Intake
 from linkanim.play.question import QuestionId
-from linkanim.user_data import kept_as
 
 VERSION = 1
 _MARK = "linkanim_scores"
@@ -48,11 +47,6 @@ class Scores:
                 kept = (*others, question_id) if name == "missed" else others
                 return replace(self, missed=kept[-_MOST_MISSED:])
         return self
-
-
-def usual_path() -> Path:
-    """Return where scores are kept: in the user's data folder."""
-    return kept_as("scores.json")
 
 
 def load(path: Path) -> Scores:

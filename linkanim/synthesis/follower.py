@@ -124,7 +124,7 @@ def lines_of(stream: TextIO) -> SimpleQueue[str | None]:
 
 
 def main() -> None:
-    """PathAnswer requests until there are no more."""
+    """Answer requests until there are no more."""
     requests = lines_of(sys.stdin)
     atlas(FOUR_BAR)
     follower, line = Follower(), requests.get()

@@ -13,7 +13,8 @@ import pytest
 
 from linkanim.play.arcade import Arcade
 from linkanim.play.question import QuestionId
-from linkanim.play.scores import Scores, load, loaded, save, usual_path
+from linkanim.play.scores import Scores, load, loaded, save
+from linkanim.user_data import kept_as
 
 MISSED = QuestionId("dead centre", "slider-crank", 6.075, "slider")
 KEPT = Scores("play", {"four-bars.1": 1200, "all.3": 40}, (MISSED,))
@@ -86,12 +87,12 @@ def test_a_folder_in_its_place_is_said_and_the_games_go_on(tmp_path: Path) -> No
 
 
 def test_the_usual_place_is_no_user_s_while_tests_run() -> None:
-    assert "linkanim-tests-" in str(usual_path())
+    assert "linkanim-tests-" in str(kept_as("scores.json"))
 
 
 def test_a_user_without_a_home_leaves_no_folder_named_for_one(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: Path("~/.local/share/linkanim"))
-    assert usual_path().is_absolute()
+    assert kept_as("scores.json").is_absolute()
 
 
 WRITER = """

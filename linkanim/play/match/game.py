@@ -72,7 +72,7 @@ class MatchGame:
         return level_of(self.level)
 
     @property
-    def points(self) -> tuple[int, int, int]:
+    def points(self) -> tuple[int, ...]:
         """The three scores, 0 to 100."""
         return _earned(shares(self.found, self.of_level.full))
 
@@ -248,10 +248,9 @@ def shares(found: Worth, full: Worth) -> tuple[float, float, float]:
     return max(off, 0.0), max(links, 0.0), min(found.angle / full.angle, 1.0)
 
 
-def _earned(three: tuple[float, float, float]) -> tuple[int, int, int]:
+def _earned(three: tuple[float, float, float]) -> tuple[int, ...]:
     """Return shares of full scores in points."""
-    exact, small, angle = (int(_POINTS * share + 1e-9) for share in three)
-    return exact, small, angle
+    return tuple(int(_POINTS * share + 1e-9) for share in three)
 
 
 def _worded(found: Worth) -> tuple[str, str, str]:
@@ -326,14 +325,14 @@ def read(words: GameWords) -> MatchGame:
 
 
 def _joints_of(text: str) -> Linkage4:
+    numbers = text.split(",")
     try:
-        x2, y2, xa, ya, xb, yb, x4, y4, xp, yp = map(float, text.split(","))
-    except ValueError:
+        places = zip(numbers[::2], numbers[1::2], strict=True)
+        joints = Linkage4(*(complex(float(x), float(y)) for x, y in places))
+    except (ValueError, TypeError):
         raise BadInput(
             f"match: joints={shown(text)} are not ten numbers, x and y of O2, A, B, O4, P"
         ) from None
-    places = ((x2, y2), (xa, ya), (xb, yb), (x4, y4), (xp, yp))
-    joints = Linkage4(*(complex(*place) for place in places))
     if not all(abs(place) < 1e9 for place in joints) or joints.A == joints.B:
         raise BadInput(f"match: joints={shown(text)} make no four-bar")
     return joints

@@ -21,13 +21,13 @@ from linkanim.synthesis.kinds import Complex
 
 _STEPS = 24
 """Points along each curved piece."""
-_TOKEN = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])|([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|[\s,]+|(.)")
-_FLAG = re.compile(r"[\s,]*([01])")
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_TOKEN = re.compile(rf"(?P<letter>[MmZzLlHhVvCcSsQqTtAa])|(?P<number>{_NUMBER.pattern})|[\s,]+")
+_FLAG = re.compile(r"[\s,]*(?P<number>[01])(?P<letter>)")
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 _MOST_PIECES = 5_000
 _NOT_DRAWN = frozenset({"defs", "clipPath", "mask", "marker", "pattern", "symbol"})
 _TRANSFORM = re.compile(r"[\s,]*(matrix|translate|scale|rotate|skewX|skewY)\s*\(([-+\deE.,\s]*)\)")
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _ARGUMENTS = {
     "matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,),
 }  # fmt: skip
@@ -145,27 +145,23 @@ def _pieces(drawn: str, where: str) -> Iterator[tuple[str, list[float]]]:
     """Yield each command's letter with its numbers, repeated ones each on its own; M is followed by L."""
     letter, values, place = "", list[float](), 0
     while place < len(drawn):
-        arc_flag = letter in "Aa" and letter and len(values) in (3, 4)
-        found = (_FLAG if arc_flag else _TOKEN).match(drawn, place)
-        if found is None or (not arc_flag and found[3]):
+        found = (_FLAG if letter in ("A", "a") and len(values) in (3, 4) else _TOKEN).match(drawn, place)
+        if found is None:
             raise BadInput(f"{where}: the path cannot be read at {drawn[place : place + 12]!r}")
         place = found.end()
-        if not arc_flag and found[1]:
+        if found["letter"]:
             if values:
                 raise BadInput(f"{where}: the path's {letter} has too few numbers")
-            letter = found[1]
+            letter = found["letter"]
             if letter in "Zz":
                 yield letter, []
-            continue
-        number = found[1] if arc_flag else found[2]
-        if number is None:
-            continue
-        values.append(float(number))
-        if not letter or letter in "Zz" or not math.isfinite(values[-1]):
-            raise BadInput(f"{where}: the path has the number {number} where none can be")
-        if len(values) == _TAKES[letter.upper()]:
-            yield letter, values
-            values, letter = [], {"M": "L", "m": "l"}.get(letter, letter)
+        elif found["number"]:
+            values.append(float(found["number"]))
+            if not letter or letter in "Zz" or not math.isfinite(values[-1]):
+                raise BadInput(f"{where}: the path has the number {found['number']} where none can be")
+            if len(values) == _TAKES[letter.upper()]:
+                yield letter, values
+                values, letter = [], {"M": "L", "m": "l"}.get(letter, letter)
     if values:
         raise BadInput(f"{where}: the path's {letter} has too few numbers")
 
