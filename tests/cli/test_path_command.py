@@ -56,6 +56,7 @@ def test_the_table_has_a_line_for_each_answer_and_a_shorter_one_leaves_no_old_fi
     search = linkanim.path
 
     def once(*points: Any, count: int, **options: Any) -> Any:
+        assert options.pop("kind") == "slider-crank"  # which would take an atlas of its own
         made.extend([] if made else search(*points, count=2, **options))
         return made[:count]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from pathlib import Path
 
 import pygame
@@ -33,6 +33,11 @@ def run(state: State, frames: int) -> State:
     for _ in range(frames):
         state = advance(state)
     return state
+
+
+def every_other(state: State, first: int, last: int) -> list[State]:
+    """Return the state at every second frame from one on to another one."""
+    return [*accumulate(range(first, last - 2, 2), lambda one, _: run(one, 2), initial=run(state, first))]
 
 
 @pytest.fixture
@@ -115,14 +120,15 @@ def test_a_strip_says_what_to_press_until_a_key_is(rocker: State) -> None:
 
 @pytest.mark.slow
 def test_a_strip_comes_in_and_goes_out_gently(rocker: State) -> None:
-    shown = [strip.eighths if (strip := overlay(run(rocker, n)).hint) else 0 for n in range(350, 730, 2)]
+    strips = [overlay(state).hint for state in every_other(rocker, 350, 730)]
+    shown = [strip.eighths if strip else 0 for strip in strips]
     assert max(shown) == 8
     assert max(abs(a - b) for a, b in pairwise(shown)) <= 1
 
 
 @pytest.mark.slow
 def test_what_to_watch_for_is_told_first_and_goes_gently_before_the_strip(rocker: State) -> None:
-    frames = [run(rocker, n) for n in range(0, 380, 2)]
+    frames = every_other(rocker, 0, 380)
     told = [overlay(state).watch for state in frames]
     shown = [one.eighths if one else 0 for one in told]
     assert {one.text for one in told if one} == {rocker.scene.look_at}
