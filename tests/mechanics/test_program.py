@@ -127,7 +127,7 @@ def test_a_value_is_handed_down_to_its_result_in_one_place() -> None:
     program = batch({"x": True}, [first, sqrt(second * second + first)])
     rows, work = ([np.empty(4).view(Watched) for _ in range(n)] for n in (2, program.buffers))
     Watched.seen.clear()
-    program.block((np.ones(4),), program.constants, rows, work)
+    program.block(np.ones(4), *program.constants, *rows, *work)
     # Only x², the first result and the second's first sum have no argument to be written over.
     assert Watched.seen.count(False) == 3
     assert rows[1][0] == math.sqrt((1 - math.sqrt(3)) ** 2 + 2)

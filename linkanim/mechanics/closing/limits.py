@@ -170,7 +170,7 @@ def _limit(
 ) -> tuple[Sum, str]:
     """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
     row = _first_shut(shut, found.margins(np.array(bracket[1:]))[:, 0])
-    start = found.beside(bracket[1], row, 1 if bracket[0] > bracket[1] else -1)
+    start = found.beside(bracket[1], found.names[row], 1 if bracket[0] > bracket[1] else -1)
     if start is None:
         inside, outside = (np.array([phase]) for phase in bracket)
         limit = ends_of(lambda phases: found.margins(phases[:, 0])[row, :, None] >= 0, inside, outside)
@@ -214,7 +214,7 @@ def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
     path, known = assembly.path, assembly.chain.get(name, ChainRoot((), 0.0))
     touches = tuple(Touch(path.place(phase), path.periods, path.amplitude) for phase in found.touches(name))
     dips = tuple(Dip(path.place(phase), path.periods, path.amplitude) for phase in found.dips(name))
-    root = ChainRoot((*known.zeros, *touches), found.scale(name) * LEAST, dips=dips)
+    root = ChainRoot((*known.zeros, *touches), found.scales[name] * LEAST, dips=dips)
     if not (root.zeros or dips):
         return assembly
     side = root.side(path.state(JUST_AFTER, Slope(1.0)))

@@ -38,7 +38,10 @@ def around(turns: int, samples_a_turn: int) -> Array:
 
 
 def highest(
-    function: Callable[[Array], Array], place: float, reach: float, ends: tuple[float, float]
+    function: Callable[[Array], Array],
+    place: float,
+    reach: float,
+    ends: tuple[float, float] = (-math.inf, math.inf),
 ) -> float:
     """Return where a function is highest within `reach` of a place and between `ends`; NaN counts as least.
 

@@ -90,45 +90,44 @@ class Extreme:
 class Separations:
     """The margins of the dyads on moving points along a path, at samples among which are all that decide."""
 
-    names: tuple[str, ...]
-    scales: Array
-    """What each margin is beside (D,)."""
+    scales: Mapping[str, float]
+    """What the margin of each dyad is beside."""
     phases: Array
     shut: Bools
     """Of every dyad at every phase, whether it does not close there (D, N)."""
-    settled: tuple[tuple[Extreme, ...], ...]
+    settled: Mapping[str, tuple[Extreme, ...]]
     """Of every dyad, the extremes at which floats cannot tell its margin from nothing."""
-    barely: tuple[tuple[float, ...], ...]
+    barely: Mapping[str, tuple[float, ...]]
     """Of every dyad, the phases of others at which it barely closes."""
     margins: Callable[[Array], Array]
     """Returns the margins over their scale at phases (D, N)."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The dyads, in the order of rows."""
+        return tuple(self.scales)
 
     @property
     def closes(self) -> bool:
         """Whether every dyad closes all along."""
         return not self.shut.any()
 
-    def beside(self, phase: float, row: int, way: int) -> Sum | None:
+    def beside(self, phase: float, name: str, way: int) -> Sum | None:
         """Return where a stretch about an extreme ends, on that side, in which floats see the dyad close."""
-        for found in self.settled[row]:
+        for found in self.settled[name]:
             turns = round((phase - found.phase) / (2 * math.pi))
             if found.closes < 0 and abs(phase - found.phase - turns * 2 * math.pi) <= found.reach:
                 return found.place + FULL_TURN.times(float(turns)) + Sum(way * found.reach)
         return None
 
-    def scale(self, name: str) -> float:
-        """Return what a dyad's margin is beside."""
-        return float(self.scales[self.names.index(name)])
-
     def touches(self, name: str) -> tuple[Sum, ...]:
         """Return the phases at which a dyad's bars just fall into line."""
-        return tuple(found.place for found in self.settled[self.names.index(name)] if found.closes == 0)
+        return tuple(found.place for found in self.settled[name] if found.closes == 0)
 
     def dips(self, name: str) -> tuple[Sum, ...]:
         """Return the phases at which a dyad barely closes, its separation being extreme."""
-        row = self.names.index(name)
-        settled = (found.place for found in self.settled[row] if found.closes > 0)
-        return (*settled, *map(Sum, self.barely[row]))
+        settled = (found.place for found in self.settled[name] if found.closes > 0)
+        return (*settled, *map(Sum, self.barely[name]))
 
 
 def separations(assembly: Assembly) -> Separations:
@@ -140,9 +139,7 @@ def separations(assembly: Assembly) -> Separations:
     scales = _scales(assembly, phases)
     if not scales:
         nothing = np.zeros((0, len(phases)))
-        return Separations(
-            (), nothing[:, 0], phases, nothing > 0, (), (), lambda places: nothing[:, : len(places)]
-        )
+        return Separations({}, phases, nothing > 0, {}, {}, lambda places: nothing[:, : len(places)])
     scale, barely = np.array([*scales.values()]).T
     found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
     closings = {name: found[name] for name in scales}
@@ -151,21 +148,20 @@ def separations(assembly: Assembly) -> Separations:
     extremes = _places(sampled, samples, _turning(samples, barely), 0)
     peaks = _places(sampled, samples, _passing(samples), 3)
     samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
-    low = [
-        _low(assembly, name, (places, sampled(places).rows[2, row]), barely[row])
+    low = {
+        name: _low(assembly, name, (places, sampled(places).rows[2, row]), barely[row])
         for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
-    ]
-    settled = tuple(
-        tuple(_settled(assembly, name, places[margins <= TOUCHING]))
-        for name, (places, margins) in zip(closings, low, strict=True)
-    )
+    }
+    settled = {
+        name: tuple(_settled(assembly, name, places[margins <= TOUCHING]))
+        for name, (places, margins) in low.items()
+    }
     return Separations(
-        tuple(closings),
-        scale,
+        dict(zip(scales, scale.tolist(), strict=True)),
         samples.phases,
-        _shut(samples, settled),
+        _shut(samples, [*settled.values()]),
         settled,
-        tuple(tuple(places[margins > TOUCHING].tolist()) for places, margins in low),
+        {name: tuple(places[margins > TOUCHING].tolist()) for name, (places, margins) in low.items()},
         lambda phases: np.asarray(sampled(phases).rows[2]),
     )
 
@@ -196,7 +192,7 @@ def _compiled(rows: Sequence[Sequence[Value]]) -> Callable[[Array], Array]:
 
     def run(phases: Array) -> Array:
         with np.errstate(all="ignore"):
-            return np.asarray(program(phases), np.float64).reshape(len(rows), len(rows[0]), len(phases))
+            return program(phases).reshape(len(rows), len(rows[0]), len(phases))
 
     return run
 

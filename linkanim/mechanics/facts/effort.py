@@ -213,10 +213,8 @@ def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> floa
     sizes = np.abs(known)
     tops = np.flatnonzero((sizes >= np.roll(sizes, 1)) & (sizes >= np.roll(sizes, -1)))
     tops = tops[np.argsort(-sizes[tops])][:_TOPS]
-    ends = (-math.inf, math.inf)
     places = [
-        highest(lambda near: np.abs(effort(near)), phase, float(phases[1]), ends)
-        for phase in phases[tops].tolist()
+        highest(lambda near: np.abs(effort(near)), phase, float(phases[1])) for phase in phases[tops].tolist()
     ]
     peaks = effort(np.array(places))
     return float(peaks[np.abs(peaks).argmax()])

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import partial
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -20,7 +19,7 @@ from linkanim.mechanics.closing.kinds import walk_at
 from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, changes_by_row, highest, own_rows
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
-from linkanim.mechanics.formulas.program import Array, Batch, batch
+from linkanim.mechanics.formulas.program import Array, batch
 from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.mechanics.motion.mechanism import Mechanism
 
@@ -68,9 +67,7 @@ def _where_least(mechanism: Mechanism, dyad: str) -> float:
 
     places = around(mechanism.periods, SAMPLES_A_TURN)
     worst = float(places[np.nanargmax(negative(places))])
-    return highest(negative, worst, 2 * math.pi / SAMPLES_A_TURN, (-math.inf, math.inf)) % (
-        2 * math.pi * mechanism.periods
-    )
+    return highest(negative, worst, math.tau / SAMPLES_A_TURN) % (math.tau * mechanism.periods)
 
 
 def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
@@ -95,26 +92,22 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
     parts = [(one.separation.value, one.separation.rate, one.half_difference) for one in closings]
     turning = batch({"x": True}, [value for values in parts for value in values])
     factors = batch({"x": True}, [closing.u for closing in closings] + [closing.w for closing in closings])
+
+    def moving(phases: Array) -> Array:
+        """Return each separation, its rate, none where the ends are carried by one body, and U - W."""
+        values = turning(phases)
+        rates = values[1::3]
+        rates[np.abs(rates) <= RIGID * np.abs(values[::3])] = 0.0
+        return values
+
     places = around(assembly.path.periods, SAMPLES_A_TURN)
     with np.errstate(all="ignore"):
-        rows, extremes = changes_by_row(partial(_moving, turning), places, NEARLY)
+        rows, extremes = changes_by_row(moving, places, NEARLY)
         whose = np.concatenate([np.arange(count), rows // len(parts[0])])
         where = np.concatenate([np.repeat(places[:1], count), extremes])
-        u, w = (own_rows(partial(_run, factors), whose + half, where) for half in (0, count))
+        u, w = (own_rows(factors, whose + half, where) for half in (0, count))
     for row, name in enumerate(found):
         yield name, np.column_stack([u, w])[whose == row]
-
-
-def _run(program: Batch, places: Array) -> Array:
-    return np.asarray(program(places), dtype=np.float64)
-
-
-def _moving(program: Batch, places: Array) -> Array:
-    """Return each separation, its rate, which is none where the ends are carried by one body, and U - W."""
-    values = _run(program, places)
-    rates = values[1::3]
-    rates[np.abs(rates) <= RIGID * np.abs(values[::3])] = 0.0
-    return values
 
 
 def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:

@@ -26,8 +26,6 @@ from linkanim.mechanics.formulas.expression import WHOLE, Expr, Value
 from linkanim.mechanics.formulas.precise import cosine, sine, square_root
 
 Array = NDArray[np.float64]
-Floats = NDArray[np.floating[Any]]
-"""Results in double precision, or in any other."""
 Bools = NDArray[np.bool_]
 
 
@@ -196,12 +194,12 @@ class Batch:
     outputs: tuple[Value, ...]
     block: Callable[..., Any]
     prelude: Callable[..., tuple[float, ...]]
-    constants: tuple[Floats, ...]
+    constants: tuple[Array, ...]
     buffers: int
-    spare: list[list[Floats]] = field(default_factory=list, compare=False, repr=False)
+    spare: list[list[Array]] = field(default_factory=list, compare=False, repr=False)
     """Buffers of calls that are over; a call takes its own, so that threads do not share any."""
 
-    def __call__(self, *values: Floats | float) -> Floats:
+    def __call__(self, *values: Array | float) -> Array:
         """Return the outputs as rows (outputs, N)."""
         several = len(self.arrays)
         arrays: Sequence[Any] = values[:several]
@@ -211,19 +209,19 @@ class Batch:
         size = _block_size(count)
         work = self._buffers(size)
         if count == size:
-            self.block(arrays, numbers, list(results), work)
+            self.block(*arrays, *numbers, *results, *work)
         else:
             for part in (slice(first, min(first + size, count)) for first in range(0, count, size)):
                 inside = [row[: part.stop - part.start] for row in work]
-                self.block([array[part] for array in arrays], numbers, list(results[:, part]), inside)
+                self.block(*(array[part] for array in arrays), *numbers, *results[:, part], *inside)
         self.spare.append(work)
         return results
 
-    def _numbers(self, values: Sequence[Any]) -> list[Floats]:
+    def _numbers(self, values: Sequence[Any]) -> list[Array]:
         """Return what is the same along the array, without a dimension."""
         return [*(np.array(value, np.float64) for value in self.prelude(*values)), *self.constants]
 
-    def _buffers(self, size: int) -> list[Floats]:
+    def _buffers(self, size: int) -> list[Array]:
         """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
         work = self.spare.pop() if self.spare else []
         if work and len(work[0]) == size:
@@ -231,7 +229,7 @@ class Batch:
         return list(aligned_rows(self.buffers, size))
 
 
-def aligned_rows(rows: int, count: int) -> Floats:
+def aligned_rows(rows: int, count: int) -> Array:
     """Return an array (rows, count) to be filled, each row from a cache line's begin on.
 
     Vector units take whole cache lines; a row that begins elsewhere costs them two for each.
@@ -291,16 +289,11 @@ class _Block:
         self.constants = _Constants()
 
     def function(self, arrays: Sequence[str], uniform: Sequence[str]) -> Callable[..., Any]:
-        """Return the function that runs one block: (arrays, numbers, result rows, buffers)."""
+        """Return the function that runs one block, of arrays, numbers, result rows and buffers."""
         calls = list(self._calls())
-        unpack = [
-            _unpacking(arrays, "arrays"),
-            _unpacking([*uniform, *self.constants.numbers], "numbers"),
-            _unpacking(self.rows, "rows"),
-            _unpacking([f"b{index}" for index in range(self.places.buffers)], "buffers"),
-        ]
-        body = [line for line in (*unpack, *calls) if line]
-        source = "\n    ".join(["def block(arrays, numbers, rows, buffers):", *(body or ["pass"])])
+        buffers = (f"b{index}" for index in range(self.places.buffers))
+        names = ", ".join((*arrays, *uniform, *self.constants.numbers, *self.rows, *buffers))
+        source = "\n    ".join([f"def block({names}):", *(calls or ["pass"])])
         return _define(source, "block", {**UFUNCS, "where": np.where})
 
     def _calls(self) -> Iterator[str]:
@@ -322,7 +315,3 @@ class _Block:
         held = self.places.held.get(value.index) if isinstance(value, Expr) else None
         # a constant is an array of no dimension: numpy would make one of a plain number at every call
         return held or self.constants.name(value)
-
-
-def _unpacking(names: Sequence[str], source: str) -> str:
-    return f"{', '.join(names)}, = {source}" if names else ""

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from linkanim.mechanics.formulas.expression import Value
-from linkanim.mechanics.formulas.program import Array, Floats
+from linkanim.mechanics.formulas.program import Array
 
 Pair = tuple[float, float]
 
@@ -83,7 +83,7 @@ class Lazy(Mapping[str, Any]):
         return len(self._names)
 
 
-def columns(places: Mapping[str, Place], results: Floats, shape: tuple[int, ...]) -> Mapping[str, Array]:
+def columns(places: Mapping[str, Place], results: Array, shape: tuple[int, ...]) -> Mapping[str, Array]:
     """Return one kind of quantity by name: views of the results.
 
     A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.

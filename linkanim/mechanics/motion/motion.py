@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.drive.input_path import LimitDistances
-from linkanim.mechanics.formulas.program import Array, Batch, Floats
+from linkanim.mechanics.formulas.program import Array, Batch
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.loops.loop import Gearing
 from linkanim.mechanics.motion.columns import Lazy, ResultLayout, columns, read_only, scaled, turned
@@ -286,7 +286,7 @@ class Motion(Derived[Array, Array]):
         places, results = self._run(kinds)
         return {kind: columns(names, results, self.instants.shape) for kind, names in places.places.items()}
 
-    def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Floats]:
+    def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Array]:
         instants, path = self.instants, self.setting.assembly.path
         program, places = self.setting.program(instants.variant, kinds)
         rates = instants.rates if instants.variant.accelerates else instants.rates[:1]
@@ -374,7 +374,7 @@ class _Paced(Motion):
         return {name: scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
 
 
-def _mark_limits(places: ResultLayout, results: Floats, snapped: Floats, at_limit: NDArray[np.bool_]) -> None:
+def _mark_limits(places: ResultLayout, results: Array, snapped: Array, at_limit: NDArray[np.bool_]) -> None:
     """Give rates the values they have at the limit itself: infinite where they are unbounded."""
     for row, kind in enumerate(places.kinds):
         if DERIVATIVE_OF[kind]:
