@@ -94,9 +94,12 @@ class Mechanism(Setting):
         if self.retraced:
             at, sign = (float(part) for part in retraced(phase))
             w, a = (w, a) if per_input else (sign * w, sign * a)
-        key = derivatives, acceleration != 0.0, per_input
-        found = None if self.passing else self._in_floats(key, at, w, a)
-        pose = Pose(found or self._from_arrays(key, at, w, a))
+        key = derivatives, a != 0.0, per_input
+        try:
+            program = self._poses.get(key) or self._in_floats(key)
+            pose = Pose(program(at, w, a, self))
+        except (ZeroDivisionError, ValueError):
+            pose = Pose(self._from_arrays(key, at, w, a))
         if self.retraced and not per_input:
             vars(pose).update(phase=phase, input_speed=speed, input_acceleration=acceleration)
         return pose
@@ -105,17 +108,14 @@ class Mechanism(Setting):
         """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
         return self.pose(phase, 1.0, 0.0, 2, not self.assembly.path.full_turn)
 
-    def _in_floats(self, key: _Key, *instant: float) -> dict[str, Any] | None:
-        """Return an instant solved in plain floats; None where they raise."""
-        program = self._poses.get(key)
-        if program is None:
-            derivatives, accelerates, per_input = key
-            trace = self.trace(Variant(True, accelerates, per_input=per_input))
-            program = self._poses[key] = _scalar(trace, derivatives)
-        try:
-            return program(*instant, self)
-        except (ZeroDivisionError, ValueError):
-            return None
+    def _in_floats(self, key: _Key) -> Callable[..., dict[str, Any]]:
+        """Return the program of one instant; ValueError where it would cost more than it saves."""
+        if self.passing:
+            raise ValueError("a mechanism on its way is solved from arrays")
+        derivatives, accelerates, per_input = key
+        trace = self.trace(Variant(True, accelerates, per_input=per_input))
+        found = self._poses[key] = _scalar(trace, derivatives)
+        return found
 
     def trace(self, variant: Variant) -> Traced:
         """Record the formulas of all quantities, lengths in the scene's unit."""
