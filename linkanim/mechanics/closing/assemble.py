@@ -13,7 +13,7 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.kinds import CLOSERS, walk_at
 from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.drive.input_path import InputPath
-from linkanim.mechanics.drive.ranges import Arc, arcs_of, open_arcs
+from linkanim.mechanics.drive.ranges import arcs_of, open_arcs
 from linkanim.mechanics.drive.strokes import STROKES
 from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.drive.turn import Turn
@@ -84,7 +84,7 @@ def _scale(linkage: Linkage) -> float:
 
 
 def _paths(
-    linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Arc] | None, unscale: float
+    linkage: Linkage, loops: Mapping[str, Loop], arcs: list[Swing] | None, unscale: float
 ) -> Iterator[InputPath]:
     """Yield the paths the input may take, the best one first."""
     stroke = STROKES.get(type(linkage.drive.actuator))
@@ -97,10 +97,10 @@ def _paths(
     start = linkage.drive.stated_start
     for arc in sorted(arcs, key=lambda arc: _rank(arc, linkage, loops)):
         around = arc if start is None else arc.shifted(arc.turns_to(start))
-        yield Swing(around.low, around.high, arc.ends, rounds=_rounds(linkage, loops, arc))
+        yield replace(around, rounds=_rounds(linkage, loops, arc))
 
 
-def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Arc) -> int:
+def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Swing) -> int:
     """Return 2 where one loop sets both ends of a range and another is at its limit at one of them, too."""
     first, last = arc.ends
     others = {name: loop for name, loop in loops.items() if name != first and loop.pin == linkage.drive.joint}
@@ -116,12 +116,11 @@ def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Arc) -> int:
     return 1
 
 
-def _rank(arc: Arc, linkage: Linkage, loops: Mapping[str, Loop]) -> tuple[bool, bool]:
+def _rank(arc: Swing, linkage: Linkage, loops: Mapping[str, Loop]) -> tuple[bool, bool]:
     """Order ranges: the one that contains a stated start, then the one above the ground line."""
     start, loop = linkage.drive.stated_start, loops[arc.ends[0]]
-    half, middle = float(arc.high - arc.low) / 2, arc.middle
-    contained = start is not None and abs(math.remainder(start - middle, 2 * math.pi)) <= half
-    left = math.sin(middle - float(loop.root.reference)) > 0
+    contained = start is not None and arc.holds(start)
+    left = math.sin(float(arc.middle) - float(loop.root.reference)) > 0
     return not contained, left == _runs_back(linkage, arc.ends[0], loop)
 
 

@@ -45,6 +45,18 @@ from linkanim.mechanics.loops.input_state import swing_by_angle
 
 Decimals = tuple[Decimal, ...]
 
+PARTING = (
+    "the two ends of its equal bars meet and part the way they came, so that it could "
+    "go on in any direction; make one of the bars longer or shorter"
+)
+TOO_NEAR = (
+    "its limit lies too near to another one to be told from it; make one length a little longer or shorter"
+)
+TURNING_BACK = (
+    "it falls into one line just where it turns back, so that it could go on either "
+    "way; make one of its lengths a little longer or shorter"
+)
+
 
 class Sample(NamedTuple):
     """A place next to a zero: the argument of what is fitted, z, and there the margin and D."""
@@ -213,21 +225,9 @@ def _near(assembly: Assembly, name: str, zero: Fitted) -> Near | None:
         if last <= LAST or width < narrowest:
             break
         width *= max(min(0.8 * (LAST / last) ** (1 / points), 0.8), 0.1)
-    if best is None and meeting:
-        raise AssemblyError(
-            f"joint {name}: the two ends of its equal bars meet and part the way they came, so that it could "
-            "go on in any direction; make one of the bars longer or shorter"
-        )
-    if best is None and isinstance(zero, End):
-        raise AssemblyError(
-            f"joint {name}: its limit lies too near to another one to be told from it; "
-            "make one length a little longer or shorter"
-        )
     if best is None and not isinstance(zero, Dip):
-        raise AssemblyError(
-            f"joint {name}: it falls into one line just where it turns back, so that it could go on either "
-            "way; make one of its lengths a little longer or shorter"
-        )
+        why = PARTING if meeting else TOO_NEAR if isinstance(zero, End) else TURNING_BACK
+        raise AssemblyError(f"joint {name}: {why}")
     return best
 
 

@@ -16,14 +16,12 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, two_product, two_sum
+from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.loops.input_state import InputState, turn
 
-NEARLY_ZERO = 1e-8
-"""Half a last digit of this is more than a limit is off by."""
 SAME_PLACE = 1e-9
 """Angles that differ by less, in radians, are one; travels by less than this share of the whole."""
 
@@ -189,15 +187,6 @@ def retraced(phases: Any) -> tuple[Any, Any]:
     return np.abs(within), np.where((within < 0) & (within > -math.pi), -1.0, 1.0)
 
 
-def half_squares(ends: tuple[Sum, Sum], reference: Sum, ratio: Fraction) -> tuple[float, float]:
-    """Return the least and greatest sin²(ψ/2) between two angles θ, where ψ = ratio × θ - reference."""
-    low, high = sorted(float(end * ratio - reference) for end in ends)
-    squares = [math.sin(angle / 2) ** 2 for angle in (low, high)]
-    # An angle whole turns from ψ = 0, or from ψ = π, lies between them.
-    passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
-    return 0.0 if passes[0] else min(squares), 1.0 if passes[1] else max(squares)
-
-
 @dataclass(frozen=True)
 class LimitDistances:
     """How far angles are from the limits of a swing.
@@ -219,32 +208,3 @@ class LimitDistances:
         pairs = (self.u, self.v), (self.v, self.u)
         u, v = (np.where(self.at_limit & (way <= other), 0.0, way) for way, other in pairs)
         return replace(self, u=u, v=v)
-
-
-@np.errstate(all="ignore")
-def limit_distances(angle: Array, swing: tuple[Sum, Sum, Sum], repeats: int) -> LimitDistances:
-    """Return how far angles are from a swing's low end, middle and high end, whole turns aside.
-
-    After `repeats` turns of the input the linkage is the same; they are taken off without rounding.
-    The float nearest a limit is the limit as well as a float can say it: it is never outside, nor is 0 where
-    a limit is what its own last digits leave of 0.
-    """
-    low_end, middle, high_end = swing
-    turns = repeats * np.rint((angle - float(middle)) / (2 * math.pi * repeats))
-    whole, lost = two_product(-turns, FULL_TURN.high)
-    high, error = two_sum(angle, whole)
-    low = error + lost - turns * FULL_TURN.low
-    v, u = np.add(*_way(high, low, low_end)), -np.add(*_way(high, low, high_end))
-    nearest = np.spacing(np.maximum(np.abs(angle), NEARLY_ZERO)) / 2
-    at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
-    outside = ~((np.minimum(u, v) >= 0) | at_limit)
-    near, rest = _way(high, low, middle)
-    way = near + rest
-    u, v = np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2
-    return LimitDistances(way, rest - (way - near), u, v, outside, at_limit)
-
-
-def _way(high: Array, low: Array, limit: Sum) -> tuple[Array, Array]:
-    """Return angle - limit, sums of two floats both, in two parts that overlap."""
-    total, error = two_sum(high, -limit.high)
-    return total, error + (low - limit.low)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.formulas.exact import FULL_TURN, HALF_TURN, Sum
+from linkanim.mechanics.drive.swing import Swing
+from linkanim.mechanics.formulas.exact import HALF_TURN, Sum
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.loops.loop import Loop
@@ -21,35 +20,12 @@ ONE_PLACE = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
-    """A range of the input that one dyad, or several, leave open."""
-
-    low: Sum
-    high: Sum
-    ends: tuple[str, str]
-
-    @property
-    def middle(self) -> float:
-        """The angle in the middle of the range."""
-        return float(self.low + self.high) / 2
-
-    def turns_to(self, angle: float) -> int:
-        """Return by how many turns the range is to be shifted to lie around an angle, or nearest to it."""
-        return round((angle - self.middle) / (2 * math.pi))
-
-    def shifted(self, turns: int) -> Arc:
-        """Return the same range that many turns on."""
-        way = FULL_TURN.times(float(turns))
-        return Arc(self.low + way, self.high + way, self.ends)
-
-
-def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Arc] | None:
+def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Swing] | None:
     """Return the ranges of the input that the loops on its own pin leave open; None for a full turn.
 
     AssemblyError where a loop cannot be closed at any angle, or the loops leave no common range.
     """
-    arcs: list[Arc] | None = None
+    arcs: list[Swing] | None = None
     for name, loop in loops.items():
         if loop.pin == linkage.drive.joint:
             unscale = linkage.crank(loop.pin).length / loop.crank.length
@@ -60,7 +36,7 @@ def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Arc] | None:
     return arcs
 
 
-def arcs_of(joint: Joint, root: LoopRoot, unit: str, unscale: float = 1.0) -> list[Arc] | None:
+def arcs_of(joint: Joint, root: LoopRoot, unit: str, unscale: float = 1.0) -> list[Swing] | None:
     """Return a loop's open ranges in the crank's own angle; times `unscale` its lengths are the joint's."""
     if min(root.u.most, root.w.most) == 0:
         raise AssemblyError(f"joint {joint.name}: {ONE_PLACE}")
@@ -71,17 +47,17 @@ def arcs_of(joint: Joint, root: LoopRoot, unit: str, unscale: float = 1.0) -> li
     u_limits, w_limits = root.u.kind is Kind.LIMIT, root.w.kind is Kind.LIMIT
     if u_limits and w_limits:
         inner, outer = root.w.short, root.u.reach
-        above = Arc(reference + inner, reference + outer, ends)
-        return [above, Arc(reference - outer, reference - inner, ends)]
+        above = Swing(reference + inner, reference + outer, ends)
+        return [above, Swing(reference - outer, reference - inner, ends)]
     if u_limits:
-        return [Arc(reference - root.u.reach, reference + root.u.reach, ends)]
+        return [Swing(reference - root.u.reach, reference + root.u.reach, ends)]
     if w_limits:
         middle = reference + HALF_TURN
-        return [Arc(middle - root.w.reach, middle + root.w.reach, ends)]
+        return [Swing(middle - root.w.reach, middle + root.w.reach, ends)]
     return None
 
 
-def _common(first: list[Arc], second: list[Arc]) -> Iterator[Arc]:
+def _common(first: list[Swing], second: list[Swing]) -> Iterator[Swing]:
     """Yield the ranges that both lists leave open, the input's angle being the same every turn."""
     for a in first:
         for b in second:
@@ -90,7 +66,7 @@ def _common(first: list[Arc], second: list[Arc]) -> Iterator[Arc]:
                 low, low_end = max((a.low, a.ends[0]), (moved.low, moved.ends[0]), key=_size)
                 high, high_end = min((a.high, a.ends[1]), (moved.high, moved.ends[1]), key=_size)
                 if float(high - low) > NO_RANGE:
-                    yield Arc(low, high, (low_end, high_end))
+                    yield Swing(low, high, (low_end, high_end))
 
 
 def _size(end: tuple[Sum, str]) -> tuple[float, float]:

@@ -31,11 +31,9 @@ from linkanim.mechanics.drive.input_path import (
     Limit,
     LimitDistances,
     ThereAndBack,
-    half_squares,
-    limit_distances,
     nearer_way,
 )
-from linkanim.mechanics.drive.ranges import Arc
+from linkanim.mechanics.drive.swing import Swing
 from linkanim.mechanics.formulas.circular import Half, direction, half_of, sharp_half_angle
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, exact_angle
 from linkanim.mechanics.formulas.expression import Graph, Value, arctan2, sqrt
@@ -132,10 +130,15 @@ class CylinderStroke(Stroke):
     runs: ClassVar[str] = "cylinder's length"
 
     @property
+    def swing(self) -> Swing:
+        """How the crank swings, by no dyad's limits."""
+        low, high = sorted(self.angle_of(length) for length in (self.first, self.last))
+        return Swing(Sum(low), Sum(high), ("", ""))
+
+    @property
     def input_range(self) -> tuple[float, float]:
         """How far the crank goes."""
-        low, high = sorted(self.angle_of(length) for length in (self.first, self.last))
-        return low, high
+        return self.swing.input_range
 
     def angle_of(self, length: float) -> float:
         """Return the crank's angle at a length of the cylinder."""
@@ -143,20 +146,13 @@ class CylinderStroke(Stroke):
         sine, cosine = (length - g + r) * (length + g - r), (g + r - length) * (g + r + length)
         return float(self.base) + self.side * 2 * math.atan2(math.sqrt(sine), math.sqrt(cosine))
 
-    @property
-    def middle(self) -> float:
-        """The angle in the middle of the crank's range."""
-        return sum(self.input_range) / 2
-
     def holds(self, place: float, turns: int = 1) -> bool:
         """Tell whether the crank comes to an angle, or to one that many turns away, or twice as many …"""
-        low, high = self.input_range
-        return abs(math.remainder(place - self.middle, 2 * math.pi * turns)) <= (high - low) / 2
+        return self.swing.holds(place, turns)
 
     def around(self, angle: float) -> CylinderStroke:
         """Return the path with its range, by whole turns, around an angle, or nearest to it."""
-        turns = round((angle - self.middle) / (2 * math.pi))
-        return replace(self, base=self.base + FULL_TURN.times(float(turns)))
+        return replace(self, base=self.base + FULL_TURN.times(float(self.swing.turns_to(angle))))
 
     def phase_of(self, place: float, near: float) -> float:
         """Return the phase nearest to `near` at which the crank stands at an angle, or at its end."""
@@ -192,8 +188,7 @@ class CylinderStroke(Stroke):
 
     def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
         """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
-        low, high = self.input_range
-        return half_squares((Sum(low), Sum(high)), reference, ratio)
+        return self.swing.half_squares(reference, ratio)
 
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or symbolic expressions."""
@@ -238,16 +233,15 @@ class CylinderStroke(Stroke):
 
     def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state at its angle from the middle."""
-        return ("x",), turn(graph.input("x"), pace, Sum(self.middle))
+        return ("x",), turn(graph.input("x"), pace, self.swing.middle)
 
     def distances(self, angle: Array) -> LimitDistances:
         """Return which angles the crank comes to; at both ends it merely turns back."""
-        low, high = self.input_range
-        found = limit_distances(angle, (Sum(low), Sum(self.middle), Sum(high)), 1)
+        found = self.swing.distances(angle)
         return replace(found, at_limit=np.zeros_like(found.outside))
 
 
-def cylinder_stroke(linkage: Linkage, unscale: float, arcs: list[Arc] | None) -> CylinderStroke:
+def cylinder_stroke(linkage: Linkage, unscale: float, arcs: list[Swing] | None) -> CylinderStroke:
     """Return the path of a linkage that a cylinder drives, `arcs` being left open by the loops on its crank.
 
     AssemblyError where its triangle does not close, or runs beyond them.
@@ -277,10 +271,10 @@ def cylinder_stroke(linkage: Linkage, unscale: float, arcs: list[Arc] | None) ->
     return _with_room(next(held, paths[0]).around(drive.start), arcs)
 
 
-def _with_room(path: CylinderStroke, arcs: list[Arc] | None) -> CylinderStroke:
+def _with_room(path: CylinderStroke, arcs: list[Swing] | None) -> CylinderStroke:
     """Return the path that a cylinder drives; AssemblyError where a loop on the crank leaves it no room."""
     low, high = path.input_range
-    around = [arc.shifted(arc.turns_to(path.middle)) for arc in arcs or ()]
+    around = [arc.shifted(arc.turns_to(float(path.swing.middle))) for arc in arcs or ()]
     if arcs is None or any(float(arc.low) < low and high < float(arc.high) for arc in around):
         return path
     within = " or ".join(f"{degrees(float(arc.low))}…{degrees(float(arc.high))}" for arc in arcs)
@@ -361,12 +355,12 @@ class SliderStroke(Stroke):
         return tuple(sorted(set(places)))
 
 
-def slider_stroke(linkage: Linkage, unscale: float, arcs: list[Arc] | None) -> SliderStroke:
+def slider_stroke(linkage: Linkage, unscale: float, arcs: list[Swing] | None) -> SliderStroke:
     """Return the path of a linkage that a slider drives; no loop on a crank limits it."""
     return SliderStroke(*linkage.drive.actuator.lengths, unscale=unscale, unit=linkage.unit)
 
 
-STROKES: Mapping[type[Actuator], Callable[[Linkage, float, list[Arc] | None], Stroke]] = {
+STROKES: Mapping[type[Actuator], Callable[[Linkage, float, list[Swing] | None], Stroke]] = {
     Cylinder: cylinder_stroke,
     Travel: slider_stroke,
 }

@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import localcontext
 from fractions import Fraction
 
 import numpy as np
 
-from linkanim.mechanics.drive.input_path import (
-    Limit,
-    LimitDistances,
-    Shortened,
-    ThereAndBack,
-    half_squares,
-    limit_distances,
-    nearer_way,
-)
-from linkanim.mechanics.formulas.exact import Sum
+from linkanim.mechanics.drive.input_path import Limit, LimitDistances, Shortened, ThereAndBack, nearer_way
+from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, two_product, two_sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.precise import context, cosine, exactly, nearest_sum, sine
@@ -32,11 +24,13 @@ from linkanim.mechanics.loops.input_state import (
 )
 
 SOLVED_FROM = ("x", "u", "v", "rest")
+NEARLY_ZERO = 1e-8
+"""Half a last digit of this is more than a limit is off by."""
 
 
 @dataclass(frozen=True, slots=True)
 class Swing(ThereAndBack):
-    """The input swings between two limits; `dyads` are those that limit it at each.
+    """The input swings between two limits; `ends` are the dyads that limit it at each.
 
     An end without a name is no limit: the input turns back there, and every closure holds.
     `repeats` is the number of turns of the input after which the linkage would be the same (more
@@ -45,13 +39,8 @@ class Swing(ThereAndBack):
 
     low: Sum
     high: Sum
-    dyads: tuple[str, str]
+    ends: tuple[str, str]
     repeats: int = 1
-
-    @property
-    def ends(self) -> tuple[str, str]:
-        """The dyads that limit the input at its lower and its upper end, "" where it merely turns back."""
-        return self.dyads
 
     @property
     def periods(self) -> int:
@@ -115,7 +104,11 @@ class Swing(ThereAndBack):
 
     def half_squares(self, reference: Sum, ratio: Fraction) -> tuple[float, float]:
         """Return the least and greatest sin²(ψ/2), ψ = ratio × θ - reference."""
-        return half_squares((self.low, self.high), reference, ratio)
+        low, high = sorted(float(end * ratio - reference) for end in (self.low, self.high))
+        squares = [math.sin(angle / 2) ** 2 for angle in (low, high)]
+        # An angle whole turns from ψ = 0, or from ψ = π, lies between them.
+        passes = [(angle - low) % (2 * math.pi) <= high - low for angle in (0.0, math.pi)]
+        return 0.0 if passes[0] else min(squares), 1.0 if passes[1] else max(squares)
 
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or symbolic expressions."""
@@ -134,6 +127,38 @@ class Swing(ThereAndBack):
         """Return what the program by angle takes: the angle from the middle, half the ways left, the rest."""
         return distances.angle, distances.u, distances.v, distances.rest
 
+    @np.errstate(all="ignore")
     def distances(self, angle: Array) -> LimitDistances:
-        """Return how far angles are from the limits."""
-        return limit_distances(angle, (self.low, self.middle, self.high), self.repeats)
+        """Return how far angles are from the low end, the middle and the high end, whole turns aside.
+
+        After `repeats` turns of the input the linkage is the same; they are taken off without rounding.
+        The float nearest a limit is the limit as well as a float can say it: it is never outside, nor is 0
+        where a limit is what its own last digits leave of 0.
+        """
+        turns = self.repeats * np.rint((angle - float(self.middle)) / (2 * math.pi * self.repeats))
+        whole, lost = two_product(-turns, FULL_TURN.high)
+        high, error = two_sum(angle, whole)
+        low = error + lost - turns * FULL_TURN.low
+        v, u = np.add(*_way(high, low, self.low)), -np.add(*_way(high, low, self.high))
+        nearest = np.spacing(np.maximum(np.abs(angle), NEARLY_ZERO)) / 2
+        at_limit = (np.abs(u) <= nearest) | (np.abs(v) <= nearest)
+        outside = ~((np.minimum(u, v) >= 0) | at_limit)
+        near, rest = _way(high, low, self.middle)
+        way = near + rest
+        u, v = np.maximum(u, 0.0) / 2, np.maximum(v, 0.0) / 2
+        return LimitDistances(way, rest - (way - near), u, v, outside, at_limit)
+
+    def turns_to(self, angle: float) -> int:
+        """Return by how many turns the range is to be shifted to lie around an angle, or nearest to it."""
+        return round((angle - float(self.middle)) / (2 * math.pi))
+
+    def shifted(self, turns: int) -> Swing:
+        """Return the same range that many turns on."""
+        way = FULL_TURN.times(float(turns))
+        return replace(self, low=self.low + way, high=self.high + way)
+
+
+def _way(high: Array, low: Array, limit: Sum) -> tuple[Array, Array]:
+    """Return angle - limit, sums of two floats both, in two parts that overlap."""
+    total, error = two_sum(high, -limit.high)
+    return total, error + (low - limit.low)

@@ -99,22 +99,25 @@ HALF_TURN = quarter_turns(2)
 FULL_TURN = quarter_turns(4)
 
 
+def _right_angles(angle: float) -> int | None:
+    """Return how many right angles an angle is the float nearest to; None where it is none."""
+    count = round(angle / QUARTER_TURN_HIGH)
+    return count if quarter_turns(count).high == float(angle) else None
+
+
 def exact_angle(angle: float) -> Sum:
     """Return the angle as a sum; the float nearest a multiple of a right angle stands for that multiple.
 
     One that was written keeps what the float lacks of it.
     """
-    count = round(angle / QUARTER_TURN_HIGH)
-    multiple = quarter_turns(count)
-    if multiple.high == float(angle):
-        return multiple
+    if (count := _right_angles(angle)) is not None:
+        return quarter_turns(count)
     return _renormalised(float(angle), angle.rest) if isinstance(angle, Angle) else Sum(angle)
 
 
 def unit(angle: float) -> tuple[float, float]:
     """Return (cos, sin), exact at multiples of a right angle."""
-    count = round(angle / QUARTER_TURN_HIGH)
-    if quarter_turns(count).high == float(angle):
+    if (count := _right_angles(angle)) is not None:
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[count % 4]
     return direction(angle)
 

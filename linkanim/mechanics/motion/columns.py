@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -88,24 +87,20 @@ def columns(places: Mapping[str, Place], results: Array, shape: tuple[int, ...])
 
     A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
     """
-    return Lazy(places, partial(_column, places, results, shape))
 
+    def column(name: str) -> Any:
+        place = places[name]
+        if place.fixed is not None:
+            return np.broadcast_to(np.array(place.fixed), (*shape, 2))
+        rows = results[place.row : place.row + place.count]
+        return rows[0].reshape(shape) if place.count == 1 else rows.T.reshape((*shape, 2))
 
-def _column(places: Mapping[str, Place], results: Any, shape: tuple[int, ...], name: str) -> Any:
-    place = places[name]
-    if place.fixed is not None:
-        return np.broadcast_to(np.array(place.fixed), (*shape, 2))
-    rows = results[place.row : place.row + place.count]
-    return rows[0].reshape(shape) if place.count == 1 else rows.T.reshape((*shape, 2))
+    return Lazy(places, column)
 
 
 def scaled(values: Mapping[str, Array], factor: float) -> Mapping[str, Array]:
     """Return the same columns, each times a factor."""
-    return Lazy(values, partial(_scaled, values, factor))
-
-
-def _scaled(values: Mapping[str, Array], factor: float, name: str) -> Any:
-    return values[name] * factor
+    return Lazy(values, lambda name: values[name] * factor)
 
 
 def read_only(found: Any) -> Any:
