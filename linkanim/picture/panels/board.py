@@ -13,12 +13,12 @@ from linkanim.picture.layout import Layout
 from linkanim.picture.raster.raster import Colour, Layer, paint
 from linkanim.picture.raster.shapes import box
 from linkanim.picture.text.text import Anchor, Type
-from linkanim.picture.theme import Theme
+from linkanim.picture.theme import Theme, mixed
 
 STEP = 1.42
 """From line to line of a list, in heights of its text."""
 
-POINTED = 0.5
+_POINTED = 0.5
 """How much of the chosen row's colour a row has that the mouse is over."""
 
 
@@ -75,6 +75,18 @@ class Board:
         high = (1.36 + (lines - 1.0) * STEP) * size
         loop = middle + box(sheet.get_width() - 1.2 * size, high, 0.25 * size)
         paint(sheet, [Layer(colour, [loop])])
+
+    def behind(self, row: int, chosen: int | None, pointed: int | None) -> Colour | None:
+        """Return the colour behind a row that is chosen, or that the mouse is over; None of any other."""
+        if row == chosen:
+            return self.theme.chosen
+        return mixed(self.theme.panel, self.theme.chosen, _POINTED) if row == pointed else None
+
+    def head(self, sheet: pygame.Surface, size: int, title: str, count: str, colour: Colour) -> None:
+        """Write a list's title, and at the right which of how many rows is the chosen one."""
+        left, right = (1.2 * size, 0.7 * size), (sheet.get_width() - 1.2 * size, 0.7 * size)
+        self.write(sheet, title, left, size=size, colour=colour, strong=True)
+        self.write(sheet, count, right, size=size, colour=self.theme.dim, anchor="right")
 
     def fitting(self, words: Sequence[str], size: int, room: float) -> str:
         """Return the first of some words that has room, or as much of the last one's two ends as has."""

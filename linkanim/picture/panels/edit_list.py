@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import pygame
 
-from linkanim.picture.panels.board import POINTED, STEP, Board, Rows, around
-from linkanim.picture.panels.overlay import EditRow, Panel
+from linkanim.picture.panels.board import STEP, Board, Rows, around
+from linkanim.picture.panels.overlay import Panel
 from linkanim.picture.raster.raster import Colour
 from linkanim.picture.theme import ORANGE, mixed
 
@@ -47,11 +47,8 @@ def edit_list(board: Board, panel: Panel) -> pygame.Surface:
     sheet = board.sheet(parts.wide, STEP * size * parts.lines)
     _head(board, sheet, panel, parts)
     top = parts.top
-    for n, row in zip(parts.rows, panel.rows[parts.rows.start : parts.rows.stop], strict=True):
-        y = (top + STEP * (n - parts.rows.start)) * size
-        if n == panel.pointed and not row.chosen:
-            board.bar(sheet, y, size, mixed(board.theme.panel, board.theme.chosen, POINTED))
-        _row(board, sheet, row, y, size)
+    for k, n in enumerate(parts.rows):
+        _row(board, sheet, panel, n, (top + STEP * k) * size, size)
     for n, (line, colour) in enumerate(parts.foot, start=len(parts.rows)):
         board.write(sheet, line, (1.2 * size, (top + 0.3 + STEP * n) * size), size=size, colour=colour)
     return sheet
@@ -84,9 +81,8 @@ def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...],
     lines = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
     foot = [(line, board.theme.warning) for line in board.type.wrapped(panel.error or "", size, room)]
     foot += [(line, board.theme.dim) for line in board.type.wrapped(hint, size, room, gap="   ")]
-    chosen = next((n for n, row in enumerate(panel.rows) if row.chosen), 0)
     left = int(_room(board, size) - len(foot) - len(lines))
-    return _Division(size, wide, lines, foot, around(len(panel.rows), chosen, left))
+    return _Division(size, wide, lines, foot, around(len(panel.rows), _chosen(panel) or 0, left))
 
 
 def _needed(board: Board, panel: Panel, size: int) -> float:
@@ -100,23 +96,26 @@ def _room(board: Board, size: int) -> float:
     return board.layout.lists.height / STEP / size - _FRAME
 
 
+def _chosen(panel: Panel) -> int | None:
+    return next((n for n, row in enumerate(panel.rows) if row.chosen), None)
+
+
 def _head(board: Board, sheet: pygame.Surface, panel: Panel, parts: _Division) -> None:
     """Draw the title, which of the rows is the chosen one, and the facts, lit up while they flash."""
-    size, left, right = parts.size, 1.2 * parts.size, sheet.get_width() - 1.2 * parts.size
-    board.write(sheet, panel.title, (left, 0.7 * size), size=size, strong=True)
-    chosen = [f"{n} of {len(panel.rows)}" for n, row in enumerate(panel.rows, start=1) if row.chosen]
-    at = (right, 0.7 * size)
-    board.write(sheet, "".join(chosen), at, size=size, colour=board.theme.dim, anchor="right")
+    size, chosen = parts.size, _chosen(panel)
+    count = "" if chosen is None else f"{chosen + 1} of {len(panel.rows)}"
+    board.head(sheet, size, panel.title, count, board.theme.ink)
     if panel.flash > 0.0 and parts.facts:
         lit = mixed(board.theme.panel, ORANGE, _FLASH * panel.flash)
         board.bar(sheet, (0.8 + STEP) * size, size, lit, lines=len(parts.facts))
     for n, line in enumerate(parts.facts, start=1):
-        board.write(sheet, line, (left, (0.8 + STEP * n) * size), size=size)
+        board.write(sheet, line, (1.2 * size, (0.8 + STEP * n) * size), size=size)
 
 
-def _row(board: Board, sheet: pygame.Surface, row: EditRow, y: float, size: int) -> None:
-    if row.chosen:
-        board.bar(sheet, y, size, board.theme.chosen)
+def _row(board: Board, sheet: pygame.Surface, panel: Panel, n: int, y: float, size: int) -> None:
+    row, behind = panel.rows[n], board.behind(n, _chosen(panel), panel.pointed)
+    if behind:
+        board.bar(sheet, y, size, behind)
     at, colour = (sheet.get_width() - 1.2 * size, y), board.theme.velocity if row.draft else board.theme.ink
     room = at[0] - board.type.width(row.value, size, strong=True) - 2.0 * size
     label = board.fitting((row.label,), size, room)

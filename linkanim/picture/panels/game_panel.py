@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 import pygame
 
-from linkanim.picture.panels.board import POINTED, Board
+from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.overlay import Choice, GamePanel, Mood, ScoreBar
 from linkanim.picture.raster.raster import Colour, Layer, paint
 from linkanim.picture.raster.shapes import box, stroke
-from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.theme import Theme
 
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
@@ -50,10 +50,20 @@ def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
     return sheet
 
 
-def answer_rows(board: Board, panel: GamePanel) -> tuple[tuple[float, float], ...]:
-    """Return between which heights of the panel's sheet each of its answers stands."""
+class AnswerRows(NamedTuple):
+    """Between which heights of the panel's sheet each of its answers stands."""
+
+    heights: tuple[tuple[float, float], ...]
+
+    def at(self, y: float) -> int | None:
+        """Return the answer so far down on the sheet; None between them."""
+        return next((n for n, (top, end) in enumerate(self.heights) if top <= y < end), None)
+
+
+def answer_rows(board: Board, panel: GamePanel) -> AnswerRows:
+    """Return where the answers are on the panel's sheet."""
     size, parts = _fitting(board, panel)
-    return tuple((top, top + part.high) for part, top in _placed(parts, size) if part.is_answer)
+    return AnswerRows(tuple((top, top + part.high) for part, top in _placed(parts, size) if part.is_answer))
 
 
 def mood_colour(theme: Theme, mood: Mood) -> Colour:
@@ -159,9 +169,7 @@ def _answer(board: Board, panel: GamePanel, n: int, choice: Choice, size: int) -
     colour = mood_colour(theme, choice.mood)
 
     def draw(sheet: pygame.Surface, top: float) -> None:
-        back = theme.chosen if n == panel.chosen else theme.panel
-        if n == panel.pointed and n != panel.chosen:
-            back = mixed(theme.panel, theme.chosen, POINTED)
+        back = board.behind(n, panel.chosen, panel.pointed) or theme.panel
         middle = complex(sheet.get_width() / 2, top + high / 2)
         loud = choice.mood in ("right", "wrong")
         line, rim = (2.2 if loud else 1.4) * board.layout.unit, colour if loud else theme.rule

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pygame
 
-from linkanim.picture.panels.board import POINTED, STEP, Board, Rows, around
+from linkanim.picture.panels.board import STEP, Board, Rows, around
 from linkanim.picture.panels.overlay import Quantities
-from linkanim.picture.theme import mixed
 
 _FRAME = 2.6
 """How many lines high the list is without its rows and hint."""
@@ -18,7 +17,9 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     rows, hint = _divided(board, shown)
     lines = max(len(rows), 1) + len(hint) + _FRAME
     sheet = board.sheet(wide, STEP * size * lines)
-    _head(board, sheet, shown, size)
+    count = f"{shown.chosen + 1} of {len(shown.rows)}" if shown.rows else "0"
+    typed = (f"{shown.sieve}_", board.theme.velocity) if shown.sieve else (shown.title, board.theme.ink)
+    board.head(sheet, size, typed[0], count, typed[1])
     for n, row in enumerate(rows):
         _row(board, sheet, shown, row, size, (0.9 + STEP * (n + 1)) * size)
     if not shown.rows:
@@ -45,20 +46,10 @@ def _divided(board: Board, shown: Quantities) -> tuple[range, list[str]]:
     return around(len(shown.rows), shown.chosen, room - len(hint)), hint
 
 
-def _head(board: Board, sheet: pygame.Surface, shown: Quantities, size: int) -> None:
-    """Draw the title or what has been typed, and where in the list the chosen row is."""
-    at, right = (1.2 * size, 0.7 * size), (sheet.get_width() - 1.2 * size, 0.7 * size)
-    typed = shown.sieve != ""
-    words, colour = (f"{shown.sieve}_", board.theme.velocity) if typed else (shown.title, board.theme.ink)
-    board.write(sheet, words, at, size=size, colour=colour, strong=True)
-    count = f"{shown.chosen + 1} of {len(shown.rows)}" if shown.rows else "0"
-    board.write(sheet, count, right, size=size, colour=board.theme.dim, anchor="right")
-
-
 def _row(board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size: int, y: float) -> None:
-    if row in (shown.chosen, shown.pointed):
-        share = 1.0 if row == shown.chosen else POINTED
-        board.bar(sheet, y, size, mixed(board.theme.panel, board.theme.chosen, share))
+    behind = board.behind(row, shown.chosen, shown.pointed)
+    if behind:
+        board.bar(sheet, y, size, behind)
     (words, symbol), room = shown.rows[row], sheet.get_width() - 2.4 * size
     left = room - board.type.width(words, size) - size
     ways = (symbol, symbol.rpartition(" = ")[2])
