@@ -24,7 +24,7 @@ from linkanim.mechanics.facts.register import Quantity, register
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
-from linkanim.picture.diagrams.quantities import quantities, series_of, telling
+from linkanim.picture.diagrams.quantities import series_of
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.layout import layout
 from linkanim.picture.panels.readings import rows
@@ -82,8 +82,8 @@ def _number(words: str) -> float:
 
 def _tokens(name: str) -> list[str]:
     scene = load(name)
-    own = [token for token in quantities(scene) if token.startswith("P.") and token.endswith(COMPONENTS)]
-    return [*telling(scene), *own]
+    own = [token for token in scene.quantities if token.startswith("P.") and token.endswith(COMPONENTS)]
+    return [*scene.telling, *own]
 
 
 def _strips(name: str) -> tuple[Figure, dict[str, ChartPanel]]:

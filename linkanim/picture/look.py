@@ -66,7 +66,7 @@ class Look:
     """What is shown; two pictures of one pose with equal looks and sizes have the same bytes.
 
     `vectors` holds "v" (velocity) and "a" (acceleration). `chart` names one of
-    `quantities(scene)`, None for no chart; it runs `over` what is usual of the scene's input where that is
+    `scene.quantities`, None for no chart; it runs `over` what is usual of the scene's input where that is
     None, or an axis that the scene has not. Lengths are shown in `unit`, the scene's own where it is None.
     With `background` False what is not drawn stays transparent. `zoom` multiplies the fitted scale; `pan`
     shifts the picture right and down, in fractions of the window's height. `ghost` draws the other closure

@@ -16,7 +16,6 @@ from linkanim.paper.chart import Page
 from linkanim.paper.curves import Pace, curves_of
 from linkanim.paper.measured import MeasuredTable, beside
 from linkanim.paper.svg import svg
-from linkanim.picture.diagrams.quantities import telling
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Layer
@@ -215,7 +214,7 @@ def test_an_extreme_at_the_end_of_a_curve_is_told_beside_its_dot() -> None:
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_a_scene_has_its_chart(name: str) -> None:
-    page = _page(name, *telling(load(name))[:4], size=(320, 180))
+    page = _page(name, *load(name).telling[:4], size=(320, 180))
     assert len(np.unique(pygame.surfarray.array3d(page.surface()).reshape(-1, 3), axis=0)) > 8
 
 

@@ -15,7 +15,6 @@ from pictures import pixels
 from linkanim.picture.arrangement.arrange import arranged
 from linkanim.picture.arrangement.fit import FitRequest, fitted
 from linkanim.picture.arrangement.sweep import Sweep
-from linkanim.picture.diagrams.quantities import quantities
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel
@@ -264,7 +263,7 @@ def test_help_stands_beside_the_values_that_it_explains() -> None:
 @pytest.mark.parametrize("name", ["press", "crank-rocker"])
 def test_a_toast_does_not_lie_on_the_chart(name: str) -> None:
     scene, size = load(name), (1280, 720)
-    chart = next(token for token in quantities(scene) if token.endswith("acceleration"))
+    chart = next(token for token in scene.quantities if token.endswith("acceleration"))
     painter, surface = Picture(scene, size, Look(chart=chart)), offscreen(size)
     SurfacePrinter().paint(surface, painter, scene.pose(1.0))
     plain = pixels(surface)

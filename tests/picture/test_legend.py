@@ -17,7 +17,6 @@ from linkanim.picture.look import ACCELERATION, VELOCITY
 from linkanim.picture.panels.legend import Legend, legend_for
 from linkanim.picture.parts.vectors import arrows_of
 from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Layer
 from linkanim.picture.surface import printed
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
@@ -74,7 +73,7 @@ def test_the_key_s_arrows_and_words_are_drawn(line: float) -> None:
     shaft, words = (column._replace(x=x, width=20) for x in (10.0, 72.0))
     assert inked(surface, shaft, kind.colour)
     assert inked(surface, words, LIGHT.dim)
-    (arrow,) = (item for item in legend.still() if isinstance(item, Layer))
+    (arrow,) = legend.group(1.0).layers
     near = arrow.loops[0][arrow.loops[0].real < 12]
     assert np.ptp(near.imag) == pytest.approx(1.6 * line, rel=0.1)
 

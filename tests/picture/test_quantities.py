@@ -8,16 +8,20 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.picture.diagrams.quantities import quantities, series
-from linkanim.scenes import load, names
+from linkanim.picture.diagrams import quantities
+from linkanim.scenes import Scene, load, names
+
+
+def series(scene: Scene, token: str, n: int) -> quantities.Series:
+    return quantities.series_of(scene, quantities.quantity(scene, token), scene.cycle(n))
 
 
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_every_quantity_has_a_value_at_every_phase(name: str) -> None:
     scene = load(name)
-    assert quantities(scene)
-    for quantity in quantities(scene):
+    assert scene.quantities
+    for quantity in scene.quantities:
         phases, values, unit, labels = series(scene, quantity, 8)
         assert values.shape == (8, len(labels)), quantity
         assert phases[-1] == pytest.approx(scene.period * 7 / 8)
@@ -72,7 +76,7 @@ def test_what_is_nothing_but_rounding_errors_is_zero() -> None:
 
 
 def test_fixed_pins_and_unknown_forces_are_left_out() -> None:
-    assert not any(name.startswith("O2.") for name in quantities(load("press")))
+    assert not any(name.startswith("O2.") for name in load("press").quantities)
 
 
 def test_a_wrong_name_is_answered_with_the_list() -> None:

@@ -8,7 +8,7 @@ import pygame
 import pytest
 from playing import Player, fake_start
 
-from linkanim.picture.diagrams.quantities import quantities, quantity, telling
+from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.shelf import Grid
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
@@ -32,8 +32,8 @@ def press() -> State:
 
 def test_the_list_holds_every_quantity_once_the_telling_ones_first(press: State) -> None:
     tokens = listed(press.scene, "")
-    assert sorted(tokens) == sorted(quantities(press.scene))
-    assert tokens[: len(telling(press.scene))] == telling(press.scene)
+    assert sorted(tokens) == sorted(press.scene.quantities)
+    assert tokens[: len(press.scene.telling)] == press.scene.telling
 
 
 # What is typed is looked for in token, words and symbol, word by word, whichever its case.
@@ -50,7 +50,7 @@ SIEVES = {
 def test_letters_sift_the_list(press: State, sieve: str, found: str) -> None:
     tokens = listed(press.scene, sieve)
     assert found in tokens
-    assert len(tokens) < len(quantities(press.scene)) / 2
+    assert len(tokens) < len(press.scene.quantities) / 2
 
 
 def test_the_list_shows_words_symbol_and_unit(press: State) -> None:
@@ -73,7 +73,7 @@ def test_the_lists_ends_are_ends(press: State) -> None:
     assert top.listing.chosen == 0
     bottom = after(top, Action("move", 10_000))
     assert bottom.listing is not None
-    assert bottom.listing.chosen == len(quantities(press.scene)) - 1
+    assert bottom.listing.chosen == len(press.scene.quantities) - 1
     only = after(press, "list", Action("sift", "cushion.f"), Action("move", 1))
     assert only.listing is not None
     assert only.listing.chosen == 0
@@ -95,7 +95,7 @@ def test_sifting_starts_from_the_top(press: State) -> None:
 
 
 def test_the_list_opens_at_what_is_charted(press: State) -> None:
-    token = quantities(press.scene)[40]
+    token = [*press.scene.quantities][40]
     state = after(press, Action("plot", token), "list")
     assert state.listing is not None
     assert listed(press.scene, "")[state.listing.chosen] == token
@@ -104,15 +104,15 @@ def test_the_list_opens_at_what_is_charted(press: State) -> None:
 def test_c_goes_through_the_telling_ones_and_then_shows_none(press: State) -> None:
     charts = []
     state = press
-    for _ in range(len(telling(press.scene)) + 1):
+    for _ in range(len(press.scene.telling) + 1):
         state = after(state, Action("chart", 1))
         charts.append(state.look.chart)
-    assert charts == [*telling(press.scene), None]
-    assert after(state, Action("chart", -1)).look.chart == telling(press.scene)[-1]
+    assert charts == [*press.scene.telling, None]
+    assert after(state, Action("chart", -1)).look.chart == press.scene.telling[-1]
 
 
 def test_c_puts_away_a_chart_that_is_not_telling(press: State) -> None:
-    token = next(token for token in quantities(press.scene) if token not in telling(press.scene))
+    token = next(token for token in press.scene.quantities if token not in press.scene.telling)
     assert after(press, Action("plot", token), Action("chart", 1)).look.chart is None
 
 

@@ -139,7 +139,5 @@ def test_each_bar_of_a_triangle_keeps_its_own_angle() -> None:
 
 
 def test_the_telling_quantities_name_a_body_once() -> None:
-    from linkanim.picture.diagrams.quantities import telling
-
-    rates = [token for token in telling(load("jansen")) if token.endswith("angular_velocity")]
+    rates = [token for token in load("jansen").telling if token.endswith("angular_velocity")]
     assert not {"d.angular_velocity", "e.angular_velocity"} & set(rates) or "b.angular_velocity" not in rates

@@ -20,7 +20,6 @@ from typed_linkages import Document
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
-from linkanim.picture.diagrams.quantities import quantities
 from linkanim.player.state.action import Action
 from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
@@ -146,7 +145,7 @@ def painted(case: Case) -> None:
 
 def charted(case: Case) -> None:
     scene = load(case.path)
-    tokens = case.rng.sample(sorted(quantities(scene)), 1)
+    tokens = case.rng.sample(sorted(scene.quantities), 1)
     suffix = case.rng.choice((".svg", ".png", ".csv", ".pdf"))
     target = case.made(f"chart{suffix}")
     over = case.rng.choice(("time", "phase"))

@@ -13,6 +13,7 @@ import numpy as np
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.motion.measures import centrodes, coupler_body, pole
 from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.diagrams.chart import runs_of
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.layout import Gauge, Layout
@@ -124,13 +125,11 @@ def _label(one: str, other: str) -> str:
 def clipped(path: Loop, room: Rect) -> Iterator[Loop]:
     """Yield the parts of a path that lie in a rectangle, cut where it leaves and where it breaks (NaN)."""
     across = (path.real >= room.x) & (path.real <= room.right)
-    held = np.flatnonzero(across & (path.imag >= room.y) & (path.imag <= room.bottom))
-    for run in np.split(held, np.flatnonzero(np.diff(held) > 1) + 1):
-        if run.size:
-            first, last = int(run[0]), int(run[-1])
-            before = _edge(path[first], path[first - 1], room) if first else []
-            after = _edge(path[last], path[last + 1], room) if last + 1 < len(path) else []
-            yield np.concatenate((before, path[run], after))
+    for run in runs_of(across & (path.imag >= room.y) & (path.imag <= room.bottom)):
+        first, last = int(run[0]), int(run[-1])
+        before = _edge(path[first], path[first - 1], room) if first else []
+        after = _edge(path[last], path[last + 1], room) if last + 1 < len(path) else []
+        yield np.concatenate((before, path[run], after))
 
 
 def _edge(inside: complex, outside: complex, room: Rect) -> list[complex]:

@@ -149,7 +149,8 @@ def curve_layer(
 ) -> Layer:
     """Return a curve, dashed in widths of its line; it is broken where a value is not finite."""
     pixels = plot.place(x, np.where(np.isfinite(y), y, np.nan))
-    return line_layer(_runs(pixels), colour, width, dashes)
+    held = (pixels[run] for run in runs_of(np.isfinite(pixels)))
+    return line_layer(held, colour, width, dashes)
 
 
 def line_layer(runs: Iterable[Loop], colour: Colour, width: float, dashes: Sequence[float] = ()) -> Layer:
@@ -180,8 +181,8 @@ def dot(colour: Colour, pen: Pen) -> Stamp:
     return Stamp((ring, Layer(colour, [disc(2.7 * pen.line)])))
 
 
-def _runs(pixels: Loop) -> Iterator[Loop]:
-    held = np.flatnonzero(np.isfinite(pixels))
-    for run in np.split(held, np.flatnonzero(np.diff(held) > 1) + 1):
-        if run.size:
-            yield pixels[run]
+def runs_of(held: NDArray[np.bool_]) -> Iterator[NDArray[np.intp]]:
+    """Yield the numbers of neighbours that are all held."""
+    numbers = np.flatnonzero(held)
+    parts = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
+    return (run for run in parts if run.size)

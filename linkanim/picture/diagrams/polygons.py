@@ -28,7 +28,6 @@ _LABELLED = 1.1
 """A vector has its symbol where it is as long as this, in heights of the text."""
 _BARS = 5
 """So many bars of the scale, at the most, go into the panel's width."""
-_ABSOLUTE: frozenset[Sort] = frozenset({"absolute"})
 _GUIDED: frozenset[Sort] = frozenset({"coriolis", "sliding"})
 
 
@@ -43,6 +42,11 @@ class Arrow(NamedTuple):
     def middle(self) -> complex:
         """The middle of it."""
         return self.foot + self.reach / 2
+
+    @property
+    def is_absolute(self) -> bool:
+        """Whether it is a vector from the pole."""
+        return self.side.sort == "absolute"
 
     def is_on(self, other: Arrow) -> bool:
         """Whether it is the same arrow, to a small part of a pixel: all of a vector, or of its only part."""
@@ -68,12 +72,15 @@ class Polygon:
         scale = self.scale(pose.input_speed)
         pole = self.pole(pose.input_speed)
         found = self._arrows(pose, pole, scale)
-        layers, captions = [*self._drawn(found), self._dot(pole)], [self._title, *self._symbols(found)]
+        dot = Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
+        layers, captions = [*self._drawn(found), dot], [self._title, *self._symbols(found)]
         if scale > 0:
-            layers += self._bar(scale)
-            captions.append(self._scale_words(scale, per))
+            bar, meaning = self._bar(scale, per)
+            layers.append(bar)
+            captions.append(meaning)
         if not found:
-            why = "all at rest" if np.isfinite(self._ends(pose)).all() else "unbounded here"
+            at_rest = np.isfinite([side.end for side in self._sides(pose)]).all()
+            why = "all at rest" if at_rest else "unbounded here"
             at = (pole.real, pole.imag + 0.6 * self.pen.small)
             captions.append(Caption(why, at, self.pen.small, self.pen.theme.dim, "centre"))
         return Group(words.replace(" ", "-"), layers, captions)
@@ -118,13 +125,10 @@ class Polygon:
         """What the polygons of the cycle take up about the pole, at the scene's own speed."""
         scene, cycle = self.figure.scene, self.figure.cycle
         motion = cycle if self.moment is None else scene.pose(self.moment, speed=scene.linkage.drive.speed)
-        ends = np.concatenate([np.atleast_1d(end) for end in self._ends(motion)])
+        ends = np.concatenate([np.atleast_1d(side.end) for side in self._sides(motion)])
         ends = np.append(ends[np.isfinite(ends)], 0.0)
         x, y = ends.real, ends.imag
         return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
-
-    def _ends(self, motion: object) -> list[complex]:
-        return [side.end for side in self._sides(motion)]
 
     def _sides(self, motion: object) -> list[Side]:
         """Return the vectors, those of the traced coupler points among them."""
@@ -140,19 +144,19 @@ class Polygon:
             Arrow(side, pole + scale * side.begin.conjugate(), scale * (side.end - side.begin).conjugate())
             for side in sides
         ]
-        whole = [arrow for arrow in found if arrow.side.sort in _ABSOLUTE]
+        whole = [arrow for arrow in found if arrow.is_absolute]
         parts = [arrow for arrow in found if not any(arrow.is_on(other) for other in whole)]
         return [arrow for arrow in (*whole, *parts) if abs(arrow.reach) > _NOTHING * self._room.width]
 
     def _drawn(self, found: list[Arrow]) -> Iterator[Layer]:
         """Yield the arrows, relative ones first."""
-        for arrow in sorted(found, key=lambda arrow: arrow.side.sort in _ABSOLUTE):
-            width = (1.6 if arrow.side.sort in _ABSOLUTE else 1.1) * self.pen.line
+        for arrow in sorted(found, key=lambda arrow: arrow.is_absolute):
+            width = (1.6 if arrow.is_absolute else 1.1) * self.pen.line
             yield Layer(self._colour(arrow.side.sort), arrows([arrow.foot], [arrow.reach], width))
 
     def _colour(self, sort: Sort) -> Colour:
         theme = self.pen.theme
-        if sort in _ABSOLUTE:
+        if sort == "absolute":
             return theme.velocity if self.order == 1 else theme.acceleration
         return theme.traces[0] if sort in _GUIDED else theme.dim
 
@@ -161,48 +165,32 @@ class Polygon:
         pen, halo = self.pen, Halo(self.pen.theme.background, 0.8 * self.pen.line)
         middle = sum((arrow.middle for arrow in found), 0j) / max(len(found), 1)
         long = [arrow for arrow in found if abs(arrow.reach) >= _LABELLED * pen.small]
-        arrows_ = sorted(long, key=lambda arrow: arrow.side.sort not in _ABSOLUTE)
-        to_place = [
-            _beside(arrow, middle, pen.type.width(arrow.side.symbol, pen.small), pen.small)
-            for arrow in arrows_
-        ]
+        arrows_ = sorted(long, key=lambda arrow: not arrow.is_absolute)
+        wide = [pen.type.width(arrow.side.symbol, pen.small) for arrow in arrows_]
+        to_place = [_beside(*known, pen.small, middle) for known in zip(arrows_, wide, strict=True)]
         ends = [np.array([[arrow.foot, arrow.foot + arrow.reach]]) for arrow in found]
-        clutter = Clutter(
-            self.rect.inset(-2.0 * pen.text), solids=tuple(Solid(end, pen.line) for end in ends)
-        )
+        solids = tuple(Solid(end, pen.line) for end in ends)
+        clutter = Clutter(self.rect.inset(-2.0 * pen.text), solids=solids)
         for arrow, label, placed in zip(arrows_, to_place, place(to_place, clutter), strict=True):
             if placed.shown[0]:
                 at = complex(label.places[0, placed.which])
-                top = at.real, at.imag - pen.small / 2
-                colour = self._colour(arrow.side.sort)
+                top, colour = (at.real, at.imag - pen.small / 2), self._colour(arrow.side.sort)
                 yield Caption(arrow.side.symbol, top, pen.small, colour, "centre", halo=halo)
 
-    def _dot(self, pole: complex) -> Layer:
-        return Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
-
-    def _step(self, scale: float) -> float:
-        return round_step(self.rect.width / scale, _BARS)
-
-    def _bar(self, scale: float) -> Iterator[Layer]:
-        """Yield the bar of the scale, at the foot."""
-        begin = complex(self.rect.x, self.rect.bottom - 0.5 * self.pen.small)
-        end, tick = begin + self._step(scale) * scale, 0.35j * self.pen.small
+    def _bar(self, scale: float, per: str) -> tuple[Layer, Caption]:
+        """Return the bar of the scale, at the foot, and what it stands for."""
+        (x, bottom), small, ink = (self.rect.x, self.rect.bottom), self.pen.small, self.pen.theme.ink
+        step = round_step(self.rect.width / scale, _BARS)
+        begin, tick = complex(x, bottom - 0.5 * small), 0.35j * small
+        end = begin + step * scale
         feet, heads = [begin, begin - tick, end - tick], [end, begin + tick, end + tick]
-        yield Layer(self.pen.theme.ink, segments(feet, heads, 0.8 * self.pen.line))
-
-    def _scale_words(self, scale: float, per: str) -> Caption:
-        """Return what the bar of the scale stands for."""
-        words = f"{_round(self._step(scale))} {self.figure.scene.length_unit}{per}"
-        at = (self.rect.x, self.rect.bottom - 2.0 * self.pen.small)
-        return Caption(words, at, self.pen.small, self.pen.theme.ink)
+        number = f"{step:g}" if 1e-3 <= step < 1e6 else three_digits(step)
+        words = f"{number} {self.figure.scene.length_unit}{per}"
+        bar = Layer(ink, segments(feet, heads, 0.8 * self.pen.line))
+        return bar, Caption(words, (x, bottom - 2.0 * small), small, ink)
 
 
-def _round(value: float) -> str:
-    """Return a round number as short as it is."""
-    return f"{value:g}" if 1e-3 <= value < 1e6 else three_digits(value)
-
-
-def _beside(arrow: Arrow, middle: complex, wide: float, high: float) -> LabelPlaces:
+def _beside(arrow: Arrow, wide: float, high: float, middle: complex) -> LabelPlaces:
     """Return places for a symbol beside an arrow, away from the middle of all first."""
     across = 1j * unit(arrow.reach)
     if ((arrow.middle - middle) * across.conjugate()).real < 0:

@@ -25,16 +25,6 @@ class Series(NamedTuple):
     labels: tuple[str, ...]
 
 
-def quantities(scene: Scene) -> tuple[str, ...]:
-    """Return the tokens of all quantities that a chart can show of this scene."""
-    return tuple(scene.quantities)
-
-
-def telling(scene: Scene) -> tuple[str, ...]:
-    """Return the tokens of the six to ten quantities that say most of a scene, the most telling first."""
-    return scene.telling
-
-
 def quantity(scene: Scene, token: str) -> Quantity:
     """Return a scene's quantity, of a body by its name in the scene or by what it is called.
 
@@ -44,14 +34,6 @@ def quantity(scene: Scene, token: str) -> Quantity:
     own = {words: name for name, words in scene.info.link_names.items()}
     named = token if token in scene.quantities else f"{own.get(owner, owner)}{dot}{measure}"
     return look_up(scene.quantities, named if named in scene.quantities else token, scene.name)
-
-
-def series(scene: Scene, token: str, n: int) -> Series:
-    """Return a quantity at n phases over one true period, at the scene's own speed.
-
-    BadInput with the list of tokens where there is no such quantity.
-    """
-    return series_of(scene, quantity(scene, token), scene.cycle(n))
 
 
 def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:

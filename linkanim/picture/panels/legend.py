@@ -37,19 +37,18 @@ class Legend:
 
     def group(self, speed: float) -> Group:
         """Return the key at this input speed (rad/s)."""
-        return grouped("key", [*self.still(), *self.values(speed)], still=True)
+        chained = self._chained(self._top(len(self.kinds))) if self.chain else ()
+        return grouped("key", [*self._arrows(speed), *chained], still=True)
 
-    def still(self) -> Iterator[Item]:
-        """Yield the arrows and what they are called."""
-        size = self.size
+    def _arrows(self, speed: float) -> Iterator[Item]:
+        """Yield the arrows, what they are called, and how much each stands for."""
+        size, dim = self.size, self.theme.dim
         for n, kind in enumerate(self.kinds):
-            foot = complex(self.column.x, self._top(n) + 0.5 * size)
+            top = self._top(n)
+            foot = complex(self.column.x, top + 0.5 * size)
             yield Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))
-            at = (self.column.x + self._reach + 0.6 * size, self._top(n))
-            yield Caption(kind.words, at, size, self.theme.dim)
-
-        if self.chain:
-            yield from self._chained(self._top(len(self.kinds)))
+            yield Caption(kind.words, (self.column.x + self._reach + 0.6 * size, top), size, dim)
+            yield Caption(self.meaning(kind, speed), (self.column.right, top), size, dim, "right")
 
     def _chained(self, top: float) -> Iterator[Item]:
         """Yield the colours of the steps in which joints are solved, between input and output."""
@@ -63,12 +62,6 @@ class Legend:
             yield Layer(self.theme.outline, [middle + disc(radius)])
             yield Layer(colour, [middle + disc(radius - max(0.1 * size, 1.0))])
         yield Caption(end, (first + len(self.chain) * step + 0.5 * size, top), size, self.theme.dim)
-
-    def values(self, speed: float) -> Iterator[Caption]:
-        """Yield how much each arrow stands for at this input speed (rad/s)."""
-        for n, kind in enumerate(self.kinds):
-            at, words = (self.column.right, self._top(n)), self.meaning(kind, speed)
-            yield Caption(words, at, self.size, self.theme.dim, "right")
 
     def meaning(self, kind: Arrows, speed: float) -> str:
         """Return in words how much the arrow of the key stands for; a dash where nothing moves."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, floor, log10
+from math import ceil
 
 import numpy as np
 import pygame
 
+from linkanim.picture.diagrams.axis import round_step
 from linkanim.picture.items import Caption, Group
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.panels.overlay import PathShown
@@ -38,7 +39,7 @@ def sheet(view: View, layout: Layout, theme: Theme) -> Group:
 
 def grid_step(view: View, layout: Layout) -> float:
     """Return how far the sheet's lines are apart, in the scene's unit."""
-    return _round_step(_GRID * layout.unit / view.scale)
+    return round_step(_GRID * layout.unit / view.scale, 1)
 
 
 def pencil(layout: Layout, theme: Theme) -> pygame.Surface:
@@ -55,12 +56,6 @@ def pencil(layout: Layout, theme: Theme) -> pygame.Surface:
     ]
     paint(sheet, layers)
     return sheet
-
-
-def _round_step(least: float) -> float:
-    """Return the least of 1, 2 and 5 times a power of ten that is no smaller."""
-    power = 10.0 ** floor(log10(least))
-    return next(factor * power for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= least)
 
 
 def drawn_line(view: View, layout: Layout, theme: Theme, shown: PathShown) -> Group:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from linkanim.picture.diagrams.quantities import quantities, quantity, telling
+from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.shelf import found_among
 from linkanim.scenes.scene import Scene
 
@@ -60,7 +60,7 @@ class Browsing:
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
     """Return the tokens of the quantities that have all the sieve's words, the telling ones first."""
     words = sieve.casefold().split()
-    tokens = dict.fromkeys((*telling(scene), *quantities(scene)))
+    tokens = dict.fromkeys((*scene.telling, *scene.quantities))
     return tuple(token for token in tokens if all(word in _searched(scene, token) for word in words))
 
 

@@ -9,7 +9,6 @@ from typing import TypeVar
 
 from linkanim.errors import LinkanimError
 from linkanim.picture.diagrams.course import axes_of, axis_of
-from linkanim.picture.diagrams.quantities import telling
 from linkanim.picture.look import Look, toggled
 from linkanim.player.state.state import State, with_toast
 from linkanim.scenes.editing.closures import other_closure
@@ -24,7 +23,7 @@ _PLACES = 9
 
 def chart(state: State, further: int) -> State:
     """Show the telling quantity so many further; none follows the last, and any that is not telling."""
-    charts = (None, *telling(state.scene))
+    charts = (None, *state.scene.telling)
     if state.look.chart not in charts:
         return replace(state, look=replace(state.look, chart=None))
     at = charts.index(state.look.chart)

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.facts.classify import Info
-from linkanim.picture.diagrams.quantities import quantities
 from linkanim.player.state import editing as edit
 from linkanim.player.state.browsing import Browsing, Listing, listed
 from linkanim.player.state.editing import Editing
@@ -102,7 +101,7 @@ def _kept_edits(state: State) -> tuple[Edited, ...]:
 
 def _kept_chart(state: State, scene: Scene) -> str | None:
     chart = state.look.chart
-    return chart if chart and chart in quantities(scene) else None
+    return chart if chart and chart in scene.quantities else None
 
 
 def list_(state: State, _: None) -> State:
@@ -175,7 +174,7 @@ def files(state: State, names: str) -> State:
 
 def plot(state: State, token: str) -> State:
     """Chart a quantity, and close the list."""
-    if token not in quantities(state.scene):
+    if token not in state.scene.quantities:
         return with_toast(state, f"{state.scene.name} has no quantity {token}")
     return replace(state, look=replace(state.look, chart=token), listing=None)
 
