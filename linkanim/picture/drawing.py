@@ -16,6 +16,7 @@ from linkanim.picture.labels.dimensions import Symbols, leg_part, pivots, symbol
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.parts.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
+from linkanim.picture.parts.fittings import Bench
 from linkanim.picture.parts.gears import wheel_layers, wheel_parts
 from linkanim.picture.parts.ground import ground_layers, ground_line
 from linkanim.picture.parts.struts import Coil, Damping, coils, dampings
@@ -100,12 +101,14 @@ class Drawing:
     @cached_property
     def dead_centres(self) -> DeadCentres | None:
         """The ticks on a slider's guide, where the look names things."""
-        look = self.setting.look
-        if not look.names:
-            return None
-        from linkanim.picture.labels.dead_centres import DeadCentres
+        return self.dead_centres_in(self.setting.view) if self.setting.look.names else None
 
-        return DeadCentres(*self.setting.known, self.setting.layout, look.names > 1)
+    def dead_centres_in(self, view: View) -> DeadCentres | None:
+        """Return the ticks on a slider's guide in a view; None where there are none."""
+        from linkanim.picture.labels.dead_centres import dead_centres_of
+
+        bench = Bench(self.setting.figure, view, self.setting.gauge, self.setting.theme)
+        return dead_centres_of(bench, self.setting.layout, sized=self.setting.look.names > 1)
 
     def places(self, pose: Pose) -> Places:
         """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside.

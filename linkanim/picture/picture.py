@@ -416,7 +416,7 @@ class Picture:
 
         known, (figure_, _, gauge, theme) = self.drawing.symbols, self.drawing.setting.known
         # placed in the view as it fits; a zoom only carries them along
-        centres = replace(self.drawing.dead_centres, view=self.fitted) if self.drawing.dead_centres else None
+        centres = self.drawing.dead_centres_in(self.fitted)
         around = Surroundings(
             figure_,
             self.fitted,

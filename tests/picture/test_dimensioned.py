@@ -126,7 +126,7 @@ def wrong(picture: Picture, pose: Pose) -> Iterator[str]:
     """Yield what is wrong with a dimension: its line's ends, its value, its place; or that it lacks."""
     labels, places, table = _shown(picture, pose), picture.drawing.places(pose), labelled(picture).table
     found = {label.symbol: (label, box) for label, box in labels if label.symbol}
-    rows = table.rows if table else ()
+    rows = [label.row for label in table.rows] if table else ()
     parts = labelled(picture).parts(picture.figure, picture.view, picture.fit.arrangement.gauge, (0, 0, 0))
     for one in symbols(picture.figure).dimensions:
         stated = one.written(picture.scene.length_unit)
@@ -215,5 +215,5 @@ def test_what_finds_no_place_stands_in_a_table_that_is_given_room() -> None:
     assert strip
     assert not strip.meets(picture.layout.stage)
     lines = list(table.captions())
-    assert [line.text for line in lines] == list(table.rows)
+    assert [line.text for line in lines] == [label.row for label in table.rows]
     assert all(strip.holds(line.at[0], line.at[1] + line.size) for line in lines)

@@ -76,12 +76,10 @@ class DraftDrawing:
             yield Layer(self._theme.ground, stroke(ring, self._gauge.line, closed=True))
 
     def _bodies(self) -> Iterator[Layer]:
-        bars = self._of("bars")
-        crank = next((n for n, bar in enumerate(bars) if set(self._draft.crank or ()) >= {*bar.places}), None)
-        order = [n for n in range(len(bars)) if n != crank]
-        colour = {n: place for place, n in enumerate([*([] if crank is None else [crank]), *order])}
-        for n in sorted(colour, key=lambda n: len(bars[n].places) < 3):
-            yield from self._body(bars[n], colour[n])
+        crank = set(self._draft.crank or ())
+        bars = sorted(self._of("bars"), key=lambda bar: not crank >= {*bar.places})
+        for colour, bar in sorted(enumerate(bars), key=lambda one: len(one[1].places) < 3):
+            yield from self._body(bar, colour)
         for block in self._of("sliders", "slots", "yokes"):
             yield from self._block(block)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
@@ -29,6 +29,8 @@ from linkanim.picture.view import View
 
 Size = tuple[float, float]
 """How wide and high a label is, in pixels."""
+Own = frozenset[int]
+"""The numbers of things that are a label's own."""
 
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
 """Where along a bar its name may stand."""
@@ -50,6 +52,8 @@ _MIDDLE = (0.5, 0.42, 0.58)
 """Where along its own bar a length may stand."""
 _LEVELS = 3
 """So many dimension lines may lie beside each other."""
+_RINGS = (3, 6)
+"""In so many rings a name may stand round a joint, and round a slider's block."""
 _ROOMY = (1.0, 1.7, 2.6)
 """The radii of an angle's arc, in those of the smallest."""
 
@@ -81,13 +85,8 @@ class Spots(NamedTuple):
         along = (self.end - self.begin) * span
         normal = 1j * _units(along)
         clear = 0.5 * (np.abs(normal.real) * sides.real + np.abs(normal.imag) * sides.imag) + _CLEAR * bar
-        middles: Loop = (
-            at
-            + self.begin * span
-            + self.share * along
-            + self.aside * (clear + self.further) * normal
-            + self.off
-        )
+        aside = self.aside * (clear + self.further) * normal
+        middles: Loop = at + self.begin * span + self.share * along + aside + self.off
         return middles
 
 
@@ -140,9 +139,8 @@ class Surroundings:
             pose = figure.scene.pose(self.phase, 0)
             found = {name: np.array([self.view.place(point)]) for name, point in pose.position.items()}
         else:
-            found = {
-                joint.name: figure.path(joint.name, self.view)[::step] for joint in figure.linkage.joints
-            }
+            names = (joint.name for joint in figure.linkage.joints)
+            found = {name: figure.path(name, self.view)[::step] for name in names}
         return {name: np.nan_to_num(path, nan=-1e6) for name, path in found.items()}
 
     @cached_property
@@ -158,30 +156,26 @@ class Surroundings:
         at, head = (self._paths[name] for name in frame)
         return at, head - at if frame[0] != frame[1] else np.full_like(at, self.view.scale)
 
-    def around(self, name: str, size: Size, rings: int = 3) -> LabelSpots:
+    def around(self, name: str, size: Size, *, slider: bool = False) -> LabelSpots:
         """Return places all round a joint, in rings ever farther; up and to the right is best.
 
-        They had better not lie on the bars that meet there.
+        They had better not lie on the bars that meet there, and must not round a slider's block.
         """
+        rings = _RINGS[slider]
         turns = np.exp(-2j * pi * np.arange(_ROUND) / _ROUND)
         turned = 0.04 * np.abs(np.angle(turns / np.exp(-0.25j * pi)))
         rounds = [_off(turns, size, self._radius(name) + 0.7 * n * size[1]) for n in range(rings)]
         price = np.concatenate([_FARTHER * n + turned for n in range(rings)])
-        beside = self._numbers({name})
-        return self._candidates((name, name), size, price, {"beside": beside}, off=np.concatenate(rounds))
-
-    def by_slider(self, name: str, size: Size) -> LabelSpots:
-        """Return places round a slider's block, off every link: also off the bar that leads to it."""
-        found = self.around(name, size, 6)
-        return LabelSpots(found.spots, found.candidates._replace(beside=frozenset()))
+        beside = self._numbers(set() if slider else {name})
+        return self._spots((name, name), size, price, beside=beside, off=np.concatenate(rounds))
 
     def on(self, body: Body, size: Size) -> LabelSpots:
         """Return places on a link: along a bar and beside it, or inside a plate."""
-        own = {"own": self._numbers(set(body.joints))}
+        own = self._numbers(set(body.joints))
         if len(self._corners(body)) > 2:
             inside, price = self._inside(body)
-            return self._candidates(body.joints[:2], size, price, own, begin=inside, end=inside)
-        return self._line(body.joints[:2], (0, 1), size, _SIDES, _ALONG, own)
+            return self._spots(body.joints, size, price, own=own, begin=inside, end=inside)
+        return self._line(body.joints, (0, 1), size, product(_SIDES, _ALONG), own)
 
     def _inside(self, body: Body) -> tuple[Loop, NDArray[np.float64]]:
         """Return places inside a plate in its frame, and their prices."""
@@ -200,29 +194,27 @@ class Surroundings:
             return
         ends, (_, way), mine = (about.begin, about.end), self._frame(about.frame), self._numbers(about.own)
         if about.bare and size[0] < abs(way[0] * (ends[1] - ends[0])):
-            yield self._line(about.frame, ends, size, (1, -1), _MIDDLE, {"own": mine})
+            yield self._line(about.frame, ends, size, product((1, -1), _MIDDLE), mine)
         low, step = 2.0 * self.gauge.bar + 9 * self.layout.unit, 1.4 * size[1]
         levels = [(side, low + n * step) for n in range(_LEVELS) for side in (1.0, -1.0)]
         lines = [MeasureLine(about.frame, *ends, side * level) for side, level in levels]
         drawn, share = np.array([*product(range(len(lines)), (0.5, 0.3, 0.7))]).T
         aside, level = np.array(levels)[drawn.astype(int)].T
         price = 0.3 * (drawn // 2) + 0.6 * abs(share - 0.5)
-        begin, end = (np.full(len(drawn), place, np.complex128) for place in ends)
-        where = {"begin": begin, "end": end, "share": share, "aside": aside}
+        where: dict[str, Any] = {"begin": ends[0], "end": ends[1], "share": share, "aside": aside}
         where["further"] = level + 0.2 * size[1] - _CLEAR * self.gauge.bar
-        yield self._lined(self._candidates(about.frame, size, price, {"beside": mine}, **where), lines, drawn)
+        yield self._lined(self._spots(about.frame, size, price, beside=mine, **where), lines, drawn)
 
     def _by_angle(self, about: Measurement, size: Size) -> LabelSpots:
         """Return places outside arcs about where two lines of a body meet."""
-        own = {"own": self._numbers(about.own)}
         middle = directions(np.angle(about.begin) + np.angle(about.end / about.begin) / 2)
         radii = [share * (2.4 * self.gauge.bar + 0.6 * size[1]) for share in _ROOMY]
         arcs = tuple(AngleArc(about.frame, about.begin, about.end, radius) for radius in radii)
         further = np.array(radii) + 0.2 * size[1] - _CLEAR * self.gauge.bar
         # a line across the middle way, whose side that is
-        end = np.full(len(radii), -1j * middle)
-        where = {"end": end, "share": np.zeros(len(radii)), "aside": np.ones(len(radii)), "further": further}
-        found = self._candidates(about.frame, size, 0.3 * np.arange(len(radii)), own, **where)
+        where: dict[str, Any] = {"end": -1j * middle, "aside": 1, "further": further}
+        own = self._numbers(about.own)
+        found = self._spots(about.frame, size, 0.3 * np.arange(len(radii)), own=own, **where)
         return self._lined(found, arcs, np.arange(len(radii)))
 
     def _lined(
@@ -240,48 +232,41 @@ class Surroundings:
         middle = pi / 6 if self.figure.scene.info.full_turn and self.phase is None else angles.mean() / 2
         ways = np.linspace(-1, 1, 9)
         off = _off(np.exp(-1j * (middle + 0.8 * ways)), size, turning.arc + 0.1 * size[1])
-        return self._candidates((turning.pivot, turning.pivot), size, 0.3 * np.abs(ways), {}, off=off)
+        return self._spots((turning.pivot, turning.pivot), size, 0.3 * np.abs(ways), off=off)
 
     def still(self, places: Loop, size: Size) -> LabelSpots:
         """Return places in pixels that stand still on the ground, the best first."""
         name = next(iter(self.figure.linkage.pins)).name
         begin = (places - self._paths[name][0]) / self.view.scale
-        price = 0.5 * np.arange(len(places))
-        return self._candidates((name, name), size, price, {}, begin=begin, end=begin)
+        return self._spots((name, name), size, 0.5 * np.arange(len(places)), begin=begin, end=begin)
 
     def _line(
-        self,
-        frame: Sequence[str],
-        line: tuple[complex, complex],
-        size: Size,
-        sides: Sequence[float],
-        along: Sequence[float],
-        known: dict[str, Any],
+        self, frame: Sequence[str], line: tuple[complex, complex], size: Size, tried: Iterable[Any], own: Own
     ) -> LabelSpots:
-        aside, share = np.array([(side, share) for side in sides for share in along]).T
+        """Return places on a line and beside it: `tried` are how far aside and at which share of it."""
+        aside, share = np.array([*tried]).T
         price = _BESIDE * np.abs(aside) + np.abs(share - 0.5)
-        further = (np.maximum(np.abs(aside), 1) - 1) * size[1]
-        begin, end = (np.full(len(share), place, np.complex128) for place in line)
-        where = {"begin": begin, "end": end, "share": share, "aside": np.sign(aside), "further": further}
-        return self._candidates(frame, size, price, known, **where)
+        where: dict[str, Any] = {"begin": line[0], "end": line[1], "share": share, "aside": np.sign(aside)}
+        where["further"] = (np.maximum(np.abs(aside), 1) - 1) * size[1]
+        return self._spots(frame, size, price, own=own, **where)
 
-    def _candidates(
+    def _spots(
         self,
         frame: Sequence[str],
         size: Size,
         price: NDArray[Any],
-        known: dict[str, Any],
-        **parts: NDArray[Any],
+        *,
+        own: Own = frozenset(),
+        beside: Own = frozenset(),
+        **parts: ArrayLike,
     ) -> LabelSpots:
         """Return places with their prices, at each moment; of the parts of spots what is left out is 0."""
-        none, nowhere = np.zeros(len(price)), np.zeros(len(price), np.complex128)
-        lacking = {"begin": nowhere, "end": nowhere, "share": none, "aside": none, "further": none}
-        whole = {"off": nowhere, **lacking, **parts}
-        first, second = frame
-        spots = Spots(first, second, *(whole[part] for part in Spots._fields[2:]))
+        first, second = frame[:2]
+        whole = np.broadcast_arrays(price, *(parts.get(part, 0.0) for part in Spots._fields[2:]))
+        spots = Spots(first, second, *whole[1:])
         at, way = (place[:, None] for place in self._frame((first, second)))
         middles = spots.middles(at, way, complex(*size), self.gauge.bar)
-        return LabelSpots(spots, LabelPlaces(size, middles, price, **known))
+        return LabelSpots(spots, LabelPlaces(size, middles, price, own, beside))
 
     def _radius(self, name: str) -> float:
         """Return how far what is drawn at a joint reaches."""
@@ -301,8 +286,7 @@ class Surroundings:
     @cached_property
     def things(self) -> tuple[Thing, ...]:
         """All that labels keep off, at each of the moments."""
-        found = [*self._links(), *self._pins(), *self._fittings(), *self._standing(), *self._arrow()]
-        return tuple(found)
+        return (*self._links(), *self._pins(), *self._fittings(), *self._standing(), *self._arrow())
 
     def _links(self) -> Iterator[Thing]:
         """Yield what each of the bodies covers, and each spring and damper."""
@@ -315,9 +299,8 @@ class Surroundings:
 
     def _pins(self) -> Iterator[Thing]:
         for name in self.figure.pins:
-            yield Thing(
-                frozenset([name]), Solid(self._paths[name][:, None], self.gauge.pin + self.gauge.outline)
-            )
+            disc = Solid(self._paths[name][:, None], self.gauge.pin + self.gauge.outline)
+            yield Thing(frozenset([name]), disc)
 
     def _fittings(self) -> Iterator[Thing]:
         """Yield blocks, slotted bars, cylinders, and the guides on the ground."""

@@ -13,14 +13,11 @@ import numpy as np
 from linkanim.digits import short, stepped, typeset
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.motion.measures import output_slider
-from linkanim.picture.figure import Figure
-from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.layout import Layout
 from linkanim.picture.parts.driven import driven_words
 from linkanim.picture.parts.fittings import Bench, rail_reach
 from linkanim.picture.raster.raster import Layer, Loop
 from linkanim.picture.raster.shapes import arrows, segments
-from linkanim.picture.theme import Theme
-from linkanim.picture.view import View
 
 _TICK = 1.6
 """How far a tick reaches beyond the rail, in half widths of a bar."""
@@ -35,28 +32,28 @@ _FEW = 1e-6
 
 @dataclass(frozen=True)
 class DeadCentres:
-    """The dead centres of a figure's output slider, if it slides on the ground; `sized` with its stroke."""
+    """The dead centres of a figure's output slider, which slides on the ground; `sized` with its stroke.
 
-    figure: Figure
-    view: View
-    gauge: Gauge
-    theme: Theme
+    `ends` is where the slider is in pixels, furthest back and forward, `rail` how far its rails lie aside.
+    """
+
+    bench: Bench
     layout: Layout
     sized: bool
+    ends: tuple[complex, complex]
+    rail: float
 
     def words(self) -> Iterator[tuple[str, Callable[[tuple[float, float]], Loop]]]:
         """Yield the input's angle at each dead centre, and between them the stroke and the time ratio.
 
         With each comes where the middle of a line of text of a size may stand.
         """
-        if self._ends is None:
-            return
-        info = self.figure.scene.info
+        info = self.bench.figure.scene.info
         lines = [*map(self._angle, info.dead_centres or ())]
         if self.sized and info.stroke and info.time_ratio:
-            stroke = f"stroke {short(info.stroke)} {self.figure.scene.length_unit}"
+            stroke = f"stroke {short(info.stroke)} {self.bench.figure.scene.length_unit}"
             lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
-        feet = (*zip(self._ends, (-1, 1), strict=True), (sum(self._ends) / 2, 0))
+        feet = (*zip(self.ends, (-1, 1), strict=True), (sum(self.ends) / 2, 0))
         for text, foot in zip(lines, feet, strict=False):
             yield text, partial(self._places, *foot)
 
@@ -76,19 +73,9 @@ class DeadCentres:
         )
 
     @cached_property
-    def _ends(self) -> tuple[complex, complex] | None:
-        """Where the slider is in pixels, furthest back and forward; None where it travels too little."""
-        scene, phases, slider = self.figure.scene, self.figure.scene.info.dead_centres, self._slider
-        if slider is None or phases is None or self.figure.linkage.joint(slider).slides[0].start is not None:
-            return None
-        back, forward = (self.view.place(scene.pose(phase, 0).position[slider]) for phase in phases)
-        return (back, forward) if abs(forward - back) > _VISIBLE else None
-
-    @cached_property
     def _frame(self) -> tuple[complex, complex]:
         """The way of the slider in pixels, and the way out from its guide: where there is more room."""
-        assert self._ends is not None
-        begin, way = self._ends[0], self._ends[1] - self._ends[0]
+        begin, way = self.ends[0], self.ends[1] - self.ends[0]
         seen = (np.concatenate([np.zeros(0, complex), *self._passed()]) - begin) / way
         near = seen[(seen.real > -_NEAR) & (seen.real < 1 + _NEAR)].imag
         crowded = float(np.sum(np.sign(near) * np.exp(-np.abs(near))))
@@ -97,34 +84,24 @@ class DeadCentres:
 
     def _passed(self) -> Iterator[Loop]:
         """Yield pixels that bars pass through in the cycle, but for the slider's own way."""
-        for body in self.figure.bodies:
-            for one, other in pairwise(body.joints):
-                begin, end = (self.figure.path(name, self.view) for name in (one, other))
+        figure, view = self.bench.figure, self.bench.view
+        for body in figure.bodies:
+            for ends in pairwise(body.joints):
+                begin, end = (figure.path(name, view) for name in ends)
                 yield from (begin + share * (end - begin) for share in (0.2, 0.4, 0.6, 0.8))
 
     def _fits(self, out: complex) -> bool:
         """Whether the words have room on one side of the guide."""
-        assert self._ends is not None
         stage, high = self.layout.stage, (self._reach + 2.8 * self.layout.small_size) * out
-        return all(stage.holds((end + high).real, (end + high).imag) for end in self._ends)
+        return all(stage.holds((end + high).real, (end + high).imag) for end in self.ends)
 
     @property
     def _reach(self) -> float:
         """How far the ticks reach from the line of travel."""
-        return self._rail + _TICK * self.gauge.bar
-
-    @cached_property
-    def _rail(self) -> float:
-        assert self._slider
-        return rail_reach(Bench(self.figure, self.view, self.gauge, self.theme), self._slider)
-
-    @cached_property
-    def _slider(self) -> str | None:
-        body = output_slider(self.figure.linkage)
-        return body.slider if body else None
+        return self.rail + _TICK * self.bench.gauge.bar
 
     def _angle(self, phase: float) -> str:
-        scene = self.figure.scene
+        scene = self.bench.figure.scene
         angle = scene.pose(phase, 0).coordinate
         if not scene.info.full_turn:
             return f"{input_symbol(scene.linkage)} = {driven_words(scene, angle)}"
@@ -133,23 +110,31 @@ class DeadCentres:
     @cached_property
     def ticks(self) -> tuple[tuple[complex, complex], ...]:
         """The lines across the guide, or beside a cylinder, and with the stroke the one between them."""
-        if self._ends is None:
-            return ()
-        _, out = self._frame
-        level = out * (self._reach - 0.4 * self.gauge.bar)
-        begin = -self._reach if self._rail < _WIDE * self.gauge.bar else self._rail
-        across = tuple((foot + out * begin, foot + out * self._reach) for foot in self._ends)
-        return (*across, (self._ends[0] + level, self._ends[1] + level)) if self.sized else across
+        (_, out), bar = self._frame, self.bench.gauge.bar
+        level = out * (self._reach - 0.4 * bar)
+        begin = -self._reach if self.rail < _WIDE * bar else self.rail
+        across = tuple((foot + out * begin, foot + out * self._reach) for foot in self.ends)
+        return (*across, (self.ends[0] + level, self.ends[1] + level)) if self.sized else across
 
     @property
     def layers(self) -> list[Layer]:
         """The ticks, and the stroke's arrows between them."""
-        if not self.ticks:
-            return []
-        width, (first, second, *level) = 0.9 * self.gauge.line, self.ticks
+        width, (first, second, *level) = 0.9 * self.bench.gauge.line, self.ticks
         begins, ends = zip(first, second, strict=True)
         lines = segments(begins, ends, width)
         for begin, end in level:
             middle = (begin + end) / 2
             lines += arrows([middle, middle], [begin - middle, end - middle], 1.6 * width)
-        return [Layer(self.theme.dim, lines)]
+        return [Layer(self.bench.theme.dim, lines)]
+
+
+def dead_centres_of(bench: Bench, layout: Layout, *, sized: bool) -> DeadCentres | None:
+    """Return the dead centres; None where no slider runs on the ground, or it travels too little."""
+    figure, body = bench.figure, output_slider(bench.figure.linkage)
+    slider, phases = body.slider if body else None, figure.scene.info.dead_centres
+    if slider is None or phases is None or figure.linkage.joint(slider).slides[0].start is not None:
+        return None
+    back, forward = (bench.view.place(figure.scene.pose(phase, 0).position[slider]) for phase in phases)
+    if not abs(forward - back) > _VISIBLE:
+        return None
+    return DeadCentres(bench, layout, sized, (back, forward), rail_reach(bench, slider))

@@ -66,12 +66,17 @@ class Label:
     """How far it shows over the cycle, at equal steps of phase."""
     drawn: MeasureLine | AngleArc | None = None
 
+    @property
+    def row(self) -> str:
+        """Its row in the table."""
+        return f"{self.text}, {self.about}"
+
 
 @dataclass(frozen=True)
 class DimensionTable:
     """Rows of words beside the figure, in columns."""
 
-    rows: tuple[str, ...]
+    rows: tuple[Label, ...]
     columns: int
     rect: Rect
     size: int
@@ -81,9 +86,9 @@ class DimensionTable:
     def captions(self) -> Iterator[Caption]:
         """Yield the rows, column by column."""
         deep, wide = ceil(len(self.rows) / self.columns), self.rect.width / self.columns
-        for n, text in enumerate(self.rows):
+        for n, label in enumerate(self.rows):
             at = self.rect.x + n // deep * wide, self.rect.y + n % deep * _ROW * self.size
-            yield Caption(text, at, self.size, self.colour, strong=True, halo=self.halo)
+            yield Caption(label.row, at, self.size, self.colour, strong=True, halo=self.halo)
 
 
 @dataclass(frozen=True)
@@ -95,7 +100,7 @@ class Names:
     bar: float
     halo: Halo
     table: DimensionTable | None = None
-    unlisted: tuple[str, ...] = ()
+    unlisted: tuple[Label, ...] = ()
     """Rows for which there is no room."""
     scale: float = 1.0
 
@@ -125,8 +130,8 @@ class Names:
         """Yield the dimension lines that show, of `parts` by their symbols."""
         for label, shown in zip(self.labels, self._shown(pose.phase), strict=True) if parts else ():
             if label.drawn and shown > _UNSEEN:
-                for layer in parts[label.symbol].placed(places):
-                    yield layer._replace(alpha=shown * layer.alpha)
+                layers = parts[label.symbol].placed(places)
+                yield from (layer._replace(alpha=shown * layer.alpha) for layer in layers)
 
     def parts(self, figure: Figure, view: View, gauge: Gauge, colour: Colour) -> dict[str, Part]:
         """Return the dimension lines in a view, by their symbols."""
@@ -141,10 +146,8 @@ class Names:
     def measuring(self, known: Symbols | None, unit: str, scale: float) -> Names:
         """Return the labels in their places in a view of this scale, with the lengths as they are now."""
         values = {one.symbol: one.written(unit) for one in known.dimensions} if known else {}
-        labels = (replace(label, text=values.get(label.symbol, label.text)) for label in self.labels)
-        rows = {f"{symbol} =": text for symbol, text in values.items()}
-        table = self.table and replace(self.table, rows=tuple(_reread(row, rows) for row in self.table.rows))
-        return replace(self, labels=tuple(labels), table=table, scale=scale)
+        table = self.table and replace(self.table, rows=_reread(self.table.rows, values))
+        return replace(self, labels=_reread(self.labels, values), table=table, scale=scale)
 
     def _shown(self, phase: float) -> list[float]:
         """Return how far each label shows at a phase."""
@@ -164,10 +167,9 @@ class Names:
         return spots, np.array([complex(*label.size) for label in self.labels])
 
 
-def _reread(row: str, values: Mapping[str, str]) -> str:
-    """Return a row of the table with its length as it is now."""
-    symbol, about = row.split(" =")[0] + " =", row.rpartition(", ")[2]
-    return f"{values[symbol]}, {about}" if symbol in values else row
+def _reread(labels: Iterable[Label], values: Mapping[str, str]) -> tuple[Label, ...]:
+    """Return labels with the lengths as they are now, by their symbols."""
+    return tuple(replace(label, text=values.get(label.symbol, label.text)) for label in labels)
 
 
 @dataclass(frozen=True)
@@ -214,18 +216,15 @@ def names_of(
         planned += [*_dimensions(ground, style, known), *_angle(ground, style, known)]
     planned += [*_dead_centres(ground, style, dead_centres)] if dead_centres else []
     planned += _joints(ground, style, [name for name in shown if name not in fixed])
-    placer, kept, rows = Placer(ground.clutter()), [], []
+    placer, kept, left = Placer(ground.clutter()), [], []
     for forms in planned:
-        placed = list(_placed(placer, forms))
-        label, lasting = forms[0][0], any(one.shown is not None and one.shown.all() for one in placed)
+        placed, (label, _) = list(_placed(placer, forms)), forms[0]
         kept += placed
-        if label.about and not lasting:
-            rows.append(f"{label.text}, {label.about}")
-    table = _tabled(ground, style, placer, tuple(rows)) if rows else None
-    unlisted = () if table else tuple(rows)
-    scale = ground.view.scale
-    found = ground.figure.scene.period, style.gauge.bar, style.halo
-    return Names(tuple(kept), *found, table, unlisted, scale)
+        if label.about and not any(one.shown is not None and one.shown.all() for one in placed):
+            left.append(label)
+    rows, found = tuple(left), (ground.figure.scene.period, style.gauge.bar, style.halo)
+    table = _tabled(ground, style, placer, rows) if rows else None
+    return Names(tuple(kept), *found, table, () if table else rows, ground.view.scale)
 
 
 def _placed(placer: Placer, forms: tuple[Form, ...]) -> Iterator[Label]:
@@ -253,10 +252,11 @@ def table_width(rows: Iterable[str], style: LabelStyle) -> float:
 
 
 def _tabled(
-    ground: Surroundings, style: LabelStyle, placer: Placer, rows: tuple[str, ...]
+    ground: Surroundings, style: LabelStyle, placer: Placer, rows: tuple[Label, ...]
 ) -> DimensionTable | None:
     """Return the table where it has been given room, or where there is some; None where there is none."""
-    size, wide, strip = style.layout.small_size, table_width(rows, style), style.layout.table
+    size, strip = style.layout.small_size, style.layout.table
+    wide = table_width((label.row for label in rows), style)
     if strip:
         fits = (
             (columns, small)
@@ -302,7 +302,7 @@ def _links(ground: Surroundings, style: LabelStyle) -> Forms:
         words = (links[body], number) if _long_enough(ground, style, body) else (number,)
         labels = [style.label(text, size, style.theme.ink) for text in dict.fromkeys(words)]
         if body.slider:
-            yield tuple((label, ground.by_slider(body.slider, label.size)) for label in labels)
+            yield tuple((label, ground.around(body.slider, label.size, slider=True)) for label in labels)
         elif len(body.joints) > 1:
             yield tuple((label, ground.on(body, label.size)) for label in labels)
 

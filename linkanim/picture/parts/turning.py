@@ -108,14 +108,10 @@ def _bent(sweep: float, radius: float, thick: float, colours: tuple[Colour, Colo
     bend: Loop = radius * directions(side * AHEAD + sweep * np.linspace(0, 1, 16))
     head, turn = min(6.5 * thick, 0.8 * abs(sweep) * radius), bend[-1] / radius * 1j * side
     (rimmed,), (bare,) = strokes(bend, (line + 2 * rim, line))
-    barbs = (bend[-1] + _barb(length) * turn for length in (head + 2 * rim, head))
-    loops = zip((rimmed, bare), barbs, strict=True)
+    # a triangle whose point is a little ahead of the end
+    barb = turn * np.array([0.75, -0.35 + 0.5j, -0.35 - 0.5j])
+    loops = (rimmed, bend[-1] + (head + 2 * rim) * barb), (bare, bend[-1] + head * barb)
     return joined(map(Layer, reversed(colours), loops))
-
-
-def _barb(length: float) -> Loop:
-    """Return a triangle along the real axis whose point is a little ahead of 0."""
-    return np.asarray(length * np.array([0.75, -0.35 + 0.5j, -0.35 - 0.5j]), np.complex128)
 
 
 @dataclass(frozen=True)
