@@ -30,7 +30,7 @@ from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Value, maximum, minimum, select, sqrt
 from linkanim.mechanics.formulas.planar import Moving, MovingPoint, Slope, Vec
 from linkanim.mechanics.formulas.precise import context, cosine, exactly, nearest_sum
-from linkanim.mechanics.loops.input_state import InputPlaces, InputState
+from linkanim.mechanics.loops.input_state import InputState
 from linkanim.mechanics.loops.signed import SMALLEST, Reduced, SignedRoot, plain_root
 
 BESIDE_AN_END = 1e-3
@@ -286,9 +286,10 @@ class ChainRoot:
     sign: float = 1.0
     dips: tuple[Dip, ...] = ()
 
-    def change_points(self, path: InputPlaces) -> Iterator[float]:
-        """Yield the input's places at which the root changes its sign and the input goes on."""
-        yield from (path.coordinate_at(zero.place) for zero in self.zeros if isinstance(zero, Touch))
+    @property
+    def change_points(self) -> Iterator[Sum]:
+        """What names the places at which the root changes its sign and the input goes on."""
+        return (zero.place for zero in self.zeros if isinstance(zero, Touch))
 
     def side(self, state: InputState) -> Value:
         """Return the sign of the closure on the smooth path."""

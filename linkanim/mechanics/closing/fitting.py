@@ -97,7 +97,7 @@ def refined(assembly: Assembly, name: str, phase: Sum) -> Sum:
     Slopes are differences: the formulas' own rates have constants that are rounded otherwise than the
     margin's.
     """
-    run = decimals(("x",), _by_phase(assembly, name)[:1])
+    run = decimals(("x",), _outputs(_closing(assembly, name))[:1])
     with localcontext(context()):
         place = _newton(phase, lambda place: _steps(run, place)[0])
         return phase if place is None else nearest_sum(place)
@@ -142,10 +142,6 @@ def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
 
 def _closing(assembly: Assembly, name: str) -> Closing:
     return walk_at(precise(assembly), Graph(exact=True).input("x"), Slope(1.0)).closings[name]
-
-
-def _by_phase(assembly: Assembly, name: str) -> tuple[Value, ...]:
-    return _outputs(_closing(assembly, name))
 
 
 def _outputs(closing: Closing) -> tuple[Value, ...]:
@@ -281,7 +277,7 @@ def _sampler(assembly: Assembly, name: str, zero: Fitted) -> tuple[Callable[[Dec
     if isinstance(zero, End):
         assert isinstance(path, Swing)
         return _by_way(assembly, path, name, zero), path.amplitude / 2
-    run = decimals(("x",), _by_phase(assembly, name))
+    run = decimals(("x",), _outputs(_closing(assembly, name)))
     place, turns = exactly(zero.place) - exactly(_start(path, zero)), zero.turns
 
     def sampled(argument: Decimal) -> Sample:

@@ -93,7 +93,8 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
 def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
     """Return the assembly on another path, its closures named anew, and how its dyads fare there."""
     dyads = [name for name in dict.fromkeys(path.ends) if name and name not in assembly.loops]
-    chain = {name: ChainRoot(_ends(path, name), 0.0) for name in dyads}
+    ends = {name: tuple(End(upper) for upper in (False, True) if path.ends[upper] == name) for name in dyads}
+    chain = {name: ChainRoot(ends[name], 0.0) for name in dyads}
     limited = replace(resigned(replace(assembly, path=path, chain={})), chain=chain)
     return limited, separations(limited)
 
@@ -104,11 +105,6 @@ def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
     with np.errstate(all="ignore"):
         u, w = (float(np.nanmax(values)) for values in batch({"x": True}, [closing.u, closing.w])(phases))
     return u * assembly.unscale**2, w * assembly.unscale**2
-
-
-def _ends(path: Swing, name: str) -> tuple[End, ...]:
-    """Return at which ends of a swing a dyad on moving points limits it."""
-    return tuple(End(upper) for upper in (False, True) if path.ends[upper] == name)
 
 
 def _smooth_paths(swing: Swing) -> Iterator[Swing]:

@@ -56,9 +56,10 @@ class Assembly:
     @property
     def change_points(self) -> Iterator[float]:
         """The input's places at which a root changes its sign, of loops and of dyads down the chain."""
-        roots: tuple[Loop | ChainRoot, ...] = (*self.loops.values(), *self.chain.values())
-        for root in roots:
-            yield from root.change_points(self.path)
+        for loop in self.loops.values():
+            yield from (place for place, turns in loop.change_points if self.path.holds(place, turns))
+        for root in self.chain.values():
+            yield from map(self.path.coordinate_at, root.change_points)
 
     @cached_property
     def gears(self) -> Mapping[str, Gearing]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from ctypes import addressof, c_char
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -99,16 +99,18 @@ class _Constants:
 
     def assignment(self, node: Expr) -> str:
         """Return the line that works a node out."""
-        return f"    {_name(node)} = {FORMULAS[node.op].format(*map(self.name, node.args))}"
+        return f"{_name(node)} = {FORMULAS[node.op].format(*map(self.name, node.args))}"
 
 
 def _name(value: Expr) -> str:
     return str(value.args[0]) if value.op == "input" else f"v{value.index}"
 
 
-def _define(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return the function of that name from source text that this module wrote."""
-    space = dict(names)
+def _function(
+    name: str, inputs: Iterable[str], lines: Iterable[str], names: Mapping[str, Any]
+) -> Callable[..., Any]:
+    """Return the function of that name, inputs and lines, which this module wrote, given what it uses."""
+    source, space = "\n    ".join([f"def {name}({', '.join(inputs)}):", *lines]), dict(names)
     exec(_compiled(source, f"<linkanim {name}>"), space)
     function: Callable[..., Any] = space.pop(name)
     return function
@@ -136,8 +138,7 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     result = layout.format(
         *(texts[value.index] if isinstance(value, Expr) else constants.name(value) for value in outputs)
     )
-    source = "\n".join([f"def pose({', '.join(inputs)}):", *lines, f"    return {result}"])
-    return _define(source, "pose", FLOAT_NAMES | constants.numbers)
+    return _function("pose", inputs, [*lines, f"return {result}"], FLOAT_NAMES | constants.numbers)
 
 
 def _inlined(
@@ -169,7 +170,7 @@ def _inlined(
             texts[index], depths[index] = f"({text})", depth + 1
         else:
             texts[index], depths[index] = f"v{index}", 0
-            lines.append(f"    v{index} = {text}")
+            lines.append(f"v{index} = {text}")
     return lines, texts
 
 
@@ -181,9 +182,8 @@ def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., t
     constants = _Constants()
     lines = [constants.assignment(node) for node in needed(outputs) if node.op != "input"]
     result = "".join(f"{constants.name(value)}, " for value in outputs)
-    source = "\n".join([f"def exact({', '.join(inputs)}):", *lines, f"    return ({result})"])
     digits = {name: digits_of(number) for name, number in constants.numbers.items()}
-    return _define(source, "exact", {**DECIMAL_NAMES, **digits})
+    return _function("exact", inputs, [*lines, f"return ({result})"], {**DECIMAL_NAMES, **digits})
 
 
 @dataclass(frozen=True)
@@ -275,8 +275,7 @@ def _prelude(
     constants = _Constants()
     lines = [constants.assignment(node) for node in fixed]
     result = "".join(f"{name}, " for name in numbers)
-    source = "\n".join([f"def prelude({', '.join(names)}):", *lines, f"    return ({result})"])
-    return _define(source, "prelude", FLOAT_NAMES | constants.numbers)
+    return _function("prelude", names, [*lines, f"return ({result})"], FLOAT_NAMES | constants.numbers)
 
 
 class _Block:
@@ -292,9 +291,8 @@ class _Block:
         """Return the function that runs one block, of arrays, numbers, result rows and buffers."""
         calls = list(self._calls())
         buffers = (f"b{index}" for index in range(self.places.buffers))
-        names = ", ".join((*arrays, *uniform, *self.constants.numbers, *self.rows, *buffers))
-        source = "\n    ".join([f"def block({names}):", *(calls or ["pass"])])
-        return _define(source, "block", {**UFUNCS, "where": np.where})
+        names = (*arrays, *uniform, *self.constants.numbers, *self.rows, *buffers)
+        return _function("block", names, calls or ["pass"], {**UFUNCS, "where": np.where})
 
     def _calls(self) -> Iterator[str]:
         """Yield the numpy calls in order."""

@@ -11,7 +11,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Protocol
 
 from linkanim.mechanics.formulas.circular import Half, cosine_of, half_angle, sharp_half_angle
 from linkanim.mechanics.formulas.constant import root
@@ -23,16 +22,6 @@ HalfForm = Callable[..., Half]
 """Returns half of an angle that is the sum of two numbers; `quarters=` are half turns beside it."""
 NOTHING = 2.0**-100
 """What is less is left of equal sums of two floats."""
-
-
-class InputPlaces(Protocol):
-    """Where the input comes to, as roots ask it that know where they change their sign."""
-
-    def holds(self, place: float, turns: int = 1) -> bool:
-        """Tell whether the input comes to a place, or to one that many turns away, or twice as many …"""
-
-    def coordinate_at(self, place: Sum) -> float:
-        """Return the input's coordinate at a place by which a change point down the chain is known."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from linkanim.mechanics.formulas.precise import context, exactly, nearest_sum, s
 from linkanim.mechanics.formulas.precise import direction as direction_of
 from linkanim.mechanics.linkage.linkage import Linkage
 from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.loops.input_state import InputPlaces, InputState
+from linkanim.mechanics.loops.input_state import InputState
 from linkanim.mechanics.loops.roots import Kind, LoopRoot
 from linkanim.mechanics.loops.signed import SignedRoot, sharpened, sign_of_root, signed_root
 
@@ -76,13 +76,13 @@ class Loop:
         """Whether the loop keeps its crank from turning fully."""
         return Kind.LIMIT in (self.root.u.kind, self.root.w.kind)
 
-    def change_points(self, path: InputPlaces) -> Iterator[float]:
-        """Yield the input's angles, as far as it comes to them, at which the root changes its sign."""
+    @property
+    def change_points(self) -> Iterator[tuple[float, int]]:
+        """The input's angles at which the root changes its sign, and after how many turns each is back."""
         p, q = self.gearing.ratio.as_integer_ratio()
         for angle in self.root.change_points:
             first, step = float((angle - self.gearing.offset) * Fraction(q, p)), 2 * math.pi * q / abs(p)
-            places = (first + turn * step for turn in range(abs(p)))
-            yield from (place for place in places if path.holds(place, q))
+            yield from ((first + turn * step, q) for turn in range(abs(p)))
 
     def closed(self, state: InputState, pace: Slope) -> tuple[SignedRoot, Half]:
         """Return the loop's root and ψ/2 at the state's instant, ψ running at `pace`."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -36,11 +36,8 @@ _Key = tuple[int, bool, bool]
 """Which poses a program gives: how many derivatives, whether the input accelerates, whether `per_input`."""
 
 
-class Traced(NamedTuple):
-    """The formulas as traced for one way of asking: the inputs' names, and every quantity."""
-
-    names: tuple[str, ...]
-    rows: Rows
+Traced = tuple[tuple[str, ...], Rows]
+"""The formulas as traced for one way of asking: the inputs' names, and every quantity."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +111,7 @@ class Mechanism(Setting):
             raise ValueError("a mechanism on its way is solved from arrays")
         derivatives, accelerates, per_input = key
         trace = self.trace(Variant(True, accelerates, per_input=per_input))
-        found = self._poses[key] = _scalar(trace, derivatives)
+        found = self._poses[key] = _scalar(*trace, derivatives)
         return found
 
     def trace(self, variant: Variant) -> Traced:
@@ -131,7 +128,7 @@ class Mechanism(Setting):
             driven = {kind: {"": (value,)} for kind, value in places}
             rows = dict(_quantities(walked(self.assembly, state), unscale))
             graph.forget()
-            found = self._traces[variant] = Traced(names, driven | rows)
+            found = self._traces[variant] = names, driven | rows
         return found
 
     def _state(self, graph: Graph, pace: Slope, variant: Variant) -> tuple[tuple[str, ...], InputState]:
@@ -183,26 +180,26 @@ class Mechanism(Setting):
         return found
 
     def _compiled(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
-        trace = self.trace(variant)
+        names, rows = self.trace(variant)
         rates = ("w", "a") if variant.accelerates else ("w",)
-        varying = {**dict.fromkeys(trace.names, True), **dict.fromkeys(rates, variant.varying_rate)}
+        varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
         pins = {joint.name: joint.position for joint in self.linkage.pins}
-        places = layout({kind: trace.rows[kind] for kind in kinds}, pins, VECTORS[:3])
+        places = layout({kind: rows[kind] for kind in kinds}, pins, VECTORS[:3])
         made = ((program, laid) for (like, _), (program, laid) in self._programs.items() if like == variant)
         known = (program for program, laid in made if laid.kinds == places.kinds)
         return next(known, None) or batch(varying, places.outputs), places
 
 
-def _scalar(trace: Traced, derivatives: int) -> Callable[..., dict[str, Any]]:
+def _scalar(names: tuple[str, ...], rows: Rows, derivatives: int) -> Callable[..., dict[str, Any]]:
     """Return the program of one instant in plain floats."""
     outputs: list[Value] = []
     parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
-    for kind, values in trace.rows.items():
+    for kind, values in rows.items():
         if kind in COORDINATE or (values and DERIVATIVE_OF[kind] <= derivatives):
             outputs.extend(component for components in values.values() for component in components)
             parts.append(f"{kind!r}: {'{}' if kind in COORDINATE else _dict_display(values)}")
     display = f"{{{{{', '.join(parts)}}}}}"
-    return scalar((*trace.names, "w", "a", "setting"), outputs, display)
+    return scalar((*names, "w", "a", "setting"), outputs, display)
 
 
 def _plain(values: Mapping[str, Array]) -> dict[str, Any]:
