@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from itertools import islice
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,6 +22,7 @@ from random_joints import (
 )
 from reference import DIGITS
 
+import linkanim
 from linkanim.mechanics.closing.kinds import CLOSERS
 from linkanim.mechanics.linkage.joint import Joint
 
@@ -75,3 +78,23 @@ def test_every_kind_of_joint_is_known_to_close() -> None:
         # A kind is a dataclass of its own; by name, since slots make a second class beside the first.
         found |= {kind.__name__} if "__dataclass_fields__" in vars(kind) else set()
     assert found == {kind.__name__ for kind in CLOSERS}
+
+
+JOINT_FILES = {"mechanics/linkage/dyads", "mechanics/closing/kinds", "scenes/fields/joints", "explain/kinds"}
+INPUT_FILES = {"mechanics/linkage/drive", "mechanics/drive/strokes", "scenes/fields/drive", "explain/inputs"}
+
+
+@pytest.mark.parametrize(
+    ("kind", "files"),
+    [
+        pytest.param("RPR", JOINT_FILES, id="a slotted bar"),
+        pytest.param("RPP", JOINT_FILES, id="a yoke"),
+        # a cylinder's path has a class beside that of its data
+        pytest.param("Cylinder(Stroke)?", INPUT_FILES, id="a cylinder that drives"),
+    ],
+)
+def test_a_kind_is_told_in_four_files(kind: str, files: set[str]) -> None:
+    """Its data, how it closes or runs, how it is written, how it is worked out; what is drawn follows."""
+    package = Path(linkanim.__file__).parent
+    telling = (file for file in package.rglob("*.py") if re.search(rf"\b{kind}\b", file.read_text("utf-8")))
+    assert {file.relative_to(package).with_suffix("").as_posix() for file in telling} == files
