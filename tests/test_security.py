@@ -6,9 +6,9 @@ import ast
 import json
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from types import CodeType
 from unicodedata import normalize
 
 import numpy as np
@@ -36,13 +36,13 @@ SMUGGLED = [
 def sources(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Return the text of all that is compiled from now on."""
     compiled: list[str] = []
-    define = program._define
+    compiling = program._compiled
 
-    def watched(source: str, name: str, names: Any) -> Callable[..., Any]:
+    def watched(source: str, name: str) -> CodeType:
         compiled.append(source)
-        return define(source, name, names)
+        return compiling(source, name)
 
-    monkeypatch.setattr(program, "_define", watched)
+    monkeypatch.setattr(program, "_compiled", watched)
     return compiled
 
 
