@@ -41,6 +41,12 @@ class QuizAnswer(NamedTuple):
     curve: tuple[float, ...] = ()
 
 
+def either(answers: tuple[str, str], first: bool, slip: str) -> tuple[QuizAnswer, list[QuizAnswer]]:
+    """Return the right one of two answers, the `first` or the other one, and the wrong one with its slip."""
+    right, wrong = answers if first else answers[::-1]
+    return QuizAnswer(right), [QuizAnswer(wrong, slip)]
+
+
 class QuestionId(NamedTuple):
     """What a question was about: enough to make it again just as it was."""
 

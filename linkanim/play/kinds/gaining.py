@@ -12,7 +12,7 @@ from linkanim.mechanics.motion.measures import between as way_between
 from linkanim.mechanics.motion.measures import growth, output_body
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.play.kinds.wording import number
-from linkanim.play.question import CLEAR, PLAIN, Puzzle, QuizAnswer, QuizQuestion
+from linkanim.play.question import CLEAR, PLAIN, Puzzle, QuizAnswer, QuizQuestion, either
 
 _BOTH = Look(names=1, vectors=frozenset({VELOCITY, ACCELERATION}))
 _SAMPLES = 72
@@ -37,7 +37,6 @@ def speeding(puzzle: Puzzle) -> QuizQuestion | None:
         along = (vx * ax + vy * ay) / hypot(vx, vy)
         gains = isfinite(along) and abs(along) > PLAIN * hypot(ax, ay)
         if gains and puzzle.share("acceleration", name) > CLEAR:
-            right, wrong = ("it speeds up", "it slows down")[:: 1 if along > 0 else -1]
             why = (
                 f"Its acceleration along its velocity is {number(along)} {puzzle.scene.length_unit}/s²: "
                 "not where it moves to, but whether both point the same way, decides."
@@ -45,8 +44,9 @@ def speeding(puzzle: Puzzle) -> QuizQuestion | None:
             return puzzle.question(
                 name,
                 f"Does {name} speed up or slow down?",
-                QuizAnswer(right),
-                [QuizAnswer(wrong, "the velocity taken for the acceleration")],
+                *either(
+                    ("it speeds up", "it slows down"), along > 0, "the velocity taken for the acceleration"
+                ),
                 why,
                 shows=_BOTH,
                 arrows=[name],
@@ -180,8 +180,6 @@ def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
     if not found:
         return None
     joint, turns = puzzle.random.choice(found)
-    answers = ("yes", "no")
-    right, wrong = answers[:: 1 if turns else -1]
     why = (
         f"{joint} slides along a guide that turns meanwhile: 2ω × v is not zero."
         if turns
@@ -191,8 +189,7 @@ def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
     return puzzle.question(
         joint,
         f"Is there a Coriolis term in the acceleration of {joint}, told in its guide's frame?",
-        QuizAnswer(right),
-        [QuizAnswer(wrong, slip)],
+        *either(("yes", "no"), turns, slip),
         why,
         shows=_BOTH,
         arrows=[joint],

@@ -8,7 +8,7 @@ from math import atan2, hypot, inf, isfinite, pi
 from linkanim.mechanics.motion.measures import coupler_body, pole
 from linkanim.picture.look import VELOCITY, Look
 from linkanim.play.kinds.wording import MOST, number
-from linkanim.play.question import CLEAR, PLAIN, Puzzle, QuizAnswer, QuizQuestion
+from linkanim.play.question import CLEAR, PLAIN, Puzzle, QuizAnswer, QuizQuestion, either
 
 _TURN = ("counterclockwise", "clockwise")
 _WAYS = ("to the right", "up", "to the left", "down")
@@ -27,7 +27,6 @@ def turning(puzzle: Puzzle) -> QuizQuestion | None:
         return None
     body = puzzle.random.choice(clear)
     rate = puzzle.pose.angular_velocity[body.name]
-    right, wrong = _TURN if rate > 0 else _TURN[::-1]
     forward = puzzle.pose.coordinate_rate > 0
     against = puzzle.scene.linkage.drive.coordinate.is_angle and forward != (rate > 0)
     misled = " It turns against the input: directions are not handed on along a chain." if against else ""
@@ -35,9 +34,8 @@ def turning(puzzle: Puzzle) -> QuizQuestion | None:
     return puzzle.question(
         body.name,
         f"Which way does the {puzzle.name(body)} turn?",
-        QuizAnswer(right),
-        [QuizAnswer(wrong, slip)],
-        f"Its angular velocity is {number(rate)} rad/s, so it turns {right}.{misled}",
+        *either(_TURN, rate > 0, slip),
+        f"Its angular velocity is {number(rate)} rad/s, so it turns {_TURN[rate < 0]}.{misled}",
         shows=_ARROWS,
         arrows=body.joints,
     )

@@ -12,7 +12,7 @@ from linkanim.mechanics.facts.naming import FourBar, four_bar_of
 from linkanim.mechanics.motion.measures import output_body
 from linkanim.picture.look import Look
 from linkanim.play.kinds.wording import MOST, angle, between, crank_degrees, number, swing
-from linkanim.play.question import CLEAR, Puzzle, QuizAnswer, QuizQuestion
+from linkanim.play.question import CLEAR, Puzzle, QuizAnswer, QuizQuestion, either
 
 _APART = 20.0
 """Crank angles in degrees that nobody takes for one another."""
@@ -88,18 +88,16 @@ def closure(puzzle: Puzzle) -> QuizQuestion | None:
     info = puzzle.scene.info
     if info.full_turn or not puzzle.scene.linkage.drive.coordinate.is_angle or not info.toggles:
         return None
-    answers = ("on the same closure", "on the other closure")
-    right, wrong = answers[:: 1 if info.mechanism.retraced else -1]
+    retraced, answers = info.mechanism.retraced, ("on the same closure", "on the other closure")
     why = (
         "It goes back by the way it came, as the scene says."
-        if info.mechanism.retraced
+        if retraced
         else "Through the limit the links swing on smoothly, to the other side of their line."
     )
     text = f"The {info.input_name} comes to its limit and turns back. On which closure?"
-    slip = "the other closure" if info.mechanism.retraced else "the closure that it came by"
-    return puzzle.question(
-        "input", text, QuizAnswer(right), [QuizAnswer(wrong, slip)], why, shows=Look(names=1, ghost=True)
-    )
+    slip = "the other closure" if retraced else "the closure that it came by"
+    look = Look(names=1, ghost=True)
+    return puzzle.question("input", text, *either(answers, retraced, slip), why, shows=look)
 
 
 def grashof(puzzle: Puzzle) -> QuizQuestion | None:
