@@ -149,11 +149,13 @@ def _signals_raise() -> Iterator[None]:
         yield
         return
     raised = [-_ONE_AND_THE_SAME]
+    ends: list[BaseException] = []
 
     def arrived(number: int, frame: FrameType | None) -> None:
         if time.monotonic() - raised[0] >= _ONE_AND_THE_SAME:
             raised[0] = time.monotonic()
-            raise KeyboardInterrupt if number == signal.SIGINT else Ended(128 + number)
+            ends.append(KeyboardInterrupt() if number == signal.SIGINT else Ended(128 + number))
+            raise ends[-1]
 
     before = {number: signal.getsignal(number) for number in _ENDING}
     ours = {number: old for number, old in before.items() if old not in (signal.SIG_IGN, None)}
@@ -161,6 +163,10 @@ def _signals_raise() -> Iterator[None]:
         signal.signal(number, arrived)
     try:
         yield
+    except ImportError as error:
+        if ends:  # numpy takes what arrives while it is loaded for a failure of its own
+            raise ends[-1] from error
+        raise
     finally:
         for number, old in ours.items():
             signal.signal(number, old)

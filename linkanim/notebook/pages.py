@@ -94,10 +94,10 @@ def _shown(motion: Motion) -> Iterator[Quantity]:
 
 def _table(motion: Motion) -> str:
     """Return the input's angle, phase, joints and bodies, a row for each instant."""
-    unit, shown = _unit(motion), list(_shown(motion))
-    titles = [_input_title(motion), "phase (°)"]
+    unit, coordinate, shown = _unit(motion), motion.setting.linkage.drive.coordinate, list(_shown(motion))
+    titles = [f"input {coordinate.name} ({coordinate.shown_unit(unit)})", "phase (°)"]
     titles += [one.headed(unit) for one in shown]
-    inputs = _input(motion), np.degrees(motion.phase)
+    inputs = coordinate.shown(motion.coordinate), np.degrees(motion.phase)
     columns = (np.ravel(column) for column in (*inputs, *(one.shown(motion) for one in shown)))
     rows = np.stack(list(columns), axis=1)
     head = "".join(f"<th>{symbol(title)}</th>" for title in titles)
@@ -106,17 +106,6 @@ def _table(motion: Motion) -> str:
     if cut:
         body.insert(_ENDS, f"<tr><td colspan='{len(titles)}'>… {len(cut):,} more rows …</td></tr>")
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(body)}</tbody></table>"
-
-
-def _input_title(motion: Motion) -> str:
-    """Return what a column of the input is titled."""
-    coordinate = motion.setting.linkage.drive.coordinate
-    return f"input {coordinate.name} ({coordinate.shown_unit(_unit(motion))})"
-
-
-def _input(motion: Motion) -> Any:
-    """Return the input's angle in degrees, or the travel of a slider that drives."""
-    return motion.setting.linkage.drive.coordinate.shown(motion.coordinate)
 
 
 def _row(values: Any) -> str:
@@ -145,9 +134,8 @@ def _chart(motion: Motion, quantity: Quantity) -> str:
     y_axis = around(values, most=4)
     area = plot_area(Rect(0, 0, *_CHART), y_axis, pen, foot=True)
     plot = Plot(area, around(x, most=6, unit="°", room=0.0), y_axis)
-    items: list[Item] = [*axes(plot, pen), x_title(plot, "input angle (°)" if turns else "phase φ (°)", pen)]
-    items.append(
-        Caption(quantity.title(_unit(motion)), (area.x, area.y - 1.35 * pen.text), pen.text, LIGHT.ink)
-    )
+    title, over = quantity.title(_unit(motion)), "input angle (°)" if turns else "phase φ (°)"
+    items: list[Item] = [*axes(plot, pen), x_title(plot, over, pen)]
+    items.append(Caption(title, (area.x, area.y - 1.35 * pen.text), pen.text, LIGHT.ink))
     items.append(curve_layer(plot, x, values, LIGHT.velocity, 1.3 * pen.line))
     return svg(_CHART, LIGHT.background, items, title=quantity.words)

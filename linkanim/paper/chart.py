@@ -120,16 +120,15 @@ class Page:
         entries = [
             _Entry(words(curve), self.colour(curve), self.dashes(curve)) for curve in self.curves.curves
         ]
-        return entries + (
-            [_Entry(self.measured.label, self.pen.theme.ink, dotted=True)] if self.measured else []
-        )
+        if self.measured:
+            entries.append(_Entry(self.measured.label, self.pen.theme.ink, dotted=True))
+        return entries
 
     def colour(self, curve: Curve) -> Colour:
         """Return the colour of a curve: after the theme's they repeat."""
         theme = self.pen.theme
-        palette = tuple(
-            dict.fromkeys((theme.velocity, theme.acceleration, *theme.traces[1::-1], *theme.bodies[3:]))
-        )
+        colours = (theme.velocity, theme.acceleration, *theme.traces[1::-1], *theme.bodies[3:])
+        palette = tuple(dict.fromkeys(colours))
         return palette[self.curves.curves.index(curve) % len(palette)]
 
     def dashes(self, curve: Curve) -> tuple[float, ...]:
@@ -171,10 +170,8 @@ class Page:
             ranges = zeros_level(ranges)
         most = max(min(round(high / (2.0 * self.pen.small)), 6), 3)
         units = [side[0].quantity.shown_unit(self.curves.scene.length_unit) for side in sides]
-        return [
-            linear(*ends, most=most, unit="°" if unit == "°" else "")
-            for ends, unit in zip(ranges, units, strict=True)
-        ]
+        signs = ("°" if unit == "°" else "" for unit in units)
+        return [linear(*ends, most=most, unit=sign) for ends, sign in zip(ranges, signs, strict=True)]
 
     def _plot(self, area: Rect, x: Axis, sides: list[list[Curve]]) -> Iterator[Item]:
         pen = self.pen
@@ -272,9 +269,8 @@ def _rows(entries: list[_Entry], width: float, pen: Pen) -> Iterator[list[_Entry
 def _legend_row(row: list[_Entry], x: float, y: float, pen: Pen) -> Iterator[Item]:
     for entry in row:
         start = complex(x, y + 0.5 * pen.small)
-        line = line_layer(
-            [start + np.array([0, _swatch(pen)])], entry.colour, _WIDTH * pen.line, entry.dashes
-        )
+        way = [start + np.array([0, _swatch(pen)])]
+        line = line_layer(way, entry.colour, _WIDTH * pen.line, entry.dashes)
         dot = Layer(entry.colour, [start + _swatch(pen) / 2 + disc(1.8 * pen.line)])
         yield dot if entry.dotted else line
         yield Caption(entry.words, (x + _swatch(pen) + 0.5 * pen.small, y), pen.small, pen.theme.ink)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterator
+from functools import cache
 from math import copysign, degrees, inf, tau
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,7 +14,6 @@ from linkanim.errors import OutOfRange
 from linkanim.mechanics.closing.search import sign_changes
 from linkanim.mechanics.facts.register import Quantity, input_symbol
 from linkanim.mechanics.motion.measures import output_body, output_slider
-from linkanim.mechanics.motion.motion import Motion
 from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
 
@@ -28,8 +26,6 @@ _BESIDE = tau / SAMPLES
 """How far from an extreme as it is read off a curve its rate changes its sign, in radians at the most."""
 _SAME = 1e-9
 """Instants are one that are nearer in phase."""
-
-Found = TypeVar("Found")
 
 
 class Instant(NamedTuple):
@@ -65,10 +61,10 @@ def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
 def usual_instants(scene: Scene) -> tuple[Instant, ...]:
     """Return the start, and where the output is furthest either way, if it turns back at all."""
     found = [Instant(0.0, "start")]
-    slider, output = output_slider(scene.linkage), output_body(scene.linkage)
-    place = f"{slider.name}.travel" if slider else f"{output.name}.angle" if output else None
-    if place is not None and (slider or output is None or output.name not in scene.info.turning_links):
-        rate = place + "_velocity" if slider else place.replace(".angle", ".angular_velocity")
+    output = output_slider(scene.linkage) or output_body(scene.linkage)
+    if output and (output.slider or output.name not in scene.info.turning_links):
+        names = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
+        place, rate = (f"{output.name}.{name}" for name in names)
         pace = Pace(abs(scene.linkage.drive.speed), "")
         curve = curves_of(scene, (place,), (pace,), "phase").curves[0]
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
@@ -95,7 +91,6 @@ def _at_rest(scene: Scene, rate: str, near: float) -> float:
     return float(found[0]) if len(found) else near
 
 
-@dataclass(frozen=True)
 class Values:
     """Quantities at an instant: 0 for what is rounding errors, infinite for what is unbounded there.
 
@@ -103,7 +98,12 @@ class Values:
     the mechanical advantage there.
     """
 
-    scene: Scene
+    def __init__(self, scene: Scene) -> None:
+        self.scene, cycle = scene, scene.cycle(_SAMPLES)
+        # each serves every quantity, or every instant
+        self._motion = cache(lambda phase, speed: scene.solve(phase=phase, speed=speed))
+        self._cycle = cache(lambda speed: cycle.paced(speed / scene.linkage.drive.speed))
+        self._usual = cache(self._size)
 
     def of(self, quantity: Quantity, instant: Instant, pace: Pace) -> float:
         """Return the value of one number as people read it, NaN where it has none."""
@@ -122,33 +122,12 @@ class Values:
             known.size and np.ptp(known) > max(_LEVEL * np.abs(known).max(), quantity.rounding(cycle))
         )
 
-    @cached_property
-    def _known(self) -> dict[tuple[object, ...], Any]:
-        return {}
-
-    def _motion(self, phase: float, speed: float) -> Motion:
-        return self._kept(("motion", phase, speed), lambda: self.scene.solve(phase=phase, speed=speed))
-
-    def _cycle(self, speed: float) -> Motion:
-        cycle = self._kept(("cycle",), lambda: self.scene.cycle(_SAMPLES))
-        return self._kept(("cycle", speed), lambda: cycle.paced(speed / self.scene.linkage.drive.speed))
-
-    def _usual(self, token: str, speed: float) -> tuple[float, float]:
+    def _size(self, token: str, speed: float) -> tuple[float, float]:
         """Return what size a quantity has half of the time, and how large its rounding errors are."""
-
-        def usual() -> tuple[float, float]:
-            quantity, cycle = self.scene.quantities[token], self._cycle(speed)
-            sizes = np.abs(np.asarray(quantity.shown(cycle), float))
-            known = sizes[np.isfinite(sizes)]
-            return float(np.median(known)) if known.size else 0.0, quantity.rounding(cycle)
-
-        return self._kept((token, speed), usual)
-
-    def _kept(self, key: tuple[object, ...], work: Callable[[], Found]) -> Found:
-        if key not in self._known:
-            self._known[key] = work()
-        found: Found = self._known[key]
-        return found
+        quantity, cycle = self.scene.quantities[token], self._cycle(speed)
+        sizes = np.abs(np.asarray(quantity.shown(cycle), float))
+        known = sizes[np.isfinite(sizes)]
+        return float(np.median(known)) if known.size else 0.0, quantity.rounding(cycle)
 
 
 def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int) -> dict[str, list[Finding]]:

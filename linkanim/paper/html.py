@@ -101,31 +101,26 @@ Part = str | FigurePart | TablePart | Beside
 """Of a chapter; a string is markup, which is written as it is."""
 
 
-@dataclass(frozen=True)
-class ReportChapter:
-    """A chapter: its title, and what is in it."""
-
-    title: str
-    parts: tuple[Part, ...]
-
-
-def page(title: str, head: Iterable[str], chapters: Sequence[ReportChapter]) -> str:
-    """Return the whole document: what stands under its title, its contents, and its chapters.
+def page(title: str, head: Iterable[str], chapters: Iterable[tuple[str, Iterable[Part]]]) -> str:
+    """Return the whole document: what stands under its title, its contents, and its chapters by their titles.
 
     `head` is markup.
     """
     style = _STYLE.replace("FOOT", _FOOT % _css_text(title)) + MATH_STYLE
     meta = "<meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
     start = f"{meta}<title>{escape(title)}</title><style>{style}</style>"
-    numbered = list(enumerate(chapters, start=1))
-    entries = "".join(f"<li><a href='#chapter-{n}'>{n} {symbol(one.title)}</a></li>" for n, one in numbered)
+    figures, tables = count(1), count(1)
+    numbered = [
+        (n, name, [_written(part, figures, tables) for part in parts])
+        for n, (name, parts) in enumerate(chapters, start=1)
+    ]
+    entries = "".join(f"<li><a href='#chapter-{n}'>{n} {symbol(name)}</a></li>" for n, name, _ in numbered)
     contents = f"<nav aria-label='Contents'><ul>{entries}</ul></nav>"
     body = "\n".join([heading(1, title), *head, contents])
-    figures, tables = count(1), count(1)
     sections = "\n".join(
-        f"<section id='chapter-{n}'>\n{_sectioned(heading(2, f'{n} {one.title}'), written)}\n</section>"
-        for n, one in numbered
-        if (written := [_written(part, figures, tables) for part in one.parts])
+        f"<section id='chapter-{n}'>\n{_sectioned(heading(2, f'{n} {name}'), written)}\n</section>"
+        for n, name, written in numbered
+        if written
     )
     return (
         f"<!doctype html>\n<html lang='en'><head>{start}</head><body>\n"

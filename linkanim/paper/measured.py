@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from linkanim.bounds import MOST_ROWS_READ
 from linkanim.digits import significant
@@ -18,6 +17,7 @@ from linkanim.intake import Intake, named
 from linkanim.mechanics.facts.register import plain_unit
 from linkanim.number_table import NumberRow, read_numbers
 from linkanim.paper.curves import Curve, Curves
+from linkanim.picture.diagrams.course import Floats
 from linkanim.picture.look import Over
 
 _TABLE_FILE = Intake("a table of two columns", most_bytes=1_000_000, most_values=2 * MOST_ROWS_READ)
@@ -30,8 +30,6 @@ _FEWEST = 4
 _MOST_SHOWN, _ENDS = 40, 15
 """Of more rows so many at either end are printed."""
 _DIGITS = 7
-
-Floats = NDArray[np.float64]
 
 
 class MeasuredTable(NamedTuple):
@@ -126,9 +124,8 @@ def beside(curves: Curves, table: MeasuredTable, label: str) -> MeasuredCurve:
     """
     curve, over = curves.curves[0], usual_over(curves)
     if len(curve.quantity.columns) > 1:
-        raise BadInput(
-            f"--data goes with one curve; take {curve.quantity.token}.x or {curve.quantity.token}.y"
-        )
+        token = curve.quantity.token
+        raise BadInput(f"--data goes with one curve; take {token}.x or {token}.y")
     _refuse_other_unit(curves, curve, table, over)
     phases = _phases(curves, curve, table.column(0), over)
     if np.isnan(phases).any():
@@ -147,14 +144,10 @@ def beside(curves: Curves, table: MeasuredTable, label: str) -> MeasuredCurve:
 
 def _phases(curves: Curves, curve: Curve, column: Floats, over: Over) -> Floats:
     """Return the phase of each row, NaN for an angle that the input does not reach."""
-    match over:
-        case "angle":
-            phases: Floats = curves.scene.solve(angle=np.radians(column), derivatives=0).phase
-            return phases
-        case "phase":
-            return np.radians(column)
-        case _:
-            return column * curve.pace.speed
+    if over == "angle":
+        phases: Floats = curves.scene.solve(angle=np.radians(column), derivatives=0).phase
+        return phases
+    return np.radians(column) if over == "phase" else column * curve.pace.speed
 
 
 def _differences(curves: Curves, curve: Curve, phases: Floats, values: Floats) -> tuple[Floats, Floats]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
@@ -17,7 +17,7 @@ from linkanim.paper.chart import Page
 from linkanim.paper.curves import Pace, curves_of
 from linkanim.paper.figure import Figured
 from linkanim.paper.findings import Instant, Values, charted, paces_of, place_of, sheet, table
-from linkanim.paper.html import Beside, FigurePart, Part, ReportChapter
+from linkanim.paper.html import Beside, FigurePart, Part
 from linkanim.paper.svg import svg
 from linkanim.paper.tables import value_tables
 from linkanim.paper.topics import topics
@@ -57,8 +57,7 @@ class Report:
 
     def files(self) -> Iterator[tuple[str, str]]:
         """Yield the report's files, the page first: (name, text)."""
-        parts = tuple(self._chapters())
-        yield "report.html", html.page(self.scene.title, self._head(), parts)
+        yield "report.html", html.page(self.scene.title, self._head(), self._chapters())
         yield "figure.svg", self._figure.document()
         if self._worked.loops:
             yield "loops.svg", vectors_svg(self._worked)
@@ -67,7 +66,8 @@ class Report:
             name = _UNSAFE.sub("-", "-".join(tokens))[:_LONGEST].rstrip("-.")
             yield f"chart-{number:03}-{name}.svg", chart.picture
         for number, pace in enumerate(self.paces, start=1):
-            yield f"quantities-{number}.csv", _csv(self.scene, pace)
+            names, columns = table(self.scene, pace)
+            yield f"quantities-{number}.csv", csv_head(names) + csv_rows([*columns])
 
     @cached_property
     def _values(self) -> Values:
@@ -109,25 +109,24 @@ class Report:
         if self.scene.look_at:
             yield html.paragraph(self.scene.look_at)
 
-    def _chapters(self) -> Iterator[ReportChapter]:
-        yield ReportChapter("The mechanism", tuple(self._mechanism()))
+    def _chapters(self) -> Iterator[tuple[str, Iterable[Part]]]:
+        yield "The mechanism", self._mechanism()
         if self._worked.loops:
-            yield ReportChapter("Vector loops", tuple(self._vector_loops()))
-        yield ReportChapter("Values", tuple(self._tables()))
+            yield "Vector loops", self._vector_loops()
+        yield "Values", self._tables()
         for title, charts in self._topics.items():
-            yield ReportChapter(title, tuple(_in_rows([chart for _, chart in charts])))
-        yield ReportChapter("Velocity and acceleration polygons", tuple(self._polygons()))
+            yield title, _in_rows([chart for _, chart in charts])
+        yield "Velocity and acceleration polygons", self._polygons()
         if self.every:
             speeds = [pace.words for pace in self.paces]
             for instant in self.instants:
-                found, place = (
-                    sheet(self._values, instant, self.paces, self.digits),
+                place, found = (
                     place_of(self.scene, instant),
+                    sheet(self._values, instant, self.paces, self.digits),
                 )
-                tables = html.sheet_parts(found, place, speeds)
-                yield ReportChapter(f"Every quantity at {place}", tuple(tables))
+                yield f"Every quantity at {place}", html.sheet_parts(found, place, speeds)
             title = f"Every quantity over one period, at {', '.join(speeds)}"
-            yield ReportChapter(title, tuple(_in_rows([chart for _, chart in self._every])))
+            yield title, _in_rows([chart for _, chart in self._every])
 
     def _mechanism(self) -> Iterator[Part]:
         scene, shown = self.scene, self._figure
@@ -167,9 +166,3 @@ class Report:
 def _in_rows(parts: list[FigurePart], across: int = 2) -> Iterator[Beside]:
     """Yield figures side by side, so many in a row."""
     return (Beside(tuple(parts[n : n + across]), across) for n in range(0, len(parts), across))
-
-
-def _csv(scene: Scene, pace: Pace) -> str:
-    """Return every quantity at steps of a degree of phase, as CSV; what is not known is an empty cell."""
-    names, columns = table(scene, pace)
-    return csv_head(names) + csv_rows([*columns])

@@ -21,6 +21,7 @@ from linkanim.picture.raster.shapes import arrows
 from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import Rect
 
+_SIZE = (760, 560)
 _FILLED = 0.8
 """Of the picture's width or height the vectors take so much."""
 _SHORT = 1e-6
@@ -35,14 +36,14 @@ class _Named(NamedTuple):
     colour: Colour
 
 
-def vectors_svg(found: Solution, size: tuple[int, int] = (760, 560)) -> str:
+def vectors_svg(found: Solution) -> str:
     """Return the figure as SVG; each vector stands once, by its name, as do the joints it leads between."""
-    picture = _picture(found, size)
+    picture = _picture(found, _SIZE)
     ground, *_ = picture.drawing.standing()
     links = Group("links", picture.drawing.faint(found.request.scene.pose(found.phase, 0)))
     drawn = [ground, links, grouped("vectors", _drawn(found, picture))]
     title = f"Vector loops of {found.title}"
-    return svg(size, picture.theme.background, drawn, title=title)
+    return svg(_SIZE, picture.theme.background, drawn, title=title)
 
 
 def _picture(found: Solution, size: tuple[int, int]) -> Picture:
@@ -82,13 +83,10 @@ def _drawn(found: Solution, picture: Picture) -> Iterator[Item]:
 
 def _captions(names: list[_Named], clutter: Clutter, pen: Pen) -> Iterator[Caption]:
     """Yield names where they lie on nothing."""
+    sizes = [(pen.type.width(one.text, pen.text, strong=True), pen.text) for one in names]
     labels = [
-        LabelPlaces(
-            (pen.type.width(one.text, pen.text, strong=True), pen.text),
-            np.array([one.places]),
-            np.arange(float(len(one.places))),
-        )
-        for one in names
+        LabelPlaces(size, np.array([one.places]), np.arange(float(len(one.places))))
+        for size, one in zip(sizes, names, strict=True)
     ]
     halo = Halo(pen.theme.background, pen.line)
     for one, spot in zip(names, place(labels, clutter), strict=True):
