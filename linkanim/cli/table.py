@@ -128,12 +128,10 @@ def _sweep_cells(row: Tree, fixed: Container[str], scene: Scene) -> Iterator[tup
             yield f"{name}.x {unit}", _number(x)
             yield f"{name}.y {unit}", _number(y)
     for name, body in row["bodies"].items():
-        slides = "travel" in body
-        yield (
-            (f"{called[name]} {unit}", _number(body["travel"]))
-            if slides
-            else (f"{called[name]} deg", _degrees(body["angle"]))
-        )
+        if "travel" in body:
+            yield f"{called[name]} {unit}", _number(body["travel"])
+        else:
+            yield f"{called[name]} deg", _degrees(body["angle"])
 
 
 def _number(value: float) -> str:

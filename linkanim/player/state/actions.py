@@ -169,7 +169,7 @@ ACTIONS: Mapping[str, Rule] = {
     **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
     "chart": Rule(_whole, looks.chart, answer=_chart),  # quantities further
     "plot": Rule(_text, shelf.plot, answer=_chart),  # a quantity's token
-    "help": Rule(_nothing, looks.help_),
+    "help": Rule(_nothing, lambda state, _: replace(state, help=not state.help)),
     # notches, about the point (x, y): window heights from the picture's middle, y down
     "zoom": Rule(_numbers(3), looks.zoom, answer=_zoom),
     "pan": Rule(_numbers(2), looks.pan),  # window heights, right and down

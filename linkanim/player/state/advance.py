@@ -60,15 +60,12 @@ def aged(state: State) -> State:
         state = replace(state, toast=None)
     if state.chip and state.frame >= state.chip.until:
         state = replace(state, chip=None, place_typed="")
-    over = [name for name, life in _LIVES.items() if _is_over(getattr(state, name), life, state.frame)]
+    sinces = ((name, getattr(state, name), life) for name, life in _LIVES.items())
+    over = [name for name, since, life in sinces if since is not None and state.frame >= since + life]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
     state = build.rested(come(state) if state.sketch else state)
     state = _followed(state) if state.glide else state
     return _played(state) if state.game else state
-
-
-def _is_over(since: int | None, life: int, frame: int) -> bool:
-    return since is not None and frame >= since + life
 
 
 def carried(state: State, action: Action) -> State:
@@ -78,9 +75,7 @@ def carried(state: State, action: Action) -> State:
         state = replace(state, touched=state.frame)
     if state.game and action.name not in BESIDE | _SHEETS:
         return _in_a_game(state, state.game, action)
-    if state.sketch and action.name in _WITHOUT_PENCIL:
-        return state
-    if state.building and action.name in _WITHOUT_PENCIL:
+    if (state.sketch or state.building) and action.name in _WITHOUT_PENCIL:
         return state
     if state.game and action.name in _SHEETS:
         state = leave(state)

@@ -33,13 +33,9 @@ def _read_in(scene: Scene, unit: str) -> Scene:
     if not scene.document:
         raise SceneError(f"{scene.name}: has no scene file behind it; it stays in {scene.length_unit}")
     document: Any = {**scene.document, "length_unit": unit}
-    for number in numbers(scene.document):
-        if number.type.measure in LENGTHS and not _has_unit(number.written):
+    for number in (one for one in numbers(scene.document) if one.type.measure in LENGTHS):
+        if not isinstance(number.written, str) or not units.split(number.written)[1]:
             document = replaced(document, number.key, f"{number.written} {scene.length_unit}")
     towards = scene.towards and in_unit(scene.towards, unit)
     found = scene_from(document, name=scene.name, where=scene.name, towards=towards)
     return replace(found, title=scene.title, original_title=scene.original_title)
-
-
-def _has_unit(written: object) -> bool:
-    return isinstance(written, str) and units.split(written)[1] != ""

@@ -40,7 +40,9 @@ def _of(number: Number, scene: Scene) -> Iterator[Stretch]:
     joint = scene.linkage.by_name.get(number.ends(scene)[1] if number.field.drag else _named(number, scene))
     if number.field.drag == "distance" and joint:
         start = number.ends(scene)[0]
-        yield Stretch((start, joint.name), 0, 1, number.key) if start else _from_origin(joint, scene, number)
+        frame = (start or joint.name, joint.name)
+        begin, end = (0, 1) if start else (-complex(*_place(scene, joint.name)), 0)
+        yield Stretch(frame, begin, end, number.key)
     elif number.field.drag == "place" and joint:
         yield from _of_place(joint, scene, number.key)
     elif number.key[-2:-1] == ("com",):
@@ -72,10 +74,6 @@ def _legs(scene: Scene, on: tuple[str, str], at: complex, key: Key) -> Iterator[
     at /= _apart(scene, *on)
     yield Stretch(on, 0, at.real, (*key[:-1], 0))
     yield Stretch(on, at.real, at, (*key[:-1], 1))
-
-
-def _from_origin(joint: Joint, scene: Scene, number: Number) -> Stretch:
-    return Stretch((joint.name, joint.name), -complex(*_place(scene, joint.name)), 0, number.key)
 
 
 def _of_offset(joint: Joint, scene: Scene, key: Key) -> Iterator[Stretch]:

@@ -135,10 +135,6 @@ def listed(of: ValueType, count: int) -> ValueType:
     return ValueType(read, words, schema, of.measure, of.bare)
 
 
-def _joint(table: Table, key: str) -> str:
-    return table.joint(key, table.text(key))
-
-
 def _joints(count: int | None = None) -> ValueType:
     """Return the type of a list of joints, all different, `count` of them if given."""
 
@@ -232,6 +228,6 @@ TEXT = ValueType(Table.text, "a text", {"type": "string", "maxLength": LONGEST_T
 TEXTS = ValueType(Table.texts, "a list of texts", {"type": "array", "items": {"type": "string"}})
 COLOUR = ValueType(_colour, 'a colour, `"#d55e00"`', {"type": "string", "pattern": r"^#[0-9a-fA-F]{6}$"})
 NAME = ValueType(Table.text, "a joint", {"type": "string", "minLength": 1, "maxLength": 32})
-JOINT = ValueType(_joint, NAME.words, NAME.schema, refers=True)
+JOINT = replace(NAME, read=lambda table, key: table.joint(key, table.text(key)), refers=True)
 PAIR = _joints(2)
 JOINTS = _joints()

@@ -93,11 +93,6 @@ def fit(state: State, _: None) -> State:
     return replace(state, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
 
 
-def help_(state: State, _: None) -> State:
-    """Open or close the help."""
-    return replace(state, help=not state.help)
-
-
 def zoomed(look: Look, notches: float, about: tuple[float, float]) -> Look:
     """Return the look so many notches nearer, the point `about` staying where it is.
 
