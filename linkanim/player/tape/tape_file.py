@@ -7,10 +7,10 @@ each of them comes at.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from linkanim import atomic_files, intake
 from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS
@@ -77,55 +77,25 @@ def _no_constant(name: str) -> float:
     raise ValueError(name)
 
 
+class Entry(NamedTuple):
+    """How a value stands in a tape: how it is read at a key of a table, and written."""
+
+    read: Callable[[Section, str], Any]
+    write: Callable[[Any], Any] = lambda value: value
+
+
 def to_document(tape: Tape) -> dict[str, Any]:
     """Return the tape as JSON's own values."""
     state = tape.start
+    clock = state.clock.go(state.frame, state.phase)
     return {
         _MARK: VERSION,
-        "scene": _scene_document(state.scene),
-        "start": _start_document(state),
-        "shelf": [entry if isinstance(entry, str) else _scene_document(entry) for entry in state.shelf],
+        "scene": _SCENE.write(state.scene),
+        "start": _written(_CLOCK, clock) | _written(_state(len(state.shelf)), state),
+        "shelf": _SHELF.write(state.shelf),
         "size": list(tape.size),
         "frames": tape.frames,
         "actions": [[frame, *action[: 1 if action.value is None else 2]] for frame, action in tape.actions],
-    }
-
-
-def _scene_document(scene: Scene) -> dict[str, Any]:
-    return {"name": scene.name, "document": scene.document}
-
-
-def _start_document(state: State) -> dict[str, Any]:
-    look = state.look
-    return {
-        "phase": state.phase,
-        "level": state.clock.level,
-        "direction": state.clock.direction,
-        "paused": state.clock.paused,
-        "place": state.place,
-        "help": state.help,
-        "look": {**vars(look), "vectors": sorted(look.vectors)},
-        "editing": _editing_document(state.editing),
-        "kept": [
-            {
-                "place": one.place,
-                "scene": _scene_document(one.scene),
-                "editing": _editing_document(one.editing),
-            }
-            for one in state.kept
-        ],
-    }
-
-
-def _editing_document(editing: Editing) -> dict[str, Any]:
-    return {
-        "open": editing.open,
-        "chosen": editing.chosen,
-        "typed": editing.typed,
-        "drafts": [[text, *key] for key, text in editing.drafts],
-        "past": [_scene_document(scene) for scene in editing.past],
-        "future": [_scene_document(scene) for scene in editing.future],
-        "original": editing.original and _scene_document(editing.original),
     }
 
 
@@ -148,43 +118,47 @@ def _size(top: Section) -> tuple[int, int]:
 
 
 def _start(top: Section) -> State:
-    start = top.table("start")
-    scene = _scene(top.table("scene"))
-    entries = top.listed("shelf")
-    shelf = tuple(_entry(entries, key) for key in entries.values) or (scene,)
-    clock = Clock(
-        scene.linkage.drive.speed,
-        phase=start.number("phase"),
-        level=start.whole("level", -20, 10),
-        direction=-1 if start.whole("direction", -1, 1) < 0 else 1,
-        paused=start.flag("paused"),
+    start, scene = top.table("start"), _scene(top, "scene")
+    shelf = _SHELF.read(top, "shelf") or (scene,)
+    clock = Clock(scene.linkage.drive.speed, **_read(_CLOCK, start))
+    return State(scene, clock, shelf, **_read(_state(len(shelf)), start))
+
+
+def _read(entries: Mapping[str, Entry], part: Section) -> dict[str, Any]:
+    """Return what stands in a table, by its keys; in an old tape some are missing."""
+    return {key: one.read(part, key) for key, one in entries.items() if key in part or key not in _LATER}
+
+
+def _written(entries: Mapping[str, Entry], value: object) -> dict[str, Any]:
+    return {key: one.write(getattr(value, key)) for key, one in entries.items()}
+
+
+def _table(make: Callable[..., Any], entries: Mapping[str, Entry]) -> Entry:
+    """Return the entry of what is made of a table's values, and has them."""
+    return Entry(
+        lambda part, key: make(**_read(entries, part.table(key))), lambda value: _written(entries, value)
     )
-    return State(
-        scene=scene,
-        clock=clock,
-        shelf=shelf,
-        place=start.whole("place", 0, len(shelf) - 1),
-        look=_look(start.table("look")),
-        help=start.flag("help"),
-        editing=_editing(start.table("editing")),
-        kept=_kept(start.listed("kept"), len(shelf)) if "kept" in start else (),
-    )
 
 
-def _kept(entries: Section, places: int) -> tuple[Edited, ...]:
-    def edited(part: Section) -> Edited:
-        place, scene = part.whole("place", 0, places - 1), _scene(part.table("scene"))
-        return Edited(place, scene, _editing(part.table("editing")))
+def _list(of: Entry) -> Entry:
+    def read(part: Section, key: str) -> tuple[Any, ...]:
+        items = part.listed(key)
+        return tuple(of.read(items, item) for item in items.values)
 
-    return tuple(edited(entries.table(key)) for key in entries.values)
+    return Entry(read, lambda values: [of.write(value) for value in values])
+
+
+def _whole(low: int, high: int) -> Entry:
+    return Entry(lambda part, key: part.whole(key, low, high))
 
 
 def _entry(entries: Section, key: str) -> Scene | str:
     entry = entries.need(key)
-    return str(entry) if entry in names() else _scene(entries.table(key))
+    return str(entry) if entry in names() else _scene(entries, key)
 
 
-def _scene(part: Section) -> Scene:
+def _scene(top: Section, key: str) -> Scene:
+    part = top.table(key)
     document = part.need("document")
     if not isinstance(document, dict):
         raise part.error("document", "must be a scene file's table")
@@ -199,15 +173,11 @@ def _file_name(part: Section) -> str:
     return name
 
 
-def _scenes(part: Section, key: str) -> tuple[Scene, ...]:
-    scenes = part.listed(key)
-    return tuple(_scene(scenes.table(one)) for one in scenes.values)
-
-
-def _look(part: Section) -> Look:
+def _look(start: Section, key: str) -> Look:
     """Return the look; a field that the tape is older than is as `Look` has it."""
+    part = start.table(key)
     pan = part.listed("pan", 2)
-    across, down = (pan.number(key) for key in pan.values)
+    across, down = (pan.number(side) for side in pan.values)
     return Look(
         **{name: _step(part, name) for name in TOGGLES if name in part},
         zoom=min(max(part.number("zoom"), 0.01), 100.0),
@@ -233,32 +203,54 @@ def _step(part: Section, name: str) -> Any:
     return part.choice(name, steps) if steps else part.text(name)
 
 
-def _editing(part: Section) -> Editing:
-    past, future = (_scenes(part, key) for key in ("past", "future"))
-    return Editing(
-        open=part.flag("open"),
-        chosen=part.whole("chosen", 0, 10_000),
-        typed=part.text("typed")[:40],
-        drafts=_drafts(part),
-        past=past,
-        future=future,
-        original=_scene(part.table("original")) if part.values.get("original") else None,
-    )
-
-
-def _drafts(part: Section) -> tuple[tuple[Key, str], ...]:
-    """Return the values begun in other rows: lists of the text and the dimension's path."""
-    if "drafts" not in part:
-        return ()
-    entries = part.listed("drafts")
-    return tuple(_draft(entries, key) for key in entries.values)
-
-
 def _draft(entries: Section, key: str) -> tuple[Key, str]:
     match entries.items(key):
         case [str(text), *path] if path and all(isinstance(step, str | int) for step in path):
             return tuple(path), text[:40]
     raise entries.error(key, "must be a list of what was typed and the keys of its value")
+
+
+_LATER = ("kept", "drafts")
+"""What older tapes lack."""
+_FLAG = Entry(Section.flag)
+_SCENE = Entry(_scene, lambda scene: {"name": scene.name, "document": scene.document})
+_SCENES = _list(_SCENE)
+_SHELF = _list(Entry(_entry, lambda entry: entry if isinstance(entry, str) else _SCENE.write(entry)))
+_ORIGINAL = Entry(
+    lambda part, key: _scene(part, key) if part.values.get(key) else None,
+    lambda scene: scene and _SCENE.write(scene),
+)
+_EDITING = _table(
+    Editing,
+    {
+        "open": _FLAG,
+        "chosen": _whole(0, 10_000),
+        "typed": Entry(lambda part, key: part.text(key)[:40]),
+        "drafts": _list(Entry(_draft, lambda draft: [draft[1], *draft[0]])),
+        "past": _SCENES,
+        "future": _SCENES,
+        "original": _ORIGINAL,
+    },
+)
+_CLOCK = {
+    "phase": Entry(Section.number),
+    "level": _whole(-20, 10),
+    "direction": Entry(lambda part, key: -1 if part.whole(key, -1, 1) < 0 else 1),
+    "paused": _FLAG,
+}
+"""What stands of a clock in a tape."""
+
+
+def _state(places: int) -> Mapping[str, Entry]:
+    """Return what else stands of a state in a tape, whose shelf has so many places."""
+    place = _whole(0, places - 1)
+    return {
+        "place": place,
+        "help": _FLAG,
+        "look": Entry(_look, lambda look: {**vars(look), "vectors": sorted(look.vectors)}),
+        "editing": _EDITING,
+        "kept": _list(_table(Edited, {"place": place, "scene": _SCENE, "editing": _EDITING})),
+    }
 
 
 def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
