@@ -46,9 +46,7 @@ def ghost(state: State, _: None) -> State:
 
 
 def unit(state: State, _: None) -> State:
-    """Show lengths in the next unit, the scene's own among them; a path that is drawn stays in its own."""
-    if state.sketch:
-        return with_toast(state, f"lengths stay in {state.sketch.unit} as long as a path is drawn")
+    """Show lengths in the next unit, the scene's own among them."""
     following = _after(settled(state).unit, LENGTH_UNITS, usual=state.scene.length_unit)
     return replace(state, look=replace(state.look, unit=following))
 
