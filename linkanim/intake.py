@@ -12,6 +12,7 @@ import stat
 from dataclasses import dataclass
 from errno import EMFILE, ENFILE, ENOMEM
 from pathlib import Path
+from typing import Any
 
 from linkanim.bounds import MOST_DIGITS
 from linkanim.errors import BadInput, WorkFailed
@@ -69,6 +70,17 @@ class Intake:
         except UnicodeDecodeError as error:
             line = data[: error.start].count(b"\n") + 1
             raise self.refusal(f"{where}: is not UTF-8 text (line {line}); save it as UTF-8") from None
+
+    def json(self, path: Path, where: str, otherwise: str) -> Any:
+        """Return what a file of JSON holds; one that is none, or has a NaN, is refused as `otherwise`."""
+        import json
+
+        text = self.read(path, where)
+        try:
+            self.refuse_heavy(text, where)
+            return json.loads(text, parse_constant=int)  # which takes no NaN, nor an infinity
+        except (ValueError, RecursionError):
+            raise self.refusal(f"{where}: {otherwise}") from None
 
     def _bytes(self, path: Path, where: str) -> bytes:
         if path.is_dir():  # Windows cannot open one to be asked

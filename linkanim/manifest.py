@@ -54,15 +54,14 @@ class FileSet:
         if not os.path.lexists(path):
             return {}
         refuse_taken(path)
+        reason = f"is not {_LIST.noun}; move it away, or choose another folder"
+        document = _LIST.json(path, str(path), reason)
         try:
-            text = _LIST.read(path, str(path))
-            _LIST.refuse_heavy(text, str(path))
-            document = json.loads(text)
             if document[_MARK] != VERSION:
                 raise ValueError
             found = {name: frozenset(_SUM.findall(sums)) for name, sums in document["files"].items()}
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-            raise BadInput(f"{path}: is not {_LIST.noun}; move it away, or choose another folder") from None
+        except (ValueError, TypeError, KeyError, AttributeError):
+            raise BadInput(f"{path}: {reason}") from None
         return {name: sums for name, sums in found.items() if re.fullmatch(self.pattern, name)}
 
     def refuse_foreign(self, names: Iterable[str]) -> None:

@@ -54,12 +54,7 @@ def load(path: Path) -> Scores:
     where = intake.named(path)
     if not path.exists():
         return Scores()
-    text = _FILE.read(path, where)
-    try:
-        _FILE.refuse_heavy(text, where)
-        document = json.loads(text)
-    except (ValueError, RecursionError):
-        raise BadInput(f"{where}: is not JSON") from None
+    document = _FILE.json(path, where, "is not JSON")
     if not isinstance(document, dict) or document.get(_MARK) != VERSION:
         raise BadInput(f"{where}: holds no scores of this version")
     return _read(Section(where, document))

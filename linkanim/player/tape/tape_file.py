@@ -50,12 +50,7 @@ def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:
     `games` reads the games that are on it from their words.
     """
     where = intake.named(path)
-    text = TAPE_FILE.read(path, where)
-    try:
-        TAPE_FILE.refuse_heavy(text, where)
-        document = json.loads(text, parse_constant=_no_constant)
-    except (ValueError, RecursionError):
-        raise BadInput(f"{where}: is not JSON; a tape is a file that G or M wrote in the window") from None
+    document = TAPE_FILE.json(path, where, "is not JSON; a tape is a file that G or M wrote in the window")
     if isinstance(document, dict):
         refuse_controls(Section(where, document))
     tape = from_document(document, where)
@@ -73,11 +68,7 @@ def _with_games(tape: Tape, games: Callable[[str], Game], where: str) -> Tape:
     return replace(tape, start=replace(tape.start, games=games))
 
 
-def _no_constant(name: str) -> float:
-    raise ValueError(name)
-
-
-class Entry(NamedTuple):
+class TapeValue(NamedTuple):
     """How a value stands in a tape: how it is read at a key of a table, and written."""
 
     read: Callable[[Section, str], Any]
@@ -124,32 +115,32 @@ def _start(top: Section) -> State:
     return State(scene, clock, shelf, **_read(_state(len(shelf)), start))
 
 
-def _read(entries: Mapping[str, Entry], part: Section) -> dict[str, Any]:
+def _read(entries: Mapping[str, TapeValue], part: Section) -> dict[str, Any]:
     """Return what stands in a table, by its keys; in an old tape some are missing."""
     return {key: one.read(part, key) for key, one in entries.items() if key in part or key not in _LATER}
 
 
-def _written(entries: Mapping[str, Entry], value: object) -> dict[str, Any]:
+def _written(entries: Mapping[str, TapeValue], value: object) -> dict[str, Any]:
     return {key: one.write(getattr(value, key)) for key, one in entries.items()}
 
 
-def _table(make: Callable[..., Any], entries: Mapping[str, Entry]) -> Entry:
+def _table(make: Callable[..., Any], entries: Mapping[str, TapeValue]) -> TapeValue:
     """Return the entry of what is made of a table's values, and has them."""
-    return Entry(
+    return TapeValue(
         lambda part, key: make(**_read(entries, part.table(key))), lambda value: _written(entries, value)
     )
 
 
-def _list(of: Entry) -> Entry:
+def _list(of: TapeValue) -> TapeValue:
     def read(part: Section, key: str) -> tuple[Any, ...]:
         items = part.listed(key)
         return tuple(of.read(items, item) for item in items.values)
 
-    return Entry(read, lambda values: [of.write(value) for value in values])
+    return TapeValue(read, lambda values: [of.write(value) for value in values])
 
 
-def _whole(low: int, high: int) -> Entry:
-    return Entry(lambda part, key: part.whole(key, low, high))
+def _whole(low: int, high: int) -> TapeValue:
+    return TapeValue(lambda part, key: part.whole(key, low, high))
 
 
 def _entry(entries: Section, key: str) -> Scene | str:
@@ -212,11 +203,11 @@ def _draft(entries: Section, key: str) -> tuple[Key, str]:
 
 _LATER = ("kept", "drafts")
 """What older tapes lack."""
-_FLAG = Entry(Section.flag)
-_SCENE = Entry(_scene, lambda scene: {"name": scene.name, "document": scene.document})
+_FLAG = TapeValue(Section.flag)
+_SCENE = TapeValue(_scene, lambda scene: {"name": scene.name, "document": scene.document})
 _SCENES = _list(_SCENE)
-_SHELF = _list(Entry(_entry, lambda entry: entry if isinstance(entry, str) else _SCENE.write(entry)))
-_ORIGINAL = Entry(
+_SHELF = _list(TapeValue(_entry, lambda entry: entry if isinstance(entry, str) else _SCENE.write(entry)))
+_ORIGINAL = TapeValue(
     lambda part, key: _scene(part, key) if part.values.get(key) else None,
     lambda scene: scene and _SCENE.write(scene),
 )
@@ -225,29 +216,29 @@ _EDITING = _table(
     {
         "open": _FLAG,
         "chosen": _whole(0, 10_000),
-        "typed": Entry(lambda part, key: part.text(key)[:40]),
-        "drafts": _list(Entry(_draft, lambda draft: [draft[1], *draft[0]])),
+        "typed": TapeValue(lambda part, key: part.text(key)[:40]),
+        "drafts": _list(TapeValue(_draft, lambda draft: [draft[1], *draft[0]])),
         "past": _SCENES,
         "future": _SCENES,
         "original": _ORIGINAL,
     },
 )
 _CLOCK = {
-    "phase": Entry(Section.number),
+    "phase": TapeValue(Section.number),
     "level": _whole(-20, 10),
-    "direction": Entry(lambda part, key: -1 if part.whole(key, -1, 1) < 0 else 1),
+    "direction": TapeValue(lambda part, key: -1 if part.whole(key, -1, 1) < 0 else 1),
     "paused": _FLAG,
 }
 """What stands of a clock in a tape."""
 
 
-def _state(places: int) -> Mapping[str, Entry]:
+def _state(places: int) -> Mapping[str, TapeValue]:
     """Return what else stands of a state in a tape, whose shelf has so many places."""
     place = _whole(0, places - 1)
     return {
         "place": place,
         "help": _FLAG,
-        "look": Entry(_look, lambda look: {**vars(look), "vectors": sorted(look.vectors)}),
+        "look": TapeValue(_look, lambda look: {**vars(look), "vectors": sorted(look.vectors)}),
         "editing": _EDITING,
         "kept": _list(_table(Edited, {"place": place, "scene": _SCENE, "editing": _EDITING})),
     }
