@@ -44,6 +44,18 @@ class Rect(NamedTuple):
         """Return whether a position lies in it."""
         return self.x <= x <= self.right and self.y <= y <= self.bottom
 
+    def ahead(self, at: complex, way: complex) -> float:
+        """Return how far its edge is from a place along a way, in lengths of that; 0 without a way."""
+        gaps = [
+            max(((high if step > 0 else low) - place) / step, 0.0)
+            for place, step, low, high in (
+                (at.real, way.real, self.x, self.right),
+                (at.imag, way.imag, self.y, self.bottom),
+            )
+            if step
+        ]
+        return min(gaps, default=0.0)
+
 
 class Box(NamedTuple):
     """A rectangle of the scene, in its unit of length, y up."""

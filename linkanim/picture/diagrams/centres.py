@@ -135,15 +135,4 @@ def clipped(path: Loop, room: Rect) -> Iterator[Loop]:
 def _edge(inside: complex, outside: complex, room: Rect) -> list[complex]:
     """Return where a line leaves a rectangle; nothing where the other end is NaN."""
     step = outside - inside
-    if not np.isfinite(step):
-        return []
-    shares = [
-        (bound - start) / way
-        for start, way, bounds in (
-            (inside.real, step.real, (room.x, room.right)),
-            (inside.imag, step.imag, (room.y, room.bottom)),
-        )
-        for bound in bounds
-        if way and (bound - start) / way >= 0
-    ]
-    return [inside + step * min(shares, default=0.0)]
+    return [inside + step * room.ahead(inside, step)] if np.isfinite(step) else []

@@ -108,14 +108,11 @@ def x_title(plot: Plot, title: str, pen: Pen, *, foot: bool = True) -> Caption:
 def beside_title(plot: Plot, title: str, pen: Pen) -> Plot:
     """Return a plot without the labels of the ticks that its title would stand on, which it stands beside."""
     free = plot.area.right - pen.type.width(title, pen.small) - 0.6 * pen.small
-    ticks = (
-        (value, label if _right_end(plot, value, label, pen) <= free else "") for value, label in plot.x.ticks
-    )
+    ticks = []
+    for value, label in plot.x.ticks:
+        right = complex(plot.place(value, plot.y.low)).real + 0.5 * pen.type.width(label, pen.small)
+        ticks.append((value, label if right <= free else ""))
     return replace(plot, x=replace(plot.x, ticks=tuple(ticks)))
-
-
-def _right_end(plot: Plot, value: float, label: str, pen: Pen) -> float:
-    return complex(plot.place(value, plot.y.low)).real + 0.5 * pen.type.width(label, pen.small)
 
 
 def marked(

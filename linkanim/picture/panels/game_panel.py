@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import floor
 from typing import NamedTuple
@@ -97,31 +97,31 @@ def _placed(parts: list[_PanelPart], size: int) -> Iterator[tuple[_PanelPart, fl
 def _parts(board: Board, panel: GamePanel, size: int) -> Iterator[_PanelPart]:
     ink, dim = board.theme.ink, board.theme.dim
     head = floor(_LARGE * size) if panel.large else size
-    yield _words(board, [panel.heading], head, ink, strong=True)
+    yield _words(board, panel.heading, head, ink, strong=True)
     if panel.scores:
         yield _scores(board, panel.scores, size)
     for line in panel.lines:
-        yield _words(board, [line], size, ink)
+        yield _words(board, line, size, ink)
     if panel.aside:
-        yield _words(board, [panel.aside], max(round(0.85 * size), _LEAST), dim, left=size)
+        yield _words(board, panel.aside, max(round(0.85 * size), _LEAST), dim, left=size)
     for n, choice in enumerate(panel.choices):
         yield _answer(board, panel, n, choice, size)
     for bar in panel.bars:
         yield _bar(board, bar, size)
     if panel.verdict:
         mood: Mood = "right" if panel.well else "wrong"
-        yield _words(board, [panel.verdict], size, mood_colour(board.theme, mood), strong=True)
+        yield _words(board, panel.verdict, size, mood_colour(board.theme, mood), strong=True)
     if panel.subject:
-        yield _words(board, [panel.subject], size, ink, strong=True)
+        yield _words(board, panel.subject, size, ink, strong=True)
     for line in panel.lines_after:
-        yield _words(board, [line], size, ink)
+        yield _words(board, line, size, ink)
     if panel.hint:
-        yield _words(board, [panel.hint], max(round(0.85 * size), _LEAST), dim, left=size, gap="   ")
+        yield _words(board, panel.hint, max(round(0.85 * size), _LEAST), dim, left=size, gap="   ")
 
 
 def _words(
     board: Board,
-    texts: Iterable[str],
+    text: str,
     size: int,
     colour: Colour,
     *,
@@ -132,7 +132,7 @@ def _words(
     """Return words in lines, as wide as the panel; `left` is their place where the size does not say it."""
     left = _LEFT * (min(size, board.layout.text_size) if left is None else left)
     room = board.layout.lists.width - 2 * left
-    lines = [line for text in texts for line in board.type.wrapped(text, size, 0.97 * room, gap=gap)]
+    lines = board.type.wrapped(text, size, 0.97 * room, gap=gap)
 
     def draw(sheet: pygame.Surface, top: float) -> None:
         for n, line in enumerate(lines):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
+from itertools import chain
 from typing import NamedTuple
 
 import pygame
@@ -50,12 +50,12 @@ def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
     Where not all of it can be read there, the last subjects are left out.
     """
     groups, room = shown
-    ways = _ways(board, groups, _WIDEST * room)
-    fitting = next(filter(partial(_fits, (room, board.layout.size[1])), ways), None)
-    size, columns, wide, high = fitting or _laid(board, groups[:1], _LEAST, _WIDEST * room)
-    sheet = board.sheet(wide, high)
+    for laid in _ways(board, groups, _WIDEST * room):
+        if laid.wide <= _WIDEST * room + 1 and laid.high <= _WIDEST * board.layout.size[1]:
+            break
+    size, sheet = laid.size, board.sheet(laid.wide, laid.high)
     x = 1.4 * size
-    for column in columns:
+    for column in laid.columns:
         _draw(board, sheet, column, x, size)
         x += column.keys + column.does + 3 * _GAP * size
     return sheet
@@ -84,30 +84,20 @@ def _laid(board: Board, groups: Help, size: int, room: float | None = None) -> _
     return _Laid(size, columns, wide, high)
 
 
-def _fits(room: tuple[int, int], laid: _Laid) -> bool:
-    width, height = room
-    return laid.wide <= _WIDEST * width + 1 and laid.high <= _WIDEST * height
-
-
 def _divided(groups: Help) -> list[tuple[_Line, ...]]:
-    """Return the lines of two columns, as equally high as whole subjects let them be; one group's of one."""
-    blocks = [tuple(_block(subject, lines)) for subject, lines in groups]
+    """Return the lines of two columns, as equally high as whole subjects let them be; one group's of one.
+
+    An empty line is below each subject but the last of a column.
+    """
+    blocks = [
+        (_Line(subject.capitalize(), "", heading=True), *(_Line(*line) for line in lines), _Line("", ""))
+        for subject, lines in groups
+    ]
     if len(blocks) == 1:
-        return [blocks[0][1:]]
-    cuts = range(1, len(blocks))
-    cut = min(cuts, key=lambda n: max(sum(map(len, blocks[:n])), sum(map(len, blocks[n:]))))
-    return [_joined(blocks[:cut]), _joined(blocks[cut:])]
-
-
-def _block(subject: str, lines: tuple[tuple[str, str], ...]) -> Iterator[_Line]:
-    yield _Line(subject.capitalize(), "", heading=True)
-    yield from (_Line(keys, does) for keys, does in lines)
-
-
-def _joined(blocks: list[tuple[_Line, ...]]) -> tuple[_Line, ...]:
-    """Return the blocks one below the other, an empty line between them."""
-    lines = [line for block in blocks for line in (*block, _Line("", ""))]
-    return tuple(lines[:-1])
+        return [blocks[0][1:-1]]
+    high = [len(block) - 1 for block in blocks]
+    cut = min(range(1, len(blocks)), key=lambda n: max(sum(high[:n]), sum(high[n:])))
+    return [tuple(chain.from_iterable(part))[:-1] for part in (blocks[:cut], blocks[cut:])]
 
 
 def _measured(board: Board, lines: tuple[_Line, ...], size: int, room: float | None) -> _Column:
