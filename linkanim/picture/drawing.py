@@ -10,11 +10,10 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.figure import Figure
+from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Group
 from linkanim.picture.labels.dimensions import Symbols, leg_part, pivots, symbols
-from linkanim.picture.layout import Gauge, Layout
-from linkanim.picture.look import ACCELERATION, VELOCITY, Look
+from linkanim.picture.look import ACCELERATION, VELOCITY
 from linkanim.picture.parts.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.parts.fittings import Bench
 from linkanim.picture.parts.gears import wheel_layers, wheel_parts
@@ -25,8 +24,7 @@ from linkanim.picture.parts.turning import Sliding, Turning, motion_of
 from linkanim.picture.parts.vectors import Arrows, arrow_layers, arrows_of
 from linkanim.picture.raster.parts import Part, Places, Stamp, by_depth, placed
 from linkanim.picture.raster.raster import Layer
-from linkanim.picture.text.text import Type
-from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.theme import mixed
 from linkanim.picture.view import View
 
 if TYPE_CHECKING:
@@ -38,24 +36,6 @@ if TYPE_CHECKING:
 
 _FAINT = 0.78
 """How much of the background is in the colours of what is drawn faintly."""
-
-
-@dataclass(frozen=True)
-class DrawSetting:
-    """What is drawn, where and how thick, in which colours."""
-
-    figure: Figure
-    view: View
-    gauge: Gauge
-    theme: Theme
-    layout: Layout
-    look: Look
-    type: Type
-
-    @property
-    def known(self) -> tuple[Figure, View, Gauge, Theme]:
-        """What the parts take their measures from."""
-        return self.figure, self.view, self.gauge, self.theme
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,11 @@ import numpy as np
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.linkage.rigid_bodies import Brace, holding
 from linkanim.mechanics.motion.motion import Motion
+from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.look import Look
 from linkanim.picture.raster.raster import Loop
+from linkanim.picture.text.text import Type
+from linkanim.picture.theme import Theme
 from linkanim.picture.view import Box, View
 from linkanim.scenes.scene import FREE_STYLE, Scene
 
@@ -207,6 +211,24 @@ class Figure:
         points = self.cycle.position[name]
         path: Loop = view.x + view.scale * points[:, 0] + 1j * (view.y - view.scale * points[:, 1])
         return path
+
+
+@dataclass(frozen=True)
+class DrawSetting:
+    """What is drawn, where and how thick, in which colours."""
+
+    figure: Figure
+    view: View
+    gauge: Gauge
+    theme: Theme
+    layout: Layout
+    look: Look
+    type: Type
+
+    @property
+    def known(self) -> tuple[Figure, View, Gauge, Theme]:
+        """What the parts take their measures from."""
+        return self.figure, self.view, self.gauge, self.theme
 
 
 def figure(scene: Scene) -> Figure:

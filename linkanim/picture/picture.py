@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, NamedTuple
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.arrangement.fit import FitRequest, SceneFit, fitted, request_of
 from linkanim.picture.arrangement.words import caption_lines
-from linkanim.picture.building.sheet import SheetView, drafted, hand, home_view, loose, paper
+from linkanim.picture.building.sheet import drafted, hand, home_view, loose, paper
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
-from linkanim.picture.drawing import Drawing, DrawSetting
-from linkanim.picture.figure import Figure, figure
+from linkanim.picture.drawing import Drawing
+from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import CAPTION_STEP, Gauge, Layout, gauge
 from linkanim.picture.look import Look
 from linkanim.picture.panels.hud import Hud
 from linkanim.picture.panels.legend import Legend, legend_for
-from linkanim.picture.panels.marks import MeasuredLine, glow, grip, measure, spots
+from linkanim.picture.panels.marks import glow, grip, measure, spots
 from linkanim.picture.panels.overlay import Lane, Overlay, PathShown
 from linkanim.picture.panels.path import dashed, drawn_line, handles, sheet
 from linkanim.picture.panels.readings import measured
@@ -170,12 +170,12 @@ class Picture:
         """Yield all that is drawn of a pose, back to front, with `faint` poses behind it."""
         path = overlay.path
         if path and path.blank:
-            yield from (self._sheet, drawn_line(self.view, self.layout, self.theme, path))
+            yield from (self._sheet, drawn_line(self.drawing.setting, path))
             return
         build = overlay.build
         if build and build.draft:
             yield self._paper(build.photo)
-            yield from drafted(build, build.draft, self._sheet_view, self.type)
+            yield from drafted(build, build.draft, self.drawing.setting)
             return
         if self.sheet and path is None:
             yield self._paper(build.photo if build else None)
@@ -197,7 +197,7 @@ class Picture:
     def _lane(self, shown: Lane) -> Group:
         from linkanim.picture.panels.lane import lane
 
-        return lane(self.view, self.layout, self.fit.arrangement.gauge, self.theme, shown)
+        return lane(self.drawing.setting, shown)
 
     @property
     def _overrun(self) -> bool:
@@ -222,16 +222,12 @@ class Picture:
 
     @cached_property
     def _sheet(self) -> Group:
-        return sheet(self.view, self.layout, self.theme)
-
-    @property
-    def _sheet_view(self) -> SheetView:
-        return SheetView(self.view, self.layout, self.gauge, self.theme)
+        return sheet(self.drawing.setting)
 
     def _paper(self, photo: Photo | None) -> Group:
         """Return the sheet that it is built on, the same one while nothing of it changes."""
         if self._papered is None or self._papered[0] != photo:
-            self._papered = photo, paper(self._sheet_view, photo)
+            self._papered = photo, paper(self.drawing.setting, photo)
         return self._papered[1]
 
     def _behind_at(self, speed: float, path: PathShown | None) -> tuple[Group, ...]:
@@ -245,7 +241,7 @@ class Picture:
     def _still_behind(self, speed: float, path: PathShown | None) -> Iterator[Group]:
         yield from self._within([self._discs])
         if path and path.curve:
-            yield from self._within([dashed(self.view, self.gauge, self.theme, path)])
+            yield from self._within([dashed(self.drawing.setting, path)])
         if not self._moves_behind:
             yield from self._standing
         if self._chart:
@@ -337,21 +333,20 @@ class Picture:
         """Yield what is there for the hand: the chosen bar, and the joint to be dragged."""
         if overlay.build:
             if overlay.build.loose:
-                yield from loose(overlay.build.loose, self._sheet_view)
-            yield from hand(overlay.build, self._sheet_view, self.type)
+                yield from loose(overlay.build.loose, self.drawing.setting)
+            yield from hand(overlay.build, self.drawing.setting)
         for shown in overlay.measured:
             at, head = map(self.view.place, (pose.position[name] for name in shown.frame))
             way = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
             begin, end = (at + place.conjugate() * way for place in (shown.begin, shown.end))
-            line = MeasuredLine(begin, end, shown)
-            yield from measure(self.type, self.layout, self.theme, self.gauge, line)
+            yield from measure(self.drawing.setting, begin, end, shown)
         if overlay.path and overlay.path.curve and overlay.path.marked:
-            marks = list(handles(self.view, self.gauge, self.theme, overlay.path))
+            marks = list(handles(self.drawing.setting, overlay.path))
             yield from self._within([Group("handles", marks, over=True)])
-        for layers, words in spots(self.view, overlay.spots, self.theme, self.layout):
+        for layers, words in spots(self.drawing.setting, overlay.spots):
             yield Group("spot", layers, [words], over=True)
         if overlay.glow:  # the joint and what it changes are apart: they are drawn at once
-            light = list(glow(self.view, pose, overlay.glow, self.gauge))
+            light = list(glow(self.drawing.setting, pose, overlay.glow))
             yield Group("glow", light, over=not overlay.measured)
 
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Group
-from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.panels.overlay import Lane
 from linkanim.picture.raster.raster import Layer, Loop
 from linkanim.picture.raster.shapes import segments, stroke, unit
-from linkanim.picture.theme import Theme, mixed
-from linkanim.picture.view import View
+from linkanim.picture.theme import mixed
 
 _DEEPEST = 0.62
 """How far the paper reaches before the ram at the most, in heights of the stage."""
 
 
-def lane(view: View, layout: Layout, gauge: Gauge, theme: Theme, shown: Lane) -> Group:
+def lane(setting: DrawSetting, shown: Lane) -> Group:
     """Return the paper between the lines, the lines, and the way on which the ram is compared with them."""
+    _, view, gauge, theme = setting.known
     back, forward = view.place(shown.back), view.place(shown.forward)
-    stage, across, middle = layout.stage, 1j * unit(forward - back), (back + forward) / 2
+    stage, across, middle = setting.layout.stage, 1j * unit(forward - back), (back + forward) / 2
     ahead = max((across, -across), key=lambda way: stage.ahead(middle, way))  # where there is more room
     depth = min(stage.ahead(middle, ahead), _DEEPEST * stage.height)
     way, share = np.array(shown.middle).T

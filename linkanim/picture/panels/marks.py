@@ -4,45 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Caption, Group
-from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.layout import Gauge
 from linkanim.picture.panels.game_panel import mood_colour
 from linkanim.picture.panels.overlay import DimensionLine, Spot
 from linkanim.picture.parts.dimension_lines import dimension_line
 from linkanim.picture.raster.parts import Stamp
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.raster.shapes import box, disc, segments, stroke, unit
-from linkanim.picture.text.text import Type
 from linkanim.picture.theme import ORANGE, Theme
-from linkanim.picture.view import Rect, View
+from linkanim.picture.view import Rect
 
 _LIT = 0.45
 """How strongly the bar being edited is lit."""
 
 
-class MeasuredLine(NamedTuple):
-    """What is measured, in pixels, and what it is."""
+def measure(setting: DrawSetting, begin: complex, end: complex, shown: DimensionLine) -> Iterator[Group]:
+    """Yield the light on what is measured, its dimension line beside it, and the value on the line.
 
-    begin: complex
-    end: complex
-    shown: DimensionLine
-
-
-def measure(
-    type_: Type, layout: Layout, theme: Theme, gauge: Gauge, measured: MeasuredLine
-) -> Iterator[Group]:
-    """Yield the light on what is measured, its dimension line beside it, and the value on the line."""
-    (begin, end, shown), size = measured, layout.small_size
+    It lies from `begin` to `end`, in pixels.
+    """
     if not 1.0 <= abs(end - begin) < np.inf:
         return
+    gauge, theme, layout, size = setting.gauge, setting.theme, setting.layout, setting.layout.small_size
     away = 1j * unit(end - begin)
     away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
-    wide, high = type_.width(shown.words, size, strong=True) + 0.7 * size, 1.35 * size
+    wide, high = setting.type.width(shown.words, size, strong=True) + 0.7 * size, 1.35 * size
     middle = _inside(layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
     back = Layer(theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
     at = (middle.real, middle.imag - 0.52 * size)
@@ -73,18 +65,17 @@ def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:
     yield Layer(ORANGE, loops, _LIT)
 
 
-def glow(view: View, pose: Pose, joint: str, gauge: Gauge) -> Iterator[Layer]:
+def glow(setting: DrawSetting, pose: Pose, joint: str) -> Iterator[Layer]:
     """Yield the light round a joint that can be dragged."""
-    middle = view.place(pose.position[joint])
+    middle = setting.view.place(pose.position[joint])
     for reach, alpha in ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4)):
-        yield Layer(ORANGE, [middle + disc(reach * gauge.bar)], alpha)
+        yield Layer(ORANGE, [middle + disc(reach * setting.gauge.bar)], alpha)
 
 
-def spots(
-    view: View, shown: Sequence[Spot], theme: Theme, layout: Layout
-) -> Iterator[tuple[list[Layer], Caption]]:
+def spots(setting: DrawSetting, shown: Sequence[Spot]) -> Iterator[tuple[list[Layer], Caption]]:
     """Yield what marks the places of answers: a ring, and beside it, off the others, the key on a disc."""
-    size, places = layout.text_size, [view.place(spot.at) for spot in shown]
+    theme, layout, size = setting.theme, setting.layout, setting.layout.text_size
+    places = [setting.view.place(spot.at) for spot in shown]
     middle = sum(places) / max(len(places), 1)
     for spot, at in zip(shown, places, strict=True):
         colour = mood_colour(theme, spot.mood)

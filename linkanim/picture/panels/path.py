@@ -9,8 +9,9 @@ import numpy as np
 import pygame
 
 from linkanim.picture.diagrams.axis import round_step
+from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Caption, Group
-from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.layout import Layout
 from linkanim.picture.panels.overlay import PathShown
 from linkanim.picture.raster.raster import Layer, Loop, paint
 from linkanim.picture.raster.shapes import disc, segments, stroke
@@ -28,8 +29,9 @@ _HANDLES = 12
 """Points of a stroke that are marked; every one can be dragged."""
 
 
-def sheet(view: View, layout: Layout, theme: Theme) -> Group:
+def sheet(setting: DrawSetting) -> Group:
     """Return the empty sheet: lines at round distances in the scene's unit."""
+    view, layout, theme = setting.view, setting.layout, setting.theme
     width, height = layout.size
     step = view.scale * grid_step(view, layout)
     x, y = (np.arange(start % step, end, step) for start, end in ((view.x, width), (view.y, height)))
@@ -58,23 +60,24 @@ def pencil(layout: Layout, theme: Theme) -> pygame.Surface:
     return sheet
 
 
-def drawn_line(view: View, layout: Layout, theme: Theme, shown: PathShown) -> Group:
+def drawn_line(setting: DrawSetting, shown: PathShown) -> Group:
     """Return the pencil's line, or the stroke while nothing follows it; words where there is neither."""
     points = (
         np.array(shown.pen) if shown.pen else shown.curve.polyline if shown.curve else np.zeros(0, complex)
     )
-    size = layout.text_size
+    layout, theme, size = setting.layout, setting.theme, setting.layout.text_size
     if not points.size:
         at = layout.size[0] / 2, layout.size[1] / 2 - size
         return Group("pencil", (), [Caption(HINT, at, size, theme.dim, "centre")])
-    return Group("pencil", [Layer(theme.ink, stroke(_placed(view, points), max(2.6 * layout.unit, 1.6)))])
+    line = stroke(_placed(setting.view, points), max(2.6 * layout.unit, 1.6))
+    return Group("pencil", [Layer(theme.ink, line)])
 
 
-def dashed(view: View, gauge: Gauge, theme: Theme, shown: PathShown) -> Group:
+def dashed(setting: DrawSetting, shown: PathShown) -> Group:
     """Return the stroke in dashes, wider than a trace."""
     assert shown.curve
-    width = 2.6 * gauge.line
-    line = _placed(view, shown.curve.polyline)
+    width, theme = 2.6 * setting.gauge.line, setting.theme
+    line = _placed(setting.view, shown.curve.polyline)
     way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
     count = max(ceil(way[-1] / ((_DASH + _GAP) * width)), 1)
     ends = np.arange(count) * (way[-1] / count) + np.array([[0.0], [_DASH * width]])
@@ -83,9 +86,10 @@ def dashed(view: View, gauge: Gauge, theme: Theme, shown: PathShown) -> Group:
     return Group("stroke", [Layer(mixed(theme.ink, theme.background, 0.55), loops)], still=True)
 
 
-def handles(view: View, gauge: Gauge, theme: Theme, shown: PathShown) -> Iterator[Layer]:
+def handles(setting: DrawSetting, shown: PathShown) -> Iterator[Layer]:
     """Yield the marked points of a stroke, the one that is held, and rings about pivots that are held."""
     assert shown.curve
+    _, view, gauge, theme = setting.known
     points, reach = _placed(view, shown.curve.points), 0.55 * gauge.bar
     marked = points[:: max(len(points) // _HANDLES, 1)]
     yield Layer(theme.ink, [at + disc(reach) for at in marked])
