@@ -23,6 +23,24 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.fixture(scope="module")
+def answers() -> list[Any]:
+    """What the first search for the oval found."""
+    return []
+
+
+@pytest.fixture
+def found_once(answers: list[Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have one search serve all tests of what is done with its answers."""
+    search = linkanim.path
+
+    def once(*points: Any, count: int, **options: Any) -> Any:
+        answers.extend([] if answers else search(*points, count=2, **options))
+        return answers[:count]
+
+    monkeypatch.setattr("linkanim.cli.commands.path.path", once)
+
+
 def printed_json(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[str, Any]]:
     assert main(["path", *words, "--json"]) == 0
     found: list[dict[str, Any]] = json.loads(capsys.readouterr().out)
@@ -31,7 +49,7 @@ def printed_json(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[s
 
 @pytest.mark.slow
 def test_each_answer_is_a_scene_that_runs_along_the_curve(
-    here: Path, capsys: pytest.CaptureFixture[str]
+    here: Path, capsys: pytest.CaptureFixture[str], found_once: None
 ) -> None:
     found = printed_json(capsys, "oval.csv", "-o", "oval.toml", "--count", "2")
     assert [row["file"] for row in found] == ["oval.toml", "oval-2.toml"]
@@ -50,27 +68,18 @@ def test_each_answer_is_a_scene_that_runs_along_the_curve(
 
 @pytest.mark.slow
 def test_the_table_has_a_line_for_each_answer_and_a_shorter_one_leaves_no_old_file(
-    here: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    here: Path, capsys: pytest.CaptureFixture[str], found_once: None
 ) -> None:
-    made: list[Any] = []
-    search = linkanim.path
-
-    def once(*points: Any, count: int, **options: Any) -> Any:
-        assert options.pop("kind") == "slider-crank"  # which would take an atlas of its own
-        made.extend([] if made else search(*points, count=2, **options))
-        return made[:count]
-
-    monkeypatch.setattr("linkanim.cli.commands.path.path", once)  # one search serves all three
-    assert main(["path", "oval.csv", "--count", "2", "--kind", "slider-crank"]) == 0
+    assert main(["path", "oval.csv", "--count", "2"]) == 0
     titles, *rows = capsys.readouterr().out.splitlines()
     assert titles.split("  ")[0] == "file"
     assert [row.split()[0] for row in rows] == ["oval.toml", "oval-2.toml"]
     # what an older run wrote is replaced, and nothing else
-    assert main(["path", "oval.csv", "--count", "1", "--kind", "slider-crank"]) == 0
+    assert main(["path", "oval.csv", "--count", "1"]) == 0
     assert sorted(path.name for path in here.glob("*.toml")) == ["oval.toml"]
     (here / "oval.toml").write_text("mine")
     capsys.readouterr()
-    assert main(["path", "oval.csv", "--count", "1", "--kind", "slider-crank"]) == 2
+    assert main(["path", "oval.csv", "--count", "1"]) == 2
     assert "was changed after linkanim wrote it" in capsys.readouterr().err
     assert (here / "oval.toml").read_text() == "mine"
 

@@ -134,6 +134,13 @@ joints = ["B", "C"]
 """
 
 
+def test_what_is_larger_than_a_page_may_be_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("linkanim.share.page.LARGEST", 20_000)
+    with pytest.raises(BadInput, match="20 kB is the most; it is back after 2 turns"):
+        document(Shared(load("kite")))
+
+
+@pytest.mark.long
 @pytest.mark.slow
 def test_what_takes_too_many_turns_to_be_back_is_refused() -> None:
     scene = scene_from(parse(GEARED, "slow"), name="slow", where="slow")
