@@ -206,6 +206,13 @@ def running(process: subprocess.Popen[str]) -> int:
     return encoder
 
 
+# In a process of its own: a file and numbered files; an MP4 is one file as a GIF is.
+one_of_each = pytest.mark.parametrize(
+    "form", ["gif", "png", pytest.param("mp4", marks=pytest.mark.long)], indirect=True
+)
+
+
+@one_of_each
 @needs_proc
 def test_ctrl_c_leaves_nothing(child: subprocess.Popen[str], target: Path) -> None:
     encoder = running(child)
@@ -215,6 +222,7 @@ def test_ctrl_c_leaves_nothing(child: subprocess.Popen[str], target: Path) -> No
     assert untouched(target.parent)
 
 
+@one_of_each
 @needs_proc
 @pytest.mark.slow
 def test_a_killed_run_leaves_no_process_and_the_next_one_clears_up(
@@ -235,6 +243,7 @@ def test_a_killed_run_leaves_no_process_and_the_next_one_clears_up(
 FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (MOST, MOST))"
 
 
+@one_of_each
 @needs_proc
 @pytest.mark.slow
 def test_a_full_disk_is_one_line(target: Path, form: Format) -> None:
