@@ -106,8 +106,7 @@ class Scene:
     @cached_property
     def length_step(self) -> float:
         """The step in which its lengths are told: a power of ten, some three thousandth of the longest."""
-        lengths = [abs(length) for joint in self.linkage.joints for length in joint.lengths]
-        return 10.0 ** round(math.log10(max(lengths) / 3000))
+        return 10.0 ** round(math.log10(self.linkage.longest / 3000))
 
     @cached_property
     def elsewhere(self) -> dict[str, Scene]:

@@ -78,8 +78,7 @@ def _named(assemblies: Iterable[Assembly]) -> Assembly:
 
 def _scale(linkage: Linkage) -> float:
     """Return 1, or the power of two that brings extreme lengths near 1."""
-    longest = max((abs(length) for joint in linkage.joints for length in joint.lengths), default=1.0)
-    exponent = math.frexp(longest)[1]
+    exponent = math.frexp(linkage.longest)[1]
     return 1.0 if abs(exponent) < 128 else math.ldexp(1.0, -exponent)
 
 

@@ -221,7 +221,7 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, floa
     margins, sizes = rows
     rows[:, _behind(margins < -TOUCHING * sizes)] = math.nan
     most, size = np.fmax.reduce(np.abs(rows), axis=2)
-    nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * _longest(assembly)) ** 2)
+    nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * assembly.linkage.longest) ** 2)
     for name in (name for name, flat in zip(closings, nothing, strict=True) if flat):
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     scale = np.minimum(most, size)
@@ -238,10 +238,6 @@ def _behind(shut: Bools) -> Bools:
     """Tell of every dyad where one before it in the chain does not close: it is but rounding there (D, N)."""
     before = np.logical_or.accumulate(shut, axis=0)
     return np.concatenate([np.zeros_like(shut[:1]), before[:-1]])
-
-
-def _longest(assembly: Assembly) -> float:
-    return max(abs(length) for joint in assembly.linkage.joints for length in joint.lengths)
 
 
 def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
@@ -353,12 +349,11 @@ def _settled(assembly: Assembly, name: str, phases: Array) -> Iterator[Extreme]:
 
     AssemblyError where there are so many that they are rounding on a stretch of nothing.
     """
-    longest = _longest(assembly)
     if len(phases) > MOST_TOUCHING * assembly.path.periods * assembly.quickest:
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     for phase in phases.tolist():
         place, gap, reach = extreme(assembly, name, phase)
-        closes = 0 if abs(gap) <= ROUNDING * longest else 1 if gap > 0 else -1
+        closes = 0 if abs(gap) <= ROUNDING * assembly.linkage.longest else 1 if gap > 0 else -1
         yield Extreme(phase, place, closes, reach)
 
 

@@ -178,7 +178,7 @@ class Info:
         return demand(
             self._driven,
             self.mechanism.periods,
-            quickest=self.mechanism.quickest,
+            quickest=self.mechanism.assembly.quickest,
             limited=bool(self.toggles),
         )
 

@@ -128,6 +128,11 @@ class Linkage(Stated):
         assert isinstance(joint, Crank)
         return joint
 
+    @property
+    def longest(self) -> float:
+        """The longest length that the definition of a joint states; 1 without any."""
+        return max((abs(length) for joint in self.joints for length in joint.lengths), default=1.0)
+
     @cached_property
     def by_name(self) -> dict[str, Joint]:
         """Map each joint's name to the joint."""

@@ -34,9 +34,10 @@ from linkanim.mechanics.motion.measures import (
     size,
 )
 
-POSITION = ("position",)
 COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
 """The input's angle, or travel, and its rates: one that does not turn fully moves in its own way."""
+Pair = tuple[float, float]
+NOTHING: Mapping[str, Any] = MappingProxyType({})
 LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
 """The quantities of its family with fewer derivatives, of each."""
 ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), strict=True)), "phase": 0}
@@ -52,10 +53,6 @@ class Variant(NamedTuple):
     accelerates: bool
     varying_rate: bool = False
     per_input: bool = False
-
-
-Pair = tuple[float, float]
-NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 class Strut(NamedTuple):
@@ -107,11 +104,6 @@ class Setting(ABC):
     @abstractmethod
     def pose_per_input(self, phase: float) -> Pose:
         """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
-
-    @property
-    def quickest(self) -> float:
-        """How many times as fast as the input the quickest crank turns, at least once."""
-        return self.assembly.quickest
 
     def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
         """Return how a crank's body turns with the input, and whether it is named from its pin."""
@@ -341,7 +333,7 @@ class Motion(Derived[Array, Array]):
         steps = np.diff(principal, axis=0)
         x, at = self.instants.x.reshape(principal.shape), partial(self._direction, ends)
         rows = [(values[:-1].reshape(-1), values[1:].reshape(-1)) for values in (x, principal)]
-        ways = turned(rows[0], rows[1], at, self.setting.quickest)
+        ways = turned(rows[0], rows[1], at, self.setting.assembly.quickest)
         turns = np.rint((ways.reshape(steps.shape) - steps) / math.tau)
         whole = np.zeros_like(principal)
         np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
