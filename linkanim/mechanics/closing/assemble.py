@@ -169,18 +169,13 @@ def _sign_choices(linkage: Linkage, loops: Mapping[str, Loop], path: InputPath) 
     """Yield the closures' signs on a path: one choice, two where a dyad is named by another joint's side."""
     named = {joint.name: joint.named_sign for joint in linkage.joints}
     signs = {name: sign for name, sign in named.items() if sign is not None}
-    signs = {name: sign * _just_after_start(loops.get(name), path) for name, sign in signs.items()}
+    # A loop's own root has a sign just after the start, where the named closure holds.
+    start = path.state(JUST_AFTER, Slope(1.0))
+    signs = {name: sign * (loops[name].sign(start) if name in loops else 1) for name, sign in signs.items()}
     yield signs
     for joint in linkage.joints:
         if joint.named_from:
             yield {**signs, joint.name: -signs[joint.name]}
-
-
-def _just_after_start(loop: Loop | None, path: InputPath) -> int:
-    """Return the sign that the loop's own root has just after the start: the named closure holds there."""
-    if loop is None:
-        return 1
-    return loop.sign(path.state(JUST_AFTER, Slope(1.0)))
 
 
 def _is_as_named(assembly: Assembly) -> bool:

@@ -291,10 +291,6 @@ class ChainRoot:
         """What names the places at which the root changes its sign and the input goes on."""
         return (zero.place for zero in self.zeros if isinstance(zero, Touch))
 
-    def side(self, state: InputState) -> Value:
-        """Return the sign of the closure on the smooth path."""
-        return self._others(None, state)
-
     def root(self, closing: Closing, state: InputState) -> SignedRoot:
         """Return q and ρ, signed and finite through every zero."""
         margin = maximum(closing.u * closing.w, self.least)
@@ -312,7 +308,7 @@ class ChainRoot:
         self, zero: Fitted, near: Near, closing: Closing, state: InputState, far: SignedRoot
     ) -> SignedRoot:
         """Return the root from its fit next to a zero, else the one from `far` of it."""
-        way, others = zero.way(state), self._others(zero, state)
+        way, others = zero.way(state), self.side(state, zero)
         fitted = near.root.at(way.argument)
         q = near.root_at(way.z, fitted)
         rho = closing.rates(q)
@@ -337,13 +333,13 @@ class ChainRoot:
             Reduced(MovingPoint(*points), chosen(fitted.value * way.share * others, far.lift.q))
         )
 
-    def _others(self, zero: Fitted | None, state: InputState) -> Value:
-        """Return the sign of the closure without that zero's."""
-        others: Value = self.sign
-        for other in self.zeros:
-            if other is not zero:
-                others = others * _sign(other.way(state).z.value)
-        return others
+    def side(self, state: InputState, other_than: Fitted | None = None) -> Value:
+        """Return the sign of the closure on the smooth path, without that of a zero."""
+        sign: Value = self.sign
+        for zero in self.zeros:
+            if zero is not other_than:
+                sign = sign * _sign(zero.way(state).z.value)
+        return sign
 
 
 def _root(x: Moving, more: float = 0.0) -> Moving:

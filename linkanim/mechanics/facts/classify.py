@@ -60,7 +60,7 @@ class Info:
     @property
     def why_swinging(self) -> str | None:
         """What keeps the input from turning fully, lengths or joints; None where nothing does."""
-        stops = tuple(dict.fromkeys(filter(None, getattr(self.mechanism.assembly.path, "ends", ()))))
+        stops = tuple(dict.fromkeys(filter(None, self.mechanism.assembly.path.ends)))
         if not stops:
             return None
         if self._four_bar is None or stops != (self._four_bar.joint,):
