@@ -114,6 +114,15 @@ def replacing(target: Path) -> Iterator[Path]:
         take_place(part, target)
 
 
+def write_text(target: Path, text: str, *, folders: bool = False) -> None:
+    """Write a text under a name, whole or not at all, its folders made if asked; errors as `replacing`."""
+    if folders:
+        with saying_why(target.parent, "made"):
+            target.parent.mkdir(parents=True, exist_ok=True)
+    with replacing(target) as part:
+        part.write_text(text, encoding="utf-8")
+
+
 def add(content: bytes, target: Path, others: Iterable[Path] = ()) -> Path:
     """Write a new file under the name, or the first of the others that is free; never over an old one.
 

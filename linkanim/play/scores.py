@@ -79,10 +79,8 @@ def save(scores: Scores, path: Path) -> None:
         "best": dict(sorted(scores.best.items())),
         "missed": [str(question_id) for question_id in scores.missed],
     }
-    with atomic_files.saying_why(path.parent, "made"):
-        path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_files.replacing(path) as part:
-        part.write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    text = json.dumps(document, indent=1, ensure_ascii=False)
+    atomic_files.write_text(path, f"{text}\n", folders=True)
 
 
 def loaded(path: Path) -> tuple[Scores, str | None]:

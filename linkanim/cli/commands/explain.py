@@ -6,7 +6,7 @@ from argparse import Namespace
 from dataclasses import replace
 from math import isnan
 
-from linkanim.atomic_files import checked_target, replacing
+from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.commands.solve import phase_at
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.inputs import PoseRequest
@@ -35,8 +35,7 @@ def run(options: Namespace) -> None:
     if target is None:
         print(text, end="")
         return
-    with replacing(target) as part:
-        part.write_text(text, encoding="utf-8")
+    write_text(target, text)
     print(target)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from linkanim.atomic_files import checked_target, replacing
+from linkanim.atomic_files import checked_target, write_text
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.play.question import QuizQuestion
@@ -32,8 +32,7 @@ def run(options: Namespace) -> None:
     if target is None:
         print(json_text([_as_object(one) for one in found], indent=2) if options.json else as_text(found))
         return
-    with replacing(target) as part:
-        part.write_text(as_html(found, f"{title}: {len(found)} questions"), encoding="utf-8")
+    write_text(target, as_html(found, f"{title}: {len(found)} questions"))
     print(target)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from linkanim.atomic_files import checked_target, replacing
+from linkanim.atomic_files import checked_target, write_text
 from linkanim.errors import BadInput
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.shown_unit import in_unit
@@ -31,9 +31,7 @@ def _page(options: Namespace) -> Path:
     if options.scene is None:
         raise BadInput("name a scene (`linkanim scenes` lists them), or give --all DIR for all of them")
     target = checked_target(options.output or f"{Path(options.scene).stem}.html", SUFFIXES)
-    text = document(_shared(options, options.scene))
-    with replacing(target) as part:
-        part.write_text(text, encoding="utf-8")
+    write_text(target, document(_shared(options, options.scene)))
     return target
 
 

@@ -38,10 +38,7 @@ class DraftFile:
             with atomic_files.saying_why(self._path, "removed"):
                 self._path.unlink(missing_ok=True)
             return
-        with atomic_files.saying_why(self._path.parent, "made"):
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-        with atomic_files.replacing(self._path) as part:
-            part.write_text(stored_text(_found_anywhere(sheet)), encoding="utf-8")
+        atomic_files.write_text(self._path, stored_text(_found_anywhere(sheet)), folders=True)
 
 
 def _found_anywhere(sheet: BuildSheet) -> BuildSheet:
