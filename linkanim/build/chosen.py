@@ -87,7 +87,8 @@ def delete(building: Building) -> Building:
     if thing is None:
         return refused(building, "Choose what is to be removed")
     left = _without(draft, thing)
-    gone = (one for one in draft.things() if one not in {*left.things(), thing, DRIVE})
+    kept = {*left.things(), thing, DRIVE}
+    gone = (one for one in draft.things() if one not in kept)
     first, *others = (f"{_WORDS.get(kind, kind[:-1])} {name}" for kind, name in (thing, *gone))
     with_it = f", with {', '.join(others)}" if others else ""
     return changed(building, left, None, f"Removed {first}{with_it}")

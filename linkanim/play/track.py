@@ -122,5 +122,5 @@ def _turning(cycle: NDArray[np.float64], scene: Scene, phase: float, halves: int
     """Return the ram's places while a steady crank turns some halves of a turn on from a phase."""
     phases = phase + math.pi / _HALF_TURN * np.arange(1, halves * _HALF_TURN + 1)
     known = np.arange(_SAMPLES + 1) * (scene.period / _SAMPLES)
-    found = np.interp(phases % scene.period, known, np.append(cycle, cycle[0]))
-    return [float(place) for place in found]
+    found: list[float] = np.interp(phases % scene.period, known, np.append(cycle, cycle[0])).tolist()
+    return found

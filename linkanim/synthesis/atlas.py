@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,10 +40,8 @@ class Atlas(NamedTuple):
 
     def first(self, count: int) -> Atlas:
         """Return the first so many of its curves."""
-        if count >= len(self.rows):
-            return self
-        curves = self.shape[:count], self.spectrum[:count], self.centre[:count], self.scale[:count]
-        return Atlas(self.kind, self.rows[:count], self.angles[:count], *curves)
+        parts: list[Any] = [part[:count] for part in self[1:]]
+        return Atlas(self.kind, *parts)
 
 
 @lru_cache(maxsize=4)

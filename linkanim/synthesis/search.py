@@ -73,12 +73,8 @@ def _none_fits(task: PathTask) -> str:
 def glimpsed(task: PathTask) -> Fit | None:
     """Return the atlas's best as it is, in a tenth of a second, once the atlas is made."""
     start = started(task, _STAGES[0].candidates, _GLIMPSED if task.curve.closed else _GLIMPSED_OPEN)
-    everything, points = task.scaled(start), task.normal.points
-    off = np.abs(task.kind.points(start.rows, start.closure, start.angles) - points).max(axis=1)
-    for n in np.argsort(off):
-        if fit := checked(task, everything.rows[n], float(everything.closure[n]), everything.angles[n]):
-            return fit
-    return None
+    off = np.abs(task.kind.points(start.rows, start.closure, start.angles) - task.normal.points).max(axis=1)
+    return next(_checked(task, start.take(np.argsort(off))), None)
 
 
 def started(task: PathTask, count: int, among: int = CURVES) -> Candidates:
