@@ -224,9 +224,10 @@ def _centres(setting: DrawSetting) -> Centres:
 
 
 def _chain(setting: DrawSetting) -> CausalChain:
-    from linkanim.picture.parts.causal_chain import causal_chain
+    from linkanim.mechanics.facts.solving_steps import solving_steps
+    from linkanim.picture.parts.causal_chain import CausalChain
 
-    return causal_chain(setting.figure, setting.theme)
+    return CausalChain(solving_steps(setting.figure.linkage), setting.theme)
 
 
 def _somewhere(place: complex) -> complex:

@@ -14,7 +14,7 @@ from linkanim.picture.labels.names import Names
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Colour, Layer, paint
+from linkanim.picture.raster.raster import Colour, Layer, Shapes, covers
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text.text import Type
 from linkanim.picture.view import Rect
@@ -46,7 +46,7 @@ def filled(
     """Return layers on a plain surface."""
     surface = offscreen(size, alpha=alpha)
     surface.fill((background,) * 3 + (0 if alpha else 255,))
-    paint(surface, layers, ends=ends)
+    covers(surface, [Shapes(layers, ends)])[0].put(surface)
     return surface
 
 

@@ -8,9 +8,9 @@ import pygame
 import pytest
 from pictures import contrast, painted
 
-from linkanim.picture.figure import figure
+from linkanim.mechanics.facts.solving_steps import solving_steps
 from linkanim.picture.look import Look
-from linkanim.picture.parts.causal_chain import causal_chain
+from linkanim.picture.parts.causal_chain import CausalChain
 from linkanim.picture.picture import Picture
 from linkanim.picture.theme import DARK, LIGHT, Theme
 from linkanim.scenes import load, names
@@ -22,7 +22,7 @@ THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
 @pytest.mark.sampled
 @pytest.mark.parametrize("name", names())
 def test_each_step_is_nearer_to_the_background(name: str, theme: Theme) -> None:
-    colours = causal_chain(figure(load(name)), theme).colours
+    colours = CausalChain(solving_steps(load(name).linkage), theme).colours
     assert colours[0] == theme.bodies[0]
     apart = [contrast(colour, theme.background) for colour in colours]
     # by lightness alone, which every eye sees
@@ -54,7 +54,7 @@ def test_the_key_shows_a_colour_for_each_step(name: str) -> None:
     scene, look = load(name), Look(chain=True)
     picture = Picture(scene, (1280, 720), look)
     groups = {group.name: group for group in picture.groups(scene.pose(0.4))}
-    chain = causal_chain(picture.figure, LIGHT)
+    chain = CausalChain(solving_steps(picture.figure.linkage), LIGHT)
     assert [words.text for words in groups["key"].captions] == ["input", "output"]
     assert [layer.colour for layer in groups["key"].layers[1::2]] == list(chain.colours)
 

@@ -11,7 +11,7 @@ from fidelity import Pixels, averaged, centre, jitter, psnr
 from pictures import alphas, coverage, filled
 
 from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Layer, Loop, Shapes, cover, covers, paint, paints
+from linkanim.picture.raster.raster import Layer, Loop, Shapes, covers, paint, paints
 from linkanim.picture.raster.shapes import box, disc, rounded
 
 WHITE = (255, 255, 255)
@@ -142,7 +142,7 @@ def test_layers_painted_together_are_those_painted_one_after_the_other(seed: int
 @pytest.mark.parametrize("alpha", [False, True])
 def test_a_cover_does_again_what_its_layers_did_to_the_byte(alpha: bool) -> None:
     layers = _scattered(7, 10)
-    found = cover(filled([], background=20, alpha=alpha), layers)
+    (found,) = covers(filled([], background=20, alpha=alpha), [Shapes(layers)])
     assert found.nbytes > 0
     for background in (90, 200):
         painted = filled(layers, background=background, alpha=alpha)

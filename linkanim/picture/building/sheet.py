@@ -20,8 +20,8 @@ from linkanim.picture.panels.overlay import DimensionLine
 from linkanim.picture.panels.path import sheet
 from linkanim.picture.parts.fittings import hatched
 from linkanim.picture.raster.parts import lined
-from linkanim.picture.raster.raster import Layer, Loop
-from linkanim.picture.raster.shapes import box, disc, segments, stroke, unit
+from linkanim.picture.raster.raster import Layer
+from linkanim.picture.raster.shapes import box, dashes, disc, segments, stroke
 from linkanim.picture.theme import ORANGE, mixed
 from linkanim.picture.view import Box, View, view_of
 
@@ -122,7 +122,7 @@ def _drawn(rubber: Rubber, begin: complex, end: complex, setting: DrawSetting) -
     elif rubber.tool == "guide":
         yield Layer(theme.ground, [*hatched(begin, end, gauge, 1)], _FAINT)
     else:
-        yield Layer(theme.ink, dashes(begin, end, 2.2 * gauge.line))
+        yield Layer(theme.ink, dashes(begin, end, 11.0 * gauge.line, 2.2 * gauge.line))
 
 
 def _snap(snap: Snap, setting: DrawSetting) -> Iterator[Layer]:
@@ -166,10 +166,3 @@ def _words(shown: BuildShown, setting: DrawSetting) -> Group:
     middle = complex(left + wide / 2, (layout.margin + y) / 2)
     plate = middle + box(wide + 2 * edge, y - layout.margin + 2 * edge, edge)
     return Group("build-words", [Layer(theme.background, [plate], _BACKING)], captions, over=True)
-
-
-def dashes(begin: complex, end: complex, width: float) -> list[Loop]:
-    """Return a dashed line."""
-    along, step = unit(end - begin), 5.0 * width
-    feet = begin + along * np.arange(0.0, abs(end - begin), step)
-    return segments(feet, feet + 0.6 * step * along, width)

@@ -18,7 +18,7 @@ from linkanim.picture.layout import Gauge
 from linkanim.picture.raster.directions import directions
 from linkanim.picture.raster.parts import Part
 from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.raster.shapes import segments, unit
+from linkanim.picture.raster.shapes import dashes
 from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import View
 
@@ -82,13 +82,8 @@ def leg_part(point: Rigid, view: View, gauge: Gauge, colour: Colour) -> Part:
     along, left = point.at
     corner = complex(view.scale * along)
     there = complex(view.scale * along, -view.scale * left)
-    loops = []
-    for begin, end in ((0j, corner), (corner, there)):
-        if not left or begin == end:
-            continue
-        step = 4 * gauge.line * unit(end - begin)
-        feet = begin + step * np.arange(int(abs(end - begin) / (4 * gauge.line)) + 1)
-        loops += segments(feet, feet + 0.6 * step, 0.9 * gauge.line)
+    lines = ((0j, corner), (corner, there)) if left else ()
+    loops = [loop for ends in lines for loop in dashes(*ends, 4 * gauge.line, 0.9 * gauge.line)]
     first, second = point.on
     return Part(first, first, second, (Layer(colour, loops),))
 

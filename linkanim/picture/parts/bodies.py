@@ -48,16 +48,12 @@ def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
     """
     drive = figure.linkage.drive.joint
     named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
-    first = sorted(named, key=lambda body: not _is_crank(body, figure, drive))
+    crank = {drive, getattr(figure.linkage.joint(drive), "pivot", None)}
+    first = sorted(named, key=lambda body: not crank <= {*body.joints})
     count, taken = len(theme.bodies), int(figure.linkage.joint(drive).travels)
     own = {body.name: figure.scene.style(body.name).colour for body in first}
     free = {body.name: theme.bodies[n % count] for n, body in enumerate(first, taken)}
     return {"": theme.metal} | {name: own[name] or colour for name, colour in free.items()}
-
-
-def _is_crank(body: Body, figure: Figure, joint: str) -> bool:
-    crank = figure.linkage.joint(joint)
-    return joint in body.joints and getattr(crank, "pivot", None) in body.joints
 
 
 def _local(body: Body, figure: Figure, view: View) -> list[complex]:

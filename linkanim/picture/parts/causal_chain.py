@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from linkanim.mechanics.facts.solving_steps import solving_steps
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.parts.bodies import colours_of, pin_stamp
@@ -63,8 +62,3 @@ class CausalChain:
     def _colour(self, step: float) -> Colour:
         share = (step - 1) / max(self.last - 1, 1)
         return mixed(self.theme.bodies[0], self.theme.background, _FADED * share)
-
-
-def causal_chain(figure: Figure, theme: Theme) -> CausalChain:
-    """Return the causal chain of what is drawn."""
-    return CausalChain(solving_steps(figure.linkage), theme)

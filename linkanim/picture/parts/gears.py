@@ -80,7 +80,8 @@ def _wheel(
 ) -> tuple[Layer, ...]:
     """Return a wheel about the origin; one that only turns without its disc, which is drawn once."""
     view, gauge, theme = drawn
-    tone, edge = _tone(wheel, pair, theme), _edge(wheel, pair, theme)
+    tone = _tone(wheel, pair, theme)
+    edge = theme.ground if wheel is pair.driver else mixed(theme.ground, theme.outline, 0.5)
     rim = _rim(wheel, view, gauge, moving=moving)
     if wheel.ring:
         lines = [loop for outline in rim for loop in stroke(outline, gauge.outline, closed=True)]
@@ -114,16 +115,11 @@ def _tone(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:
     return theme.gear if wheel is pair.driver else mixed(theme.gear, theme.ground, _SHADED)
 
 
-def _edge(wheel: Wheel, pair: WheelPair, theme: Theme) -> Colour:
-    return theme.ground if wheel is pair.driver else mixed(theme.ground, theme.outline, 0.5)
-
-
-def _module(wheel: Wheel, view: View) -> float:
-    return 2 * wheel.radius * view.scale / wheel.teeth if wheel.teeth else 0.0
-
-
 def _root(wheel: Wheel, view: View, gauge: Gauge) -> float:
-    return max(wheel.radius * view.scale - 1.1 * FOOT * _module(wheel, view) - gauge.line, 1.0)
+    """Return the radius of the disc within the teeth, in pixels."""
+    radius = wheel.radius * view.scale
+    module = 2 * radius / wheel.teeth if wheel.teeth else 0.0
+    return max(radius - 1.1 * FOOT * module - gauge.line, 1.0)
 
 
 def _rim(wheel: Wheel, view: View, gauge: Gauge, *, moving: bool) -> list[Loop]:

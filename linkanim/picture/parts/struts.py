@@ -14,7 +14,7 @@ from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster.directions import directions, length, lengths
 from linkanim.picture.raster.parts import Places
-from linkanim.picture.raster.raster import Colour, Layer, Loop, Outlines
+from linkanim.picture.raster.raster import Layer, Loop, Outlines
 from linkanim.picture.raster.shapes import box, cut_ribbon, offsets, ribbon, rod, stroke, unit
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
@@ -70,7 +70,8 @@ class Coil:
         halves = turn * (pitch * along + round_)
         far, near = zip(halves, offsets(halves), strict=True)
         # the near halves' outlines hide where the far ones end
-        layers = [Layer(self._shade, [cut_ribbon(*far, BACK * wire)]).repeated(feet)]
+        shade = mixed(self.theme.metal, self.theme.background, 0.3)
+        layers = [Layer(shade, [cut_ribbon(*far, BACK * wire)]).repeated(feet)]
         for colour, width in ((self.theme.outline, EDGE * wire), (self.theme.metal, CORE * wire)):
             (one, other), coil = _leads(lead, self.radius, width), ribbon(*near, width)
             points = start + turn * one, end + turn * other, np.add.outer(feet, coil).ravel()
@@ -82,11 +83,6 @@ class Coil:
     def wire(self) -> float:
         """How wide its wire is reckoned, in pixels."""
         return 1.5 * self.gauge.line
-
-    @cached_property
-    def _shade(self) -> Colour:
-        """The colour of the far halves."""
-        return mixed(self.theme.metal, self.theme.background, 0.3)
 
     @cached_property
     def _halves(self) -> tuple[Loop, Loop]:

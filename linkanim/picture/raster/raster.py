@@ -105,7 +105,10 @@ _NO_PIXELS = _Pixels(_NONE, _NONE.astype(np.uint16), _NONE.astype(np.uint32), _N
 
 
 class Shapes(NamedTuple):
-    """Layers in their order, which end before some column and row, and those over them, which do not."""
+    """Layers in their order, which end before some column and row, and those over them, which do not.
+
+    Columns and rows from the ends on are left as they are.
+    """
 
     layers: Iterable[Layer]
     ends: tuple[int, int] | None = None
@@ -146,18 +149,12 @@ def covers(surface: pygame.Surface, parts: Sequence[Shapes]) -> list[Cover]:
     return [Cover(full, mixes, range(*ends)) for ends in pairwise((0, *accumulate(levels)))]
 
 
-def cover(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int] | None = None) -> Cover:
-    """Return what `paint` would do to surfaces like this one."""
-    return covers(surface, [Shapes(layers, ends)])[0]
-
-
-def paint(surface: pygame.Surface, layers: Iterable[Layer], *, ends: tuple[int, int] | None = None) -> None:
+def paint(surface: pygame.Surface, layers: Iterable[Layer]) -> None:
     """Fill the layers in their order on a 32-bit surface whose rows touch; loops may leave it.
 
-    Where there are `ends`, columns and rows from them on are left as they are. Where the surface has alpha,
-    it is kept straight (not multiplied into the colours).
+    Where the surface has alpha, it is kept straight (not multiplied into the colours).
     """
-    cover(surface, layers, ends=ends).put(surface)
+    covers(surface, [Shapes(layers)])[0].put(surface)
 
 
 def keep_memory() -> None:

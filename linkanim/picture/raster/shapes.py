@@ -123,6 +123,13 @@ def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:
     return list(np.stack((begin - side, end - side, end + side, begin + side), axis=1))
 
 
+def dashes(begin: complex, end: complex, step: float, width: float) -> list[Loop]:
+    """Return a dashed line with square ends, one dash to a step."""
+    along = unit(end - begin)
+    feet = begin + along * np.arange(0.0, length(end - begin), step)
+    return segments(feet, feet + 0.6 * step * along, width)
+
+
 def cut(loop: Loop, limit: float, *, down: bool = False) -> Loop:
     """Return a closed loop without what reaches right of a limit, or below it (Sutherland, Hodgman 1974)."""
     place = loop.imag if down else loop.real
