@@ -19,10 +19,10 @@ from linkanim.picture.diagrams.chart import (
     Plot,
     axes,
     curve_layer,
+    dot,
     line_layer,
     marked,
     pen_for,
-    point_layers,
     right_axis,
     x_title,
 )
@@ -170,8 +170,7 @@ class Page:
             ranges = zeros_level(ranges)
         most = max(min(round(high / (2.0 * self.pen.small)), 6), 3)
         units = [side[0].quantity.shown_unit(self.curves.scene.length_unit) for side in sides]
-        signs = ("°" if unit == "°" else "" for unit in units)
-        return [linear(*ends, most=most, unit=sign) for ends, sign in zip(ranges, signs, strict=True)]
+        return [linear(*ends, most=most, unit=unit) for ends, unit in zip(ranges, units, strict=True)]
 
     def _plot(self, area: Rect, x: Axis, sides: list[list[Curve]]) -> Iterator[Item]:
         pen = self.pen
@@ -189,7 +188,8 @@ class Page:
                 width = _WIDTH * pen.line
                 yield curve_layer(plot, curve.x, curve.values, self.colour(curve), width, self.dashes(curve))
         if self.measured and self.measured.curve in sides[0]:
-            yield from point_layers(plots[0], self.measured.points, pen.theme.ink, finer(pen))
+            places = [complex(plots[0].place(*point)) for point in self.measured.points]
+            yield from dot(pen.theme.ink, finer(pen)).at(places)
         marked_curves = [self._marked(side) for side in sides]
         yield from Annotations(self.curves, pen, self.colour).items(plots, sides, marked_curves)
 

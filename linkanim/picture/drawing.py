@@ -220,7 +220,7 @@ def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
 def _centres(setting: DrawSetting) -> Centres:
     from linkanim.picture.diagrams.centres import Centres
 
-    return Centres(*setting.known, setting.layout, rolling=setting.look.centres > 1)
+    return Centres(setting)
 
 
 def _chain(setting: DrawSetting) -> CausalChain:

@@ -51,7 +51,7 @@ def test_the_curves_touch_in_the_coupler_s_centre(phase: float) -> None:
     places = drawing("elliptic-trammel", 2).places(scene.pose(phase))
     fixed, moving = (np.concatenate(layer.loops) for layer in (centres.fixed(), centres.moving(places)))
     nearest = np.abs(fixed[:, None] - moving[None, :]).min()
-    assert nearest < 2 * centres.gauge.line
+    assert nearest < 2 * centres.setting.gauge.line
     # the larger holds the smaller, which is half as large
     assert np.ptp(moving.real) == pytest.approx(np.ptp(fixed.real) / 2, rel=0.02)
 
@@ -61,11 +61,11 @@ def test_the_curves_touch_in_the_coupler_s_centre(phase: float) -> None:
 def test_no_curve_runs_across_the_picture(name: str) -> None:
     centres = found(name)
     places = drawing(name, 2).places(load(name).pose(0.4))
-    room = centres.layout.reach
+    room = centres.setting.layout.reach
     for layer in (centres.fixed(), centres.moving(places)):
         for loop in layer.loops:
             assert np.abs(np.diff(loop)).max() < 0.2 * room.width
-            edge = 3 * centres.gauge.line
+            edge = 3 * centres.setting.gauge.line
             assert (-edge <= loop.real).all()
             assert (loop.real <= room.right + edge).all()
             assert (loop.imag <= room.bottom + edge).all()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from linkanim.picture.diagrams.axis import linear
-from linkanim.picture.diagrams.chart import Pen, Plot, axes, curve_layer, point_layers, right_axis
+from linkanim.picture.diagrams.chart import Pen, Plot, axes, curve_layer, dot, right_axis
 from linkanim.picture.items import Caption
 from linkanim.picture.raster.raster import Layer
 from linkanim.picture.text.text import Type
@@ -49,6 +49,5 @@ def test_every_tick_has_its_line_and_its_label() -> None:
 
 @pytest.mark.parametrize("line", [0.6, 1.8, 5.4])
 def test_a_dot_fills_most_of_its_ring(line: float) -> None:
-    plot = Plot(Rect(40, 20, 200, 100), linear(0, 10), linear(-1, 1))
-    ring, dot = point_layers(plot, [(5.0, 0.0)], (1, 2, 3), _pen(line))
-    assert 0.7 < np.ptp(dot.loops[0].real) / np.ptp(ring.loops[0].real) < 0.8
+    ring, inner = dot((1, 2, 3), _pen(line)).at([140 + 70j])
+    assert 0.7 < np.ptp(inner.loops[0].real) / np.ptp(ring.loops[0].real) < 0.8

@@ -34,11 +34,12 @@ class Axis:
 def linear(low: float, high: float, *, most: int = 5, unit: str = "") -> Axis:
     """Return an axis from `low` to `high` with at most so many ticks, at 1, 2 or 5 times a power of ten.
 
-    In degrees (`unit` "°") ticks lie at parts of a turn.
+    In degrees (`unit` "°") ticks lie at parts of a turn; no other unit stands with their numbers.
     """
+    sign = "°" if unit == "°" else ""
     step = _degrees(high - low, most) if unit == "°" else round_step(high - low, most)
     first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
-    ticks = tuple((k * step, f"{stepped(k * step, step)}{unit}") for k in range(first, last + 1))
+    ticks = tuple((k * step, f"{stepped(k * step, step)}{sign}") for k in range(first, last + 1))
     return Axis(low, high, ticks)
 
 

@@ -14,14 +14,12 @@ from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.motion.measures import centrodes, coupler_body, pole
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.chart import runs_of
-from linkanim.picture.figure import Figure
+from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Caption, Group, Halo
-from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.raster.parts import Places
 from linkanim.picture.raster.raster import Colour, Layer, Loop
 from linkanim.picture.raster.shapes import segments, stroke, unit
-from linkanim.picture.theme import Theme
-from linkanim.picture.view import Rect, View
+from linkanim.picture.view import Rect
 
 _CLOSE = 3.0
 """Points of a curve that are nearer to each other, in pixels, are not all needed."""
@@ -39,20 +37,15 @@ class BodyPair(NamedTuple):
 
 @dataclass(frozen=True)
 class Centres:
-    """The instant centres of a figure in a view; with `rolling` the coupler's centrodes, too."""
+    """The instant centres of a figure in a view, and the coupler's centrodes where the look has them."""
 
-    figure: Figure
-    view: View
-    gauge: Gauge
-    theme: Theme
-    layout: Layout
-    rolling: bool
+    setting: DrawSetting
 
     @cached_property
     def pairs(self) -> tuple[BodyPair, ...]:
         """The bodies to the ground, and of few to each other."""
         links: dict[str, Body] = {}
-        for body, number in self.figure.numbers.items():
+        for body, number in self.setting.figure.numbers.items():
             links.setdefault(number, body)
         pairs = [BodyPair(body, None, _label("1", number)) for number, body in links.items()]
         if len(links) <= _MOST:
@@ -62,49 +55,49 @@ class Centres:
 
     def marks(self, pose: Pose, places: Places) -> Group:
         """Return a cross and its name for each centre that is in sight, but for those that are pins."""
+        (figure, view, gauge, theme), layout = self.setting.known, self.setting.layout
         layers, captions = [], []
-        reach, size = 0.8 * self.gauge.bar, self.layout.small_size
-        ink, halo = self.theme.warning, Halo(self.theme.background, max(1.4 * self.gauge.line, 1.5))
+        reach, size = 0.8 * gauge.bar, layout.small_size
+        ink, halo = theme.warning, Halo(theme.background, max(1.4 * gauge.line, 1.5))
         for pair in self.pairs:
-            at = self.view.place(pole(pose, pair.body, pair.other))
-            if not self.layout.reach.holds(at.real, at.imag) or self._pinned(at, places):
+            at = view.place(pole(pose, pair.body, pair.other))
+            pinned = any(abs(at - places[name]) < reach for name in figure.pins)
+            if pinned or not layout.reach.holds(at.real, at.imag):
                 continue
             ends = np.array([reach, 1j * reach])
-            layers.append(Layer(ink, segments(at - ends, at + ends, 1.4 * self.gauge.line)))
+            layers.append(Layer(ink, segments(at - ends, at + ends, 1.4 * gauge.line)))
             place = (at.real + reach, at.imag - reach - size)
             captions.append(Caption(pair.label, place, size, ink, strong=True, halo=halo))
         return Group("instant-centres", layers, captions)
 
-    def _pinned(self, at: complex, places: Places) -> bool:
-        return any(abs(at - places[name]) < 0.8 * self.gauge.bar for name in self.figure.pins)
-
     def fixed(self) -> Layer:
         """Return the curve on the ground."""
-        origin = self.view.place((0.0, 0.0))
-        return self._stroked(origin + self.view.scale * self._curves[0].conj(), self.theme.warning)
+        _, view, _, theme = self.setting.known
+        return self._stroked(view.place((0.0, 0.0)) + view.scale * self._curves[0].conj(), theme.warning)
 
     def moving(self, places: Places) -> Layer:
         """Return the curve that moves with the coupler and rolls on the other."""
-        body = coupler_body(self.figure.linkage)
+        figure, view, _, theme = self.setting.known
+        body = coupler_body(figure.linkage)
         if body is None:
-            return Layer(self.theme.velocity, [])
+            return Layer(theme.velocity, [])
         first, second = (places[name] for name in body.joints[:2])
-        curve = first + unit(second - first) * self.view.scale * self._curves[1].conj()
-        return self._stroked(curve, self.theme.velocity)
+        curve = first + unit(second - first) * view.scale * self._curves[1].conj()
+        return self._stroked(curve, theme.velocity)
 
     @cached_property
     def _curves(self) -> tuple[Loop, Loop]:
         """Both centrodes, closed, in the scene's unit; empty where no body is a coupler."""
-        body, scene = coupler_body(self.figure.linkage), self.figure.scene
-        if body is None or not self.rolling:
+        body, scene = coupler_body(self.setting.figure.linkage), self.setting.figure.scene
+        if body is None:
             return np.zeros(0, complex), np.zeros(0, complex)
-        count = len(self.figure.cycle.phase)
+        count = len(self.setting.figure.cycle.phase)
         phases = np.arange(count + 1) * (scene.period / count)
         return centrodes(scene.solve(phase=phases, derivatives=1), body)
 
     def _stroked(self, path: Loop, colour: Colour) -> Layer:
-        width = 1.3 * self.gauge.line
-        runs = clipped(path, self.layout.reach)
+        width = 1.3 * self.setting.gauge.line
+        runs = clipped(path, self.setting.layout.reach)
         return Layer(colour, [loop for run in runs for loop in stroke(_thinned(run), width)])
 
 

@@ -55,10 +55,10 @@ def pen_for(layout: Layout, type_: Type, theme: Theme) -> Pen:
     return Pen(type_, theme, layout.small_size, layout.text_size, 1.8 * layout.unit)
 
 
-def plot_area(rect: Rect, y: Axis, pen: Pen, *, title: bool = True, foot: bool = False) -> Rect:
+def plot_area(rect: Rect, y: Axis, pen: Pen, *, foot: bool = False) -> Rect:
     """Return what of a rectangle is left for curves beside tick labels, a title above and one at the foot."""
     labels = max((pen.type.width(label, pen.small) for _, label in y.ticks), default=0)
-    left, top = labels + 0.6 * pen.small, (1.5 * pen.text if title else 0.6 * pen.small)
+    left, top = labels + 0.6 * pen.small, 1.5 * pen.text
     right, low = 1.4 * pen.small, (_FOOT + 1.2 if foot else 1.6) * pen.small
     return Rect(
         rect.x + left, rect.y + top, max(rect.width - left - right, 1), max(rect.height - top - low, 1)
@@ -165,11 +165,6 @@ def _dashed(run: Loop, dashes: NDArray[np.float64]) -> Iterator[Loop]:
             along = np.concatenate(([begin], gone[(gone > begin) & (gone < end)], [min(end, gone[-1])]))
             if begin < gone[-1]:
                 yield np.interp(along, gone, run.real) + 1j * np.interp(along, gone, run.imag)
-
-
-def point_layers(plot: Plot, points: list[tuple[float, float]], colour: Colour, pen: Pen) -> list[Layer]:
-    """Return dots at values, in a ring of the background."""
-    return dot(colour, pen).at([complex(plot.place(*point)) for point in points])
 
 
 def dot(colour: Colour, pen: Pen) -> Stamp:

@@ -86,7 +86,7 @@ class ChartPanel:
         """Where the curves are drawn."""
         small = self.pen.small
         most = max(min(round(self.rect.height / (2.1 * small)), 6), 2)
-        y = around(self.curves[1], most=most, unit="°" if self.series.unit == "°" else "")
+        y = around(self.curves[1], most=most, unit=self.series.unit)
         area = plot_area(self.rect, y, self.pen, foot=self._has_foot)
         return Plot(area, self.course.axis(max(min(round(self.rect.width / (5 * small)), 8), 2)), y)
 
