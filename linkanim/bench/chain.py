@@ -101,8 +101,6 @@ def chain_of(linkage: Linkage) -> DyadChain:
             case Rigid():
                 (length,) = (lengths for ends, lengths in _bars(steps) if ends == frozenset(joint.on))
                 steps.append(FixedStep(joint.name, joint.on, complex(*joint.at), length))
-            case _:
-                raise TypeError(f"{joint.name}: the comparison knows no such joint")
     return DyadChain(pins, tuple(steps))
 
 

@@ -75,15 +75,15 @@ def _where(found: Solution, form: DocumentForm) -> str:
     return form.paragraph(form.text(found.where))
 
 
-def chapters(found: Solution, form: DocumentForm, *, level: int = 2, blank: bool = False) -> Iterator[str]:
-    """Yield the parts of a solution, headings from `level` on; where `blank` its numbers are left open."""
+def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Iterator[str]:
+    """Yield the parts of a solution; where `blank` its numbers are left open."""
     for chapter in found.chapters:
-        yield form.heading(level, chapter.title)
+        yield form.heading(2, chapter.title)
         if chapter is found.loop_chapter:
             yield form.figure(found)
         for step in chapter.steps:
             if step.title:
-                yield form.heading(level + 1, step.title)
+                yield form.heading(3, step.title)
             for _, items in groupby(step.items, _sort):
                 yield from _set([*items], form, blank)
 

@@ -13,7 +13,8 @@ from pathlib import Path
 from linkanim.atomic_files import replacing
 from linkanim.errors import BadInput
 from linkanim.explain.notation import plain_latex
-from linkanim.paper.pdf import flat, pdf
+from linkanim.paper.pdf import pdf
+from linkanim.paper.svg import flat
 from linkanim.picture.items import Caption, Group, Item
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.text.text import runs, typesetting
@@ -57,7 +58,7 @@ def write_for_latex(
     target: Path, size: tuple[int, int], background: Colour | None, groups: Iterable[Group], *, title: str
 ) -> None:
     """Write a picture as PDF without its words, and those beside it; both appear whole, or neither does."""
-    items = [item for group in groups for item in flat([group])]
+    items = list(flat(groups))
     with replacing(target) as part, replacing(labels_path(target)) as labels:
         shapes: list[Item | Group] = [item for item in items if isinstance(item, Layer)]
         part.write_bytes(pdf(size, background, shapes, title=title))

@@ -5,14 +5,15 @@ A pixel is 3/4 pt, as in a browser. Needs fpdf2, which the extra `pdf` installs.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 from unicodedata import normalize
 
 from linkanim.errors import BadInput
-from linkanim.picture.items import Caption, Group, Item, clipped
+from linkanim.paper.svg import flat, hexadecimal
+from linkanim.picture.items import Caption, Group, Item
 from linkanim.picture.raster.raster import Colour, Layer
 from linkanim.picture.text.fonts import REGULAR, SEMIBOLD, file_of
 from linkanim.picture.text.text import runs, typesetting
@@ -65,16 +66,6 @@ def _page(size: tuple[int, int], title: str) -> FPDF:
     return page
 
 
-def flat(items: Iterable[Item | Group]) -> Iterator[Item]:
-    """Yield what groups are made of, cut to what they are within."""
-    for item in items:
-        if isinstance(item, Group):
-            yield from clipped(item)
-            yield from item.captions
-        else:
-            yield item
-
-
 def _fill(page: FPDF, layer: Layer) -> None:
     """Fill a layer's loops; those that turn the other way cut holes."""
     if not layer.loops:
@@ -83,7 +74,7 @@ def _fill(page: FPDF, layer: Layer) -> None:
         from fpdf.drawing import PaintedPath
 
         path = PaintedPath()
-        path.style.fill_color = _hex(layer.colour)
+        path.style.fill_color = hexadecimal(layer.colour)
         path.style.stroke_color = None
         path.style.fill_opacity = layer.alpha
         path.style.intersection_rule = "nonzero"
@@ -129,7 +120,3 @@ def _known(page: FPDF, text: str, style: str) -> str:
 def _width(page: FPDF, text: str, style: str, em: float) -> float:
     page.set_font(_FACE, style, em * _POINTS)
     return float(page.get_string_width(text))
-
-
-def _hex(colour: Colour) -> str:
-    return "#" + "".join(f"{part:02x}" for part in colour)

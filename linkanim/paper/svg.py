@@ -34,11 +34,21 @@ def svg(
     for item in items:
         if not isinstance(item, Group):
             body += drawn([item])
-        elif inside := drawn([*clipped(item), *item.captions]):
+        elif inside := drawn(flat([item])):
             body += [f"<g id={quoteattr(_unused(item.name, ids))}>", *inside, "</g>"]
     head = f'width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family={quoteattr(FACES)}'
     lines = "\n".join(body)
     return f'<svg xmlns="http://www.w3.org/2000/svg" {head}>\n{lines}\n</svg>\n'
+
+
+def flat(items: Iterable[Item | Group]) -> Iterator[Item]:
+    """Yield what groups are made of, cut to what they are within."""
+    for item in items:
+        if isinstance(item, Group):
+            yield from clipped(item)
+            yield from item.captions
+        else:
+            yield item
 
 
 def hexadecimal(colour: Colour) -> str:
@@ -48,7 +58,7 @@ def hexadecimal(colour: Colour) -> str:
 
 def drawn(items: Iterable[Item], paint: Paint = hexadecimal) -> list[str]:
     """Return the elements of items, their colours as `paint` writes them."""
-    shown = (item for item in items if _shows(item))
+    shown = (item for item in items if (item.loops if isinstance(item, Layer) else item.text))
     return [_path(item, paint) if isinstance(item, Layer) else _text(item, paint) for item in shown]
 
 
@@ -59,10 +69,6 @@ def _unused(name: str, ids: set[str]) -> str:
     found = next(choice for choice in choices if choice not in ids)
     ids.add(found)
     return found
-
-
-def _shows(item: Item) -> bool:
-    return bool(item.loops) if isinstance(item, Layer) else bool(item.text)
 
 
 def _path(layer: Layer, paint: Paint) -> str:

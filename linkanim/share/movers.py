@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.items import Caption, Group, Item, clipped
+from linkanim.paper.svg import flat
+from linkanim.picture.items import Caption, Group
 from linkanim.picture.labels.names import Label, Names
 from linkanim.picture.parts.struts import BACK, CORE, EDGE, TILT, Coil, Damping
 from linkanim.picture.parts.trace import RECENT, SWELL, Trace
@@ -76,7 +77,7 @@ class Mobile:
             case (Coil() | Damping() | Trace() | Arrows() | Turning() | Sliding()) as live, dark:
                 yield Movable("", self._live(one, live, dark))
             case _:
-                if shapes := self.pairs.elements(_items(one), _items(other)):
+                if shapes := self.pairs.elements(flat([one]), flat([other])):
                     yield Movable(shapes)
 
     def _part(self, light: Part, dark: Part) -> Movable:
@@ -149,10 +150,6 @@ class Mobile:
         feet = [*scene.trace, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None)]
         line = {"longest": light.longest, "line": light.gauge.line, "colours": colours}
         return {"kind": "arrows", "order": order, "at": feet, "gain": gain, **line}
-
-
-def _items(group: Group) -> list[Item]:
-    return [*clipped(group), *group.captions]
 
 
 def _line(label: Label, names: Names) -> Caption:
