@@ -241,7 +241,8 @@ def _placed(placer: Placer, forms: tuple[Form, ...]) -> Iterator[Label]:
             drawn = spots.lines[number] if number >= 0 else None
             yield replace(label, spot=spots.spots.picked(placed.which), shown=placed.shown, drawn=drawn)
         but = placed.shown > 0 if but is None else but | (placed.shown > 0)
-        if but.all():
+        nowhere = least == _LEAST_AGAIN and not placed.shown.any()  # nor would it be a second time
+        if nowhere or but.all():
             return
 
 
