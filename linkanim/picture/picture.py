@@ -36,7 +36,7 @@ from linkanim.scenes.scene import Scene
 if TYPE_CHECKING:
     from linkanim.build.draft import Photo
     from linkanim.picture.diagrams.polygons import Polygon
-    from linkanim.picture.labels.names import LabelStyle, Names
+    from linkanim.picture.labels.names import Names
     from linkanim.synthesis.curves.drawn import DrawnCurve
 
 
@@ -423,13 +423,7 @@ class Picture:
             centres.ticks if centres else (),
             known is not None,
         )
-        return replace(names_of(around, self._label_style, known, centres), scale=self.view.scale)
-
-    @property
-    def _label_style(self) -> LabelStyle:
-        from linkanim.picture.labels.names import LabelStyle
-
-        return LabelStyle(self.type, self.layout, self.theme, self.gauge)
+        return replace(names_of(around, self.drawing.setting, known, centres), scale=self.view.scale)
 
     def _table_size(self) -> tuple[int, float]:
         """Return how many rows a table of all dimensions has, and how wide they are."""
@@ -438,7 +432,7 @@ class Picture:
         assert self.drawing.symbols
         unit = self.scene.length_unit
         rows = [f"{one.written(unit)}, {one.about}" for one in self.drawing.symbols.dimensions]
-        return len(rows), table_width(rows, self._label_style)
+        return len(rows), table_width(rows, self.drawing.setting)
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
         """Return whether the names on another picture are this one's."""

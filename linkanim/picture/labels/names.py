@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.figure import Figure
+from linkanim.picture.figure import DrawSetting, Figure
 from linkanim.picture.items import Caption, Halo
 from linkanim.picture.labels.candidates import LabelSpots, Spots, Surroundings, stacked
 from linkanim.picture.labels.dead_centres import DeadCentres
@@ -23,8 +23,7 @@ from linkanim.picture.parts.turning import Turning
 from linkanim.picture.placing import Placer
 from linkanim.picture.raster.parts import Part, Places
 from linkanim.picture.raster.raster import Colour, Layer, Loop
-from linkanim.picture.text.text import Type, subscripted
-from linkanim.picture.theme import Theme
+from linkanim.picture.text.text import subscripted
 from linkanim.picture.view import Rect, View
 
 _ROOM = 0.6
@@ -172,30 +171,23 @@ def _reread(labels: Iterable[Label], values: Mapping[str, str]) -> tuple[Label, 
     return tuple(replace(label, text=values.get(label.symbol, label.text)) for label in labels)
 
 
-@dataclass(frozen=True)
-class LabelStyle:
-    """What labels are written with."""
+def _joint_size(layout: Layout) -> int:
+    """Return the height of a joint's name."""
+    return max(round(20 * layout.unit), 12)
 
-    type: Type
-    layout: Layout
-    theme: Theme
-    gauge: Gauge
 
-    @property
-    def joint_size(self) -> int:
-        """The height of a joint's name."""
-        return max(round(20 * self.layout.unit), 12)
+def _halo(setting: DrawSetting) -> Halo:
+    """Return what parts letters from what is below."""
+    return Halo(setting.theme.background, max(1.4 * setting.gauge.line, 1.5))
 
-    @property
-    def halo(self) -> Halo:
-        """What parts letters from what is below."""
-        return Halo(self.theme.background, max(1.4 * self.gauge.line, 1.5))
 
-    def label(self, text: str, line: int, colour: Colour, symbol: str = "", about: str = "") -> Label:
-        """Return a line of text that has no place yet."""
-        around = 2 * self.halo.width
-        wide = self.type.width(text, line, strong=True)
-        return Label(text, line, colour, (wide + around, _HIGH * line + around), symbol, about)
+def _label(
+    setting: DrawSetting, text: str, line: int, colour: Colour, symbol: str = "", about: str = ""
+) -> Label:
+    """Return a line of text that has no place yet."""
+    around = 2 * _halo(setting).width
+    wide = setting.type.width(text, line, strong=True)
+    return Label(text, line, colour, (wide + around, _HIGH * line + around), symbol, about)
 
 
 Form = tuple[Label, LabelSpots]
@@ -204,26 +196,26 @@ Forms = Iterator[tuple[Form, ...]]
 
 
 def names_of(
-    ground: Surroundings, style: LabelStyle, known: Symbols | None, dead_centres: DeadCentres | None
+    ground: Surroundings, setting: DrawSetting, known: Symbols | None, dead_centres: DeadCentres | None
 ) -> Names:
     """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too.
 
     Lengths that do not stand on the picture at all times go into a table.
     """
     fixed, shown = ground.figure.fixed, ground.figure.shown
-    planned = [*_joints(ground, style, fixed), *_links(ground, style)]
+    planned = [*_joints(ground, setting, fixed), *_links(ground, setting)]
     if known:
-        planned += [*_dimensions(ground, style, known), *_angle(ground, style, known)]
-    planned += [*_dead_centres(ground, style, dead_centres)] if dead_centres else []
-    planned += _joints(ground, style, [name for name in shown if name not in fixed])
+        planned += [*_dimensions(ground, setting, known), *_angle(ground, setting, known)]
+    planned += [*_dead_centres(ground, setting, dead_centres)] if dead_centres else []
+    planned += _joints(ground, setting, [name for name in shown if name not in fixed])
     placer, kept, left = Placer(ground.clutter()), [], []
     for forms in planned:
         placed, (label, _) = list(_placed(placer, forms)), forms[0]
         kept += placed
         if label.about and not any(one.shown is not None and one.shown.all() for one in placed):
             left.append(label)
-    rows, found = tuple(left), (ground.figure.scene.period, style.gauge.bar, style.halo)
-    table = _tabled(ground, style, placer, rows) if rows else None
+    rows, found = tuple(left), (ground.figure.scene.period, setting.gauge.bar, _halo(setting))
+    table = _tabled(ground, setting, placer, rows) if rows else None
     return Names(tuple(kept), *found, table, () if table else rows, ground.view.scale)
 
 
@@ -246,18 +238,18 @@ def _placed(placer: Placer, forms: tuple[Form, ...]) -> Iterator[Label]:
             return
 
 
-def table_width(rows: Iterable[str], style: LabelStyle) -> float:
+def table_width(rows: Iterable[str], setting: DrawSetting) -> float:
     """Return how wide a column of the table is."""
-    size = style.layout.small_size
-    return max(style.type.width(row, size, strong=True) for row in rows) + 1.2 * size
+    size = setting.layout.small_size
+    return max(setting.type.width(row, size, strong=True) for row in rows) + 1.2 * size
 
 
 def _tabled(
-    ground: Surroundings, style: LabelStyle, placer: Placer, rows: tuple[Label, ...]
+    ground: Surroundings, setting: DrawSetting, placer: Placer, rows: tuple[Label, ...]
 ) -> DimensionTable | None:
     """Return the table where it has been given room, or where there is some; None where there is none."""
-    size, strip = style.layout.small_size, style.layout.table
-    wide = table_width((label.row for label in rows), style)
+    size, strip = setting.layout.small_size, setting.layout.table
+    wide = table_width((label.row for label in rows), setting)
     if strip:
         fits = (
             (columns, small)
@@ -267,8 +259,8 @@ def _tabled(
         )
         columns, small = next(fits)
         rect = strip._replace(width=columns * wide * small / size)
-        return DimensionTable(rows, columns, rect, small, style.theme.dim, style.halo)
-    stage, shapes = style.layout.stage.inset(style.layout.margin), []
+        return DimensionTable(rows, columns, rect, small, setting.theme.dim, _halo(setting))
+    stage, shapes = setting.layout.stage.inset(setting.layout.margin), []
     for columns in range(1, len(rows) + 1):
         around = complex(columns * wide, ceil(len(rows) / columns) * _ROW * size)
         first, room = complex(stage.x, stage.y) + around / 2, complex(stage.width, stage.height) - around
@@ -286,55 +278,55 @@ def _tabled(
     columns, spots = shapes[which]
     (wide, high), middle = spots.candidates.size, complex(spots.candidates.places[0, placed.which])
     rect = Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)
-    return DimensionTable(rows, columns, rect, size, style.theme.dim, style.halo)
+    return DimensionTable(rows, columns, rect, size, setting.theme.dim, _halo(setting))
 
 
-def _joints(ground: Surroundings, style: LabelStyle, names: Iterable[str]) -> Forms:
+def _joints(ground: Surroundings, setting: DrawSetting, names: Iterable[str]) -> Forms:
     """Yield joints' names."""
     for name in names:
-        label = style.label(subscripted(name), style.joint_size, style.theme.ink)
+        label = _label(setting, subscripted(name), _joint_size(setting.layout), setting.theme.ink)
         yield ((label, ground.around(name, label.size)),)
 
 
-def _links(ground: Surroundings, style: LabelStyle) -> Forms:
+def _links(ground: Surroundings, setting: DrawSetting) -> Forms:
     """Yield the links' names, their numbers where there is no room for those."""
-    links, size = ground.figure.links, style.layout.small_size
+    links, size = ground.figure.links, setting.layout.small_size
     for body, number in ground.figure.numbers.items():
-        words = (links[body], number) if _long_enough(ground, style, body) else (number,)
-        labels = [style.label(text, size, style.theme.ink) for text in dict.fromkeys(words)]
+        words = (links[body], number) if _long_enough(ground, setting, body) else (number,)
+        labels = [_label(setting, text, size, setting.theme.ink) for text in dict.fromkeys(words)]
         if body.slider:
             yield tuple((label, ground.around(body.slider, label.size, slider=True)) for label in labels)
         elif len(body.joints) > 1:
             yield tuple((label, ground.on(body, label.size)) for label in labels)
 
 
-def _long_enough(ground: Surroundings, style: LabelStyle, body: Body) -> bool:
+def _long_enough(ground: Surroundings, setting: DrawSetting, body: Body) -> bool:
     """Return whether a link has room for its name."""
     if len(body.joints) < 2:
         return True
     one, other = map(ground.figure.start, body.joints[:2])
     name = ground.figure.links[body]
-    wide = style.type.width(name, style.layout.small_size, strong=True)
+    wide = setting.type.width(name, setting.layout.small_size, strong=True)
     return wide < _ROOM * ground.view.scale * abs(other - one)
 
 
-def _angle(ground: Surroundings, style: LabelStyle, known: Symbols) -> Forms:
+def _angle(ground: Surroundings, setting: DrawSetting, known: Symbols) -> Forms:
     """Yield the input's angle at its pivot."""
     if isinstance(ground.turning, Turning):
-        label = style.label(known.input, style.joint_size, style.theme.dim)
+        label = _label(setting, known.input, _joint_size(setting.layout), setting.theme.dim)
         yield ((label, ground.by_arc(ground.turning, label.size)),)
 
 
-def _dead_centres(ground: Surroundings, style: LabelStyle, found: DeadCentres) -> Forms:
+def _dead_centres(ground: Surroundings, setting: DrawSetting, found: DeadCentres) -> Forms:
     """Yield the words at a slider's dead centres."""
     for text, places in found.words():
-        label = style.label(text, style.layout.small_size, style.theme.dim)
+        label = _label(setting, text, setting.layout.small_size, setting.theme.dim)
         yield ((label, ground.still(places(label.size), label.size)),)
 
 
-def _dimensions(ground: Surroundings, style: LabelStyle, known: Symbols) -> Forms:
+def _dimensions(ground: Surroundings, setting: DrawSetting, known: Symbols) -> Forms:
     """Yield the lengths and angles beside what they measure, those of the ground first."""
-    unit, size = ground.figure.scene.length_unit, style.layout.small_size
+    unit, size = ground.figure.scene.length_unit, setting.layout.small_size
     for one in known.dimensions:
-        label = style.label(one.written(unit), size, style.theme.dim, one.symbol, one.about)
+        label = _label(setting, one.written(unit), size, setting.theme.dim, one.symbol, one.about)
         yield tuple((label, spots) for spots in ground.dimension(one, label.size))
