@@ -10,6 +10,7 @@ import pygame
 
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.items import Caption, Group, flat
+from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.panels.panels import Panels
 from linkanim.picture.panels.path import SHEET
@@ -139,11 +140,9 @@ class SurfacePrinter:
                 type_.draw(canvas, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
 
     def _panels_of(self, picture: Picture) -> Panels:
-        if self._panels is None or (self._panels.layout, self._panels.theme) != (
-            picture.layout,
-            picture.theme,
-        ):
-            self._panels = Panels(picture.layout, picture.type, picture.theme)
+        board = Board(picture.layout, picture.type, picture.theme)
+        if self._panels is None or self._panels.board != board:
+            self._panels = Panels(board)
         return self._panels
 
 

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from math import ceil
 from typing import Any
 
 import numpy as np
 import pygame
 
-from linkanim.picture.layout import Layout
 from linkanim.picture.panels.board import Board
 from linkanim.picture.panels.chips import chip, edges, hint_bar, off_words, put, sentence, toast
 from linkanim.picture.panels.edit_list import edit_list, edit_rows
@@ -21,8 +19,6 @@ from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.panels.quantity_list import quantity_list, quantity_rows
 from linkanim.picture.raster.raster import Colour, Layer, Loop, paint
 from linkanim.picture.raster.shapes import box, disc, stroke
-from linkanim.picture.text.text import Type
-from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 
 _VEIL = 170
@@ -34,28 +30,24 @@ _BACKING = 0.7
 class Panels:
     """Draws overlays; the last panel of each kind is kept, so that an open one costs one blit."""
 
-    layout: Layout
-    type: Type
-    theme: Theme
+    board: Board
     _kept: dict[Any, tuple[Any, Any]] = field(default_factory=dict)
-
-    @cached_property
-    def board(self) -> Board:
-        """What the panels are drawn on."""
-        return Board(self.layout, self.type, self.theme)
 
     def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw what an overlay holds: the help over a game or beside the edit list, a toast at the foot."""
         self._marks(surface, overlay)
         self._list(surface, game_panel, overlay.game)
         if overlay.help:
-            surface.blit(self._keep(_veil, self.layout.size), (0, 0))
+            surface.blit(self._keep(_veil, self.board.layout.size), (0, 0))
         left = self._list(surface, edit_list, overlay.panel)
         self._list(surface, quantity_list, overlay.quantities)
         if overlay.help:
-            room = self.layout.size[0] - left
+            room = self.board.layout.size[0] - left
             drawn = self._keep(help_sheet, (overlay.help, room))
-            at = (left + (room - drawn.get_width()) // 2, (self.layout.size[1] - drawn.get_height()) // 2)
+            at = (
+                left + (room - drawn.get_width()) // 2,
+                (self.board.layout.size[1] - drawn.get_height()) // 2,
+            )
             surface.blit(drawn, at)
         self._passing(surface, overlay)
         if overlay.toast:
@@ -91,19 +83,19 @@ class Panels:
 
     def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
         """Return where a list stands: at the top of its place, or at the window's foot."""
-        place, margin = self.layout.lists, self.board.margin
-        foot = self.layout.size[1] - margin - drawn.get_height()
+        place, margin = self.board.layout.lists, self.board.margin
+        foot = self.board.layout.size[1] - margin - drawn.get_height()
         return round(place.x), max(foot, margin) if place.y > margin else margin
 
     def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw the chip below the marks, and the hint bar at the bottom, where the HUD is not."""
-        room, place = self.layout.stage, self.layout.marks
+        room, place = self.board.layout.stage, self.board.layout.marks
         if overlay.chip:
             drawn = self._keep(chip, overlay.chip.text)
-            marks = 1.5 * self.layout.text_size * (bool(overlay.recording) + overlay.paused)
+            marks = 1.5 * self.board.layout.text_size * (bool(overlay.recording) + overlay.paused)
             left = place.x if self._marks_lead else place.right - drawn.get_width()
             beside = left, place.y + marks
-            free = off_words(self.layout, drawn, [beside, *edges(self.board, drawn)])
+            free = off_words(self.board.layout, drawn, [beside, *edges(self.board, drawn)])
             put(surface, drawn, free or beside, overlay.chip)
         if overlay.watch:
             drawn, at = self._keep(sentence, overlay.watch.text)
@@ -111,7 +103,7 @@ class Panels:
                 put(surface, drawn, at, overlay.watch)
         if overlay.hint:
             words = self._keep(hint_bar, overlay.hint.text)
-            at = self.layout.hint or room
+            at = self.board.layout.hint or room
             if words:
                 leads = at.x + at.width / 2 <= room.x + room.width / 2
                 left = at.x if leads else at.right - words.get_width()
@@ -120,7 +112,7 @@ class Panels:
     @property
     def _marks_lead(self) -> bool:
         """Whether the marks stand at the left of the scene's room."""
-        place, stage = self.layout.marks, self.layout.stage
+        place, stage = self.board.layout.marks, self.board.layout.stage
         return place.x - stage.x < stage.right - place.right
 
     def _keep(self, make: Any, value: Any, slot: object = None) -> Any:
@@ -132,12 +124,12 @@ class Panels:
 
     def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw the marks of recording and pause, words and signs."""
-        size, place = self.layout.text_size, self.layout.marks
+        size, place = self.board.layout.text_size, self.board.layout.marks
         leads, top = self._marks_lead, place.y
         for sign, words, colour in (
-            (_dot, overlay.recording, self.theme.warning),
-            (_bars, "paused" if overlay.paused else None, self.theme.ink),
-            (_wave, overlay.path.off if overlay.path else None, self.theme.ink),
+            (_dot, overlay.recording, self.board.theme.warning),
+            (_bars, "paused" if overlay.paused else None, self.board.theme.ink),
+            (_wave, overlay.path.off if overlay.path else None, self.board.theme.ink),
         ):
             if words:
                 sheet = self._keep(_mark, (sign, words, colour), sign)
