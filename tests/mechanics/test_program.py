@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from scaling import chain
 
+from linkanim.mechanics.formulas.constant import Constant
 from linkanim.mechanics.formulas.expression import Expr, Graph, Value, maximum, minimum, rint, select, sqrt
 from linkanim.mechanics.formulas.program import BLOCK, CACHE_LINE, aligned_rows, batch, needed, scalar
 from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.mechanics.motion.motion import Variant
+from linkanim.scenes import load, names
 
 
 def formulas(x: Value, w: Value) -> list[Value]:
@@ -44,6 +47,19 @@ def test_noted_formulas_compute_what_plain_floats_do(x: float) -> None:
     outputs = noted()
     program = scalar(("x", "w"), outputs, "(" + "{}, " * len(outputs) + ")")
     assert program(x, 1.7) == pytest.approx(tuple(formulas(x, 1.7)), rel=1e-15, abs=1e-16)
+
+
+def test_a_pose_computes_in_plain_floats_and_gives_them_whatever_its_constants_know() -> None:
+    found: list[float] = []
+    x = Graph().input("x")
+    kept = scalar(["x"], [x * Constant(1 / 3, Fraction(1, 3)), Constant(0.1, Fraction(1, 10))], "({}, {})")
+    found += kept(2.0)
+    for name in names():
+        pose = load(name).pose(0.3)
+        found += [
+            part for places in (pose.position, pose.acceleration) for at in places.values() for part in at
+        ]
+    assert {type(value) for value in found} == {float}
 
 
 @pytest.mark.parametrize("count", [1, 5, BLOCK, BLOCK + 1, 2 * BLOCK + 7])

@@ -97,6 +97,11 @@ class _Constants:
         self.numbers[name] = number
         return name
 
+    @property
+    def floats(self) -> dict[str, float]:
+        """The numbers as plain floats: one that knows what it stands for computes many times as long."""
+        return {name: float(number) for name, number in self.numbers.items()}
+
     def assignment(self, node: Expr) -> str:
         """Return the line that works a node out."""
         return f"{_name(node)} = {FORMULAS[node.op].format(*map(self.name, node.args))}"
@@ -138,7 +143,7 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     result = layout.format(
         *(texts[value.index] if isinstance(value, Expr) else constants.name(value) for value in outputs)
     )
-    return _function("pose", inputs, [*lines, f"return {result}"], FLOAT_NAMES | constants.numbers)
+    return _function("pose", inputs, [*lines, f"return {result}"], FLOAT_NAMES | constants.floats)
 
 
 def _inlined(
@@ -275,7 +280,7 @@ def _prelude(
     constants = _Constants()
     lines = [constants.assignment(node) for node in fixed]
     result = "".join(f"{name}, " for name in numbers)
-    return _function("prelude", names, [*lines, f"return ({result})"], FLOAT_NAMES | constants.numbers)
+    return _function("prelude", names, [*lines, f"return ({result})"], FLOAT_NAMES | constants.floats)
 
 
 class _Block:
