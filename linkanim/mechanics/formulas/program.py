@@ -143,7 +143,8 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     result = layout.format(
         *(texts[value.index] if isinstance(value, Expr) else constants.name(value) for value in outputs)
     )
-    return _function("pose", inputs, [*lines, f"return {result}"], FLOAT_NAMES | constants.floats)
+    known = [*inputs, *(f"{name}={name}" for name in constants.numbers)]  # read faster than a global
+    return _function("pose", known, [*lines, f"return {result}"], FLOAT_NAMES | constants.floats)
 
 
 def _inlined(
