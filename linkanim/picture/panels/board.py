@@ -10,7 +10,7 @@ from typing import NamedTuple
 import pygame
 
 from linkanim.picture.layout import Layout
-from linkanim.picture.raster.raster import Colour, Layer, paint
+from linkanim.picture.raster.raster import Colour, Cover, Layer, Shapes, covers, paint
 from linkanim.picture.raster.shapes import box
 from linkanim.picture.text.text import Anchor, Type
 from linkanim.picture.theme import Theme, mixed
@@ -20,6 +20,8 @@ STEP = 1.42
 
 _POINTED = 0.5
 """How much of the chosen row's colour a row has that the mouse is over."""
+
+_KEPT_BARS = 8
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,8 @@ class Board:
     theme: Theme
     _sheets: dict[tuple[int, int], pygame.Surface] = field(default_factory=dict, compare=False)
     """The last empty panel: a list that changes keeps its size."""
+    _bars: dict[object, Cover] = field(default_factory=dict, compare=False)
+    """The last bars behind rows: a list that changes mostly keeps its chosen one."""
 
     @property
     def margin(self) -> int:
@@ -71,10 +75,15 @@ class Board:
 
     def bar(self, sheet: pygame.Surface, y: float, size: int, colour: Colour, *, lines: float = 1.0) -> None:
         """Draw a bar across a sheet behind so many lines of text, the first with its top at `y`."""
-        middle = complex(sheet.get_width() / 2, y + (0.5 + (lines - 1.0) * STEP / 2) * size)
-        high = (1.36 + (lines - 1.0) * STEP) * size
-        loop = middle + box(sheet.get_width() - 1.2 * size, high, 0.25 * size)
-        paint(sheet, [Layer(colour, [loop])])
+        key = sheet.get_size(), y, size, colour, lines
+        if key not in self._bars:
+            middle = complex(sheet.get_width() / 2, y + (0.5 + (lines - 1.0) * STEP / 2) * size)
+            high = (1.36 + (lines - 1.0) * STEP) * size
+            loop = middle + box(sheet.get_width() - 1.2 * size, high, 0.25 * size)
+            if len(self._bars) >= _KEPT_BARS:
+                self._bars.clear()
+            (self._bars[key],) = covers(sheet, [Shapes([Layer(colour, [loop])])])
+        self._bars[key].put(sheet)
 
     def behind(self, row: int, chosen: int | None, pointed: int | None) -> Colour | None:
         """Return the colour behind a row that is chosen, or that the mouse is over; None of any other."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from linkanim.mechanics.linkage.linkage import Body
@@ -106,12 +108,14 @@ def _worked(bar: Bar, points: list[complex], bench: Bench, colours: tuple[Colour
     return layers
 
 
+@lru_cache(maxsize=16)
 def pin_stamp(gauge: Gauge, theme: Theme) -> Stamp:
     """Return a pin: a ring around an eye."""
     outer, inner = disc(gauge.pin + gauge.outline / 2), disc(gauge.pin - gauge.outline / 2)
     return Stamp((Layer(theme.outline, [outer]), Layer(theme.pin, [inner])))
 
 
+@lru_cache(maxsize=16)
 def mass_stamp(gauge: Gauge, theme: Theme) -> Stamp:
     """Return the sign of a centre of mass: a disc with two of its quarters light."""
     radius = 0.48 * gauge.bar
@@ -120,6 +124,7 @@ def mass_stamp(gauge: Gauge, theme: Theme) -> Stamp:
     return Stamp((outer, Layer(theme.pin, [quarter, -quarter])))
 
 
+@lru_cache(maxsize=16)
 def mark_stamp(colour: Colour, gauge: Gauge, theme: Theme) -> Stamp:
     """Return the mark of a joint that is traced, in its curve's colour."""
     radius = 0.62 * gauge.bar
