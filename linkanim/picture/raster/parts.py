@@ -53,7 +53,7 @@ class Part:
         return joined(self.layers)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # outlines are arrays, which do not compare
 class Stamp:
     """Layers about the origin that are put down at many places without turning."""
 
