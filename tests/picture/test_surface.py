@@ -18,6 +18,7 @@ from pictures import BARE, SMALL, alphas, painted, pixels
 from linkanim.errors import BadInput
 from linkanim.picture.arrangement import fit
 from linkanim.picture.figure import figure
+from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.panels.overlay import EditRow, GamePanel, Overlay, Panel, Quantities
 from linkanim.picture.parts.bodies import colours_of
@@ -93,11 +94,11 @@ def test_what_is_kept_of_a_picture_has_a_bound() -> None:
         printer.paint(surface, picture, scene.pose(0.0685 * step))
         taken.append(sum(cover.nbytes for _, cover in printer._covers.values()))
     assert 0 < max(taken) <= 8 * surface.get_buffer().length
-    before, look = picture, replace(FULL, names=2)
-    for step in range(8):
-        before = Picture(scene, (320 + 10 * step, 180), look, before)
-        printer.paint(offscreen(before.size), before, scene.pose(0.5))
-    assert len(printer._labels._kept) < 120
+    for number in range(40):  # as a length under the hand
+        line = Caption(f"{number} mm", (60.0, 40.0), 12, (0, 0, 0), halo=Halo((255, 255, 255), 2.0))
+        printer._words(surface, picture.type, (Group("names", (), [line]),))
+        printer._labels.let_go()
+    assert len(printer._labels._kept) < 12
 
 
 @pytest.mark.parametrize("name", ["press", "crank-rocker", "slider-crank"])
@@ -466,6 +467,7 @@ def test_frames_in_any_order_are_those_that_a_fresh_printer_prints(name: str) ->
 
 _FAULTS = """
 from resource import RUSAGE_SELF, getrusage
+from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen

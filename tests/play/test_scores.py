@@ -112,11 +112,11 @@ while True:
 @pytest.mark.skipif(os.name != "posix", reason="kills as POSIX has them")
 def test_it_survives_being_killed_at_any_moment(tmp_path: Path) -> None:
     path, before = tmp_path / "scores.json", 0
-    for turn in range(5):
+    for turn in range(3):
         with subprocess.Popen([sys.executable, "-c", WRITER, path], stdout=subprocess.PIPE, text=True) as run:
             assert run.stdout
             line = run.stdout.readline()  # it has begun to write
-            end = time.monotonic() + 0.0031 * turn
+            end = time.monotonic() + 0.0047 * turn
             while time.monotonic() < end:
                 line = line or ""
             run.send_signal(signal.SIGKILL)
