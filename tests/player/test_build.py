@@ -452,15 +452,21 @@ def test_a_photograph_that_is_dropped_is_fitted_by_two_known_points(
     assert photo_of(builder).turn == 0
 
 
-def test_a_scene_file_names_its_photograph_and_a_recording_leaves_it_out(
-    builder: Builder, photograph: Path, here: Path
-) -> None:
+def saved_over(builder: Builder, photograph: Path, here: Path) -> Path:
+    """A four-bar built over a photograph, and written."""
     pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
     builder.tick()
     builder.press(pygame.K_b, text="b")
     builder.four_bar()
     builder.press(pygame.K_s, CTRL)
     (path,) = here.glob("*.toml")
+    return path
+
+
+def test_a_scene_file_names_its_photograph_and_a_recording_leaves_it_out(
+    builder: Builder, photograph: Path, here: Path
+) -> None:
+    path = saved_over(builder, photograph, here)
     assert parse(path.read_text(), "it")["photo"]["file"] == "digger.png"
     over = overlay(builder.state)
     for photo in (False, True):
@@ -488,12 +494,7 @@ def test_a_photograph_that_is_gone_or_none_is_a_sentence_and_does_no_harm(
 @pytest.fixture
 def elsewhere(builder: Builder, photograph: Path, here: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A scene file beside its photograph, in a folder in the current one."""
-    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
-    builder.tick()
-    builder.press(pygame.K_b, text="b")
-    builder.four_bar()
-    builder.press(pygame.K_s, CTRL)
-    (path,) = here.glob("*.toml")
+    path = saved_over(builder, photograph, here)
     (here / "work" / "down").mkdir(parents=True)
     monkeypatch.chdir(here / "work")
     photograph.rename(here / "work" / "down" / "digger.png")

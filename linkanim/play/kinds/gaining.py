@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import combinations
 from math import hypot, isfinite
 from types import MappingProxyType
 
 import numpy as np
 
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.motion.measures import between as way_between
 from linkanim.mechanics.motion.measures import growth, output_body
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
@@ -134,23 +136,13 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
     body = output_body(puzzle.scene.linkage)
     if body is None or not puzzle.scene.info.full_turn:
         return None
-    step = max(len(puzzle.cycle.phase) // _SAMPLES, 1)
     tokens = (
         ("travel", "travel_velocity", "travel_acceleration")
         if body.slider
         else ("angle", "angular_velocity", "angular_acceleration")
     )
-    values = [np.asarray(getattr(puzzle.cycle, token)[body.name], np.float64)[::step] for token in tokens]
-    if not all(np.isfinite(part).all() and np.ptp(part) > 0.0 for part in values):
-        return None
-    values[0] = values[0] - (values[0].max() + values[0].min()) / 2
-    if abs(float(values[0][-1] - values[0][0])) > 0.5 * float(np.ptp(values[0])):
-        return None  # it turns on and on: its angle is a line
-    if puzzle.scene.linkage.drive.speed < 0:
-        values = [part[::-1] for part in values]
-    scaled = [part / np.abs(part).max() for part in values]
-    pairs = ((0, 1), (1, 2), (0, 2))
-    if any(float(np.abs(scaled[a] - scaled[b]).max()) < _APART for a, b in pairs):
+    scaled = _told_apart(puzzle, [getattr(puzzle.cycle, token)[body.name] for token in tokens])
+    if scaled is None:
         return None
     order = puzzle.random.sample(range(3), 3)
     which = puzzle.random.choice((1, 2))
@@ -172,6 +164,24 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
         f"Where the {_ORDERS[which - 1]} has its extremes the {right}, its steepness, is zero.",
         shows=Look(names=1, chart=token),
     )
+
+
+def _told_apart(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
+    """Return a value over a period as time goes, and its two rates, each at most 1 in size.
+
+    None where they look alike, one is unbounded or rests, or the value grows from turn to turn.
+    """
+    step = max(len(puzzle.cycle.phase) // _SAMPLES, 1)
+    value, *rates = (np.asarray(column, np.float64)[::step] for column in columns)
+    if not all(np.isfinite(part).all() and np.ptp(part) > 0.0 for part in (value, *rates)):
+        return None
+    value = value - (value.max() + value.min()) / 2
+    if abs(float(value[-1] - value[0])) > 0.5 * float(np.ptp(value)):
+        return None  # it turns on and on: its angle is a line
+    way = -1 if puzzle.scene.linkage.drive.speed < 0 else 1
+    scaled = [part[::way] / np.abs(part).max() for part in (value, *rates)]
+    alike = (float(np.abs(one - other).max()) < _APART for one, other in combinations(scaled, 2))
+    return None if any(alike) else scaled
 
 
 def coriolis(puzzle: Puzzle) -> QuizQuestion | None:

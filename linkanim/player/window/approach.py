@@ -116,8 +116,7 @@ class Framing:
     def at(self, state: State, size: tuple[int, int]) -> Picture:
         """Return the picture for this frame: one on the way to the fitting one while that is approached."""
         last = self._passing or self._fitting
-        # under the hand the chart follows in every other frame, and the list in the others
-        charted = last.charted if last and state.held and state.frame % 2 == 0 else None
+        charted = last.charted if last and state.waits == "chart" else None
         goal, self._passing = self.fitting(state, size, hurried=True, charted=charted), None
         if self._approach is None or self._approach.over(state.frame):
             self._approach = None

@@ -62,7 +62,7 @@ class Screen:
     def show(self, state: State, over: Overlay) -> None:
         """Paint the state into the window and flip, where it differs from what is there."""
         surface = display.surface()
-        if state.held and state.frame % 2 and over.panel and self.over.panel:
+        if state.waits == "list" and over.panel and self.over.panel:
             over = replace(over, panel=self.over.panel)  # the list follows the hand in every other frame
         self.state, self.over = state, over
         self._point(state)
