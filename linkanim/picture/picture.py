@@ -106,7 +106,7 @@ class Picture:
             self._papered = before._papered
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
         place = self.layout, self.theme, look.chart
-        self._late = charted is not None and charted.place == place
+        self._late = charted is not None and charted.place == place and look.chart is not None
         self.charted: Charted = charted if charted and self._late else Charted(place, {})
 
     def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:

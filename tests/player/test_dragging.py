@@ -337,3 +337,18 @@ def test_under_the_hand_the_chart_follows_in_every_other_frame_and_at_once_where
         state = advance(state, [])
     rested, anew = charted(state, framing), charted(state, Framing(captioned=True))
     assert [group.captions for group in rested] == [group.captions for group in anew]
+
+
+def test_without_a_chart_nothing_is_made_again_where_the_hand_rests() -> None:
+    state, framing, size = opened("crank-rocker", 1.0), Framing(captioned=True), (640, 360)
+    framing.at(state, size)
+    state = after(state, Action("grab", "B"))
+    x, y = place(state, "B")
+    for step in range(1, 3):  # one in a frame in which a chart would wait
+        state = after(state, Action("carry", (x + 3.0 * step, y, 1.0)))
+        picture = framing.at(state, size)
+        if state.waits == "chart":
+            break
+    assert state.waits == "chart"
+    state = advance(state, [])
+    assert framing.at(state, size) is picture
