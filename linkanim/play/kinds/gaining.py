@@ -141,7 +141,7 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
         if body.slider
         else ("angle", "angular_velocity", "angular_acceleration")
     )
-    scaled = _told_apart(puzzle, [getattr(puzzle.cycle, token)[body.name] for token in tokens])
+    scaled = _distinct(puzzle, [getattr(puzzle.cycle, token)[body.name] for token in tokens])
     if scaled is None:
         return None
     order = puzzle.random.sample(range(3), 3)
@@ -166,7 +166,7 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
     )
 
 
-def _told_apart(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
+def _distinct(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
     """Return a value over a period as time goes, and its two rates, each at most 1 in size.
 
     None where they look alike, one is unbounded or rests, or the value grows from turn to turn.
