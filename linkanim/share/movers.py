@@ -123,8 +123,7 @@ class Mobile:
         colours = self.pairs.variables(light.colours, dark.colours)
         drive = self.light.scene.linkage.drive
         read = abs(drive.speed) / drive.coordinate.shown(1.0)
-        gain = read / light.fastest if light.fastest > 0 else 0.0
-        return {"gain": gain, "line": light.gauge.line, "colours": colours}
+        return {"gain": read / light.fastest, "line": light.gauge.line, "colours": colours}
 
     def _coil(self, light: Coil, dark: Coil) -> Mover:
         ends = dict(zip(light.between, (0j, 1 + 0j), strict=True))

@@ -96,6 +96,20 @@ def test_both_closures_are_there_and_know_their_names() -> None:
     assert len(held(document(Shared(load("scotch-yoke"))))["sides"]) == 1
 
 
+@pytest.mark.parametrize(
+    ("name", "high"),
+    [
+        pytest.param("driven-piston", 480, id="a long and low scene"),
+        pytest.param("crank-rocker", 615, id="one of its own shape"),
+        pytest.param("scotch-yoke", 900, id="one as high as wide"),
+    ],
+)
+def test_a_picture_is_as_high_as_its_scene_within_bounds_and_its_chart_as_wide(name: str, high: int) -> None:
+    page = Reader(document(Shared(load(name))))
+    views = [attrs["viewbox"] for tag, attrs in page.seen if tag == "svg"]
+    assert views == [f"0 0 960 {high}", "0 0 960 300"]
+
+
 def test_a_page_runs_at_the_speed_asked_for() -> None:
     found = held(document(Shared(load("press"), speed=-1.5)))
     assert found["speed"] == -1.5
@@ -190,6 +204,7 @@ def test_a_site_has_an_index_and_takes_nothing_that_is_not_its_own(tmp_path: Pat
         assert pages == {INDEX, *(f"{name}.html" for name in some)}
     index = Reader((site / INDEX).read_text(encoding="utf-8"))
     assert [attrs["href"] for tag, attrs in index.seen if tag == "a"] == [f"{name}.html" for name in some]
+    assert index.text["h2"] == "Four-barsSliders"
     (site / "scotch-yoke.html").write_text("mine", encoding="utf-8")
     with pytest.raises(BadInput, match="was changed after linkanim wrote it"):
         write_site(site, some, Shared(load("press")))

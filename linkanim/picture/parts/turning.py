@@ -58,7 +58,7 @@ class Turning:
         """Yield points (n, k) along the arrow and the angle, for joints on paths (n); half their widths."""
         centre, pin = paths[self.pivot], paths[self.pin]
         way, share = (pin - centre) / np.abs(pin - centre), np.linspace(0, 1, 16)
-        sweep = SWEEP * np.clip(-rates / (self.fastest or 1.0), -1, 1)[:, None]
+        sweep = SWEEP * np.clip(-rates / self.fastest, -1, 1)[:, None]
         shaft = np.sign(sweep) * AHEAD + sweep * np.linspace(0, 1, 6)
         head = shaft[:, -1:] + np.sign(sweep) * 6.0 * self.gauge.line / self.arrow * np.array([-0.5, 1])
         for bend, half in ((shaft, 1.8), (head, 4.2)):
@@ -70,7 +70,7 @@ class Turning:
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
         """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
-        turning = -pose.coordinate_rate * rate / self.fastest if self.fastest > 0 else 0.0
+        turning = -pose.coordinate_rate * rate / self.fastest
         sweep = SWEEP * min(max(turning, -1.0), 1.0)
         if not abs(sweep) > 0.02:
             return []
@@ -128,7 +128,7 @@ class Sliding:
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
         """Return the arrow ahead of the slider, shorter as it slows down; `rate` as of a `Turning`."""
-        share = pose.coordinate_rate * rate / self.fastest if self.fastest > 0 else 0.0
+        share = pose.coordinate_rate * rate / self.fastest
         reach = self.along * self.longest * min(max(share, -1.0), 1.0)
         if not abs(reach) > 0.02 * self.longest:
             return []
@@ -141,7 +141,7 @@ class Sliding:
         self, paths: Mapping[str, Loop], rates: NDArray[np.float64], *, angled: bool
     ) -> Iterator[tuple[Loop, float]]:
         """Yield the ends (n, 2) of the arrow of a joint on its path, and half its width; it has no angle."""
-        reach = self.along * self.longest * np.clip(rates / (self.fastest or 1.0), -1, 1)
+        reach = self.along * self.longest * np.clip(rates / self.fastest, -1, 1)
         foot = paths[self.joint] + self.room * self.along * np.sign(rates)
         yield np.stack((foot, foot + reach), axis=1), 4.2 * self.gauge.line
 
