@@ -49,7 +49,7 @@ class FollowRun:
     """
 
     scene: str
-    level: int = 1
+    level: int
     stage: Stage = "ready"
     frames: int = 0
     paper: int = 0

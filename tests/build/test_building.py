@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hand import drawn, gesture
 
+from linkanim.build import shapes
 from linkanim.build.building import Building, posed, redo, undo
 from linkanim.build.chosen import choose_thing
 from linkanim.build.draft import Photo, restored, stored
@@ -102,6 +103,20 @@ def test_an_input_that_swings_begins_where_it_is_drawn(lines: tuple[str, ...]) -
     assert 0.0 < draft.phase < np.pi
     pose = scene.pose(draft.phase, 0).position
     assert max(np.hypot(*np.subtract(pose[name], draft.places[name])) for name in pose) < 1.5
+
+
+def test_a_slider_is_driven_to_both_sides_of_where_it_stands() -> None:
+    lines = ("click 0 0", "click 100 0", "drag guide 0 0 0 9", "click slider 0 80", "drag 0 80 60 20")
+    building = drawn((*lines, "drag 60 20 100 0", "choose joints A", "drive"))
+    assert building.made.scene
+    assert building.draft.drive["slider"] == {"joint": "A", "from": 77.5, "to": 82.5}
+
+
+def test_wheels_touch_where_their_radii_are_as_their_ratio() -> None:
+    pivots = ("click 0 0", "click 90 0", "drag 0 0 30 0", "drag 90 0 120 0")
+    building = drawn((*pivots, "drag gear 120 0 30 0", "type -2"))
+    (wheels,) = (shape for shape in shapes.drawn(building.draft) if shape.kind == "gears")
+    assert wheels.places == ((90, 0), (0, 0), (60, 0))
 
 
 def test_a_photograph_comes_to_two_known_points_and_into_the_file() -> None:

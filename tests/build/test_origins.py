@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from hand import drawn
 
 import linkanim
 from linkanim.build.origin import building_of
@@ -29,3 +30,12 @@ def test_a_shorthand_stays_one(name: str) -> None:
     scene = building_of(linkanim.load(name)).made.scene
     assert scene
     assert text(scene).count("[joints") == 0
+
+
+def test_a_shorthand_stays_one_whose_bar_is_drawn_anew_from_its_other_end() -> None:
+    building = building_of(linkanim.load("crank-rocker"))
+    (x, y), (to_x, to_y) = building.draft.places["B"], building.draft.places["A"]
+    scene = drawn(["choose bars A–B", "delete", f"drag {x} {y} {to_x} {to_y}"], building).made.scene
+    assert scene
+    assert "[four-bar]" in text(scene)
+    assert 'assembly = "open"' in text(scene)

@@ -135,6 +135,24 @@ def test_a_run_replays_to_the_same_score_from_its_start_and_from_its_midst() -> 
         assert replace(game(last), is_within=True) == replace(game(state), is_within=True)
 
 
+@pytest.mark.parametrize(
+    ("best", "well", "words"),
+    [
+        pytest.param(0, True, "1.50 m, then the slack was used up", id="the first run"),
+        pytest.param(1_499, True, "1.50 m, then the slack was used up; the best was 1.50 m", id="by a mm"),
+        pytest.param(1_500, False, "1.50 m, then the slack was used up; the best was 1.50 m", id="as far"),
+        pytest.param(2_250, False, "1.50 m, then the slack was used up; the best was 2.25 m", id="less far"),
+    ],
+)
+def test_a_run_that_is_over_is_compared_with_the_best(best: int, well: bool, words: str) -> None:
+    state = on("follow scene=press")
+    run = replace(game(state), stage="over", passed=1_500_999, paper=1_600_000, best=best)
+    panel = run.shown(state, Overlay()).game
+    assert panel
+    assert (panel.well, panel.verdict) == (well, words)
+    assert run.level == 1
+
+
 def test_words_begin_a_run_where_it_is() -> None:
     *_, (state, _) = followed(on("follow scene=press level=3"), 50)
     assert read(GameWords.of(game(state).words)) == game(state)

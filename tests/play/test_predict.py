@@ -12,6 +12,7 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.errors import BadInput
+from linkanim.picture.panels.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.kinds.table import KINDS
@@ -129,7 +130,12 @@ def test_the_menu_chooses_chapter_and_level_and_shows_best_scores(player: Player
 
 
 def test_a_round_can_be_about_the_mechanism_that_was_on() -> None:
-    state = carried(playing("menu"), Action("raise", 1))  # from the first row to the last
+    state = playing("menu")
+    assert state.game
+    panel = state.game.shown(state, Overlay()).game
+    assert panel
+    assert [choice.key for choice in panel.choices] == [f"{n}" for n in range(1, len(panel.choices) + 1)]
+    state = carried(state, Action("raise", 1))  # from the first row to the last
     assert isinstance(state.game, Menu)
     assert state.game.chapter == "press"
     state = carried(state, Action("next"))
@@ -168,6 +174,7 @@ def test_the_input_runs_to_the_dead_centre_and_stands_there() -> None:
 
 def test_keys_that_would_show_the_answer_do_nothing() -> None:
     state = playing(BEGUN)
+    assert (state.look.hud, state.look.trace) == (False, False)
     same = state
     for name, value in (("vectors", "v"), ("step", 10), ("scrub", 1.0), ("chart", 1), ("centres", None)):
         same = carried(same, Action(name, value))
@@ -199,6 +206,11 @@ def test_a_round_asks_ten_and_then_what_was_missed() -> None:
     assert round_of(state).question is None
     assert len({one.question_id for one in round_of(state).done}) == COUNT
     assert {one.question_id.scene for one in round_of(state).done} <= {*chapters()["four-bars"]}
+    doors = ((Action("next"), "predict"), (Action("option", 0), "predict"), (Action("option", 1), "menu"))
+    for action, what in doors:
+        (begun,) = carried(state, action).effects
+        assert str(begun.value).startswith(f"{what} chapter=four-bars level=1")
+    assert carried(state, Action("option", 2)) == state
 
 
 @pytest.mark.parametrize("level", [1, 2, 3])

@@ -16,6 +16,7 @@ import pytest
 from linkanim.cli import main
 from linkanim.mechanics.facts.naming import four_bar_of
 from linkanim.play.kinds.table import KINDS
+from linkanim.play.kinds.wording import between
 from linkanim.play.question import QuizQuestion
 from linkanim.play.round import questions
 from linkanim.play.sheet import pose_words
@@ -254,3 +255,8 @@ def test_what_makes_no_round_is_refused_in_a_line(
 def test_the_way_of_the_input_is_said_once(scene: str, way: str) -> None:
     question = next(iter(questions([load(scene)], 1, 7)))
     assert pose_words(question).endswith(f", 20 rpm {way}")
+
+
+@pytest.mark.parametrize(("one", "other", "far"), [(10, 350, 20), (350, 10, 20), (270, 90, 180), (40, 40, 0)])
+def test_angles_are_told_apart_the_short_way_round(one: float, other: float, far: float) -> None:
+    assert between(one, other) == far
