@@ -154,15 +154,7 @@ def named_in(table: Any, key: str = "at") -> Iterator[Thing]:
 
 def stored(draft: Draft) -> dict[str, Any]:
     """Return all of a draft as tables, lists, texts and numbers."""
-    return {
-        "places": {name: list(place) for name, place in draft.places.items()},
-        "tables": {kind: dict(tables) for kind, tables in draft.tables.items()},
-        "rest": dict(draft.rest),
-        "typed": [list(key) for key in sorted(draft.typed, key=repr)],
-        "photo": draft.photo and list(draft.photo),
-        "short": draft.short,
-        "phase": draft.phase,
-    }
+    return {**vars(draft), "typed": sorted(draft.typed, key=repr)}
 
 
 def restored(tables: Mapping[str, Any], where: str = "draft") -> Draft:

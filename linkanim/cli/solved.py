@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from linkanim import units
 from linkanim.mechanics.facts.register import Path, recorded
-from linkanim.mechanics.formulas.exact import two_product
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes.scene import Scene
 
@@ -117,31 +116,18 @@ class Steps:
 
     def degrees(self, start: int, stop: int) -> Leaf:
         """Return rows in degrees, each rounded once."""
-        if not self._fits:
-            return np.array([float(Fraction(self._at(row), self.scale)) for row in range(start, stop)])
-        return self._counts(start, stop) / float(self.scale)
+        return np.array([at / self.scale for at in self._counts(start, stop)])
 
     def radians(self, start: int, stop: int) -> Leaf:
         """Return rows in radians, as `units.angle` reads them: by the float π, rounded once."""
-        if not self._fits:
-            return np.array([units.angle(f"{value!r} deg") for value in self.degrees(start, stop).tolist()])
-        exact = Fraction(math.pi) / (180 * self.scale)
-        high = float(exact)
-        counts = self._counts(start, stop)
-        product, lost = two_product(counts, high)
-        radians: Leaf = product + (lost + counts * float(exact - Fraction(high)))
-        return radians
+        counts, last = self._counts(start, stop), self.first + self.step * self.rows
+        if max(abs(self.first), abs(last), self.scale) < _WHOLE:
+            above, below = (Fraction(math.pi) / (180 * self.scale)).as_integer_ratio()
+            return np.array([above * at / below for at in counts])
+        return np.array([units.angle(f"{value!r} deg") for value in self.degrees(start, stop).tolist()])
 
-    @property
-    def _fits(self) -> bool:
-        """Whether all whole numbers are floats."""
-        return max(abs(self._at(0)), abs(self._at(self.rows)), self.scale) < _WHOLE
-
-    def _at(self, row: int) -> int:
-        return self.first + self.step * row
-
-    def _counts(self, start: int, stop: int) -> Leaf:
-        return (self.first + self.step * np.arange(start, stop)).astype(float)
+    def _counts(self, start: int, stop: int) -> range:
+        return range(self.first + self.step * start, self.first + self.step * stop, self.step)
 
 
 def blocks(
