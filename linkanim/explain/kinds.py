@@ -24,7 +24,7 @@ from linkanim.explain.expression import (
     sqrt,
     square,
 )
-from linkanim.explain.rates import Order, Rates, SlideUnknown, TurnUnknown
+from linkanim.explain.rates import Order, Rates, Unknown
 from linkanim.explain.work import ANGLE, LENGTH, GuideLine, Work
 from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Joint
@@ -61,13 +61,12 @@ def place_crank(crank: Crank, work: Work) -> None:
 
 def move_crank(crank: Crank, rates: Rates, order: Order) -> None:
     """Add how the geared crank turns, and how its pin moves."""
-    frame = rates.work.frame((crank.pivot, crank.name))
+    ends, work = (crank.pivot, crank.name), rates.work
     if crank.gear is not None:
-        mate = rates.work.linkage.crank(crank.gear.mate)
-        driver = rates.turn(rates.work.frame((mate.pivot, mate.name)), order)
-        rates.let_turning(frame, _ratio(crank.gear) * driver, order)
-    arm = rates.work.bar(crank.pivot, crank.name, crank.length)
-    rates.let_moving(crank.name, rates.of(crank.pivot, order) + rates.carried(frame, arm, order), order)
+        mate = work.linkage.crank(crank.gear.mate)
+        driver = rates.rate(work.frame((mate.pivot, mate.name)), order)
+        rates.let_rate(work.frame(ends), _ratio(crank.gear) * driver, order)
+    rates.let_carried(crank.name, ends, work.bar(*ends, crank.length), order)
 
 
 def _ratio(gear: Gear) -> Formula:
@@ -84,7 +83,7 @@ def place_slider(slider: DrivenSlider, work: Work) -> None:
 def move_slider(slider: DrivenSlider, rates: Rates, order: Order) -> None:
     """Add how the driven slider moves."""
     guide = rates.work.guide(slider.line, slider.name)
-    rates.let_moving(slider.name, guide.direction.times(rates.sliding[slider.name][order - 1]), order)
+    rates.let_moving(slider.name, guide.direction.times(rates.rate(slider.name, order)), order)
 
 
 def route_of_guide(joint: DrivenSlider | RRP | RPP, work: Work) -> Route:
@@ -124,10 +123,8 @@ def body_point(
 
 def move_point(point: Rigid, rates: Rates, order: Order) -> None:
     """Add how a point of a body moves."""
-    points, base = rates.work.points, point.on[0]
-    arm = points[point.name] - points[base]
-    turned = rates.carried(rates.work.frame(point.on), arm, order)
-    rates.let_moving(point.name, rates.of(base, order) + turned, order)
+    points = rates.work.points
+    rates.let_carried(point.name, point.on, points[point.name] - points[point.on[0]], order)
 
 
 def route_of_point(point: Rigid, work: Work) -> Route:
@@ -209,10 +206,8 @@ def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
     right = rates.of(q, order) - rates.of(p, order)
     if order == 2:
         right = right + rates.centripetal(frames[0], one) - rates.centripetal(frames[1], other)
-    rates.solve(
-        name, (TurnUnknown(frames[0], one.left()), TurnUnknown(frames[1], -other.left())), right, order
-    )
-    rates.let_moving(name, rates.of(p, order) + rates.carried(frames[0], one, order), order)
+    rates.solve(name, (Unknown(frames[0], one.left()), Unknown(frames[1], -other.left())), right, order)
+    rates.let_carried(name, (p, name), one, order)
 
 
 def loop_of_bars(joint: RRR, work: Work) -> tuple[Route, Route]:
@@ -274,15 +269,15 @@ def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
     guide, frame = work.guide(joint.line, name), work.frame((end, name))
     bar, u = work.bar(end, name, joint.length), guide.direction
     arm = work.points[name] - work.points[guide.through]
-    slid = u.times(rates.sliding[name][0]) if order == 2 else u
+    slid = u.times(rates.rate(name, 1)) if order == 2 else u
     right = rates.of(end, order) - rates.guided(guide, arm, slid, order)
     if order == 2:
         right = right - rates.centripetal(frame, bar)
-    rates.solve(name, (SlideUnknown(name, u), TurnUnknown(frame, -bar.left())), right, order)
+    rates.solve(name, (Unknown(name, u), Unknown(frame, -bar.left())), right, order)
     if joint.line.on is None:
-        rates.let_moving(name, u.times(rates.sliding[name][order - 1]), order)
+        rates.let_moving(name, u.times(rates.rate(name, order)), order)
     else:
-        rates.let_moving(name, rates.of(end, order) + rates.carried(frame, bar, order), order)
+        rates.let_carried(name, (end, name), bar, order)
 
 
 def loop_of_slider_on_bar(joint: RRP, work: Work) -> tuple[Route, Route]:
@@ -317,11 +312,10 @@ def move_slot(joint: RPR, rates: Rates, order: Order) -> None:
     arm = work.points[joint.through] - work.points[pivot]
     right = rates.of(joint.through, order) - rates.of(pivot, order)
     if order == 2:
-        across = u.left().times(TWO * rates.turn(frame, 1) * rates.sliding[name][0])
+        across = u.left().times(TWO * rates.rate(frame, 1) * rates.rate(name, 1))
         right = right + rates.centripetal(frame, arm) - across
-    rates.solve(name, (TurnUnknown(frame, arm.left()), SlideUnknown(name, u)), right, order)
-    bar = work.bar(pivot, name, joint.length)
-    rates.let_moving(name, rates.of(pivot, order) + rates.carried(frame, bar, order), order)
+    rates.solve(name, (Unknown(frame, arm.left()), Unknown(name, u)), right, order)
+    rates.let_carried(name, (pivot, name), work.bar(pivot, name, joint.length), order)
 
 
 def loop_of_slot(joint: RPR, work: Work) -> tuple[Route, Route]:
@@ -367,12 +361,12 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
     base = work.points[guide.through]
     slid = both = u
     if order == 2:
-        slid = u.times(rates.sliding[name][0])
-        both = slid + w.times(rates.sliding["t" + name][0])
+        slid = u.times(rates.rate(name, 1))
+        both = slid + w.times(rates.rate(name, 1, "t"))
     right = rates.of(joint.pin, order) - rates.guided(guide, work.points[joint.pin] - base, both, order)
-    rates.solve(name, (SlideUnknown(name, u), SlideUnknown(name, w, "t")), right, order)
+    rates.solve(name, (Unknown(name, u), Unknown(name, w, "t")), right, order)
     carried = rates.guided(guide, work.points[name] - base, slid, order)
-    rates.let_moving(name, carried + u.times(rates.sliding[name][order - 1]), order)
+    rates.let_moving(name, carried + u.times(rates.rate(name, order)), order)
 
 
 def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:

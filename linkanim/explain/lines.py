@@ -89,11 +89,15 @@ class Chapter:
         return (item for step in self.steps for item in step.items)
 
 
+NOTHING = 5e-7
+"""Of what a number is at a typical length and rate: less is nothing but rounding."""
+
+
 @dataclass(frozen=True)
 class Outcome:
     """A number that the solution leads to: of which quantity, and below what it is nothing but rounding."""
 
     token: str
     value: Formula
-    unit: str
-    least: float
+    unit: str = ""
+    least: float = NOTHING

@@ -3,41 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
 
-from linkanim.explain.expression import ZERO, Components, Formula, Symbol, dot, number, sqrt, square
+from linkanim.explain.expression import ZERO, Formula, Symbol, dot, number, sqrt, square
 from linkanim.explain.kinds import body_point
+from linkanim.explain.lines import Outcome
 from linkanim.explain.rates import ORDERS, Rates
 from linkanim.explain.work import LENGTH, Powers
 from linkanim.mechanics.facts.effort import effort_token
 from linkanim.mechanics.facts.register import link_labels
 from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
-from linkanim.mechanics.linkage.pins import Crank
-
-
-class Found(NamedTuple):
-    """A quantity that was worked out: token, value, and what it measures; None of a force or torque."""
-
-    token: str
-    value: Formula
-    measure: Powers | None
-
 
 _WORDS = ("com_position", "com_velocity", "com_acceleration")
 
 
-def centre_of_mass(body: Body, rates: Rates) -> Iterator[Found]:
+def centre_of_mass(body: Body, rates: Rates) -> Iterator[Outcome]:
     """Add where a body's centre of mass is and how it moves, and yield it."""
     assert body.com is not None
     work, on = rates.work, (body.joints[0], body.joints[1])
     name = centre_name(body, rates)
     arm = body_point(work, on, body.com, (Symbol("p", name), Symbol("q", name)))
     work.let_point(name, work.points[on[0]] + arm)
-    yield from _components(body, 0, work.points[name])
+    yield from work.scale.outcomes(f"{body.name}.{_WORDS[0]}", work.points[name], 0)
     for order in ORDERS:
-        carried = rates.carried(work.frame(on), work.points[name] - work.points[on[0]], order)
-        rates.let_moving(name, rates.of(on[0], order) + carried, order)
-        yield from _components(body, order, rates.of(name, order))
+        rates.let_carried(name, on, work.points[name] - work.points[on[0]], order)
+        yield from work.scale.outcomes(f"{body.name}.{_WORDS[order]}", rates.of(name, order), order)
 
 
 def centre_name(body: Body, rates: Rates) -> str:
@@ -45,26 +34,21 @@ def centre_name(body: Body, rates: Rates) -> str:
     return f"G{link_labels(rates.work.linkage)[body.name]}"
 
 
-def _components(body: Body, order: int, vector: Components) -> Iterator[Found]:
-    for axis, value in zip("xy", vector, strict=True):
-        yield Found(f"{body.name}.{_WORDS[order]}.{axis}", value, Powers(1, order))
-
-
-def strut(item: Spring | Damper, rates: Rates) -> Iterator[Found]:
+def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
     """Add the length of a spring or damper, its rate and its force, and yield them."""
     work, (start, end), name = rates.work, item.between, item.name
     way, moving = work.points[end] - work.points[start], rates.of(end, 1) - rates.of(start, 1)
     length = work.let(Symbol("L", name), sqrt(square(way.x) + square(way.y)), LENGTH)
-    yield Found(f"{name}.length", length, LENGTH)
+    yield work.scale.outcome(f"{name}.length", length, LENGTH)
     if length.value == 0:
         work.say("Its ends meet, so that its rate does not follow from this.")
         return
     rate = rates.let(Symbol("L", name, "˙"), dot(way, moving) / length, Powers(1, 1))
-    yield Found(f"{name}.rate", rate, Powers(1, 1))
+    yield work.scale.outcome(f"{name}.rate", rate, Powers(1, 1))
     if item.forceful:
         force = work.let_plain(Symbol("F", name), _force(item, rates, length, rate), "N")
         rates.struts[item] = force, rate
-        yield Found(f"{name}.force", force, None)
+        yield Outcome(f"{name}.force", force)
 
 
 def _force(item: Spring | Damper, rates: Rates, length: Formula, rate: Formula) -> Formula:
@@ -83,7 +67,7 @@ def _metre(rates: Rates) -> Formula:
     return number(f"{rates.work.linkage.metre:.12g}")
 
 
-def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Found]:
+def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
     """Add the power of all forces and masses, and what the input delivers, which is yielded.
 
     `known` are the quantities worked out so far, by their tokens.
@@ -101,7 +85,7 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Found]:
         work.say("The input rests here, so that this does not follow from power.")
         return
     delivered = work.let_plain(Symbol(name[0].upper(), "in"), total / pace, unit)
-    yield Found(effort_token(linkage), delivered, None)
+    yield Outcome(effort_token(linkage), delivered)
 
 
 def _pace(rates: Rates) -> Formula:
@@ -114,10 +98,8 @@ def _pace(rates: Rates) -> Formula:
         )
         length = sqrt(square(way.x) + square(way.y))
         return rates.let(Symbol("ℓ", "", "˙"), dot(way, moving) / length, Powers(1, 1)) * _metre(rates)
-    joint = work.linkage.joint(drive.joint)
-    if isinstance(joint, Crank):
-        return rates.turn(work.frame((joint.pivot, joint.name)), 1)
-    return rates.sliding[joint.name][0] * _metre(rates)
+    pace = rates.rate(work.driver, 1)
+    return pace if isinstance(work.driver, int) else pace * _metre(rates)
 
 
 def _forceful(rates: Rates) -> list[Spring | Damper]:

@@ -32,19 +32,16 @@ IN_TIME = Letters((Symbol("ω"), Symbol("α")), (Symbol("s", mark="˙"), Symbol(
 BY_INPUT = Letters((Symbol("h"), Symbol("h", mark="′")), (Symbol("f"), Symbol("f", mark="′")), ("′", "″"))
 
 
-class TurnUnknown(NamedTuple):
-    """An unknown of two equations: how a rigid body turns, whose column is this."""
+Way = int | str
+"""What has a rate: a rigid body by its number, or what slides by its joint."""
 
-    frame: int
+
+class Unknown(NamedTuple):
+    """An unknown of two equations: the rate of what this is, its column, and the letter of what slides."""
+
+    way: Way
     column: Components
-
-
-class SlideUnknown(NamedTuple):
-    """An unknown of two equations: how fast something slides, whose column is this; `letter` is its way's."""
-
-    way: str
-    column: Components
-    letter: str = ""
+    letter: str = "s"
 
 
 _SHORT = 3
@@ -58,8 +55,7 @@ class Rates:
     work: Work
     letters: Letters
     scale: Scale
-    turning: dict[int, list[Formula]] = field(default_factory=lambda: {0: [ZERO, ZERO]})
-    sliding: dict[str, list[Formula]] = field(default_factory=dict)
+    known: dict[tuple[Way, str], list[Formula]] = field(default_factory=lambda: {(0, "s"): [ZERO, ZERO]})
     moving: dict[str, list[Components]] = field(default_factory=dict)
     struts: dict[Spring | Damper, tuple[Formula, Formula]] = field(default_factory=dict)
 
@@ -67,10 +63,16 @@ class Rates:
         """Add the line that gives a symbol its value, and return it."""
         return self.work.let(symbol, formula, measure, self.scale)
 
-    def let_turning(self, frame: int, formula: Formula, order: Order) -> None:
-        """Add the line that says how a rigid body turns."""
-        found = self.let(self.turn_symbol(frame, order), formula, Powers(rate=order))
-        self.turning.setdefault(frame, []).append(found)
+    def start(self, rate: Formula, second: Formula = ZERO) -> None:
+        """Put the input's rates where those of its body, or of its slider, stand."""
+        self.known[self.work.driver, "s"] = [rate, second]
+
+    def let_rate(self, way: Way, formula: Formula, order: Order, letter: str = "s") -> Formula:
+        """Add the line that says how a rigid body turns, or how fast something slides."""
+        measure = Powers(int(isinstance(way, str)), order)
+        found = self.let(self.symbol(way, order, letter), formula, measure)
+        self.known.setdefault((way, letter), []).append(found)
+        return found
 
     def let_moving(self, joint: str, formula: Components, order: Order) -> None:
         """Add the lines that say how a joint moves."""
@@ -79,26 +81,33 @@ class Rates:
         y = self.let(Symbol("y", joint, mark), formula.y, measure)
         self.moving.setdefault(joint, []).append(Components(x, y))
 
-    def turn_symbol(self, frame: int, order: Order) -> Symbol:
-        """Return the symbol of how a rigid body turns."""
-        return self.letters.turning[order - 1]._replace(sub=self.work.names.turning(frame))
+    def let_carried(self, joint: str, on: tuple[str, str], arm: Components, order: Order) -> None:
+        """Add the lines that say how what a rigid body carries moves, `arm` from the first of two joints."""
+        self.let_moving(joint, self.of(on[0], order) + self.carried(self.work.frame(on), arm, order), order)
+
+    def symbol(self, way: Way, order: Order, letter: str = "s") -> Symbol:
+        """Return the symbol of how a rigid body turns, or of how fast something slides."""
+        if isinstance(way, int):
+            return self.letters.turning[order - 1]._replace(sub=self.work.names.turning(way))
+        symbol = self.letters.sliding[order - 1]._replace(sub=self.work.names.slide(way).sub)
+        return symbol._replace(letter=letter) if symbol.letter == "s" else symbol
 
     def of(self, joint: str, order: Order) -> Components:
         """Return how a joint moves."""
         return self.moving[joint][order - 1]
 
-    def turn(self, frame: int, order: Order) -> Formula:
-        """Return how a rigid body turns."""
-        return self.turning[frame][order - 1]
+    def rate(self, way: Way, order: Order, letter: str = "s") -> Formula:
+        """Return how a rigid body turns, or how fast something slides."""
+        return self.known[way, letter][order - 1]
 
     def carried(self, frame: int, arm: Components, order: Order) -> Components:
         """Return how much more a point of a rigid body moves than another, `arm` before it."""
-        turn = arm.left().times(self.turn(frame, order))
+        turn = arm.left().times(self.rate(frame, order))
         return turn if order == 1 else turn - self.centripetal(frame, arm)
 
     def centripetal(self, frame: int, arm: Components) -> Components:
         """Return ω² times an arm."""
-        return arm.times(square(self.turn(frame, 1)))
+        return arm.times(square(self.rate(frame, 1)))
 
     def guided(self, guide: GuideLine, arm: Components, slid: Components, order: Order) -> Components:
         """Return how the point of a guide moves, `arm` from the joint that it runs through.
@@ -106,32 +115,22 @@ class Rates:
         Of the second order with what Coriolis adds, where `slid` is the first one along the guide.
         """
         base = self.of(guide.through, order) + self.carried(guide.frame, arm, order)
-        return base if order == 1 else base + slid.left().times(TWO * self.turn(guide.frame, 1))
+        return base if order == 1 else base + slid.left().times(TWO * self.rate(guide.frame, 1))
 
-    def solve(
-        self,
-        index: str,
-        unknowns: tuple[TurnUnknown | SlideUnknown, TurnUnknown | SlideUnknown],
-        right: Components,
-        order: Order,
-    ) -> None:
+    def solve(self, index: str, unknowns: tuple[Unknown, Unknown], right: Components, order: Order) -> None:
         """Add the two equations and what they give; ZeroDivisionError where that is nothing."""
         one, other = (unknown.column for unknown in unknowns)
-        left, beside = (LENGTH if isinstance(unknown, TurnUnknown) else RATIO for unknown in unknowns)
-        names = self._symbol(unknowns[0], order), self._symbol(unknowns[1], order)
+        left, beside = (LENGTH if isinstance(unknown.way, int) else RATIO for unknown in unknowns)
+        first, second = (self.symbol(unknown.way, order, unknown.letter) for unknown in unknowns)
         measures = left, beside, Powers(1, order)
         right = self._right(right, measures[2])
         formulas = (one.x, other.x, right.x), (one.y, other.y, right.y)
         values = self._row(formulas[0], measures, 1), self._row(formulas[1], measures, 2)
         (a, b, c), (d, e, f) = values
-        self.work.items.append(System(names, formulas, values))
+        self.work.items.append(System((first, second), formulas, values))
         det = self.let(Symbol("D", index), a * e - b * d, Powers(left.length + beside.length))
-        for unknown, name, formula in zip(unknowns, names, (c * e - b * f, a * f - d * c), strict=True):
-            if isinstance(unknown, TurnUnknown):
-                self.let_turning(unknown.frame, formula / det, order)
-            else:
-                found = self.let(name, formula / det, Powers(1, order))
-                self.sliding.setdefault(unknown.letter + unknown.way, []).append(found)
+        for unknown, formula in zip(unknowns, (c * e - b * f, a * f - d * c), strict=True):
+            self.let_rate(unknown.way, formula / det, order, unknown.letter)
 
     def _right(self, right: Components, measure: Powers) -> Components:
         """Return the right sides; long ones have lines of their own before the equations."""
@@ -144,12 +143,6 @@ class Rates:
         names = Symbol("a", f"{row}1"), Symbol("a", f"{row}2"), Symbol("b", str(row))
         first, second, right = map(self._entry, formulas, measures, names)
         return first, second, right
-
-    def _symbol(self, unknown: TurnUnknown | SlideUnknown, order: Order) -> Symbol:
-        if isinstance(unknown, TurnUnknown):
-            return self.turn_symbol(unknown.frame, order)
-        symbol = self.letters.sliding[order - 1]._replace(sub=self.work.names.slide(unknown.way).sub)
-        return symbol._replace(letter=unknown.letter) if unknown.letter and symbol.letter == "s" else symbol
 
     def _entry(self, formula: Formula, measure: Powers, symbol: Symbol) -> Formula:
         if formula.constant is not None or (formula.symbol and formula.symbol.letter == "b"):

@@ -11,22 +11,22 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 
-from linkanim.explain.expression import ONE, ZERO, Components, Formula
-from linkanim.explain.inputs import Driven, PoseRequest, place_input, start_rates
+from linkanim.explain.expression import ONE
+from linkanim.explain.inputs import PoseRequest, place_input
 from linkanim.explain.kinds import KINDS
 from linkanim.explain.lines import Chapter, Outcome, Step, Words
 from linkanim.explain.loops import LoopArrow, VectorLoop, loops_of
 from linkanim.explain.names import SymbolNames, names_of
-from linkanim.explain.parts import Found, centre_of_mass, effort, strut
+from linkanim.explain.parts import centre_of_mass, effort, strut
 from linkanim.explain.rates import BY_INPUT, IN_TIME, ORDERS, Order, Rates
-from linkanim.explain.work import Powers, Scale, Work
+from linkanim.explain.work import ANGLE, LENGTH, Powers, Scale, Work
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.picture.figure import figure
 
 _FEWEST, _MOST = 6, 12
-_AGREES, _NOTHING = 5e-6, 5e-7
-"""A result agrees to that share of itself, or to that share of what it is at a typical length and rate."""
+_AGREES = 5e-6
+"""A result agrees to that share of itself."""
 _BY_INPUT = (
     "Primes are derivatives by the input: h of angles, f of ways. Each loop differentiated gives two linear "
     "equations; a are the entries of their matrix, b the right sides, D the determinant, and both unknowns "
@@ -133,11 +133,11 @@ class _Draft:
 
     def solution(self, rates: bool) -> Solution:
         """Return it, with velocities and accelerations or without."""
-        places, driven = self._placed()
+        places = self._placed()
         loops = loops_of(self.work, places)
         self.work.items.clear()
         if rates:
-            rest = [*self._by_input(), *self._in_time(driven), *self._parts()]
+            rest = [*self._by_input(), *self._in_time(), *self._parts()]
         else:
             rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
         given = Chapter("Given", (Step("", tuple(self.work.given.values())),))
@@ -161,47 +161,46 @@ class _Draft:
         steps, self.steps = tuple(self.steps), []
         return [Chapter(title, steps)] if steps else []
 
-    def _placed(self) -> tuple[Chapter, Driven]:
-        """Return the chapter of positions, and the input's rates."""
-        found: list[Driven] = []
-        self._step("The input", lambda: found.append(place_input(self.request, self.work)))
+    def _placed(self) -> Chapter:
+        """Return the chapter of positions."""
+        scale = self.work.scale
+        self._step("The input", partial(place_input, self.request, self.rates))
         for joint in self.linkage.joints:
             self._step(f"Joint {{{joint.name}}}", partial(KINDS[type(joint)].place, joint, self.work))
-            point = self.work.points[joint.name]
-            self._tell(f"{joint.name}.position", point, self.work.scale, Powers(1))
+            self.results += scale.outcomes(f"{joint.name}.position", self.work.points[joint.name], 0)
         self._step("Angles of the links", self._angles)
         for body in self.linkage.bodies:
             if body.slider in self.work.slides:
-                self._result(f"{body.name}.travel", self.work.slides[body.slider], self.work.scale, Powers(1))
-        return self._chapter("Positions")[0], found[0]
+                travel = self.work.slides[body.slider]
+                self.results.append(scale.outcome(f"{body.name}.travel", travel, LENGTH))
+        return self._chapter("Positions")[0]
 
     def _angles(self) -> None:
         for body in self._turning():
             angle = self.work.angle_of(body.joints[0], body.joints[1])
-            self._result(f"{body.name}.angle", angle, self.work.scale, Powers(angle=True))
+            self.results.append(self.work.scale.outcome(f"{body.name}.angle", angle, ANGLE))
 
     def _turning(self) -> Iterator[Body]:
         return (body for body in self.linkage.bodies if body.slider is None)
 
     def _by_input(self) -> Iterator[Chapter]:
         """Yield the chapter of kinematic coefficients."""
-        start_rates(self.slopes, Driven(ONE, ZERO))
+        self.slopes.start(ONE)
         self._step("", partial(self.work.say, _BY_INPUT))
         for order, word, token in zip(ORDERS, ("first", "second"), ("", "second_"), strict=True):
             self._moved(self.slopes, order, f", {word} coefficients")
             self._tell_links(self.slopes, order, f"{token}coefficient", f"{token}coefficient")
         yield from self._chapter("Kinematic coefficients")
 
-    def _in_time(self, driven: Driven) -> Iterator[Chapter]:
+    def _in_time(self) -> Iterator[Chapter]:
         """Yield the chapters of velocities and accelerations."""
-        start_rates(self.rates, driven)
         titles = {"velocity": "Velocities", "acceleration": "Accelerations"}
         for order, (word, title), text in zip(ORDERS, titles.items(), _IN_TIME, strict=True):
             self._step("", partial(self.work.say, text))
             self._moved(self.rates, order)
             for joint in self.linkage.joints:
                 moving = self.rates.of(joint.name, order)
-                self._tell(f"{joint.name}.{word}", moving, self.rates.scale, Powers(1, order))
+                self.results += self.rates.scale.outcomes(f"{joint.name}.{word}", moving, order)
             self._tell_links(self.rates, order, f"angular_{word}", f"travel_{word}")
             yield from self._chapter(title)
 
@@ -213,12 +212,11 @@ class _Draft:
 
     def _tell_links(self, rates: Rates, order: Order, turning: str, sliding: str) -> None:
         for body in self.linkage.bodies:
-            if body.slider is None:
-                value = rates.turn(self.work.frame((body.joints[0], body.joints[1])), order)
-                self._result(f"{body.name}.{turning}", value, rates.scale, Powers(0, order))
-            elif body.slider in rates.sliding:
-                value = rates.sliding[body.slider][order - 1]
-                self._result(f"{body.name}.{sliding}", value, rates.scale, Powers(1, order))
+            way = body.slider or self.work.frame((body.joints[0], body.joints[1]))
+            if (way, "s") in rates.known:
+                token = f"{body.name}.{sliding if body.slider else turning}"
+                measure = Powers(int(body.slider is not None), order)
+                self.results.append(rates.scale.outcome(token, rates.rate(way, order), measure))
 
     def _parts(self) -> Iterator[Chapter]:
         """Yield the chapters of centres of mass, of springs and dampers, and of what the input delivers."""
@@ -235,20 +233,6 @@ class _Draft:
             self._found("", effort(self.rates, known))
             yield from self._chapter("Input")
 
-    def _found(self, title: str, found: Iterable[Found]) -> None:
+    def _found(self, title: str, found: Iterable[Outcome]) -> None:
         """Add a step with its results."""
-        got: list[Found] = []
-        self._step(title, lambda: got.extend(found))
-        for token, value, measure in got:
-            if measure is None:
-                self.results.append(Outcome(token, value, "", _NOTHING))
-            else:
-                self._result(token, value, self.rates.scale, measure)
-
-    def _tell(self, token: str, vector: Components, scale: Scale, measure: Powers) -> None:
-        for axis, value in zip("xy", vector, strict=True):
-            self._result(f"{token}.{axis}", value, scale, measure)
-
-    def _result(self, token: str, value: Formula, scale: Scale, measure: Powers) -> None:
-        size = 100.0 if measure.angle else scale.length**measure.length * scale.rate**measure.rate
-        self.results.append(Outcome(token, value, scale.unit_of(measure), _NOTHING * size))
+        self._step(title, lambda: self.results.extend(found))

@@ -6,15 +6,17 @@ What follows is computed from shown digits alone, so each line gives the next on
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import NamedTuple
 
 from linkanim.explain.expression import Components, Formula, Symbol, along, atan2, number
-from linkanim.explain.lines import Given, Item, ValueLine, Words
+from linkanim.explain.lines import NOTHING, Given, Item, Outcome, ValueLine, Words
 from linkanim.explain.names import SymbolNames
 from linkanim.mechanics.linkage.joint import Line as Travel
 from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.pins import Crank
 from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.motion.motion import Pose
 
@@ -49,6 +51,16 @@ class Scale:
         if measure.angle:
             return self.digits - 2
         return decimals(self.length**measure.length * self.rate**measure.rate, self.digits)
+
+    def outcome(self, token: str, value: Formula, measure: Powers) -> Outcome:
+        """Return a number as a result: what is less than a share of its usual size is nothing."""
+        size = 100.0 if measure.angle else self.length**measure.length * self.rate**measure.rate
+        return Outcome(token, value, self.unit_of(measure), NOTHING * size)
+
+    def outcomes(self, token: str, vector: Components, order: int) -> Iterator[Outcome]:
+        """Yield the components of a place, or of its rate, as results."""
+        for axis, value in zip("xy", vector, strict=True):
+            yield self.outcome(f"{token}.{axis}", value, Powers(1, order))
 
     def unit_of(self, measure: Powers) -> str:
         """Return a measure's unit."""
@@ -155,6 +167,12 @@ class Work:
         found = holding(self.linkage.rigid_bodies, ends)
         assert found is not None
         return found
+
+    @property
+    def driver(self) -> int | str:
+        """What drives: the crank by its rigid body, or the slider by its joint."""
+        joint = self.linkage.joint(self.linkage.drive.joint)
+        return self.frame((joint.pivot, joint.name)) if isinstance(joint, Crank) else joint.name
 
     def guide(self, line: Travel, joint: str) -> GuideLine:
         """Return a joint's line of travel; its angle is worked out where a body carries it."""
