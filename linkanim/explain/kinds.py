@@ -24,7 +24,7 @@ from linkanim.explain.expression import (
     sqrt,
     square,
 )
-from linkanim.explain.rates import Order, Rates, Unknown
+from linkanim.explain.rates import Order, Rates, UnknownRate
 from linkanim.explain.work import ANGLE, LENGTH, GuideLine, Work
 from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
 from linkanim.mechanics.linkage.joint import Joint
@@ -206,7 +206,9 @@ def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
     right = rates.of(q, order) - rates.of(p, order)
     if order == 2:
         right = right + rates.centripetal(frames[0], one) - rates.centripetal(frames[1], other)
-    rates.solve(name, (Unknown(frames[0], one.left()), Unknown(frames[1], -other.left())), right, order)
+    rates.solve(
+        name, (UnknownRate(frames[0], one.left()), UnknownRate(frames[1], -other.left())), right, order
+    )
     rates.let_carried(name, (p, name), one, order)
 
 
@@ -273,7 +275,7 @@ def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
     right = rates.of(end, order) - rates.guided(guide, arm, slid, order)
     if order == 2:
         right = right - rates.centripetal(frame, bar)
-    rates.solve(name, (Unknown(name, u), Unknown(frame, -bar.left())), right, order)
+    rates.solve(name, (UnknownRate(name, u), UnknownRate(frame, -bar.left())), right, order)
     if joint.line.on is None:
         rates.let_moving(name, u.times(rates.rate(name, order)), order)
     else:
@@ -314,7 +316,7 @@ def move_slot(joint: RPR, rates: Rates, order: Order) -> None:
     if order == 2:
         across = u.left().times(TWO * rates.rate(frame, 1) * rates.rate(name, 1))
         right = right + rates.centripetal(frame, arm) - across
-    rates.solve(name, (Unknown(frame, arm.left()), Unknown(name, u)), right, order)
+    rates.solve(name, (UnknownRate(frame, arm.left()), UnknownRate(name, u)), right, order)
     rates.let_carried(name, (pivot, name), work.bar(pivot, name, joint.length), order)
 
 
@@ -364,7 +366,7 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
         slid = u.times(rates.rate(name, 1))
         both = slid + w.times(rates.rate(name, 1, "t"))
     right = rates.of(joint.pin, order) - rates.guided(guide, work.points[joint.pin] - base, both, order)
-    rates.solve(name, (Unknown(name, u), Unknown(name, w, "t")), right, order)
+    rates.solve(name, (UnknownRate(name, u), UnknownRate(name, w, "t")), right, order)
     carried = rates.guided(guide, work.points[name] - base, slid, order)
     rates.let_moving(name, carried + u.times(rates.rate(name, order)), order)
 

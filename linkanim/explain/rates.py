@@ -36,7 +36,7 @@ Way = int | str
 """What has a rate: a rigid body by its number, or what slides by its joint."""
 
 
-class Unknown(NamedTuple):
+class UnknownRate(NamedTuple):
     """An unknown of two equations: the rate of what this is, its column, and the letter of what slides."""
 
     way: Way
@@ -117,7 +117,9 @@ class Rates:
         base = self.of(guide.through, order) + self.carried(guide.frame, arm, order)
         return base if order == 1 else base + slid.left().times(TWO * self.rate(guide.frame, 1))
 
-    def solve(self, index: str, unknowns: tuple[Unknown, Unknown], right: Components, order: Order) -> None:
+    def solve(
+        self, index: str, unknowns: tuple[UnknownRate, UnknownRate], right: Components, order: Order
+    ) -> None:
         """Add the two equations and what they give; ZeroDivisionError where that is nothing."""
         one, other = (unknown.column for unknown in unknowns)
         left, beside = (LENGTH if isinstance(unknown.way, int) else RATIO for unknown in unknowns)
