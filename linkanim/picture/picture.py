@@ -40,11 +40,11 @@ if TYPE_CHECKING:
     from linkanim.synthesis.curves.drawn import DrawnCurve
 
 
-class Charted(NamedTuple):
-    """A chart as it was drawn last: its layout, theme and quantity, and its groups by name."""
+class Earlier(NamedTuple):
+    """What stood still as it was drawn last: its size, view, layout, theme and chart, and groups by name."""
 
-    place: tuple[Layout, Theme, str | None]
-    groups: dict[str, Group]
+    place: tuple[tuple[int, int], View, Layout, Theme, str | None]
+    groups: dict[str, tuple[Group, ...]]
 
 
 class Picture:
@@ -56,7 +56,7 @@ class Picture:
     of the `sheet` that it is built on. With `apart` each joint has a group of its own. What `before`
     measured of the same scene is taken over; names keep their places on one that is zoomed, on its way to
     another, or `held` by the hand; `hurried`, those that they had in a window of another size. With a
-    `moment` names stand as is best at that phase alone. A chart that is `charted` stands as it was drawn,
+    `moment` names stand as is best at that phase alone. What stood still `earlier` is drawn as it was then,
     where it has the same place. Raises BadInput where the look's chart is no quantity of the scene.
     """
 
@@ -75,7 +75,7 @@ class Picture:
         kept: View | None = None,
         sheet: Box | None = None,
         moment: float | None = None,
-        charted: Charted | None = None,
+        earlier: Earlier | None = None,
     ) -> None:
         self._papered: tuple[Photo | None, Group] | None = None
         self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
@@ -105,9 +105,16 @@ class Picture:
         ):
             self._papered = before._papered
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
-        place = self.layout, self.theme, look.chart
-        self._late = charted is not None and charted.place == place and look.chart is not None
-        self.charted: Charted = charted if charted and self._late else Charted(place, {})
+        place = size, self.view, self.layout, self.theme, look.chart
+        self.late = earlier is not None and earlier.place == place
+        """Whether what stands still is that of an earlier picture."""
+        self.earlier: Earlier = earlier if earlier and self.late else Earlier(place, {})
+
+    def catch_up(self) -> None:
+        """Have what stands still as it is, not as it was in an earlier picture."""
+        if self.late:
+            self.late, self._behind = False, None
+            self.__dict__.pop("_standing", None)
 
     def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:
         """Fit the scene into what is requested."""
@@ -145,7 +152,7 @@ class Picture:
     ) -> bool:
         """Return whether it is made for these, with nothing kept of what was before."""
         same = self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
-        return same and not self.hurried and not self._late
+        return same and not self.hurried
 
     def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
@@ -234,9 +241,15 @@ class Picture:
         """Return what stands still behind all that moves; the chart and the key go by the speed."""
         known, curve = self._behind, path.curve if path else None
         if not known or known[1] is not curve or (known[0] != speed and (self._chart or self._legend)):
-            self._behind = speed, curve, tuple(self._still_behind(speed, path))
+            self._behind = speed, curve, self._as_earlier("behind", self._still_behind(speed, path))
         assert self._behind
         return self._behind[2]
+
+    def _as_earlier(self, name: str, groups: Iterable[Group]) -> tuple[Group, ...]:
+        """Return groups under a name; those of the earlier picture where it has some."""
+        if not self.late or name not in self.earlier.groups:
+            self.earlier.groups[name] = tuple(groups)
+        return self.earlier.groups[name]
 
     def _still_behind(self, speed: float, path: PathShown | None) -> Iterator[Group]:
         yield from self._within([self._discs])
@@ -246,7 +259,7 @@ class Picture:
             yield from self._standing
         if self._chart:
             self._chart = self._chart.at(speed)
-            yield self._drawn_on_chart("chart", self._chart.still(), still=True)
+            yield grouped("chart", self._chart.still(), still=True)
         if self._legend and not self._overrun:
             yield self._legend.group(speed)
         if self.layout.caption:
@@ -265,7 +278,7 @@ class Picture:
     @cached_property
     def _standing(self) -> tuple[Group, ...]:
         """What stands still before all that moves behind."""
-        return tuple(self._within(self.drawing.standing()))
+        return self._as_earlier("standing", self._within(self.drawing.standing()))
 
     @cached_property
     def _moves_behind(self) -> bool:
@@ -275,19 +288,14 @@ class Picture:
     def _on_chart(self, pose: Pose, *, grasped: bool) -> Iterator[Group]:
         """Yield the chart's cursor and what is read there, and its grip where it can be grasped."""
         if self._chart:
-            yield self._drawn_on_chart("reading", self._read(self._chart, pose, grasped=grasped))
+            reading = self._as_earlier("reading", self._read(self._chart, pose, grasped=grasped))
+            yield from reading
 
-    def _read(self, chart: ChartPanel, pose: Pose, *, grasped: bool) -> Iterator[Item]:
-        yield from chart.cursor(pose)
+    def _read(self, chart: ChartPanel, pose: Pose, *, grasped: bool) -> Iterator[Group]:
+        items: list[Item] = [*chart.cursor(pose)]
         if grasped:
-            yield from grip(chart.foot(pose), self.layout.unit, self.theme)
-        yield from chart.readings(pose)
-
-    def _drawn_on_chart(self, name: str, items: Iterable[Item], *, still: bool = False) -> Group:
-        """Return a group of the chart, the one that was drawn before where that stands."""
-        if not self._late or name not in self.charted.groups:
-            self.charted.groups[name] = grouped(name, items, still=still)
-        return self.charted.groups[name]
+            items += grip(chart.foot(pose), self.layout.unit, self.theme)
+        yield grouped("reading", [*items, *chart.readings(pose)])
 
     def _named_groups(self, pose: Pose) -> Iterator[Group]:
         """Yield the words on the scene."""

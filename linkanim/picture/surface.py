@@ -62,11 +62,13 @@ class SurfacePrinter:
         A surface that is not as large as the picture is painted from its top left corner.
         """
         if picture is not self._picture:
-            self._picture, self._still = picture, None
-            self._covers.clear()
+            still = self._still if picture.late else None
+            kept = self._covers.items() if picture.late else ()
+            self._picture, self._still = picture, still
+            self._covers = {key: (groups, cover) for key, (groups, cover) in kept if groups[0].still}
         first, *others = _runs(picture.groups(pose, overlay, faint=faint))
         canvas = self._on_still(surface, picture, first)
-        parted = [_parts(run, n) for n, run in enumerate(others)]
+        parted = [_parts(run) for run in others]
         fresh = [_shapes(groups) for parts in parted for key, groups in parts if key is None]
         found = iter(covers(canvas, fresh))
         for run, parts in zip(others, parted, strict=True):
@@ -190,13 +192,13 @@ def _same(one: tuple[Group, ...], other: tuple[Group, ...]) -> bool:
     return len(one) == len(other) and all(a is b for a, b in zip(one, other, strict=True))
 
 
-def _parts(run: tuple[Group, ...], n: int) -> list[tuple[Hashable, tuple[Group, ...]]]:
+def _parts(run: tuple[Group, ...]) -> list[tuple[Hashable, tuple[Group, ...]]]:
     """Return the groups of a run in parts that are filled one after the other, with their keys.
 
-    What stands still has its number for one; None is that of what is filled anew at every pose.
+    What stands still is known by its groups, which are kept; None is what is filled anew at every pose.
     """
     if run[0].still:
-        return [(n, run)]
+        return [(tuple(map(id, run)), run)]
     return [(key, tuple(groups)) for key, groups in groupby(run, key=attrgetter("key"))]
 
 

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
+from itertools import count
 
 import pygame
 import pytest
-from playing import Player
+from playing import SIZE, Player
 
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import Overlay
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
 from linkanim.player.state.state import State, begin
 from linkanim.player.tape.tape import Tape, starting
 from linkanim.player.window.approach import Framing
+from linkanim.player.window.halving import Halving
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.editing.handles import handles
@@ -314,41 +315,53 @@ def test_the_view_stands_still_under_the_hand_as_long_as_there_is_room() -> None
     assert framing.fitting(left, size).view != before
 
 
-def test_under_the_hand_the_chart_follows_in_every_other_frame_and_at_once_where_the_hand_rests() -> None:
-    state = replace(opened("crank-rocker", 1.0), look=Look(chart="P.velocity"))
-    framing, size = Framing(captioned=True), (640, 360)
-
-    def charted(state: State, framing: Framing) -> tuple[Group, ...]:
-        picture = framing.at(state, size)
-        assert picture.scene is state.scene  # the linkage follows in every frame
-        groups = picture.groups(picture.scene.pose(state.phase), Overlay())
-        return tuple(group for group in groups if group.name in ("chart", "reading"))
-
-    charted(state, framing)
-    state = after(state, Action("grab", "B"))
-    x, y = place(state, "B")
-    drawn = []
-    for step in range(1, 6):
-        state = after(state, Action("carry", (x + 3.0 * step, y, 1.0)))
-        drawn.append((state.frame % 2 == 0, charted(state, framing)))
-    for (_, before), (kept, now) in pairwise(drawn):
-        assert [one is other for one, other in zip(before, now, strict=True)] == [kept, kept]
-    while state.frame % 2 == 0:
-        state = advance(state, [])
-    rested, anew = charted(state, framing), charted(state, Framing(captioned=True))
-    assert [group.captions for group in rested] == [group.captions for group in anew]
+def charted_drag(player: Player, seconds: float) -> Iterator[tuple[bool, bool, bool]]:
+    """Drag a joint where a frame takes so long; yield if the scene, the curve and the list have changed."""
+    clock = iter(count(step=seconds))
+    player.window._halving = Halving(lambda: next(clock))
+    player.window.state = replace(player.state, look=Look(chart="P.velocity"))
+    player.type("e")
+    player.settle()
+    x, y = player.window.screen.pixel(*place(player.state, "B"))
+    player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+    for step in range(1, 8):
+        scene, panel, behind = player.state.scene, player.window.screen.over.panel, behind_of(player)
+        player.mouse(pygame.MOUSEMOTION, (x + 2 * step, y), rel=(2, 0), buttons=(1, 0, 0))
+        yield (
+            player.state.scene is not scene,
+            behind_of(player) is not behind,
+            player.window.screen.over.panel != panel,
+        )
 
 
-def test_without_a_chart_nothing_is_made_again_where_the_hand_rests() -> None:
-    state, framing, size = opened("crank-rocker", 1.0), Framing(captioned=True), (640, 360)
-    framing.at(state, size)
-    state = after(state, Action("grab", "B"))
-    x, y = place(state, "B")
-    for step in range(1, 3):  # one in a frame in which a chart would wait
-        state = after(state, Action("carry", (x + 3.0 * step, y, 1.0)))
-        picture = framing.at(state, size)
-        if state.waits == "chart":
-            break
-    assert state.waits == "chart"
-    state = advance(state, [])
-    assert framing.at(state, size) is picture
+def behind_of(player: Player) -> Group:
+    """What stands still behind all, which has the chart."""
+    return player.window.screen._framing.last.earlier.groups["behind"][-1]
+
+
+def test_where_time_allows_all_follows_the_hand_in_every_frame(player: Player) -> None:
+    first, rest, *steps = charted_drag(player, 0.004)
+    assert (first, rest) == ((True, False, False), (False, True, True))  # how fast it is is not known yet
+    assert set(steps) == {(True, True, True)}
+
+
+def test_where_it_does_not_the_linkage_follows_in_one_frame_and_the_rest_in_the_next(player: Player) -> None:
+    steps = list(charted_drag(player, 0.02))
+    assert steps[::2] == [(True, False, False)] * 4
+    assert steps[1::2] == [(False, True, True)] * 3
+    player.tick()
+    framing = Framing(captioned=True)
+    picture = framing.at(player.state, SIZE)
+    list(picture.groups(picture.scene.pose(player.state.phase)))
+    assert behind_of(player).captions == picture.earlier.groups["behind"][-1].captions
+
+
+def test_a_button_that_comes_up_does_not_wait(player: Player) -> None:
+    steps = charted_drag(player, 0.02)
+    assert next(steps) == (True, False, False)
+    x, y = player.window.screen.pixel(*place(player.state, "B"))
+    pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=(x + 30, y), rel=(9, 0), buttons=(1, 0, 0)))
+    before = player.state.scene
+    player.mouse(pygame.MOUSEBUTTONUP, (x + 30, y), button=1)
+    assert player.state.scene is not before
+    assert player.state.held is None

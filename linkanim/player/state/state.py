@@ -170,11 +170,6 @@ class State:
         return "paused" if self.clock.paused else "play"
 
     @property
-    def waits(self) -> Literal["", "chart", "list"]:
-        """What stands as it was in this frame: under the hand chart and list follow in turns."""
-        return "" if self.held is None else "list" if self.frame % 2 else "chart"
-
-    @property
     def building(self) -> BuildSheet | None:
         """The sheet, while it is open."""
         return self.sheet if self.sheet and self.sheet.open and not self.game else None

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from linkanim.picture.look import Look
-from linkanim.picture.picture import Charted, Picture
+from linkanim.picture.picture import Earlier, Picture
 from linkanim.picture.view import Box, Rect, View, eased, joined, view_of
 from linkanim.player.state.sketch import Sketch
 from linkanim.player.state.state import State
@@ -76,25 +76,27 @@ class Framing:
         size: tuple[int, int],
         *,
         hurried: bool = False,
-        charted: Charted | None = None,
+        earlier: Earlier | None = None,
     ) -> Picture:
         """Return the picture that fits the state; a view other than the last one's, it is approached.
 
         One that is `hurried` keeps the names of the last, where that was of another size: those are placed
-        anew once the size has stayed for a frame. One with a chart as it was `charted` keeps that, too.
+        anew once the size has stayed for a frame. What stood still `earlier` is kept, too.
         """
         before, sketch, look = self._fitting, state.sketch, self._look(state)
         held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
         row, listed = sketch is not None and bool(sketch.answers), state.listed
         home = state.building.home if state.building else state.home
         if before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home):
+            if not earlier:
+                before.catch_up()
             return before
         stays = before is not None and before.size == size
         hurried = hurried and before is not None and before.names is not None and not stays
         make = partial(
             Picture, state.shown, size, look, before, listed=listed, held=held, row=row, sheet=home
         )
-        make = partial(make, hurried=hurried, charted=charted)
+        make = partial(make, hurried=hurried, earlier=earlier)
         made = make(kept=before.fitted if before and sketch and stays else None)
         if sketch and stays and not held and not _is_in_sight(made, sketch):
             made = make(kept=_seen_whole(made, sketch))
@@ -113,11 +115,14 @@ class Framing:
         captioned = (self._captioned and look.names) or state.idle is not None
         return replace(look, caption=True) if captioned else look
 
-    def at(self, state: State, size: tuple[int, int]) -> Picture:
-        """Return the picture for this frame: one on the way to the fitting one while that is approached."""
+    def at(self, state: State, size: tuple[int, int], *, late: bool = False) -> Picture:
+        """Return the picture for this frame: one on the way to the fitting one while that is approached.
+
+        A `late` one has what stands still as it was in the last.
+        """
         last = self._passing or self._fitting
-        charted = last.charted if last and state.waits == "chart" else None
-        goal, self._passing = self.fitting(state, size, hurried=True, charted=charted), None
+        earlier = last.earlier if last and late else None
+        goal, self._passing = self.fitting(state, size, hurried=True, earlier=earlier), None
         if self._approach is None or self._approach.over(state.frame):
             self._approach = None
             return goal
@@ -132,7 +137,7 @@ class Framing:
             row=goal.row,
             kept=kept,
             sheet=goal.sheet,
-            charted=charted,
+            earlier=earlier,
         )
         return self._passing
 

@@ -59,16 +59,20 @@ class Screen:
         self._row, self._tools = RowPrinter(), ToolPrinter()
         self._pointer: object = None
 
-    def show(self, state: State, over: Overlay) -> None:
-        """Paint the state into the window and flip, where it differs from what is there."""
+    def show(self, state: State, over: Overlay, *, late: bool = False) -> None:
+        """Paint the state into the window and flip, where it differs from what is there.
+
+        Where it is `late`, the linkage follows, and what stands still and the list are as they were.
+        """
         surface = display.surface()
-        if state.waits == "list" and over.panel and self.over.panel:
-            over = replace(over, panel=self.over.panel)  # the list follows the hand in every other frame
+        if late and over.panel and self.over.panel:
+            over = replace(over, panel=self.over.panel)
         self.state, self.over = state, over
         self._point(state)
         self._name(f"{state.scene.title}{' • edited' * (state.place in state.edited)}")
-        picture, veiled = self._framing.at(state, surface.get_size()), self._fade.strength(state, surface)
-        shown = (picture, state.phase, state.clock.speed, over, veiled)
+        picture = self._framing.at(state, surface.get_size(), late=late)
+        veiled = self._fade.strength(state, surface)
+        shown = (picture, picture.late, state.phase, state.clock.speed, over, veiled)
         if shown != self._shown:
             self._paint(surface, picture, state, over)
             self._fade.draw(surface, veiled, over.shutter)

@@ -35,6 +35,7 @@ from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.window import display, files
 from linkanim.player.window.drafts import DraftFile
 from linkanim.player.window.files import SceneFile
+from linkanim.player.window.halving import Halving
 from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.mouse import MOUSE_EVENTS, Mouse, latest
 from linkanim.player.window.screen import Screen
@@ -78,7 +79,7 @@ class Window:
         self._following: Following | None = None
         self.screen = Screen(state)
         self._keyboard, self._mouse, self._fingers, self._pads = Keyboard(), Mouse(), Fingers(), Pads()
-        self._speaker = Speaker()
+        self._speaker, self._halving = Speaker(), Halving()
         self._notes: list[str] = []
         self._photo: str | None = None
         self._windowed = display.frame()
@@ -95,12 +96,14 @@ class Window:
         """
         self._pads.look(frames)
         events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
+        events = self._halving.begin(events)
         self._now, before = self.state.frame + frames, self.state
         for frame in range(frames):
             self._advance(events if frame == 0 else [])
         for cue in cues(before, self.state):
             self._speaker.play(cue)
         self._show()
+        self._halving.end()
         return self._open
 
     def fill(self) -> None:
@@ -258,7 +261,8 @@ class Window:
             hover = None  # a joint of the scene that was there until now
         try:
             row, over = self._mouse.pointed(self.screen), self._over_sheet()
-            self.screen.show(self.state, overlay(self.state, hover, row, over))
+            late = self._halving.late(stepped=self._has_stepped)
+            self.screen.show(self.state, overlay(self.state, hover, row, over), late=late)
         except Exception as error:
             if self._good is None:
                 raise
@@ -268,6 +272,11 @@ class Window:
             self.state = recovered(self.state, self._good, error)
             self.screen.show(self.state, overlay(self.state))
         self._good = self.state
+
+    @property
+    def _has_stepped(self) -> bool:
+        """Whether the hand has changed the scene since it was shown."""
+        return self.state.held is not None and self.state.scene is not self.screen.state.scene
 
     def _over_sheet(self) -> Hover | None:
         """Return what of an open sheet the mouse is over."""
