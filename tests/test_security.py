@@ -36,13 +36,12 @@ SMUGGLED = [
 def sources(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Return the text of all that is compiled from now on."""
     compiled: list[str] = []
-    compiling = program._compiled
 
-    def watched(source: str, name: str) -> CodeType:
+    def watched(source: str, name: str, mode: str) -> CodeType:
         compiled.append(source)
-        return compiling(source, name)
+        return compile(source, name, mode)
 
-    monkeypatch.setattr(program, "_compiled", watched)
+    monkeypatch.setattr(program, "compile", watched, raising=False)
     return compiled
 
 

@@ -10,60 +10,67 @@ from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from linkanim.mechanics.formulas.expression import Expr, Value
+Operation = tuple[int, str, tuple[int | str, ...]]
+"""A node as its index, what it does, and with what: other nodes' indices, names of inputs and of numbers.
+
+Linkages of other lengths mostly have the same ones, and with them the same program.
+"""
 
 
 @dataclass(frozen=True)
 class Allocation:
     """The variable that holds each node's values, what is left to be copied into rows, how many buffers."""
 
-    held: Mapping[int, str]
-    copies: tuple[tuple[int, Value], ...]
+    held: Mapping[int | str, str]
+    copies: tuple[tuple[int, int | str], ...]
     buffers: int
 
 
-def allocated(nodes: Sequence[Expr], outputs: Sequence[Value]) -> Allocation:
+def allocated(operations: Sequence[Operation], outputs: Sequence[int | str]) -> Allocation:
     """Return where the values of nodes live, which stand in the order in which they are worked out.
 
     Outputs live in their own rows, `o0` on; the others in rows that are not filled yet and in buffers, `b0`
     on. An output that is no node, or one of an earlier row, is to be copied.
     """
-    held, copies = _rows({node.index for node in nodes}, outputs)
-    last = {arg.index: at for at, node in enumerate(nodes) for arg in node.args if isinstance(arg, Expr)}
-    inner = [node.index for node in nodes if node.index not in held]
+    nodes = [index for index, *_ in operations]
+    held, copies = _rows(set(nodes), outputs)
+    last = {value: at for at, (*_, arguments) in enumerate(operations) for value in arguments}
+    inner = [node for node in nodes if node not in held]
     heirs = _heirs(nodes, held, last)
     ending: dict[int, list[int]] = {}
-    for index in inner:
-        ending.setdefault(last[index], []).append(index)
-    free = _Free({held[node.index]: at for at, node in enumerate(nodes) if node.index in held})
+    for node in inner:
+        ending.setdefault(last[node], []).append(node)
+    free = _Free({held[node]: at for at, node in enumerate(nodes) if node in held})
     for at, node in enumerate(nodes):
         free.places += [held[index] for index in ending.get(at, ())]
-        if node.index in heirs:
-            held[node.index] = free.take(at, last[node.index], heirs[node.index])
+        if node in heirs:
+            held[node] = free.take(at, last[node], heirs[node])
     return Allocation(held, tuple(copies), free.buffers)
 
 
-def _rows(computed: set[int], outputs: Sequence[Value]) -> tuple[dict[int, str], list[tuple[int, Value]]]:
+def _rows(
+    computed: set[int], outputs: Sequence[int | str]
+) -> tuple[dict[int | str, str], list[tuple[int, int | str]]]:
     """Return the row of each node that is an output, and the outputs that have to be copied into theirs."""
-    held: dict[int, str] = {}
-    copies: list[tuple[int, Value]] = []
+    held: dict[int | str, str] = {}
+    copies: list[tuple[int, int | str]] = []
     for row, value in enumerate(outputs):
-        if isinstance(value, Expr) and value.index in computed and value.index not in held:
-            held[value.index] = f"o{row}"
+        if value in computed and value not in held:
+            held[value] = f"o{row}"
         else:
             copies.append((row, value))
     return held, copies
 
 
 def _heirs(
-    nodes: Sequence[Expr], held: Mapping[int, str], last: Mapping[int, int]
+    nodes: Sequence[int], held: Mapping[int | str, str], last: Mapping[int | str, int]
 ) -> dict[int, tuple[int, str]]:
     """Return of each inner value until when its place can be handed on, and the row in which that ends."""
     heirs: dict[int, tuple[int, str]] = {}
     for node in reversed(nodes):
-        if node.index not in held:
-            user = nodes[last[node.index]].index
-            heirs[node.index] = heirs.get(user) or (last[node.index], held[user])
+        if node not in held:
+            user = nodes[last[node]]
+            heirs[node] = heirs.get(user) or (last[node], held[user])
     return heirs
 
 

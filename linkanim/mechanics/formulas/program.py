@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.formulas.buffers import allocated
+from linkanim.mechanics.formulas.buffers import Allocation, Operation, allocated
 from linkanim.mechanics.formulas.constant import digits_of
 from linkanim.mechanics.formulas.expression import WHOLE, Expr, Value
 from linkanim.mechanics.formulas.precise import cosine, sine, square_root
@@ -85,51 +85,55 @@ class _Constants:
     """Numbers by the names that stand for them in a program, whose text is the same with other numbers."""
 
     def __init__(self) -> None:
-        self._names: dict[tuple[str, float], str] = {}
+        self._names: dict[object, str] = {}
         self.numbers: dict[str, float] = {}
 
-    def name(self, value: Value | str) -> str:
-        """Return the name of a node or number; 0.0 and -0.0, which are equal, have two."""
+    def name(self, value: Value | str) -> int | str:
+        """Return a node's index, an input's name or a number's; 0.0 and -0.0, which are equal, have two."""
         if isinstance(value, Expr):
-            return _name(value)
-        number = value if isinstance(value, float) else float(value)
-        name = self._names.setdefault((number.hex(), number), f"k{len(self._names)}")
-        self.numbers[name] = number
+            return value.index if value.op != "input" else str(value.args[0])
+        key = value or (repr(value), value)
+        name = self._names.get(key)
+        if name is None:
+            name = self._names[key] = f"k{len(self._names)}"
+            self.numbers[name] = value if isinstance(value, float) else float(value)
         return name
+
+    def operations(self, nodes: Iterable[Expr]) -> tuple[Operation, ...]:
+        """Return what the nodes do, inputs left out."""
+        return tuple(
+            [(node.index, node.op, tuple(map(self.name, node.args))) for node in nodes if node.op != "input"]
+        )
 
     @property
     def floats(self) -> dict[str, float]:
         """The numbers as plain floats: one that knows what it stands for computes many times as long."""
         return {name: float(number) for name, number in self.numbers.items()}
 
-    def assignment(self, node: Expr) -> str:
-        """Return the line that works a node out."""
-        return f"{_name(node)} = {FORMULAS[node.op].format(*map(self.name, node.args))}"
+
+def _variable(value: int | str) -> str:
+    return value if isinstance(value, str) else f"v{value}"
 
 
-def _name(value: Expr) -> str:
-    return str(value.args[0]) if value.op == "input" else f"v{value.index}"
+def _compiled(name: str, inputs: Iterable[str], lines: Iterable[str]) -> CodeType:
+    """Return the code that defines the function of that name, inputs and lines, which this module wrote."""
+    source = "\n    ".join([f"def {name}({', '.join(inputs)}):", *lines])
+    return compile(source, f"<linkanim {name}>", "exec")
 
 
-def _function(
-    name: str, inputs: Iterable[str], lines: Iterable[str], names: Mapping[str, Any]
-) -> Callable[..., Any]:
-    """Return the function of that name, inputs and lines, which this module wrote, given what it uses."""
-    source, space = "\n    ".join([f"def {name}({', '.join(inputs)}):", *lines]), dict(names)
-    exec(_compiled(source, f"<linkanim {name}>"), space)
+def _function(code: CodeType, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
+    """Return the function that code defines, given what it uses."""
+    space = dict(names)
+    exec(code, space)
     function: Callable[..., Any] = space.pop(name)
     return function
-
-
-@lru_cache(maxsize=128)
-def _compiled(source: str, name: str) -> CodeType:
-    """Return the code of a text; a linkage of other lengths mostly has the same."""
-    return compile(source, name, "exec")
 
 
 FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": math.atan2}
 DEEPEST = 40
 """Brackets in brackets; Python reads 200."""
+_KEPT = 128
+"""Programs whose code is kept, of each sort: a linkage of other lengths mostly has the same."""
 
 
 def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Callable[..., Any]:
@@ -139,43 +143,41 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     `math` raises (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
     """
     constants = _Constants()
-    lines, texts = _inlined(needed(outputs), outputs, constants)
-    result = layout.format(
-        *(texts[value.index] if isinstance(value, Expr) else constants.name(value) for value in outputs)
+    operations, results = constants.operations(needed(outputs)), tuple(map(constants.name, outputs))
+    code = _scalar_code(
+        (*inputs, *(f"{name}={name}" for name in constants.numbers)), operations, results, layout
     )
-    known = [*inputs, *(f"{name}={name}" for name in constants.numbers)]  # read faster than a global
-    return _function("pose", known, [*lines, f"return {result}"], FLOAT_NAMES | constants.floats)
+    return _function(code, "pose", FLOAT_NAMES | constants.floats)
+
+
+@lru_cache(maxsize=_KEPT)
+def _scalar_code(
+    inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...], layout: str
+) -> CodeType:
+    """Return the code of a pose."""
+    lines, texts = _inlined(operations, outputs)
+    result = layout.format(*(texts.get(value, value) for value in outputs))
+    return _compiled("pose", inputs, [*lines, f"return {result}"])
 
 
 def _inlined(
-    nodes: Sequence[Expr], outputs: Sequence[Value], constants: _Constants
-) -> tuple[list[str], dict[int, str]]:
+    operations: Sequence[Operation], outputs: Sequence[int | str]
+) -> tuple[list[str], dict[int | str, str]]:
     """Return assignments to variables, and what stands for each node: a name, or in brackets its formula.
 
     A formula stands where it is used, if that is at one place only.
     """
-    uses = Counter(value.index for value in outputs if isinstance(value, Expr))
-    for node in nodes:
-        times = 1 if node.op in _IN_PLACE else 2
-        uses.update([argument.index for argument in node.args * times if isinstance(argument, Expr)])
-    lines, texts, depths = [], dict[int, str](), dict[int, int]()
-    for node in nodes:
-        index = node.index
-        if node.op == "input":
-            texts[index], depths[index] = str(node.args[0]), 0
-            continue
-        depth, parts = 0, []
-        for argument in node.args:
-            if isinstance(argument, Expr):
-                parts.append(texts[argument.index])
-                depth = max(depth, depths[argument.index])
-            else:
-                parts.append(constants.name(argument))
-        text = FORMULAS[node.op].format(*parts)
+    uses = Counter(outputs)
+    for _, op, arguments in operations:
+        uses.update(arguments * (1 if op in _IN_PLACE else 2))
+    lines, texts, depths = [], dict[int | str, str](), dict[int | str, int]()
+    for index, op, arguments in operations:
+        depth = max([depths.get(argument, 0) for argument in arguments])
+        text = FORMULAS[op].format(*[texts.get(argument, argument) for argument in arguments])
         if uses[index] == 1 and depth + 1 < DEEPEST:
             texts[index], depths[index] = f"({text})", depth + 1
         else:
-            texts[index], depths[index] = f"v{index}", 0
+            texts[index] = f"v{index}"
             lines.append(f"v{index} = {text}")
     return lines, texts
 
@@ -186,10 +188,21 @@ DECIMAL_NAMES = {"sqrt": square_root, "sin": sine, "cos": cosine}
 def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., tuple[Decimal, ...]]:
     """Return a function of Decimals that gives the outputs; call it in a `precise.context`."""
     constants = _Constants()
-    lines = [constants.assignment(node) for node in needed(outputs) if node.op != "input"]
-    result = "".join(f"{constants.name(value)}, " for value in outputs)
+    operations, results = constants.operations(needed(outputs)), tuple(map(constants.name, outputs))
     digits = {name: digits_of(number) for name, number in constants.numbers.items()}
-    return _function("exact", inputs, [*lines, f"return ({result})"], {**DECIMAL_NAMES, **digits})
+    return _function(
+        _tuple_code("exact", tuple(inputs), operations, results), "exact", DECIMAL_NAMES | digits
+    )
+
+
+@lru_cache(maxsize=_KEPT)
+def _tuple_code(
+    name: str, inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...]
+) -> CodeType:
+    """Return the code of a function that gives the outputs as they stand, a line for each operation."""
+    lines = [f"v{index} = {FORMULAS[op].format(*map(_variable, given))}" for index, op, given in operations]
+    result = "".join(f"{_variable(value)}, " for value in outputs)
+    return _compiled(name, inputs, [*lines, f"return ({result})"])
 
 
 @dataclass(frozen=True)
@@ -257,65 +270,58 @@ def _block_size(count: int) -> int:
 
 def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
     """Compile the outputs; `inputs` says of each name whether it is an array, those first, or uniform."""
-    nodes = needed(outputs)
-    fixed = [node for node in nodes if node.uniform and node.op != "input"]
-    block = _Block([node for node in nodes if not node.uniform], outputs)
+    nodes, constants = needed(outputs), _Constants()
     arrays = tuple(name for name, array in inputs.items() if array)
-    uniform = [name for name, array in inputs.items() if not array]
-    used = {_name(node) for node in nodes} & set(uniform)
-    numbers = [*sorted(used), *map(_name, fixed)]
+    uniform = tuple(name for name, array in inputs.items() if not array)
+    used = {str(node.args[0]) for node in nodes if node.op == "input"} & set(uniform)
+    prelude, numbers = _prelude(uniform, sorted(used), [node for node in nodes if node.uniform])
+    operations = constants.operations(node for node in nodes if not node.uniform)
+    results = tuple(map(constants.name, outputs))
+    code, buffers = _block_code((*arrays, *numbers, *constants.numbers), operations, results)
     return Batch(
         arrays,
         tuple(outputs),
-        block.function(arrays, numbers),
-        _prelude(uniform, fixed, numbers),
-        tuple(map(np.array, block.constants.numbers.values())),
-        block.places.buffers,
+        _function(code, "block", {**UFUNCS, "where": np.where}),
+        prelude,
+        tuple(map(np.array, constants.numbers.values())),
+        buffers,
     )
 
 
 def _prelude(
-    names: Sequence[str], fixed: Sequence[Expr], numbers: Sequence[str]
-) -> Callable[..., tuple[float, ...]]:
-    """Return the function that computes from the uniform inputs what is the same along the array."""
+    inputs: tuple[str, ...], used: Sequence[str], nodes: Sequence[Expr]
+) -> tuple[Callable[..., tuple[float, ...]], list[str]]:
+    """Return the function that computes from the uniform inputs what is the same along an array; names of it."""
     constants = _Constants()
-    lines = [constants.assignment(node) for node in fixed]
-    result = "".join(f"{name}, " for name in numbers)
-    return _function("prelude", names, [*lines, f"return ({result})"], FLOAT_NAMES | constants.floats)
+    operations = constants.operations(nodes)
+    outputs: tuple[int | str, ...] = (*used, *(index for index, *_ in operations))
+    code = _tuple_code("prelude", inputs, operations, outputs)
+    return _function(code, "prelude", FLOAT_NAMES | constants.floats), [*map(_variable, outputs)]
 
 
-class _Block:
-    """The passes over one block of arrays, as text."""
+@lru_cache(maxsize=_KEPT)
+def _block_code(
+    inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...]
+) -> tuple[CodeType, int]:
+    """Return the code that runs one block, of its inputs, result rows and buffers, and how many of these."""
+    places = allocated(operations, outputs)
+    rows, buffers = (f"o{row}" for row in range(len(outputs))), (f"b{n}" for n in range(places.buffers))
+    lines = [*_calls(operations, places)] or ["pass"]
+    return _compiled("block", (*inputs, *rows, *buffers), lines), places.buffers
 
-    def __init__(self, nodes: Sequence[Expr], outputs: Sequence[Value]) -> None:
-        self.nodes = [node for node in nodes if node.op != "input"]
-        self.rows = [f"o{row}" for row in range(len(outputs))]
-        self.places = allocated(self.nodes, outputs)
-        self.constants = _Constants()
 
-    def function(self, arrays: Sequence[str], uniform: Sequence[str]) -> Callable[..., Any]:
-        """Return the function that runs one block, of arrays, numbers, result rows and buffers."""
-        calls = list(self._calls())
-        buffers = (f"b{index}" for index in range(self.places.buffers))
-        names = (*arrays, *uniform, *self.constants.numbers, *self.rows, *buffers)
-        return _function("block", names, calls or ["pass"], {**UFUNCS, "where": np.where})
-
-    def _calls(self) -> Iterator[str]:
-        """Yield the numpy calls in order."""
-        for node in self.nodes:
-            *arguments, place = [self._variable(argument) for argument in (*node.args, node)]
-            if node.op == "select":
-                a, b, below, otherwise = arguments
-                yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
-            else:
-                # By keyword costs time at every call; numpy asks it only of these two.
-                target = f"out={place}" if node.op in ("minimum", "maximum") else place
-                yield f"{node.op}({', '.join(arguments)}, {target})"
-        for row, value in self.places.copies:
-            yield f"{self.rows[row]}[...] = {self._variable(value)}"
-
-    def _variable(self, value: Value | str) -> str:
-        """Return the variable that holds the value inside the function."""
-        held = self.places.held.get(value.index) if isinstance(value, Expr) else None
+def _calls(operations: Sequence[Operation], places: Allocation) -> Iterator[str]:
+    """Yield the numpy calls in order."""
+    held = places.held
+    for index, op, arguments in operations:
+        given, place = [held.get(value) or _variable(value) for value in arguments], held[index]
+        if op == "select":
+            a, b, below, otherwise = given
+            yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
+        else:
+            # By keyword costs time at every call; numpy asks it only of these two.
+            target = f"out={place}" if op in ("minimum", "maximum") else place
+            yield f"{op}({', '.join(given)}, {target})"
+    for row, value in places.copies:
         # a constant is an array of no dimension: numpy would make one of a plain number at every call
-        return held or self.constants.name(value)
+        yield f"o{row}[...] = {held.get(value) or _variable(value)}"
