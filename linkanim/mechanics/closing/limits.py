@@ -51,6 +51,8 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
 
     `linkage` is the one that was given, with its own lengths, to be named in an AssemblyError.
     """
+    if assembly.signs.keys() <= assembly.loops.keys():
+        return assembly
     found = separations(assembly)
     if not found.names:
         return assembly

@@ -213,8 +213,6 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, floa
     And the share of it below which the dyad barely closes. One whose margin is all along more than that, and
     than it changes between three samples at the most, keeps away from them.
     """
-    if assembly.signs.keys() <= assembly.loops.keys():
-        return {}
     closings = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings
     found = closings.values()
     rows = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)

@@ -12,6 +12,7 @@ import numpy as np
 
 from linkanim.mechanics.closing.kinds import CLOSERS
 from linkanim.mechanics.closing.search import SAMPLES_A_TURN
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Body, Linkage
@@ -212,11 +213,18 @@ def turning_links(mechanism: Mechanism) -> Iterator[str]:
         if cycle.setting.crank_of(body):
             turns = mechanism.assembly.path.full_turn
         else:
-            first, second = (cycle.position[joint] @ np.array([1, 1j]) for joint in body.joints[:2])
-            way = second - first
-            turns = abs(float(np.angle(np.roll(way, -1) / way).sum())) > math.pi
+            first, second = (cycle.position[joint] for joint in body.joints[:2])
+            turns = winds(*(second - first).T)
         if turns:
             yield body.name
+
+
+def winds(x: Array, y: Array) -> bool:
+    """Tell whether a direction that is sampled once around, by less than half a turn, has gone round."""
+    below, x1, y1 = y < 0, np.append(x[1:], x[0]), np.append(y[1:], y[0])
+    left = x * y1 > y * x1
+    up, down = below & left, ~below & ~left
+    return bool(np.count_nonzero(up & (y1 >= 0)) != np.count_nonzero(down & (y1 < 0)))
 
 
 def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:

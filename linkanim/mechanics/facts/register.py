@@ -159,9 +159,9 @@ class Quantity:
 def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> Mapping[str, Quantity]:
     """Return all quantities of a linkage by their tokens: bodies, joints, centres of mass, struts.
 
-    Tokens go by the bodies' own names; words by what `names` has for them.
+    Tokens go by the bodies' own names; words by what `names` has for them. Lengths are read from the motion.
     """
-    return _registered(linkage, tuple(names.items()))
+    return _registered(linkage.unsized, tuple(names.items()))
 
 
 @lru_cache(maxsize=16)
@@ -234,7 +234,7 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
         yield Quantity(token, indexed("μ", dyad), words, "rad", 0, read, path=path)
     output = output_body(linkage)
     if output is not None and (output.slider or linkage.drive.coordinate.is_angle):
-        read = mechanical_advantage(linkage)
+        read = partial(mechanical_advantage, output=output)
         yield _whole("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
 
 

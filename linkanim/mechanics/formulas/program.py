@@ -291,7 +291,7 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
 def _prelude(
     inputs: tuple[str, ...], used: Sequence[str], nodes: Sequence[Expr]
 ) -> tuple[Callable[..., tuple[float, ...]], list[str]]:
-    """Return the function that computes from the uniform inputs what is the same along an array; names of it."""
+    """Return the function that computes from the uniform inputs what is the same along arrays; its names."""
     constants = _Constants()
     operations = constants.operations(nodes)
     outputs: tuple[int | str, ...] = (*used, *(index for index, *_ in operations))

@@ -139,6 +139,11 @@ class Linkage(Stated):
         return {joint.name: joint for joint in self.joints}
 
     @cached_property
+    def unsized(self) -> Linkage:
+        """The linkage with every length 0: what those have in common that differ in lengths alone."""
+        return self.scaled(0.0)
+
+    @cached_property
     def rigid_bodies(self) -> tuple[RigidBody, ...]:
         """The rigid bodies, the ground first: where each one's joints lie in its own frame."""
         return rigid_bodies(self.joints)

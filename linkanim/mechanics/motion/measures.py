@@ -194,18 +194,18 @@ def pivots_of(linkage: Linkage, body: Body) -> tuple[str, ...]:
     return tuple(pin.name for pin in linkage.pins if frame and pin.name in linkage.rigid_bodies[frame])
 
 
-def mechanical_advantage(linkage: Linkage) -> Callable[[Any], Any]:
-    """Return how to read the output's torque over the input's; of sliders the force, at the crank's pin.
+def mechanical_advantage(motion: Any, output: Body) -> Any:
+    """Return the output's torque over the input's; of sliders the force, at the crank's pin.
 
     Without losses both are ratios of speeds (Uicker, Pennock and Shigley, Theory of Machines and
     Mechanisms); not negative, infinite where the output rests.
     """
-    output, crank = output_body(linkage), linkage.joint(linkage.drive.joint)
-    assert output is not None
     if output.slider is None:
-        return lambda motion: _faster(motion, 1.0, ("angular_velocity", "angular_acceleration"), output.name)
+        return _faster(motion, 1.0, ("angular_velocity", "angular_acceleration"), output.name)
+    linkage = motion.setting.linkage
+    crank = linkage.joint(linkage.drive.joint)
     length = crank.length if isinstance(crank, Crank) else 1.0
-    return lambda motion: _faster(motion, length, ("travel_velocity", "travel_acceleration"), output.name)
+    return _faster(motion, length, ("travel_velocity", "travel_acceleration"), output.name)
 
 
 def _faster(motion: Any, length: float, rates: tuple[str, str], output: str) -> Any:
