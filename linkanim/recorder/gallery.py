@@ -17,7 +17,7 @@ from linkanim.manifest import FileSet, replacing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.parts.wheels import teeth_a_second
-from linkanim.recorder.palette import Bytes, make_palette
+from linkanim.recorder.palette import Bytes, make_palette, nearest, rgb
 from linkanim.recorder.plan import Clip, make_plan
 from linkanim.recorder.recording import Progress, Recording
 from linkanim.recorder.scene_frames import SceneFrames, record
@@ -105,12 +105,9 @@ def reduced(picture: Bytes) -> Bytes:
     """Return a picture (height, width, 3) in `_COLOURS` at most, its flat areas as they are."""
     pixels = np.insert(picture[..., ::-1], 3, 0, axis=2)
     words, which = np.unique(pixels.view(np.uint32).reshape(-1), return_inverse=True)
-    colours = words.view(np.uint8).reshape(-1, 4)[:, 2::-1].astype(float)
     palette = make_palette([pixels], most=_COLOURS)
-    # |a - b|² without |a|², the same for every b
-    distance = (palette.astype(float) ** 2).sum(axis=1) - 2.0 * colours @ palette.T.astype(float)
-    nearest: Bytes = palette[distance.argmin(axis=1)]
-    return nearest[which.reshape(-1)].reshape(picture.shape)
+    found: Bytes = palette[nearest(rgb(words).astype(float), palette.astype(float))]
+    return found[which.reshape(-1)].reshape(picture.shape)
 
 
 def _gif(name: str) -> str:

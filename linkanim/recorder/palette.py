@@ -1,4 +1,4 @@
-"""The one palette of a GIF: flat colours as they are, the rest by cutting the colours' box."""
+"""The one palette of a GIF, flat colours as they are, the rest by cutting their box; and its frames in it."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 Colour = tuple[int, int, int]
 Bytes = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+Words = NDArray[np.uint32]
+"""Pixels or colours as numbers: 0xrrggbb, and above these opacity or what means nothing."""
 
 MOST = 255
 """A GIF has 256 colours; one stands for what does not change, or is transparent."""
@@ -19,7 +22,66 @@ _FLAT = 64
 _LENGTH_BITS = np.uint64(32)
 _LENGTH = np.uint64((1 << 32) - 1)
 _OPAQUE = 128
-"""Alpha from which a pixel counts as opaque: half, as in the encoder."""
+"""Alpha from which a pixel counts as opaque: half."""
+_TO_CONES = np.array([[0.4122, 0.5363, 0.0514], [0.2119, 0.6807, 0.1074], [0.0883, 0.2817, 0.6300]]).T
+_TO_OKLAB = np.array([[0.2105, 0.7936, -0.0041], [1.9780, -2.4286, 0.4506], [0.0259, 0.7828, -0.8087]]).T
+_AT_ONCE = 4096
+"""Colours that are looked up together; for all of a photograph it took hundreds of megabytes."""
+
+
+class Indexing:
+    """Frames as a palette's indices, from 1 on, and 0 for what is transparent; each ends with the palette.
+
+    Only what is not as in the frame before is looked up, and every colour once.
+    """
+
+    def __init__(self, palette: Sequence[Colour], pixels: int, *, alpha: bool) -> None:
+        colours = np.array(palette, np.uint8)
+        self._palette, self._alpha = _oklab(colours), alpha
+        self._known = np.zeros(1 << 24, np.uint8)  # the system gives only what is touched
+        self._before = np.zeros(pixels, "<u4")
+        table = np.full((MOST + 1, 4), (0, 0, 0, 255), np.uint8)
+        table[0], table[1 : len(colours) + 1, :3] = 0, colours[:, ::-1]
+        self._bytes = np.concatenate([np.full(pixels, self._indices(self._before[:1])), table.ravel()])
+
+    def __call__(self, frame: bytes | bytearray | memoryview) -> memoryview:
+        """Return a frame's bytes, which the next one's take the place of."""
+        now = np.frombuffer(frame, "<u4")
+        place = np.flatnonzero(now != self._before)
+        words = now.take(place)
+        self._before[place] = words
+        self._bytes[place] = self._indices(words)
+        return self._bytes.data
+
+    def _indices(self, words: Words) -> Bytes:
+        colours = words & np.uint32(0xFFFFFF)
+        found = self._known.take(colours)
+        if not found.all():
+            new = np.unique(colours[found == 0])
+            for some in np.array_split(new, len(new) // _AT_ONCE + 1):
+                self._known[some] = 1 + nearest(_oklab(rgb(some)), self._palette)
+            found = self._known.take(colours)
+        return np.where(words >> 24 < _OPAQUE, np.uint8(0), found) if self._alpha else found
+
+
+def nearest(colours: Floats, palette: Floats) -> NDArray[np.intp]:
+    """Return which colour of a palette (m, 3) each of some (n, 3) is nearest to; of equals the first."""
+    # |a - b|² without |a|², the same for every b
+    found: NDArray[np.intp] = ((palette**2).sum(axis=1) - 2.0 * colours @ palette.T).argmin(axis=1)
+    return found
+
+
+def _oklab(colours: Bytes) -> Floats:
+    """Return colours (n, 3) in Oklab, where they are as far apart as they look (Ottosson 2020)."""
+    parts = colours / 255.0
+    linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+    seen: Floats = np.cbrt(linear @ _TO_CONES) @ _TO_OKLAB
+    return seen
+
+
+def rgb(words: Words) -> Bytes:
+    """Return colours (n, 3) as red, green, blue."""
+    return words.view(np.uint8).reshape(-1, 4)[:, 2::-1]
 
 
 def make_palette(
@@ -53,8 +115,7 @@ def _counted(samples: Iterable[Bytes], alpha: bool) -> tuple[Bytes, NDArray[np.i
     runs.sort()
     values = (runs >> _LENGTH_BITS).astype(np.uint32)
     first = np.flatnonzero(np.append(True, values[1:] != values[:-1])[: len(values)])
-    unique, counts = values[first], np.add.reduceat((runs & _LENGTH).astype(np.int64), first)
-    return np.stack([unique >> 16 & 255, unique >> 8 & 255, unique & 255], axis=1).astype(np.uint8), counts
+    return rgb(values[first]), np.add.reduceat((runs & _LENGTH).astype(np.int64), first)
 
 
 def _runs(sample: Bytes, *, alpha: bool) -> NDArray[np.uint64]:
@@ -75,10 +136,10 @@ class _Box(NamedTuple):
     age: int
     members: NDArray[np.intp]
     axis: int
-    mean: NDArray[np.float64]
+    mean: Floats
 
 
-def _means(colours: NDArray[np.float64], weights: NDArray[np.float64], count: int) -> Bytes:
+def _means(colours: Floats, weights: Floats, count: int) -> Bytes:
     """Return the means of `count` boxes of the colours."""
     boxes = [_box(colours, weights, np.arange(len(colours)), 0)]
     for age in range(1, 2 * count, 2):
@@ -91,9 +152,7 @@ def _means(colours: NDArray[np.float64], weights: NDArray[np.float64], count: in
     return np.rint([box.mean for box in sorted(boxes, key=lambda box: box.age)]).astype(np.uint8)
 
 
-def _box(
-    colours: NDArray[np.float64], weights: NDArray[np.float64], members: NDArray[np.intp], age: int
-) -> _Box:
+def _box(colours: Floats, weights: Floats, members: NDArray[np.intp], age: int) -> _Box:
     inside, share = colours[members], weights[members]
     mean = share @ inside / share.sum()
     errors = share @ (inside - mean) ** 2
