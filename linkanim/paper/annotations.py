@@ -53,6 +53,10 @@ def finer(pen: Pen) -> Pen:
     return replace(pen, line=0.6 * pen.line)
 
 
+InPlot = tuple[Plot, Curve]
+"""A curve in the plot that it is drawn in."""
+
+
 class _Words(NamedTuple):
     """Words about a place on a curve, and where they may stand."""
 
@@ -71,24 +75,15 @@ class Annotations:
     pen: Pen
     colour: Callable[[Curve], Colour]
 
-    def items(
-        self,
-        plots: Sequence[Plot],
-        sides: Sequence[Sequence[Curve]],
-        marked: Sequence[Sequence[Curve]],
-    ) -> Iterator[Item]:
+    def items(self, drawn: Sequence[InPlot], marked: Sequence[InPlot]) -> Iterator[Item]:
         """Yield names of the curves in plots of one area, and extremes of those marked, off other curves."""
-        both = [(plot, curve) for plot, side in zip(plots, sides, strict=True) for curve in side]
-        area, ends = plots[0].area, []
+        area, ends = drawn[0][0].area, []
         if named_at_ends(self.curves):
-            ends = [end for pair in both for end in self._end(*pair)]
+            ends = [end for pair in drawn for end in self._end(*pair)]
         at_edge = [end for end in ends if end.at.real > area.right - 1]
         yield from self._beside(area, at_edge)
         within = [end for end in ends if end not in at_edge]
-        extremes_of = [(plot, curve) for plot, side in zip(plots, marked, strict=True) for curve in side]
-        yield from self._placed(
-            both, [*within, *(peak for pair in extremes_of for peak in self._peaks(*pair))]
-        )
+        yield from self._placed(drawn, [*within, *(peak for pair in marked for peak in self._peaks(*pair))])
 
     def _end(self, plot: Plot, curve: Curve) -> Iterator[_Words]:
         """Yield the name of a curve, to stand where it is furthest to the right."""
@@ -115,17 +110,17 @@ class Annotations:
             yield Layer(self.colour(end.curve), line)
             yield Caption(end.text, (begin.real, level - 0.5 * pen.small), pen.small, pen.theme.ink)
 
-    def _placed(self, both: list[tuple[Plot, Curve]], words: list[_Words]) -> Iterator[Item]:
+    def _placed(self, drawn: Sequence[InPlot], words: list[_Words]) -> Iterator[Item]:
         """Yield words where there is room to say them, each with its dot and, from afar, a line to it."""
         pen, half = self.pen, 0.6 * self.pen.line
-        tracks = [(curve, line) for plot, curve in both for line in _tracks(plot, curve, half)]
+        tracks = [(curve, line) for plot, curve in drawn for line in _tracks(plot, curve, half)]
         own = {
             id(curve): frozenset(n for n, (owner, _) in enumerate(tracks) if owner is curve)
-            for _, curve in both
+            for _, curve in drawn
         }
         to_place = [one.places._replace(beside=own[id(one.curve)]) for one in words]
         dots = tuple(_around(one.at, _DOT * pen.line) for one in words if one.dotted)
-        clutter = Clutter(both[0][0].area, dots, tuple(line for _, line in tracks))
+        clutter = Clutter(drawn[0][0].area, dots, tuple(line for _, line in tracks))
         for one, spot in zip(words, place(to_place, clutter), strict=True):
             size, middle = one.places.size, complex(one.places.places[0, spot.which])
             lead = -1 if one.places.drawn is None else int(one.places.drawn[spot.which])

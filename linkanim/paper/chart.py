@@ -183,15 +183,16 @@ class Page:
         first = sides[0][0]
         heights = np.interp([place for place, _ in self.curves.marks], first.x, first.values)
         yield from marked(plots[0], self.curves.marks, heights, pen)
-        for plot, side in zip(plots, sides, strict=True):
-            for curve in side:
-                width = _WIDTH * pen.line
-                yield curve_layer(plot, curve.x, curve.values, self.colour(curve), width, self.dashes(curve))
+        pairs = list(zip(plots, sides, strict=True))
+        drawn = [(plot, curve) for plot, side in pairs for curve in side]
+        for plot, curve in drawn:
+            width = _WIDTH * pen.line
+            yield curve_layer(plot, curve.x, curve.values, self.colour(curve), width, self.dashes(curve))
         if self.measured and self.measured.curve in sides[0]:
             places = [complex(plots[0].place(*point)) for point in self.measured.points]
             yield from dot(pen.theme.ink, finer(pen)).at(places)
-        marked_curves = [self._marked(side) for side in sides]
-        yield from Annotations(self.curves, pen, self.colour).items(plots, sides, marked_curves)
+        extremes_of = [(plot, curve) for plot, side in pairs for curve in self._marked(side)]
+        yield from Annotations(self.curves, pen, self.colour).items(drawn, extremes_of)
 
     def _y_titles(self, area: Rect, sides: list[list[Curve]]) -> Iterator[Item]:
         pen, top = self.pen, area.y - (_LINE - _LIFT) * self.pen.small

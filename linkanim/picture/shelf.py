@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from math import ceil
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import pygame
@@ -25,6 +25,7 @@ from linkanim.picture.view import Rect
 from linkanim.scenes import chapter_of, load, titles
 from linkanim.scenes.scene import Scene
 
+Key = TypeVar("Key")
 _SHAPE = 1.6
 """How much wider than high a picture is."""
 _WIDE = (185.0, 100.0)
@@ -323,15 +324,19 @@ def frame_of(cell: Rect, board: Board, by: float) -> Loop:
 
 def found_among(entries: Sequence[Scene | str], sieve: str) -> tuple[int, ...]:
     """Return the places of the mechanisms that have all the sieve's words in name, title or chapter."""
+    return sifted(dict(enumerate((_NEW, *_searched(entries)), start=NEW)), sieve)
+
+
+def sifted(texts: Mapping[Key, str], sieve: str) -> tuple[Key, ...]:
+    """Return the keys of the texts that have all the sieve's words."""
     words = sieve.casefold().split()
-    texts = enumerate((_NEW.casefold(), *_searched(entries)), start=NEW)
-    return tuple(n for n, text in texts if all(word in text for word in words))
+    return tuple(key for key, text in texts.items() if all(word in text.casefold() for word in words))
 
 
 def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:
     named = titles()
     for entry in entries:
         if isinstance(entry, str):
-            yield f"{entry} {named[entry]} {chapter_of(entry)}".casefold()
+            yield f"{entry} {named[entry]} {chapter_of(entry)}"
         else:
-            yield f"{entry.name} {entry.title} {entry.chapter}".casefold()
+            yield f"{entry.name} {entry.title} {entry.chapter}"

@@ -211,11 +211,7 @@ def read(words: GameWords) -> FollowRun:
         next((stage for stage in known if stage == words.text("stage")), "ready"),
         notch=words.whole("notch", 0, -_NOTCHES, _NOTCHES),
         phase=_number(words.text("phase", "0.0")),
-        frames=words.whole("frames"),
-        paper=words.whole("paper"),
-        passed=words.whole("passed"),
-        outside=words.whole("outside"),
-        best=words.whole("best"),
+        **{name: words.whole(name) for name in ("frames", "paper", "passed", "outside", "best")},  # type: ignore[arg-type]
     )
 
 

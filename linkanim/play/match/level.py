@@ -64,7 +64,7 @@ def level_of(name: str) -> Level:
     BadInput with file, key and way out where there is none, or where it makes no sense.
     """
     if name.endswith(".toml"):
-        return _read(_text(Path(name)), name, Path(name).stem)
+        return _read(_FILE.read(Path(name), name), name, Path(name).stem)
     if name.startswith("seed-") and name.removeprefix("seed-").isdecimal():
         return made(int(name.removeprefix("seed-")))
     for number, known in enumerate(level_names(), start=1):
@@ -75,13 +75,6 @@ def level_of(name: str) -> Level:
         f"match: there is no level {shown(name)}; there are {', '.join(level_names())}, seed-1, seed-2, … "
         "and files of your own, such as levels/mine.toml"
     )
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{path}: cannot be read as a level: {error}") from None
 
 
 def _read(text: str, where: str, name: str) -> Level:

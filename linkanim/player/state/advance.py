@@ -6,7 +6,7 @@ the state grows a frame older, each action is carried out, and a window left alo
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from linkanim.player.state.action import Action
@@ -34,6 +34,7 @@ _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"
 """What keeps the answer that the pencil has, and what goes back to the scene before."""
 _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
 """What is not done on a sheet, which is left for it."""
+Change = Callable[[State], State]
 ATTRACT_EACH = 15 * FRAMES_PER_SECOND
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo"})
@@ -64,8 +65,9 @@ def aged(state: State) -> State:
     over = [name for name, since, life in sinces if since is not None and state.frame >= since + life]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
     state = build.rested(come(state) if state.sketch else state)
-    state = _followed(state) if state.glide else state
-    return _played(state) if state.game else state
+    if state.glide:
+        state = _tried(state, Action("glide"), _followed, lambda before: replace(before, glide=None))
+    return _tried(state, Action("play"), state.game.aged, leave) if state.game else state
 
 
 def carried(state: State, action: Action) -> State:
@@ -85,11 +87,12 @@ def carried(state: State, action: Action) -> State:
         state = build.left(state)
     if action.name in _KEEPS | _LEAVES:
         state = keep(state, None) if action.name in _KEEPS else left(state)
-    try:
-        after = rule.handle(state, action.value)
-        return with_chip(after, rule.answer(state, after)) if rule.answer else after
-    except Exception as error:
-        return refused(state, action, error)
+
+    def handled(before: State) -> State:
+        after = rule.handle(before, action.value)
+        return with_chip(after, rule.answer(before, after)) if rule.answer else after
+
+    return _tried(state, action, handled)
 
 
 def settled(state: State) -> State:
@@ -111,23 +114,16 @@ def _in_a_game(state: State, game: Game, action: Action) -> State:
     """Return the state with an action handed to its game; under the help there is nothing but a way back."""
     if state.help:
         return replace(state, help=False) if action.name == "back" else state
-    try:
-        return game.carried(state, action)
-    except Exception as error:
-        return refused(state, action, error)
-
-
-def _played(state: State) -> State:
-    assert state.game is not None
-    try:
-        return state.game.aged(state)
-    except Exception as error:
-        return refused(leave(state), Action("play"), error)
+    return _tried(state, action, lambda before: game.carried(before, action))
 
 
 def _followed(state: State) -> State:
-    assert state.glide is not None
+    return replace(state, glide=state.glide and followed(state.glide, state.scene, state.frame))
+
+
+def _tried(state: State, action: Action, work: Change, without: Change = lambda before: before) -> State:
+    """Return the state with some work done, or `without` it where a solver fails at that, which is told."""
     try:
-        return replace(state, glide=followed(state.glide, state.scene, state.frame))
+        return work(state)
     except Exception as error:
-        return refused(replace(state, glide=None), Action("glide"), error)
+        return refused(without(state), action, error)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from linkanim.picture.diagrams.quantities import quantity
-from linkanim.picture.shelf import found_among
+from linkanim.picture.shelf import found_among, sifted
 from linkanim.scenes.scene import Scene
 
 RESOLVED = frozenset({"pick", "row", "scroll", "files_here", "aim", "enter"})
@@ -29,8 +29,7 @@ class Listing:
         """Return the files, or a scene's quantities by their tokens, that have all the sieve's words."""
         if self.files is None:
             return listed(scene, self.sieve)
-        words = self.sieve.casefold().split()
-        return tuple(name for name in self.files if all(word in name.casefold() for word in words))
+        return sifted({name: name for name in self.files}, self.sieve)
 
 
 @dataclass(frozen=True)
@@ -59,11 +58,5 @@ class Browsing:
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
     """Return the tokens of the quantities that have all the sieve's words, the telling ones first."""
-    words = sieve.casefold().split()
-    tokens = dict.fromkeys((*scene.telling, *scene.quantities))
-    return tuple(token for token in tokens if all(word in _searched(scene, token) for word in words))
-
-
-def _searched(scene: Scene, token: str) -> str:
-    found = quantity(scene, token)
-    return f"{token} {found.words} {found.symbol}".casefold()
+    found = {token: quantity(scene, token) for token in (*scene.telling, *scene.quantities)}
+    return sifted({token: f"{token} {one.words} {one.symbol}" for token, one in found.items()}, sieve)

@@ -227,14 +227,14 @@ def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
     """Return the list of dimensions, the values begun in their places."""
     editing, info = state.editing, in_unit(state.scene, state.look.unit).info
     at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
+    begun |= {item.key: f"{editing.typed}_" for item in items[at : at + 1] if editing.typed}
     shown = (begun.get(item.key) or _valued(item, _digits(state)) for item in items)
     rows = (
         EditRow(_label(item), value, chosen=n == at, draft=item.key in begun)
         for n, (item, value) in enumerate(zip(items, shown, strict=True))
     )
-    typed = f"{editing.typed}_" if editing.typed else None
     return Panel(
-        tuple(replace(row, value=typed, draft=True) if typed and row.chosen else row for row in rows),
+        tuple(rows),
         facts=tuple(fact for fact in (info.class_name, info.grashof) if fact),
         flash=_flash(state),
         error=editing.refusal,

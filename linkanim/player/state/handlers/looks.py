@@ -82,8 +82,9 @@ def zoom(state: State, about: tuple[float, float, float]) -> State:
 
 
 def pan(state: State, by: tuple[float, float]) -> State:
-    """Shift the picture."""
-    return replace(state, look=panned(state.look, by))
+    """Shift the picture by so many window heights, right and down."""
+    (across, down), look = by, state.look
+    return replace(state, look=replace(look, pan=_rounded(look.pan[0] + across, look.pan[1] + down)))
 
 
 def fit(state: State, _: None) -> State:
@@ -103,11 +104,6 @@ def zoomed(look: Look, notches: float, about: tuple[float, float]) -> Look:
     ratio = zoom / look.zoom
     pan = tuple(point - (point - shift) * ratio for point, shift in zip(about, look.pan, strict=True))
     return replace(look, zoom=zoom, pan=_rounded(pan[0], pan[1]))
-
-
-def panned(look: Look, by: tuple[float, float]) -> Look:
-    """Return the look shifted by so many window heights, right and down."""
-    return replace(look, pan=_rounded(look.pan[0] + by[0], look.pan[1] + by[1]))
 
 
 def _rounded(x: float, y: float) -> tuple[float, float]:
