@@ -11,9 +11,12 @@ import pytest
 from random_curves import curves
 
 import linkanim
+from linkanim.synthesis.atlas import atlas
 from linkanim.synthesis.check import checked
+from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.fit import Fit
-from linkanim.synthesis.kinds import Complex, Real
+from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
+from linkanim.synthesis.match import matched
 from linkanim.synthesis.search import best_of
 
 PERCENT = 0.01
@@ -116,6 +119,19 @@ def test_kunjurs_eighteen_points_are_passed_better_than_published() -> None:
     assert np.diff(best.angles) == pytest.approx(best.sense * math.radians(20))
     off = np.abs(traced(best, angle=best.angles) - np.array(KUNJUR) @ np.array([1.0, 1j]))
     assert best.rms == pytest.approx(math.sqrt(np.mean(off**2)))
+    way = traced(best, angle=np.linspace(best.angles[0], best.angles[-1], 500))
+    places = np.linspace(0, len(KUNJUR) - 1, 1000)
+    sides = np.interp(places, np.arange(len(KUNJUR)), np.array(KUNJUR) @ np.array([1.0, 1j]))
+    assert best.stray == pytest.approx(np.abs(way[:, None] - sides).min(axis=1).max(), abs=2e-3)
+
+
+@pytest.mark.parametrize("turn", [0.3, 0.8, 2.0])
+def test_a_curve_of_the_atlas_is_known_again_however_it_lies(turn: float) -> None:
+    some = atlas(FOUR_BAR, 500)
+    for number in (0, 99, 400):
+        curve = DrawnCurve(some.shape[number] * 70 * np.exp(1j * turn) + 5, closed=True)
+        best = matched(some, curve, 1)
+        assert best.rows[0, 3] / best.rows[0, 2] == pytest.approx(some.rows[number, 3] / some.rows[number, 2])
 
 
 @pytest.mark.slow
