@@ -31,6 +31,7 @@ CUTS: list[tuple[str, Clip, Format, int, Fraction, float]] = [
     ("2 s at 30 fps: 3 cs would give 201 cs", at(30, fps=30), "gif", 50, Fraction(25), 2.0),
     ("3 s at 30 fps: 3 cs fits", at(20, fps=30), "gif", 100, Fraction(100, 3), 3.0),
     ("24 fps: 4 cs and 5 cs fit, 4 is nearer", at(20, fps=24), "gif", 75, Fraction(25), 3.0),
+    ("15 fps: 6 cs and 7 cs fit, 7 is nearer", at(20, fps=15, seconds=2.1), "gif", 30, Fraction(100, 7), 2.1),
     ("60 fps: browsers slow down below 2 cs", at(20, fps=60), "gif", 150, Fraction(50), 3.0),
     ("3.01 s: no whole number of 4 cs", at(60 / 3.01), "gif", 75, Fraction(25), 3.0),
     # a length that need not close

@@ -109,7 +109,7 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("a word", FOUR_BAR.replace("30", "'long'"), "four-bar.crank", "not a length"),
     ("true", FOUR_BAR.replace("30", "true"), "four-bar.crank", "true is not a length"),
     ("an angle", FOUR_BAR.replace("30", "'30 deg'"), "four-bar.crank", "mm, cm, m, in"),
-    ("one length for two bars", LONG.replace("[90, 80]", "90"), "joints.B.length", "list of 2"),
+    ("one length for two bars", LONG.replace("[90, 80]", "90"), "joints.B.length", "such as [10, 20]"),
     ("the second of two", LONG.replace("[90, 80]", "[90, -80]"), "joints.B.length[1] = -80", "above zero"),
     ("missing length", FOUR_BAR.replace("crank = 30\n", ""), "four-bar", '"crank" is missing'),
     ("seven of eight", "[six-bar]\nlengths = [1, 2, 3, 4, 5, 6, 7]\n", "six-bar.lengths", "list of 8"),
