@@ -113,6 +113,20 @@ def test_the_press_has_the_values_of_the_report(degrees: int, capsys: pytest.Cap
         assert found[symbol] == pytest.approx(float(value), abs=1.01 * half), symbol
 
 
+# Rows as they are printed, of what is derived and how it is said.
+WRITTEN = [
+    r"$\mathbf{R}_{2} + \mathbf{R}_{3} = \mathbf{R}_{1} + \mathbf{R}_{4}$",
+    r"$x_{A} = r_{2} \, \cos \theta_{2} = 50 \cdot \cos 60^{\circ} = 25.00000\,\mathrm{mm}$",
+    "The loops differentiated in time: the same equations, the input running at its own speed.",
+    "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
+]
+
+
+def test_a_row_has_the_letters_then_the_numbers_and_each_chapter_says_what_it_does() -> None:
+    lines = document(solution(_request("crank-rocker", 60.0)), MARKDOWN).splitlines()
+    assert [line for line in lines if line in WRITTEN] == WRITTEN
+
+
 def test_at_a_limit_it_says_that_no_rates_follow() -> None:
     found = solution(_request("double-rocker", 0.0))
     assert found.singular

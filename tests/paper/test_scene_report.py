@@ -17,6 +17,8 @@ from browser import PROGRAM
 
 from linkanim.cli import main
 from linkanim.digits import rounded, significant, typeset
+from linkanim.explain.inputs import PoseRequest
+from linkanim.explain.solution import solution
 from linkanim.mechanics.facts.register import register
 from linkanim.paper.curves import Pace
 from linkanim.paper.findings import (
@@ -30,6 +32,7 @@ from linkanim.paper.findings import (
     usual_instants,
 )
 from linkanim.paper.tables import value_tables
+from linkanim.paper.vectors import vectors_svg
 from linkanim.scenes import load, names
 
 PACES = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (5.0, 10.0, 20.0))
@@ -173,6 +176,28 @@ def test_its_figure_names_the_dimensions_and_has_no_other_words(press: Path) -> 
     root = ElementTree.parse(press / "figure.svg").getroot()
     assert "r3 = 283 mm" in {"".join(text.itertext()) for text in root.iter() if text.tag.endswith("text")}
     assert {"words", "key"}.isdisjoint(group.get("id") for group in root.iter())
+
+
+def test_its_loops_name_each_vector_and_joint_once(press: Path) -> None:
+    root = ElementTree.parse(press / "loops.svg").getroot()
+    names = ["".join(text.itertext()) for text in root.iter() if text.tag.endswith("text")]
+    assert names == ["O2", "O7", "A", "D", "B", "C", "R2", "R3", "R1", "R7", "R6", "R4", "S5"]
+
+
+@pytest.mark.parametrize(("name", "axis", "room"), [("press", 1, 560), ("slider-crank", 0, 760)])
+def test_loops_fill_their_figure_in_height_or_width(name: str, axis: int, room: int) -> None:
+    root = ElementTree.fromstring(vectors_svg(solution(PoseRequest(load(name), "phase", 1.0, 1.0))))
+    vectors = next(group for group in root.iter() if group.get("id") == "vectors")
+    drawn = [path.get("d") or "" for path in vectors if path.tag.endswith("path")]
+    places = [float(place[axis]) for one in drawn for place in re.findall(r"[ML]([\d.]+) ([\d.]+)", one)]
+    assert max(places) - min(places) == pytest.approx(0.8 * room, rel=0.03)
+
+
+def test_its_charts_say_of_what_they_are(press: Path) -> None:
+    text = (press / "report.html").read_text(encoding="utf-8")
+    captions = re.findall(r"<figcaption>Figure \d+\. (.*?)</figcaption>", text)
+    assert {"Travel: Slider 5", "Angle: Link 3, Link 6, Link 4", "Transmission angle"} <= {*captions}
+    assert "Velocity of centres of mass: Link 3" in captions
 
 
 # What the printed report on the press prints or plots.

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from linkanim.recorder.gallery import reduced
 from linkanim.recorder.palette import make_palette
 
 
@@ -19,6 +20,11 @@ def as_set(palette: NDArray[np.uint8]) -> set[tuple[int, ...]]:
 def test_few_colours_are_all_kept() -> None:
     samples = [frame((1, 2, 3), (4, 5, 6)), frame((4, 5, 6), (7, 8, 9))]
     assert as_set(make_palette(samples)) == {(1, 2, 3), (4, 5, 6), (7, 8, 9)}
+
+
+def test_a_sheet_of_few_colours_keeps_each_in_its_place() -> None:
+    picture = np.array([[(200, 30, 4), (5, 60, 250)], [(9, 99, 9), (200, 30, 4)]], np.uint8)
+    assert (reduced(picture) == picture).all()
 
 
 def test_given_colours_come_first_and_once() -> None:

@@ -184,7 +184,8 @@ def test_sizes_that_cannot_be_recorded_are_refused(size: tuple[int, int]) -> Non
         refuse_size(size)
 
 
-def test_the_largest_picture_and_the_longest_clip_are_taken() -> None:
+def test_the_largest_picture_and_the_slowest_and_the_longest_clip_are_taken() -> None:
+    assert make_plan(at(0.1, fps=0.01), "png").frames == 6
     refuse_size((LARGEST_SIDE, 16))
     assert make_plan(at(20, seconds=MOST_FRAMES / 25), "mp4").frames == MOST_FRAMES
     with pytest.raises(BadInput, match="more than 100000"):

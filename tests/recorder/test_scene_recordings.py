@@ -165,6 +165,11 @@ def kept(tape: Tape, folder: Path) -> Path:
     return path
 
 
+def test_a_tape_is_refused_at_a_size_that_no_picture_has(tmp_path: Path) -> None:
+    with pytest.raises(BadInput, match="-5x90 cannot be recorded"):
+        record_tape(kept(tape((3, Action("theme"))), tmp_path), tmp_path / "tape.gif", size=(-5, 90))
+
+
 @pytest.mark.slow
 def test_a_tape_in_which_nothing_is_done_is_the_scenes_loop(tmp_path: Path) -> None:
     made = record_tape(kept(tape(frames=7), tmp_path), tmp_path / "tape.gif", size=SIZE, fps=10)
