@@ -11,6 +11,7 @@ import pygame
 from numpy.typing import NDArray
 
 from linkanim.picture.raster.directions import directions
+from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.raster.raster import Colour
 from linkanim.picture.text.text import Type
 
@@ -68,13 +69,12 @@ def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.uint8], int]:
     Also how many rows of the line are left out above it.
     """
     large = _FINE * size
-    sheet = pygame.Surface((kind.width(text, large, strong=True) + _FINE, 2 * large), pygame.SRCALPHA, 32)
+    sheet = offscreen((kind.width(text, large, strong=True) + _FINE, 2 * large), alpha=True)
     kind.draw(sheet, text, (_FINE // 2, large // 2), size=large, colour=(255, 255, 255), strong=True)
-    levels = np.frombuffer(pygame.image.tobytes(sheet, "RGBA"), np.uint8)
-    cover = levels[3::4].copy().reshape(sheet.get_height(), sheet.get_width())
+    cover = np.frombuffer(pixel_view(sheet), np.uint8)[3::4].reshape(2 * large, -1)
     rows = np.flatnonzero(cover.any(axis=1))
     first, last = (int(rows[0]), int(rows[-1])) if rows.size else (0, 0)
-    return cover[first : last + 1], first - large // 2
+    return cover[first : last + 1].copy(), first - large // 2
 
 
 def _haloed(cover: NDArray[np.uint8], halo: int, colours: tuple[Colour, Colour]) -> NDArray[np.float32]:
@@ -83,24 +83,30 @@ def _haloed(cover: NDArray[np.uint8], halo: int, colours: tuple[Colour, Colour])
     They are parted by row and column within a pixel: (`_FINE`, `_FINE`, 4, height, width) in pixels, so that
     an average is made of whole arrays, however far the line is shifted.
     """
-    begin = _FINE + halo + 1
+    begin, (high, wide) = _FINE + halo + 1, cover.shape
     room = tuple(-(-(side + 2 * begin + _FINE) // _FINE) * _FINE for side in cover.shape)
     letters = np.zeros(room, np.uint8)
-    letters[begin : begin + cover.shape[0], begin : begin + cover.shape[1]] = cover
+    letters[begin : begin + high, begin : begin + wide] = cover
     around = letters.copy()
-    for turn in directions(np.linspace(0, 2 * np.pi, 24, endpoint=False)):
-        top, left = begin + round(halo * turn.imag), begin + round(halo * turn.real)
-        under = around[top : top + cover.shape[0], left : left + cover.shape[1]]
-        np.maximum(under, cover, out=under)
+    # what is empty about them lets whole rows be shifted at once, as they lie in memory
+    first, end = begin * room[1], (begin + high) * room[1]
+    inked, flat = letters.ravel()[first:end], around.ravel()
+    ring = np.rint(halo * directions(np.linspace(0, 2 * np.pi, 24, endpoint=False)))
+    for aside in (ring.imag * room[1] + ring.real).astype(int).tolist():
+        under = flat[first + aside : end + aside]
+        np.maximum(under, inked, out=under)
     share, opacity = (
         levels.reshape(-1, _FINE, room[1] // _FINE, _FINE).transpose(1, 3, 0, 2).astype(np.float32, order="C")
         / 255
         for levels in (letters, around)
     )
-    inks, backs = (np.array(colour, np.float32) / 255 for colour in colours)
-    rest = np.maximum(opacity - share, 0)
-    mixed = (share * own + rest * other for own, other in zip(inks, backs, strict=True))
-    return np.stack([*mixed, opacity], axis=2)
+    rest = opacity - share
+    parts = np.empty((_FINE, _FINE, 4, *share.shape[2:]), np.float32)
+    for n, (ink, back) in enumerate(zip(*colours, strict=True)):
+        mixed = np.multiply(share, np.float32(ink / 255), out=parts[:, :, n])
+        mixed += rest * np.float32(back / 255)
+    parts[:, :, 3] = opacity
+    return parts
 
 
 def _averaged(parts: NDArray[np.float32], shift: tuple[int, int], size: tuple[int, int]) -> pygame.Surface:
