@@ -234,18 +234,12 @@ def _mathml_call(name: str, parts: Sequence[str]) -> str:
     return f"<mrow><mi>{name}</mi><mo>&#x2061;</mo>{_THIN}<mrow>{parts[0]}</mrow></mrow>"
 
 
-_MATHML_SIGNS = {
-    "": f"<mo>&#x2062;</mo>{_THIN}",
-    "·": "<mo>·</mo>",
-    "+": "<mo>+</mo>",
-    "-": "<mo>−</mo>",
-    "=": "<mo>=</mo>",
-}
+_SIGNS = {sign: f"<mo>{sign.replace('-', '−')}</mo>" for sign in "·+-="} | {"": f"<mo>&#x2062;</mo>{_THIN}"}
 
 MATHML = Notation(
     symbol=_mathml_symbol,
     number=_mathml_number,
-    infix=lambda sign, a, b: f"{a}{_MATHML_SIGNS[sign]}{b}",
+    infix=lambda sign, a, b: f"{a}{_SIGNS[sign]}{b}",
     fraction=lambda a, b: f"<mfrac><mrow>{a}</mrow><mrow>{b}</mrow></mfrac>",
     root=lambda a: f"<msqrt>{a}</msqrt>",
     squared=lambda a: f"<msup><mrow>{a}</mrow><mn>2</mn></msup>",

@@ -10,6 +10,8 @@ from typing import NamedTuple
 from linkanim.digits import rounded
 from linkanim.mechanics.facts.effort import effort_token
 from linkanim.mechanics.facts.register import Quantity, called
+from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.motion.measures import TRAVELLING, TURNING, coefficients_of
 from linkanim.paper.curves import Pace
 from linkanim.paper.findings import Instant, Values, place_of
 
@@ -18,20 +20,6 @@ _MOST_SPEEDS = 4
 _MOST_JOINTS = 10
 """More take the traced ones, then the first; all stand in the table of every quantity."""
 
-_TURNING = {
-    "angle": "θ",
-    "coefficient": "h",
-    "second_coefficient": "h′",
-    "angular_velocity": "ω",
-    "angular_acceleration": "α",
-}
-_SLIDING = {
-    "travel": "s",
-    "coefficient": "f",
-    "second_coefficient": "f′",
-    "travel_velocity": "v",
-    "travel_acceleration": "a",
-}
 _POINT = {"position.x": "x", "position.y": "y", "velocity": "v", "acceleration": "a"}
 _CENTRE = {f"com_{name}": symbol for name, symbol in _POINT.items()}
 _STRUT = {"length": "L", "direction": "θ", "rate": "v", "force": "F"}
@@ -97,8 +85,8 @@ def _families(values: Values) -> Iterator[Family]:
     kept = moving[:_MOST_JOINTS]
     in_order = tuple((joint.name, joint.name) for joint in linkage.joints if joint.name in kept)
     struts = tuple((strut.name, strut.name) for strut in linkage.springs + linkage.dampers)
-    yield Family("Links", _LINKS, "link", turning, _TURNING)
-    yield Family("Sliders", _SLIDERS, "slider", sliding, _SLIDING)
+    yield Family("Links", _LINKS, "link", turning, _symbols(linkage, turning=True))
+    yield Family("Sliders", _SLIDERS, "slider", sliding, _symbols(linkage, turning=False))
     yield Family("Joints", _POINTS, "joint", in_order, _POINT)
     yield Family("Centres of mass", _POINTS, "link", massive, _CENTRE)
     yield Family("Springs and dampers", _STRUTS, "element", struts, _STRUT)
@@ -109,6 +97,12 @@ def _families(values: Values) -> Iterator[Family]:
         for token in symbols
     )
     yield Family("The whole mechanism", about, "", (("", ""),) if symbols else (), symbols)
+
+
+def _symbols(linkage: Linkage, *, turning: bool) -> dict[str, str]:
+    """Return the symbols of what bodies that turn, or slide, have, the kinematic coefficients second."""
+    place, *rates = TURNING if turning else TRAVELLING
+    return {one.name: one.symbol for one in (place, *coefficients_of(linkage, turning=turning), *rates)}
 
 
 def _quantity(values: Values, part: str, measure: str) -> Quantity | None:

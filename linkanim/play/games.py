@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from importlib import import_module
-from types import MappingProxyType
 from typing import cast
 
 from linkanim.errors import BadInput
@@ -11,16 +10,8 @@ from linkanim.play.words import GameWords
 from linkanim.player.state.state import Game
 from linkanim.units import shown
 
-GAMES: MappingProxyType[str, str] = MappingProxyType(
-    {
-        "title": "linkanim.play.title",
-        "lobby": "linkanim.play.lobby",
-        "menu": "linkanim.play.menu",
-        "predict": "linkanim.play.predict",
-        "follow": "linkanim.play.follow",
-        "match": "linkanim.play.match.game",
-    }
-)
+_MODULES = ("title", "lobby", "menu", "predict", "follow", "match.game")
+GAMES = {module.partition(".")[0]: f"linkanim.play.{module}" for module in _MODULES}
 """Where each kind lives, imported when it is first played: a module with `read(words)`."""
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 from linkanim.errors import BadInput
 from linkanim.picture.panels.overlay import Choice, GamePanel, Overlay
@@ -16,9 +15,11 @@ from linkanim.player.state.state import State
 from linkanim.scenes import chapters, names
 from linkanim.units import shown
 
-_ABOUT = MappingProxyType(
-    {1: "which way, how fast, how far", 2: "dead centres, closures, curves", 3: "instant centres and forces"}
-)
+_ABOUT = {
+    1: "which way, how fast, how far",
+    2: "dead centres, closures, curves",
+    3: "instant centres and forces",
+}
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 from math import hypot, isfinite
-from types import MappingProxyType
 
 import numpy as np
 
@@ -21,12 +20,8 @@ _SAMPLES = 72
 """Values of a curve."""
 _APART = 0.3
 """Curves that differ by less, of their greatest value, could be taken for one."""
-_FACTORS = MappingProxyType(
-    {1: "as large as before", 2: "twice as large", 4: "four times as large", 8: "eight times as large"}
-)
-_GOES_WITH = MappingProxyType(
-    {1: "a spring's force", 2: "a velocity or a damper's force", 4: "an acceleration", 8: "a power"}
-)
+_FACTORS = {1: "as large as before", 2: "twice as large", 4: "four times as large", 8: "eight times as large"}
+_GOES_WITH = {1: "a spring's force", 2: "a velocity or a damper's force", 4: "an acceleration", 8: "a power"}
 """What becomes so large when the speed doubles."""
 
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from types import MappingProxyType
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from linkanim.play.kinds import gaining, moving, ranging
@@ -19,24 +18,22 @@ class QuestionKind(NamedTuple):
     levels: tuple[int, ...]
 
 
-KINDS: MappingProxyType[str, QuestionKind] = MappingProxyType(
-    {
-        "turning": QuestionKind(moving.turning, (1,)),
-        "fastest": QuestionKind(moving.fastest, (1, 2)),
-        "heading": QuestionKind(moving.heading, (1, 2)),
-        "input range": QuestionKind(ranging.input_range, (1, 2)),
-        "doubled": QuestionKind(gaining.doubled, (1, 2)),
-        "grashof": QuestionKind(ranging.grashof, (1, 2)),
-        "speeding": QuestionKind(gaining.speeding, (2, 3)),
-        "dead centre": QuestionKind(ranging.dead_centre, (2, 3)),
-        "closure": QuestionKind(ranging.closure, (2, 3)),
-        "coriolis": QuestionKind(gaining.coriolis, (2, 3)),
-        "curves": QuestionKind(gaining.curves, (2, 3)),
-        "instant centre": QuestionKind(moving.instant_centre, (3,)),
-        "force": QuestionKind(gaining.force, (3,)),
-        "grashof sum": QuestionKind(ranging.grashof_sum, (3,)),
-    }
-)
+KINDS: Mapping[str, QuestionKind] = {
+    "turning": QuestionKind(moving.turning, (1,)),
+    "fastest": QuestionKind(moving.fastest, (1, 2)),
+    "heading": QuestionKind(moving.heading, (1, 2)),
+    "input range": QuestionKind(ranging.input_range, (1, 2)),
+    "doubled": QuestionKind(gaining.doubled, (1, 2)),
+    "grashof": QuestionKind(ranging.grashof, (1, 2)),
+    "speeding": QuestionKind(gaining.speeding, (2, 3)),
+    "dead centre": QuestionKind(ranging.dead_centre, (2, 3)),
+    "closure": QuestionKind(ranging.closure, (2, 3)),
+    "coriolis": QuestionKind(gaining.coriolis, (2, 3)),
+    "curves": QuestionKind(gaining.curves, (2, 3)),
+    "instant centre": QuestionKind(moving.instant_centre, (3,)),
+    "force": QuestionKind(gaining.force, (3,)),
+    "grashof sum": QuestionKind(ranging.grashof_sum, (3,)),
+}
 
 
 def of_level(level: int) -> tuple[str, ...]:
