@@ -41,15 +41,15 @@ def move(building: Building, x: float, y: float, *, snap: float) -> Building:
     Numbers follow, but for typed ones.
     """
     draft, thing = building.draft, building.chosen
-    x, y = snapped(x, y, snap)
+    place = snapped(complex(x, y), snap)
     if thing and thing[0] == JOINT:
         scene = building.made.scene
         phase = draft.phase if scene is None or scene.info.full_turn else None
-        return changed(building, moved(draft, thing[1], complex(x, y), snap, phase), thing)
+        return changed(building, moved(draft, thing[1], place, snap, phase), thing)
     if thing and thing[0] == "guides" and (*thing, "offset") not in draft.typed:
         table = {**draft.of("guides")[thing[1]], "offset": 0}
         start, way = line_of(draft, table)
-        offset = round_number(((complex(x, y) - start) * way.conjugate()).imag, snap)
+        offset = round_number(((place - start) * way.conjugate()).imag, snap)
         return changed(building, fitted(with_number(draft, (*thing, "offset"), offset)), thing)
     return refused(building, "Choose a joint or a guide to move it")
 

@@ -80,9 +80,9 @@ class Draft:
         """Return the draft with these tables as all of a kind."""
         return replace(self, tables={**self.tables, kind: tables})
 
-    def placing(self, name: str, place: Point) -> Draft:
-        """Return the draft with a joint at a place."""
-        return replace(self, places={**self.places, name: place})
+    def placing(self, name: str, place: complex) -> Draft:
+        """Return the draft with a joint at a place, x + yi."""
+        return replace(self, places={**self.places, name: (place.real, place.imag)})
 
     @property
     def unit(self) -> str:

@@ -20,13 +20,13 @@ SHARES = (0.25, 0.12, 0.06, 0.03, 0.015)
 """How far a new slider or cylinder goes to both sides, in the length of its bar or of itself."""
 
 
-def pin(building: Building, x: float, y: float, *, snap: float) -> Building:
+def pin(building: Building, at: complex, *, snap: float) -> Building:
     """Return the building with a ground pin at a point, which is snapped to multiples of `snap`."""
-    draft, name = _with_pin(building.draft, x, y, snap)
+    draft, name = _with_pin(building.draft, at, snap)
     return changed(building, draft, (JOINT, name))
 
 
-def bar(building: Building, start: str, end: Thing | None, x: float, y: float, *, snap: float) -> Building:
+def bar(building: Building, start: str, end: Thing | None, at: complex, *, snap: float) -> Building:
     """Return the building with a bar from a joint, let go at a point.
 
     On another joint it is joined there; on a guide it makes a slider, on a bar a joint in its slot; on paper
@@ -42,31 +42,29 @@ def bar(building: Building, start: str, end: Thing | None, x: float, y: float, *
     else:
         if end and end[0] == "bars" and start in draft.ends(end[1]):
             return refused(building, f"{start} is an end of that bar: let go beside it, or on another bar")
-        draft, name = _with_joint(draft, end, x, y, snap)
+        draft, name = _with_joint(draft, end, at, snap)
     if place_of(draft, name) == place_of(draft, start):
         return refused(building, f"A bar needs a length: let go further from {start}")
     draft = _with_bar(draft, start, name, snap)
     return changed(building, draft, ("bars", draft.bar(start, name) or ""))
 
 
-def point(building: Building, name: str, x: float, y: float, *, snap: float) -> Building:
+def point(building: Building, name: str, place: complex, *, snap: float) -> Building:
     """Return the building with a point on the body of a bar."""
     draft, on = building.draft, building.draft.ends(name)
-    new, at = joint_name(draft, point=True), at_on(draft, on, complex(x, y), snap)
+    new, at = joint_name(draft, point=True), at_on(draft, on, place, snap)
     if at == [0, 0]:
         return refused(building, f"That is {on[0]} itself: a point of a body lies beside its joints")
-    draft = draft.placing(new, (x, y)).having("points", new, {"on": on, "at": at})
+    draft = draft.placing(new, place).having("points", new, {"on": on, "at": at})
     for body, table in draft.of("bodies").items():
         if set(on) <= set(table.get("joints", ())):
             draft = draft.having("bodies", body, {**table, "joints": [*table["joints"], new]})
     return changed(building, draft, (JOINT, new))
 
 
-def guide(
-    building: Building, start: Thing | None, x: float, y: float, to_x: float, to_y: float, *, snap: float
-) -> Building:
+def guide(building: Building, start: Thing | None, begin: complex, end: complex, *, snap: float) -> Building:
     """Return the building with a line through a point: on the ground, or on the body of a joint or a bar."""
-    draft, way = building.draft, complex(to_x - x, to_y - y)
+    draft, way = building.draft, end - begin
     if not way:
         return refused(building, "A guide needs a direction: drag along it")
     through, on = _carrier(draft, start)
@@ -74,23 +72,23 @@ def guide(
         axis = place_of(draft, on[1]) - place_of(draft, on[0])
         way *= axis.conjugate() / abs(axis)
     elif not draft.of("pins"):
-        draft, through = _with_pin(draft, x, y, snap)
-    through = through or min(draft.of("pins"), key=lambda pin: abs(place_of(draft, pin) - complex(x, y)))
+        draft, through = _with_pin(draft, begin, snap)
+    through = through or min(draft.of("pins"), key=lambda pin: abs(place_of(draft, pin) - begin))
     table: dict[str, Any] = {"on": on} if on else {}
     table |= {"through": through, "angle": round_angle(way, snap)}
     direction = line_of(draft, table)[1]
-    offset = ((complex(x, y) - place_of(draft, through)) * direction.conjugate()).imag
+    offset = ((begin - place_of(draft, through)) * direction.conjugate()).imag
     if start is None or start[0] != JOINT:
         table["offset"] = round_number(offset, snap)
     name = numbered(draft, "guides", "guide")
     return changed(building, draft.having("guides", name, table), ("guides", name))
 
 
-def slider(building: Building, joint: str | None, name: str, x: float, y: float, *, snap: float) -> Building:
+def slider(building: Building, joint: str | None, name: str, at: complex, *, snap: float) -> Building:
     """Return the building with a joint on a guide: a new one at a point, or one that is there."""
     draft = building.draft
     if joint is None:
-        draft, joint = _with_joint(draft, ("guides", name), x, y, snap)
+        draft, joint = _with_joint(draft, ("guides", name), at, snap)
     elif held := next((kind for kind in ("pins", "points", "sliders") if joint in draft.of(kind)), None):
         words = {"pins": "stands on the ground", "points": "is a point of a body"}
         return refused(building, f"{joint} {words.get(held, 'slides on a guide')} already")
@@ -126,12 +124,12 @@ def gear(building: Building, joint: str, mate: str, *, snap: float) -> Building:
 
 
 def strut(
-    building: Building, kind: str, start: str, end: str | None, x: float, y: float, *, snap: float
+    building: Building, kind: str, start: str, end: str | None, at: complex, *, snap: float
 ) -> Building:
     """Return the building with a spring or a damper between joints; on paper it ends on a new ground pin."""
     draft = building.draft
     if end is None:
-        draft, end = _with_pin(draft, x, y, snap)
+        draft, end = _with_pin(draft, at, snap)
     if start == end:
         return refused(building, f"A {kind} has two ends: let go further from {start}")
     kinds = f"{kind}s"
@@ -234,18 +232,18 @@ def _carrier(draft: Draft, start: Thing | None) -> tuple[str | None, list[str]]:
     return None, []
 
 
-def _with_pin(draft: Draft, x: float, y: float, snap: float) -> tuple[Draft, str]:
-    name, place = pin_name(draft), snapped(x, y, snap)
-    written = [round_number(part, 0.0) for part in place]
+def _with_pin(draft: Draft, at: complex, snap: float) -> tuple[Draft, str]:
+    name, place = pin_name(draft), snapped(at, snap)
+    written = [round_number(part, 0.0) for part in (place.real, place.imag)]
     return draft.placing(name, place).having("pins", name, written), name
 
 
-def _with_joint(draft: Draft, end: Thing | None, x: float, y: float, snap: float) -> tuple[Draft, str]:
+def _with_joint(draft: Draft, end: Thing | None, at: complex, snap: float) -> tuple[Draft, str]:
     """Return the draft with a new joint at a point: on paper, on a guide, or in the slot of a bar."""
-    name, place = joint_name(draft), complex(*snapped(x, y, snap))
+    name, place = joint_name(draft), snapped(at, snap)
     if end and end[0] == "guides":
         place = foot(draft, end[1], place)
-    draft = draft.placing(name, (place.real, place.imag))
+    draft = draft.placing(name, place)
     if end and end[0] == "guides":
         draft = _with_slider(draft, name, end[1])
     return (_with_slot(draft, end[1], name) if end and end[0] == "bars" else draft), name

@@ -23,7 +23,7 @@ def moved(draft: Draft, joint: str, place: complex, snap: float, phase: float | 
     """
     if joint in draft.of("sliders"):
         place = foot(draft, draft.of("sliders")[joint]["guide"], place)
-    draft = draft.placing(joint, (place.real, place.imag))
+    draft = draft.placing(joint, place)
     sides = draft.of("sides").items()
     kept = {name: table for name, table in sides if joint != name and joint not in table["joints"]}
     draft = draft.having_all("sides", kept)
@@ -80,8 +80,7 @@ def fitted(draft: Draft) -> Draft:
     """
     done = draft
     for name in draft.places:
-        place = _fitted(done, name)
-        done = done.placing(name, (place.real, place.imag))
+        done = done.placing(name, _fitted(done, name))
     return done
 
 

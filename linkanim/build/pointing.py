@@ -42,9 +42,9 @@ def click(building: Building, tool: str, x: float, y: float, *, reach: float, sn
     """
     thing = under(building.draft, x, y, reach)
     if thing is None:
-        return gestures.pin(building, x, y, snap=snap)
+        return gestures.pin(building, complex(x, y), snap=snap)
     if tool == "slider" and thing[0] == "guides":
-        return gestures.slider(building, None, thing[1], x, y, snap=snap)
+        return gestures.slider(building, None, thing[1], complex(x, y), snap=snap)
     return choose_thing(building, *thing)
 
 
@@ -53,42 +53,40 @@ def double_click(building: Building, x: float, y: float, *, reach: float, snap: 
     thing = under(building.draft, x, y, reach)
     if thing is None or thing[0] != "bars":
         return refused(building, "A point lies on a body: double-click on a bar")
-    return gestures.point(building, thing[1], *snapped(x, y, snap), snap=snap)
+    return gestures.point(building, thing[1], snapped(complex(x, y), snap), snap=snap)
 
 
 def drag(
     building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
 ) -> Building:
     """Return the building after a drag with a tool, from what lies at its start to what lies at its end."""
-    draft = building.draft
+    draft, to = building.draft, complex(to_x, to_y)
     start, end = under(draft, x, y, reach), under(draft, to_x, to_y, reach)
     if tool == "move":
         chosen = choose_thing(building, *start) if start else building
         return move(chosen, to_x, to_y, snap=snap)
     if tool == "guide":
-        if start and start[0] == JOINT:
-            x, y = draft.places[start[1]]
-        to_x, to_y = snapped(to_x, to_y, snap)
-        return gestures.guide(building, start, x, y, to_x, to_y, snap=snap)
+        begin = place_of(draft, start[1]) if start and start[0] == JOINT else complex(x, y)
+        return gestures.guide(building, start, begin, snapped(to, snap), snap=snap)
     if tool == "bar" and start and start[0] == "bars":
-        return gestures.point(building, start[1], *snapped(to_x, to_y, snap), snap=snap)
+        return gestures.point(building, start[1], snapped(to, snap), snap=snap)
     if start is None or start[0] != JOINT:
         return refused(building, f"Begin a {tool} at a pin or a joint; a click sets a ground pin")
-    return _from_joint(building, tool, start[1], end, to_x, to_y, snap)
+    return _from_joint(building, tool, start[1], end, to, snap)
 
 
 def _from_joint(
-    building: Building, tool: str, start: str, end: Thing | None, x: float, y: float, snap: float
+    building: Building, tool: str, start: str, end: Thing | None, at: complex, snap: float
 ) -> Building:
     """Return the building after a drag from a joint."""
     kind, name = end or ("", "")
     other = name if kind == JOINT else None
     if tool == "bar":
-        return gestures.bar(building, start, end, x, y, snap=snap)
+        return gestures.bar(building, start, end, at, snap=snap)
     if tool in ("spring", "damper"):
-        return gestures.strut(building, tool, start, other, x, y, snap=snap)
+        return gestures.strut(building, tool, start, other, at, snap=snap)
     if tool == "slider" and kind == "guides":
-        return gestures.slider(building, start, name, x, y, snap=snap)
+        return gestures.slider(building, start, name, at, snap=snap)
     if tool == "slot" and end:
         return gestures.slot(building, start, end)
     if tool == "gear" and other:

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from math import atan2, degrees, radians
 
-from linkanim.mechanics.linkage.joint import Point
-
 FREE = 1e-3
 """The step of what is drawn without snapping, in its unit."""
 _ANGLES = (1.0, 0.1, 0.01, 0.001)
 
 
-def snapped(x: float, y: float, step: float) -> Point:
-    """Return the nearest point whose coordinates are multiples of a step; 0 is the finest."""
-    return _multiple(x, step or FREE), _multiple(y, step or FREE)
+def snapped(place: complex, step: float) -> complex:
+    """Return the nearest place, x + yi, whose coordinates are multiples of a step; 0 is the finest."""
+    return complex(_multiple(place.real, step or FREE), _multiple(place.imag, step or FREE))
 
 
 def round_number(value: float, step: float) -> int | float:

@@ -36,7 +36,7 @@ def _shapes(draft: Draft) -> Iterator[Shape]:
     for name, guide in draft.of("guides").items():
         start, way = line_of(draft, guide)
         on_it = [draft.places[joint] for joint, one in draft.of("sliders").items() if one["guide"] == name]
-        yield Shape(("guides", name), "guides", (_point(start), _point(start + way), *on_it), name)
+        yield Shape(("guides", name), "guides", (as_point(start), as_point(start + way), *on_it), name)
     for name, gear in draft.of("gears").items():
         yield from _wheels(draft, name, gear["with"], float(Fraction(gear["ratio"])))
     for name, table in draft.of("bars").items():
@@ -60,7 +60,7 @@ def _wheels(draft: Draft, joint: str, mate: str, ratio: float) -> Iterator[Shape
         return
     own, other = (place_of(draft, str(pivot)) for pivot in pivots)
     touching = own + (other - own) / (1 + abs(ratio))
-    yield Shape(("gears", joint), "gears", (_point(own), _point(other), _point(touching)), joint)
+    yield Shape(("gears", joint), "gears", (as_point(own), as_point(other), as_point(touching)), joint)
 
 
 def _blocks(draft: Draft) -> Iterator[Shape]:
@@ -68,17 +68,18 @@ def _blocks(draft: Draft) -> Iterator[Shape]:
     for joint, slider in draft.of("sliders").items():
         way = line_of(draft, draft.of("guides")[slider["guide"]])[1]
         yield Shape(
-            (JOINT, joint), "sliders", (draft.places[joint], _point(place_of(draft, joint) + way)), joint
+            (JOINT, joint), "sliders", (draft.places[joint], as_point(place_of(draft, joint) + way)), joint
         )
     for name, slot in draft.of("slots").items():
         first, second = (place_of(draft, end) for end in draft.ends(slot["bar"]))
         at = place_of(draft, slot["through"])
-        yield Shape(("slots", name), "slots", (_point(at), _point(at + second - first)), name)
+        yield Shape(("slots", name), "slots", (as_point(at), as_point(at + second - first)), name)
     for joint, yoke in draft.of("yokes").items():
         pin, own = place_of(draft, yoke["pin"]), place_of(draft, joint)
         further = pin + (pin - own if pin != own else 1)
-        yield Shape(("yokes", joint), "yokes", (_point(pin), _point(further)), joint)
+        yield Shape(("yokes", joint), "yokes", (as_point(pin), as_point(further)), joint)
 
 
-def _point(place: complex) -> Point:
+def as_point(place: complex) -> Point:
+    """Return a place, x + yi, by its coordinates."""
     return place.real, place.imag

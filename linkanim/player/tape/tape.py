@@ -82,17 +82,10 @@ def starting(state: State) -> State:
     """Return the state as a tape starts from it: frame 0, standing where it stands, nothing to be done."""
     state = leave(state) if state.game else state
     clock, sketch = state.clock.go(0, state.phase), state.sketch or state.building
-    return State(
-        scene=sketch.before if sketch else state.scene,
-        clock=clock.at_rate(0, sketch.clock.rate) if sketch else clock,
-        shelf=state.shelf,
-        place=state.place,
-        look=state.look,
-        help=state.help,
-        editing=sketch.editing if sketch else state.editing,
-        kept=state.kept,
-        games=state.games,
-    )
+    kept = {name: getattr(state, name) for name in ("shelf", "place", "look", "help", "kept", "games")}
+    if sketch:
+        return State(sketch.before, clock.at_rate(0, sketch.clock.rate), editing=sketch.editing, **kept)
+    return State(state.scene, clock, editing=state.editing, **kept)
 
 
 def resumed(state: State) -> Iterator[Action]:

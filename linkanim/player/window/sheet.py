@@ -10,7 +10,7 @@ from linkanim.build.order import line_of
 from linkanim.build.places import foot, from_span
 from linkanim.build.pointing import under
 from linkanim.build.rounding import snapped
-from linkanim.build.shapes import Shape, drawn
+from linkanim.build.shapes import Shape, as_point, drawn
 from linkanim.digits import significant, typeset
 from linkanim.mechanics.linkage.joint import Point
 from linkanim.picture.panels.building import BuildShown, DraftShown, Rubber, Snap, ToolBar, ToolShown
@@ -105,7 +105,8 @@ def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
     if sheet.tool in ("move", "photo") or (sheet.tool in _STRETCHED and (start is None or start[0] != JOINT)):
         return None
     begin = seen.places[start[1]] if start and start[0] == JOINT else grip.begin
-    end = _met(seen, under(seen, *grip.at, grip.reach), grip.at) or snapped(*grip.at, grip.snap)
+    hand = as_point(snapped(complex(*grip.at), grip.snap))
+    end = _met(seen, under(seen, *grip.at, grip.reach), grip.at) or hand
     across, up = end[0] - begin[0], end[1] - begin[1]
     long, angle = hypot(across, up), degrees(atan2(up, across))
     digits = f"{significant(long, 4)} {seen.unit} · {significant(angle, 3)}°"
@@ -117,8 +118,7 @@ def _met(seen: Draft, thing: Thing | None, at: Point) -> Point | None:
     if thing and thing[0] == JOINT:
         return seen.places[thing[1]]
     if thing and thing[0] == "guides":
-        place = foot(seen, thing[1], complex(*at))
-        return place.real, place.imag
+        return as_point(foot(seen, thing[1], complex(*at)))
     return None
 
 
@@ -134,10 +134,10 @@ def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
     if thing[0] == "bars":
         one, other = (seen.places[joint] for joint in seen.ends(thing[1]))
         place = complex(*at) - from_span(complex(*one), complex(*other), complex(*at))
-        return Snap((place.real, place.imag), (one, other))
+        return Snap(as_point(place), (one, other))
     if thing[0] == "guides":
         start, way = line_of(seen, seen.of("guides")[thing[1]])
-        ends = start - 1e3 * reach * way, start + 1e3 * reach * way
-        return Snap(_met(seen, thing, at) or at, ((ends[0].real, ends[0].imag), (ends[1].real, ends[1].imag)))
+        ends = as_point(start - 1e3 * reach * way), as_point(start + 1e3 * reach * way)
+        return Snap(_met(seen, thing, at) or at, ends)
     met = _met(seen, thing, at)
     return Snap(met) if met else None
