@@ -36,15 +36,6 @@ class TurnStep(NamedTuple):
     offset: float = 0.0
 
 
-class MeetStep(NamedTuple):
-    """Two bars that meet, on the left (side +1) or the right of the way between their other ends."""
-
-    name: str
-    ends: tuple[str, str]
-    lengths: tuple[float, float]
-    side: int
-
-
 class SlideStep(NamedTuple):
     """A bar to a slider on a line through `base`; of two places the one further along it for side +1."""
 
@@ -65,8 +56,10 @@ class FixedStep(NamedTuple):
     length: float
 
 
-Step = TurnStep | MeetStep | SlideStep | FixedStep
-Dyad = MeetStep | SlideStep
+Step = TurnStep | RRR | SlideStep | FixedStep
+Dyad = RRR | SlideStep
+Closing = Callable[[Dyad, Places], Any]
+"""Gives where a dyad's joint lies, from the places before it."""
 
 
 class DyadChain(NamedTuple):
@@ -78,11 +71,12 @@ class DyadChain(NamedTuple):
     @property
     def dyads(self) -> tuple[Dyad, ...]:
         """The steps that have two closures."""
-        return tuple(step for step in self.steps if isinstance(step, MeetStep | SlideStep))
+        return tuple(step for step in self.steps if isinstance(step, RRR | SlideStep))
 
 
 def chain_of(linkage: Linkage) -> DyadChain:
     """Return a linkage of pins, cranks, two kinds of dyads on fixed lines, and points of bodies as steps."""
+    lengths = {frozenset((end, joint.name)): length for joint in linkage.joints for end, length in joint.bars}
     pins: dict[str, complex] = {}
     steps: list[Step] = []
     for joint in linkage.joints:
@@ -93,30 +87,15 @@ def chain_of(linkage: Linkage) -> DyadChain:
                 gear = (float(joint.gear.ratio), joint.gear.offset) if joint.gear else (1.0, 0.0)
                 steps.append(TurnStep(joint.name, joint.pivot, joint.length, *gear))
             case RRR():
-                steps.append(MeetStep(joint.name, joint.ends, joint.lengths, joint.side))
+                steps.append(joint)
             case RRP():
                 along = cmath.rect(1.0, joint.line.angle)
                 base = pins[joint.line.through] + 1j * along * joint.line.offset
                 steps.append(SlideStep(joint.name, joint.end, joint.length, base, along, joint.side))
             case Rigid():
-                (length,) = (lengths for ends, lengths in _bars(steps) if ends == frozenset(joint.on))
+                length = lengths[frozenset(joint.on)]
                 steps.append(FixedStep(joint.name, joint.on, complex(*joint.at), length))
     return DyadChain(pins, tuple(steps))
-
-
-def _bars(steps: list[Step]) -> list[tuple[frozenset[str], float]]:
-    """Return the two joints of each bar so far, and its length."""
-    found = []
-    for step in steps:
-        match step:
-            case TurnStep():
-                found.append((frozenset((step.pivot, step.name)), step.length))
-            case MeetStep():
-                pairs = zip(step.ends, step.lengths, strict=True)
-                found += [(frozenset((end, step.name)), length) for end, length in pairs]
-            case SlideStep():
-                found.append((frozenset((step.end, step.name)), step.length))
-    return found
 
 
 @dataclass(frozen=True)
@@ -144,18 +123,15 @@ class Question:
     by_angle: bool = False
 
 
-def longest_of(chain: DyadChain) -> float:
-    """Return the longest link of a chain, the ground between two pins included."""
-    pins = list(chain.pins.values())
+def longest_of(linkage: Linkage) -> float:
+    """Return the longest link, the ground between two pins included."""
+    pins = [complex(*pin.position) for pin in linkage.pins]
     grounds = (abs(one - other) for one in pins for other in pins)
-    return max(*(length for _, length in _bars(list(chain.steps))), *grounds)
+    return max(*(length for joint in linkage.joints for _, length in joint.bars), *grounds)
 
 
 def placed(
-    chain: DyadChain,
-    angle: Any,
-    close: Callable[[Dyad, Places], Any],
-    exp: Callable[[Any], Any] = np.exp,
+    chain: DyadChain, angle: Any, close: Closing, exp: Callable[[Any], Any] = np.exp
 ) -> dict[str, Any]:
     """Return where the joints lie at an input's angle, dyads' as `close` gives them.
 
@@ -181,7 +157,7 @@ def circle_dyad(dyad: Dyad, at: Places, side: Any, root: Callable[[Any], Any] = 
 
     Paul Bourke, Circles and spheres (1997). `root` is that of the numbers.
     """
-    if isinstance(dyad, MeetStep):
+    if isinstance(dyad, RRR):
         p, q = (at[end] for end in dyad.ends)
         (a, b), way = dyad.lengths, q - p
         distance = abs(way)

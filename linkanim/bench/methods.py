@@ -24,7 +24,6 @@ from linkanim.bench.chain import (
     DyadChain,
     FixedStep,
     Floats,
-    MeetStep,
     Orders,
     Places,
     Question,
@@ -33,6 +32,7 @@ from linkanim.bench.chain import (
     placed,
     point_on,
 )
+from linkanim.mechanics.linkage.dyads import RRR
 
 INTERVALS = 360
 """Of a table, to one turn."""
@@ -48,7 +48,7 @@ def half_angle_dyad(dyad: Dyad, at: Places, side: Any) -> Any:
     Norton, Design of Machinery, "algebraic position analysis", for the second bar of a pair and the rod of a
     slider.
     """
-    if isinstance(dyad, MeetStep):
+    if isinstance(dyad, RRR):
         p, q = (at[end] for end in dyad.ends)
         (a, b), way = dyad.lengths, q - p
         cosine, sine = 2 * b * way.real, 2 * b * way.imag
@@ -111,7 +111,7 @@ def _rate(dyad: Dyad, at: Places, ends: Places, loads: tuple[Any, Any]) -> Any:
     """
     here = at[dyad.name]
     try:
-        if isinstance(dyad, MeetStep):
+        if isinstance(dyad, RRR):
             (p, q), (one, other) = dyad.ends, (here - at[end] for end in dyad.ends)
             right, also = _dot(one, ends[p]) + loads[0], _dot(other, ends[q]) + loads[1]
             return 1j * (one * also - other * right) / (one.conjugate() * other).imag
@@ -122,7 +122,7 @@ def _rate(dyad: Dyad, at: Places, ends: Places, loads: tuple[Any, Any]) -> Any:
 
 
 def _centripetal(dyad: Dyad, first: Places) -> tuple[Any, Any]:
-    ends = dyad.ends if isinstance(dyad, MeetStep) else (dyad.end,)
+    ends = dyad.ends if isinstance(dyad, RRR) else (dyad.end,)
     loads = [-(np.abs(first[dyad.name] - first[end]) ** 2) for end in ends]
     return loads[0], loads[-1]
 
@@ -157,7 +157,7 @@ def _gathered(poses: Iterator[dict[str, complex]]) -> Places:
 def _improved(dyad: Dyad, at: Places, here: complex, iterations: int) -> complex:
     """Return a dyad's joint after so many iterations; a singular Jacobian gives NaN."""
     try:
-        if isinstance(dyad, MeetStep):
+        if isinstance(dyad, RRR):
             p, q = (at[end] for end in dyad.ends)
             a, b = (length * length for length in dyad.lengths)
             for _ in range(iterations):

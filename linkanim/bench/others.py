@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkanim.bench.chain import Dyad, MeetStep, Orders, Places, Question, SlideStep, TurnStep, joined, placed
+from linkanim.bench.chain import Dyad, Orders, Places, Question, SlideStep, TurnStep, joined, placed
 from linkanim.bench.methods import NOWHERE
+from linkanim.mechanics.linkage.dyads import RRR
 
 
 class Model(NamedTuple):
@@ -57,7 +58,7 @@ def _part(step: Any, made: dict[str, Any], question: Question, rate: float, guid
         case TurnStep():
             angle = step.ratio * float(question.angles[0]) + step.offset
             return Crank(made[step.pivot], step.length, step.ratio * rate, angle)
-        case MeetStep():
+        case RRR():
             ends = [made[end] for end in step.ends]
             return RRRDyad(*ends, *step.lengths, start.real, start.imag)
         case SlideStep():
@@ -124,15 +125,15 @@ def fsolve(question: Question) -> Orders:
 def _found(dyad: Dyad, at: Places, row: int, before: dict[str, complex]) -> complex:
     from scipy.optimize import fsolve as find
 
-    ends = dyad.ends if isinstance(dyad, MeetStep) else (dyad.end,)
-    lengths = dyad.lengths if isinstance(dyad, MeetStep) else (dyad.length,)
+    ends = dyad.ends if isinstance(dyad, RRR) else (dyad.end,)
+    lengths = dyad.lengths if isinstance(dyad, RRR) else (dyad.length,)
     places = [complex(at[end][row]) if np.ndim(at[end]) else complex(at[end]) for end in ends]
     largest = max(lengths) ** 2
 
     def equations(guess: Any) -> list[float]:
         here = complex(guess[0], guess[1])
         ways = [abs(here - place) ** 2 - length**2 for place, length in zip(places, lengths, strict=True)]
-        off = [] if isinstance(dyad, MeetStep) else [((here - dyad.base) * dyad.along.conjugate()).imag]
+        off = [] if isinstance(dyad, RRR) else [((here - dyad.base) * dyad.along.conjugate()).imag]
         return [way / largest for way in ways] + [way / max(lengths) for way in off]
 
     start = before[dyad.name]

@@ -8,7 +8,7 @@ exact to far more than a float has.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -22,7 +22,6 @@ from linkanim.bench.chain import (
     DyadChain,
     FixedStep,
     Floats,
-    MeetStep,
     Places,
     Question,
     SlideStep,
@@ -33,6 +32,7 @@ from linkanim.bench.chain import (
     longest_of,
     placed,
 )
+from linkanim.mechanics.linkage.dyads import RRR
 
 DIGITS = 140
 STEP = mpf(10) ** -22
@@ -94,7 +94,7 @@ def _question(case: Case, path: CasePath, inputs: list[Any], places: Mapping[str
         {name: _floats(sides) for name, sides in named.items()},
         {name: complex(place.high[0]) for name, place in places.items()},
         tuple(places),
-        longest_of(chain),
+        longest_of(case.scene.linkage),
         case.periods,
         case.by_angle,
     )
@@ -142,9 +142,9 @@ class CasePath:
                 return step._replace(**named)
             case FixedStep():
                 return step._replace(at=self._place(step.at), length=self._number(step.length))
-            case MeetStep():
+            case RRR():
                 a, b = map(self._number, step.lengths)
-                return step._replace(lengths=(a, b))
+                return replace(step, lengths=(a, b))
         along = mpc(step.along)
         return step._replace(length=self._number(step.length), base=mpc(step.base), along=along / abs(along))
 
@@ -183,7 +183,7 @@ class CasePath:
         """Return the other closure of each dyad, whose ends lie where they are."""
         found = {}
         for step in self._exact[1]:
-            if isinstance(step, MeetStep | SlideStep):
+            if isinstance(step, RRR | SlideStep):
                 near, far = (closed(step, at, side) for side in (1, -1))
                 apart = [abs(place - at[step.name]) for place in (near, far)]
                 found[step.name] = near if apart[0] > apart[1] else far
@@ -203,7 +203,7 @@ def closed(dyad: Dyad, at: Places, side: int) -> Any:
 
 def crossing(p: Any, q: Any, a: Any, b: Any, side: int) -> Any:
     """Return where circles of radius a about p and b about q cross, left of p -> q for side +1."""
-    return closed(MeetStep("", ("p", "q"), (a, b), side), {"p": p, "q": q}, side)
+    return closed(RRR("", ("p", "q"), (a, b), side), {"p": p, "q": q}, side)
 
 
 def _floats(values: list[Any]) -> Floats:

@@ -10,8 +10,9 @@ import pytest
 from mpmath import mp, mpc, mpf, workdps
 
 from linkanim.bench.cases import FOUR_BAR, MECHANISMS, Case, CaseSet, degrees
-from linkanim.bench.chain import MeetStep, SlideStep, chain_of
+from linkanim.bench.chain import SlideStep, chain_of
 from linkanim.bench.reference import DIGITS, CasePath, answer, crossing
+from linkanim.mechanics.linkage.dyads import RRR
 
 CASES = [
     pytest.param(case, id=f"{mechanism.name}, {case.name}")
@@ -33,7 +34,7 @@ def test_the_bars_have_their_lengths(case: Case) -> None:
             at = path.pose(mpf(given))
             for dyad, (a, b) in _dyads(case):
                 for place in (at[dyad.name], path.others(at)[dyad.name]):
-                    if isinstance(dyad, MeetStep):
+                    if isinstance(dyad, RRR):
                         p, q = (at[end] for end in dyad.ends)
                         assert abs(abs(place - p) - a) < tolerance * a
                         assert abs(abs(place - q) - b) < tolerance * b
