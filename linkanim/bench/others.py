@@ -74,16 +74,14 @@ def pylinkage_fast(substeps: int) -> Callable[[Question], Orders]:
     """
 
     def solve(question: Question) -> Orders:
-        model = pylinkage_model(question, 1.0)
         ways = np.diff(question.angles)
         count = substeps if np.allclose(ways, ways[0], rtol=1e-3, atol=0.0) else 1
-        steps = [0.0, *(ways / count).tolist()]
-        found = []
-        for step, speed, gain in zip(steps, *(rate.tolist() for rate in question.rates), strict=True):
-            model.run_at(speed, gain)
-            orders = model.linkage.step_fast_with_kinematics(count, dt=step)
-            found.append([order[-1] for order in orders])
-        return _orders(np.array(found), model)
+
+        def take(linkage: Any, way: float) -> Any:
+            orders = linkage.step_fast_with_kinematics(count, dt=way / count)
+            return [order[-1] for order in orders]
+
+        return _walked(question, take)
 
     return solve
 
@@ -92,23 +90,24 @@ def pylinkage_step(question: Question) -> Orders:
     """Do the same with step(); what it refuses as unbuildable is NaN."""
     from pylinkage.exceptions import UnbuildableError
 
-    model = pylinkage_model(question, 1.0)
-    count = len(question.angles)
-    found = np.full((count, 3, len(model.linkage.components), 2), np.nan)
-    ways = np.diff(question.angles, prepend=question.angles[0]).tolist()
-    for row, step, speed, gain in zip(found, ways, *(r.tolist() for r in question.rates), strict=True):
-        model.run_at(speed, gain)
+    def take(linkage: Any, way: float) -> Any:
         try:
-            orders = next(model.linkage.step_with_derivatives(1, dt=step))
+            orders = next(linkage.step_with_derivatives(1, dt=way))
         except UnbuildableError:
-            continue
-        for order, values in zip(row, orders, strict=True):
-            order[:] = [(np.nan, np.nan) if value is None else value for value in values]
-    return _orders(found, model)
+            return np.full((3, len(linkage.components), 2), np.nan)
+        return [[(np.nan, np.nan) if value is None else value for value in values] for values in orders]
+
+    return _walked(question, take)
 
 
-def _orders(found: Any, model: Model) -> Orders:
-    orders = np.moveaxis(joined(found), 1, 0)
+def _walked(question: Question, take: Callable[[Any, float], Any]) -> Orders:
+    """Return the poses from input to input, of each order all places as `take` gives them."""
+    model, found = pylinkage_model(question, 1.0), []
+    ways = np.diff(question.angles, prepend=question.angles[0]).tolist()
+    for way, speed, gain in zip(ways, *(rate.tolist() for rate in question.rates), strict=True):
+        model.run_at(speed, gain)
+        found.append(take(model.linkage, way))
+    orders = np.moveaxis(joined(np.array(found)), 1, 0)
     return tuple({name: order[:, row] for name, row in model.rows.items()} for order in orders)
 
 
