@@ -46,14 +46,23 @@ CUTS = 8
 """A dyad may show where it does not close only when the one before it no longer leaves its own range."""
 
 
-def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
+def stopped(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
+    """Return the assembly on the way up that its dyads leave to its input, its ends as floats know them.
+
+    It says how far the input goes; nothing can be solved on it. Arguments and errors are `restricted`'s.
+    """
+    if found.closes:
+        return assembly
+    _refuse_shut(assembly, linkage, found)
+    return replace(assembly, path=_swing(assembly, found, exact=False))
+
+
+def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
     """Return the assembly with its input's path cut back to what every dyad allows.
 
-    `linkage` is the one that was given, with its own lengths, to be named in an AssemblyError.
+    `linkage` is the one that was given, with its own lengths, to be named in an AssemblyError; `found` is how
+    the dyads on moving points fare.
     """
-    if assembly.signs.keys() <= assembly.loops.keys():
-        return assembly
-    found = separations(assembly)
     if not found.names:
         return assembly
     closes = found.closes
@@ -75,21 +84,31 @@ def restricted(assembly: Assembly, linkage: Linkage) -> Assembly:
 
 def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
     """Return the swing around the start on which every dyad closes on the way up, and how they fare on it."""
-    first = found.shut.argmax(axis=0)
-    if found.shut.any(axis=0).all():
-        name = found.names[int(first.max())]
-        most = _most(assembly, name, found.phases)
-        raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
+    _refuse_shut(assembly, linkage, found)
     on_swing, limited = found, assembly
     for _ in range(CUTS):
-        swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing)))
-        if swing.amplitude < NO_WAY:
-            raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
+        swing = _swing(limited, on_swing)
         limited, on_swing = _limited(assembly, swing)
         up = (on_swing.phases > 0) & (on_swing.phases < math.pi)  # at its ends rounding alone decides
         if not on_swing.shut[:, up].any():
             break
     return swing, limited, on_swing
+
+
+def _refuse_shut(assembly: Assembly, linkage: Linkage, found: Separations) -> None:
+    """Refuse a linkage that is closed at no place of its input."""
+    if found.shut.any(axis=0).all():
+        name = found.names[int(found.shut.argmax(axis=0).max())]
+        most = _most(assembly, name, found.phases)
+        raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
+
+
+def _swing(assembly: Assembly, found: Separations, *, exact: bool = True) -> Swing:
+    """Return the swing about the start on which every dyad closes, its ends `exact` or as floats have them."""
+    swing = Swing(*assembly.path.cut(*_open_interval(assembly, found, exact)))
+    if swing.amplitude < NO_WAY:
+        raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
+    return swing
 
 
 def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
@@ -137,7 +156,7 @@ def _runs_through(assembly: Assembly, found: Separations) -> bool:
     )
 
 
-def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit]:
+def _open_interval(assembly: Assembly, found: Separations, exact: bool) -> tuple[Limit, Limit]:
     """Return the ends of the interval around the start, or of the widest one where the start is shut."""
     phases, shut, home = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
     is_open = np.asarray(~shut.any(axis=0))
@@ -145,7 +164,7 @@ def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit
         raise AssemblyError(NO_RANGE)
     first, last = _run_around(is_open, home, phases)
     below, above = (
-        _limit(assembly, found, (phases[inside], phases[outside]), shut[:, outside])
+        _limit(assembly, found, (phases[inside], phases[outside]), shut[:, outside], exact)
         if 0 <= outside < len(phases)
         else (Sum(float(phases[inside])), None)
         for inside, outside in ((first, first - 1), (last, last + 1))
@@ -164,7 +183,7 @@ def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[i
 
 
 def _limit(
-    assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_]
+    assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_], exact: bool
 ) -> tuple[Sum, str]:
     """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
     row = _first_shut(shut, found.margins(np.array(bracket[1:]))[:, 0])
@@ -173,7 +192,8 @@ def _limit(
         inside, outside = (np.array([phase]) for phase in bracket)
         limit = ends_of(lambda phases: found.margins(phases[:, 0])[row, :, None] >= 0, inside, outside)
         start = Sum(float(limit[0]))
-    return refined(assembly, found.names[row], start), found.names[row]
+    name = found.names[row]
+    return refined(assembly, name, start) if exact else start, name
 
 
 def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:

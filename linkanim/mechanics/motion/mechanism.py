@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkanim.mechanics.closing import limits
 from linkanim.mechanics.closing.assemble import assemble
 from linkanim.mechanics.closing.kinds import walked
-from linkanim.mechanics.closing.limits import restricted
+from linkanim.mechanics.closing.separation import Separations, separations
 from linkanim.mechanics.closing.walk import Assembly, Walk
 from linkanim.mechanics.drive.input_path import retraced
 from linkanim.mechanics.formulas.expression import Graph, Value
@@ -263,10 +264,29 @@ def _quantities(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, 
             yield kind, {name: (ways[order] * unscale,) for name, ways in travels.items()}
 
 
+@lru_cache(maxsize=1)
+def _assembled(linkage: Linkage) -> tuple[Assembly, Separations | None]:
+    """Return the linkage put together, and how its dyads on moving points fare, if it has any."""
+    assembly = assemble(linkage)
+    chained = not assembly.signs.keys() <= assembly.loops.keys()
+    return assembly, separations(assembly) if chained else None
+
+
+def stopped(linkage: Linkage) -> Mechanism | None:
+    """Return a linkage whose input does not turn fully, for how far it goes; None of others.
+
+    That is known long before all that it takes to solve it. AssemblyError where it cannot be put together.
+    """
+    assembly, found = _assembled(linkage)
+    assembly = limits.stopped(assembly, linkage, found) if found else assembly
+    return None if assembly.path.full_turn else Mechanism(linkage, assembly)
+
+
 @lru_cache(maxsize=8)
 def mechanism(linkage: Linkage) -> Mechanism:
     """Return the linkage made ready; AssemblyError where it cannot be put together."""
-    found = Mechanism(linkage, restricted(assemble(linkage), linkage))
+    assembly, fare = _assembled(linkage)
+    found = Mechanism(linkage, limits.restricted(assembly, linkage, fare) if fare else assembly)
     found.trace(Variant(True, False))  # which a pose needs, and says what is not one rigid body
     return found
 

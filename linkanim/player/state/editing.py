@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 from linkanim.digits import degrees, typeset
+from linkanim.errors import BadInput
 from linkanim.mechanics.facts.classify import Info
+from linkanim.mechanics.motion.mechanism import stopped
 from linkanim.scenes.editing.edit import Dimension, dimensions
 from linkanim.scenes.editing.handles import Handle, handles
 from linkanim.scenes.fields.form import Key
@@ -20,8 +24,9 @@ class Editing:
     """Where the editing stands; `past` and `future` are the scenes that undo and redo go to.
 
     `typed` is a value begun in the chosen row and not taken, `drafts` those begun in rows that were passed
-    on from, `refusal` the reason why they were not taken. With `warned` they can be taken all the same, by
-    asking once more. `original` is the scene as its file has it, once that was left.
+    on from, `refusal` the reason why they were not taken; `refused` is the document that was dragged to. With
+    `warned` they can be taken all the same, by asking once more. `original` is the scene as its file has it,
+    once that was left.
     """
 
     open: bool = False
@@ -29,6 +34,7 @@ class Editing:
     typed: str = ""
     drafts: tuple[tuple[Key, str], ...] = ()
     refusal: str | None = None
+    refused: Mapping[str, Any] | None = None
     warned: bool = False
     past: tuple[Scene, ...] = ()
     future: tuple[Scene, ...] = ()
@@ -69,6 +75,17 @@ def loss_of_turning(before: Info, after: Info) -> str | None:
     low, high = (typeset(degrees(limit)) for limit in after.input_range)
     cause = f"{after.why_swinging}: " if after.why_swinging else ""
     return f"{cause}the crank cannot turn fully; it swings {low}…{high}"
+
+
+def check_of_turning(before: Info) -> Callable[[Scene], None]:
+    """Return what refuses a scene whose input no longer turns fully, before it is worked out whole."""
+
+    def check(scene: Scene) -> None:
+        found = stopped(scene.linkage) if before.full_turn else None
+        if found and (loss := loss_of_turning(before, Info(found, scene.length_unit))):
+            raise BadInput(loss)
+
+    return check
 
 
 def cleared(editing: Editing, **changes: object) -> Editing:

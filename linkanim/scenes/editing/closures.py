@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from linkanim.errors import AssemblyError, LinkanimError
-from linkanim.scenes.editing.edit import replaced
-from linkanim.scenes.editing.titles import retitled
+from linkanim.scenes.editing.edit import replaced, with_document
 from linkanim.scenes.fields.shorthands import SHORTHANDS
-from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
 
@@ -30,7 +28,7 @@ def other_closure(scene: Scene) -> Scene:
     if choice is None:
         raise AssemblyError(f"{scene.name} has no second closure: no loop of it can be put together two ways")
     document = replaced(scene.document, choice.key, choice.other)
-    return retitled(scene, scene_from(document, name=scene.name, where=scene.name))
+    return with_document(scene, document)
 
 
 def other_return(scene: Scene) -> Scene:
@@ -42,7 +40,7 @@ def other_return(scene: Scene) -> Scene:
         raise AssemblyError(f"{scene.name}: its input turns fully, and never comes back")
     way = "other" if scene.linkage.drive.retraced else "same"
     document = replaced(scene.document, ("drive", "returns"), way)
-    return retitled(scene, scene_from(document, name=scene.name, where=scene.name))
+    return with_document(scene, document)
 
 
 def closure_name(scene: Scene) -> str | None:

@@ -16,7 +16,7 @@ from linkanim.scenes.editing.numbers import Number, numbers
 from linkanim.scenes.editing.titles import retitled
 from linkanim.scenes.fields.form import Key
 from linkanim.scenes.fields.types import LENGTHS, Measure, ValueType
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading.read import Check, scene_from
 from linkanim.scenes.scene import Scene
 
 _BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
@@ -55,7 +55,12 @@ def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
     ("3 cm", "1 rad", "90 deg/s"), and a ratio may be a fraction ("1/3"). KeyError for a key that is
     not one of the scene's dimensions; SceneError and AssemblyError as reading a file raises them.
     """
-    return retitled(scene, scene_from(with_values(scene, values), name=scene.name, where=scene.name))
+    return with_document(scene, with_values(scene, values))
+
+
+def with_document(scene: Scene, document: Mapping[str, Any], check: Check | None = None) -> Scene:
+    """Return the scene with its document changed; `check` and errors as reading a file has them."""
+    return retitled(scene, scene_from(document, name=scene.name, where=scene.name, check=check))
 
 
 def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:

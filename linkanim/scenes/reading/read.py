@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -19,23 +19,38 @@ from linkanim.scenes.reading.joints import solved, unassembled
 from linkanim.scenes.reading.sizes import refuse_apart
 from linkanim.scenes.scene import FREE_STYLE, Scene
 
+Check = Callable[[Scene], None]
+"""Raises what refuses a scene that is whole but not yet put together."""
 
-def scene_from(document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None) -> Scene:
+
+def scene_from(
+    document: Mapping[str, Any],
+    *,
+    name: str,
+    where: str,
+    towards: Scene | None = None,
+    check: Check | None = None,
+) -> Scene:
     """Return the scene that a document describes, put together.
 
     `where` names the file in errors. Lengths come out in the document's `length_unit` (mm if it has none),
     angles in radians; joints in the order in which they can be solved. SceneError for whatever is unknown,
     missing or contradictory; AssemblyError for lengths that cannot be assembled. `towards` is the scene that
-    this one is on the way to, where it is shown for an instant.
+    this one is on the way to, where it is shown for an instant; `check` may refuse it before it is whole.
     """
-    scene, problems = read(document, name=name, where=where, towards=towards)
+    scene, problems = read(document, name=name, where=where, towards=towards, check=check)
     if scene is None or problems:
         raise problems[0]
     return scene
 
 
 def read(
-    document: Mapping[str, Any], *, name: str, where: str, towards: Scene | None = None
+    document: Mapping[str, Any],
+    *,
+    name: str,
+    where: str,
+    towards: Scene | None = None,
+    check: Check | None = None,
 ) -> tuple[Scene | None, list[BadInput]]:
     """Return the scene that a document describes, None where it describes none, and all its problems.
 
@@ -58,7 +73,7 @@ def read(
     styles = tuple((name, one.style) for name, one in bodies.items() if one and one.style != FREE_STYLE)
     parts |= {"styles": styles, "document": document, "towards": towards}
     scene = Scene(name=name, length_unit=top.context.unit, **parts)
-    top.attempt(_check_assembly, top, scene)
+    top.attempt(_check_assembly, top, scene, check)
     return scene, top.context.problems
 
 
@@ -152,9 +167,11 @@ def _trace(top: Table, short: Expansion) -> tuple[str, ...] | None:
     return None if trace is None else trace.get("joints", short.trace)
 
 
-def _check_assembly(top: Table, scene: Scene) -> None:
+def _check_assembly(top: Table, scene: Scene, check: Check | None) -> None:
     """Refuse lengths that cannot be put together, saying in which file and table they stand."""
     try:
+        if check:
+            check(scene)
         _ = scene.mechanism
     except AssemblyError as error:
         section = next((key for key in SHORTHANDS if key in top), "joints")

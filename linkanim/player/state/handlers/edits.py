@@ -12,11 +12,27 @@ from dataclasses import replace
 from decimal import Decimal
 
 from linkanim.errors import LinkanimError
-from linkanim.player.state.editing import Editing, Held, changed, chosen, cleared, let_go, loss_of_turning
+from linkanim.player.state.editing import (
+    Editing,
+    Held,
+    changed,
+    check_of_turning,
+    chosen,
+    cleared,
+    let_go,
+    loss_of_turning,
+)
 from linkanim.player.state.handlers.shelf import exchanged, followed
 from linkanim.player.state.state import State
 from linkanim.scenes.editing.closures import other_return
-from linkanim.scenes.editing.edit import Dimension, dimensions, with_dimensions, with_unit, with_values
+from linkanim.scenes.editing.edit import (
+    Dimension,
+    dimensions,
+    with_dimensions,
+    with_document,
+    with_unit,
+    with_values,
+)
 from linkanim.scenes.editing.handles import dragged, handles
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.fields.form import Key
@@ -196,14 +212,17 @@ def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
     """
     editing = state.editing
     try:
-        if with_values(held.scene, values) == state.scene.document:
+        document = with_values(held.scene, values)
+        if document == state.scene.document:
             return replace(state, editing=cleared(editing))
-        after = with_dimensions(held.scene, values)
+        if editing.refusal and document == editing.refused:
+            return state
+        after = with_document(held.scene, document, check_of_turning(held.scene.info))
         refusal = loss_of_turning(held.scene.info, after.info)
     except LinkanimError as error:
         refusal = str(error).removeprefix(f"{state.scene.name}: ")
     if refusal:
-        return replace(state, editing=replace(editing, refusal=refusal))
+        return replace(state, editing=replace(editing, refusal=refusal, refused=document))
     kept = editing if state.scene is not held.scene else changed(editing, held.scene)
     return replace(exchanged(state, after), editing=cleared(kept))
 
