@@ -10,16 +10,18 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
+from linkanim.mechanics.motion.mechanism import mechanism
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import advance
+from linkanim.player.state.editing import loss_of_turning
 from linkanim.player.state.state import State, begin
 from linkanim.player.tape.tape import Tape, starting
 from linkanim.player.window.approach import Framing
 from linkanim.player.window.halving import Halving
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.edit import dimensions
+from linkanim.scenes.editing.edit import dimensions, with_document
 from linkanim.scenes.editing.handles import handles
 from linkanim.scenes.editing.stretches import Stretch, stretches
 from linkanim.scenes.editing.toml import parse
@@ -140,6 +142,30 @@ def test_the_end_of_full_turns_is_refused() -> None:
     refused = after(state, Action("grab", "A"), Action("carry", (1.4 * x, 1.4 * y, 1.0)))
     assert refused.scene == state.scene
     assert str(refused.editing.refusal).endswith("it swings −151.7°…151.7°")
+
+
+# The input is stopped by a dyad that others stand on, by the last one, and on its own pin as well.
+STOPPED = {
+    "in the midst": ("press", "B", (-40.0, 0.0)),
+    "at the end": ("jansen", "B", (-2.0, -14.0)),
+    "own pin": ("jansen", "B", (0.0, -20.0)),
+}
+
+
+@pytest.mark.parametrize(("name", "joint", "by"), STOPPED.values(), ids=STOPPED)
+def test_a_refusal_says_how_far_the_input_goes_before_the_linkage_is_worked_out(
+    name: str, joint: str, by: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state = opened(name, 1.0)
+    refused = drag(state, joint, by)
+    assert refused.scene == state.scene
+    document = refused.editing.refused
+    assert document
+    whole = with_document(state.scene, document)
+    assert refused.editing.refusal == loss_of_turning(state.scene.info, whole.info) is not None
+    mechanism.cache_clear()
+    monkeypatch.setattr("linkanim.mechanics.closing.limits.fitted", None)
+    assert drag(state, joint, by).editing.refusal == refused.editing.refusal
 
 
 def test_a_value_refused_before_a_drag_is_warned_of_after_it_too() -> None:

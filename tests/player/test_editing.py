@@ -375,7 +375,7 @@ def test_nothing_is_classified_on_the_way(monkeypatch: pytest.MonkeyPatch) -> No
     def never(*_: object) -> None:
         raise AssertionError("classified on the way")
 
-    monkeypatch.setattr("linkanim.mechanics.motion.mechanism.restricted", never)
+    monkeypatch.setattr("linkanim.mechanics.motion.mechanism.separations", never)
     monkeypatch.setattr("linkanim.mechanics.facts.classify.Info", never)
     seen = set()
     while state.glide:

@@ -24,7 +24,7 @@ from linkanim.mechanics.closing.chain import ChainRoot, Dip, End, Touch
 from linkanim.mechanics.closing.fitting import fitted, refined
 from linkanim.mechanics.closing.kinds import walk_at
 from linkanim.mechanics.closing.search import ends_of
-from linkanim.mechanics.closing.separation import Separations, separations
+from linkanim.mechanics.closing.separation import Separations, at_samples, separations
 from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.drive.input_path import Limit
 from linkanim.mechanics.drive.ranges import ONE_PLACE
@@ -47,14 +47,11 @@ CUTS = 8
 
 
 def stopped(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
-    """Return the assembly on the way up that its dyads leave to its input, its ends as floats know them.
+    """Return the assembly on the path that its dyads leave to its input, its ends as floats know them.
 
     It says how far the input goes; nothing can be solved on it. Arguments and errors are `restricted`'s.
     """
-    if found.closes:
-        return assembly
-    _refuse_shut(assembly, linkage, found)
-    return replace(assembly, path=_swing(assembly, found, exact=False))
+    return assembly if found.closes else _cut_back(assembly, linkage, found, exact=False)
 
 
 def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
@@ -72,52 +69,52 @@ def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Asse
     if closes:
         # It is on the closures behind a change point that a dyad cannot be closed.
         assembly, found = whole, on_whole
-    swing, limited, on_limited = _cut(assembly, linkage, found)
+    return fitted(_cut_back(assembly, linkage, found, exact=True))
+
+
+def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations, *, exact: bool) -> Assembly:
+    """Return the assembly on the widest swing that every dyad lets the input run through, there and back.
+
+    Its ends are `exact`, and the dyads looked at between samples too.
+    """
+    swing, limited, on_limited = _cut(assembly, linkage, found, exact)
     for path in _smooth_paths(swing):
         if path is not swing:
-            limited, on_limited = _limited(assembly, path)
+            limited, on_limited = _limited(assembly, path, exact)
         limited, on_limited = through_change_points(limited, on_limited)
         if _runs_through(limited, on_limited):
-            return fitted(limited)
+            return limited
     raise AssemblyError(NO_RANGE)
 
 
-def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
+def _cut(
+    assembly: Assembly, linkage: Linkage, found: Separations, exact: bool
+) -> tuple[Swing, Assembly, Separations]:
     """Return the swing around the start on which every dyad closes on the way up, and how they fare on it."""
-    _refuse_shut(assembly, linkage, found)
+    first = found.shut.argmax(axis=0)
+    if found.shut.any(axis=0).all():
+        name = found.names[int(first.max())]
+        most = _most(assembly, name, found.phases)
+        raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
     on_swing, limited = found, assembly
     for _ in range(CUTS):
-        swing = _swing(limited, on_swing)
-        limited, on_swing = _limited(assembly, swing)
+        swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing, exact)))
+        if swing.amplitude < NO_WAY:
+            raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
+        limited, on_swing = _limited(assembly, swing, exact)
         up = (on_swing.phases > 0) & (on_swing.phases < math.pi)  # at its ends rounding alone decides
         if not on_swing.shut[:, up].any():
             break
     return swing, limited, on_swing
 
 
-def _refuse_shut(assembly: Assembly, linkage: Linkage, found: Separations) -> None:
-    """Refuse a linkage that is closed at no place of its input."""
-    if found.shut.any(axis=0).all():
-        name = found.names[int(found.shut.argmax(axis=0).max())]
-        most = _most(assembly, name, found.phases)
-        raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
-
-
-def _swing(assembly: Assembly, found: Separations, *, exact: bool = True) -> Swing:
-    """Return the swing about the start on which every dyad closes, its ends `exact` or as floats have them."""
-    swing = Swing(*assembly.path.cut(*_open_interval(assembly, found, exact)))
-    if swing.amplitude < NO_WAY:
-        raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
-    return swing
-
-
-def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
+def _limited(assembly: Assembly, path: Swing, exact: bool) -> tuple[Assembly, Separations]:
     """Return the assembly on another path, its closures named anew, and how its dyads fare there."""
     dyads = [name for name in dict.fromkeys(path.ends) if name and name not in assembly.loops]
     ends = {name: tuple(End(upper) for upper in (False, True) if path.ends[upper] == name) for name in dyads}
     chain = {name: ChainRoot(ends[name], 0.0) for name in dyads}
     limited = replace(resigned(replace(assembly, path=path, chain={})), chain=chain)
-    return limited, separations(limited)
+    return limited, separations(limited) if exact else at_samples(limited)
 
 
 def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
