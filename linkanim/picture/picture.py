@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkanim.mechanics.motion.motion import Pose
@@ -55,9 +56,10 @@ class Picture:
     small pictures. A `kept` view is zoomed and panned instead of the one that fits, or that of a rectangle
     of the `sheet` that it is built on. With `apart` each joint has a group of its own. What `before`
     measured of the same scene is taken over; names keep their places on one that is zoomed, on its way to
-    another, or `held` by the hand; `hurried`, those that they had in a window of another size. With a
-    `moment` names stand as is best at that phase alone. What stood still `earlier` is drawn as it was then,
-    where it has the same place. Raises BadInput where the look's chart is no quantity of the scene.
+    another, or `held` by the hand. Where they have to be placed anew, one that is `hurried` has those that
+    were there, and one that is `gradual` is whole once `place_names` has placed all. With a `moment` names
+    stand as is best at that phase alone. What stood still `earlier` is drawn as it was then, where it has
+    the same place. Raises BadInput where the look's chart is no quantity of the scene.
     """
 
     def __init__(
@@ -70,6 +72,7 @@ class Picture:
         listed: bool = False,
         held: bool = False,
         hurried: bool = False,
+        gradual: bool = False,
         apart: bool = False,
         row: bool = False,
         kept: View | None = None,
@@ -77,9 +80,8 @@ class Picture:
         moment: float | None = None,
         earlier: Earlier | None = None,
     ) -> None:
-        self._papered: tuple[Photo | None, Group] | None = None
         self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
-        self.sheet, self.hurried, self.held = sheet, hurried, held
+        self.sheet, self.held = sheet, held
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
         self.type: Type = before.type if before else Type()
@@ -92,20 +94,37 @@ class Picture:
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request
         self._arrange(request, before, held=held)
-        if hurried and before and before.fit.request.table[0]:
+        coloured = before is not None and before.theme == self.theme
+        anew = before is not None and not self._named_as(before, held=held)
+        self.hurried: bool = hurried and look.names > 0 and coloured and anew
+        """Whether its names are those of another picture."""
+        if self.hurried and before and before.fit.request.table[0] and before._goal is self._goal:
             self._arrange(request._replace(table=self._table_size()), before, held=held)
-        self.names: Names | None = self._named(before, held=held) if look.names else None
+        self.names: Names | None = None
+        self._steps = self._named(before, earlier, held=held)
+        if not gradual:
+            self.place_names()
+
+    def place_names(self, most: int | None = None) -> bool:
+        """Place so many more names, all of them without a number; return whether all have their places."""
+        return not any(step == most for step, _ in enumerate(islice(self._steps, most), start=1))
+
+    def _named(self, before: Picture | None, earlier: Earlier | None, *, held: bool) -> Iterator[None]:
+        """Give it names, and room for the table that they need, in steps; then what stands still."""
+        if self.look.names:
+            yield from self._placed(before, held=held)
         if self.names and self.names.unlisted:
             self._arrange(self.fit.request._replace(table=self._table_size()), before, held=False)
-            self.names = self._named(None, held=False)
+            yield from self._placed(None, held=False)
+        self._papered: tuple[Photo | None, Group] | None = None
         if (
             before
             and self.sheet
-            and (before.view, before.size, before.theme) == (self.view, size, self.theme)
+            and (before.view, before.size, before.theme) == (self.view, self.size, self.theme)
         ):
             self._papered = before._papered
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
-        place = size, self.view, self.layout, self.theme, look.chart
+        place = self.size, self.view, self.layout, self.theme, self.look.chart
         self.late = earlier is not None and earlier.place == place
         """Whether what stands still is that of an earlier picture."""
         self.earlier: Earlier = earlier if earlier and self.late else Earlier(place, {})
@@ -150,9 +169,8 @@ class Picture:
         row: bool = False,
         sheet: Box | None = None,
     ) -> bool:
-        """Return whether it is made for these, with nothing kept of what was before."""
-        same = self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
-        return same and not self.hurried
+        """Return whether it is made for these."""
+        return self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
 
     def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
@@ -404,16 +422,18 @@ class Picture:
         pen = pen_for(self.layout, self.type, self.theme)
         return polygons_of(self.figure, self.layout.polygons, pen, self._moment)
 
-    def _named(self, before: Picture | None, *, held: bool) -> Names:
-        """Return the names of joints and links, and their dimensions, placed as the scene fits the window.
+    def _placed(self, before: Picture | None, *, held: bool) -> Iterator[None]:
+        """Place the names of joints and links, and their dimensions, as the scene fits the window, in steps.
 
         Those of a picture `before` keep their places where it differs by its zoom and pan alone, while the
         scene is on its way to another, and in a hurry.
         """
-        kept = before.names if before and self._moment is None and self._named_as(before, held=held) else None
-        if kept:
-            kept = replace(kept, table=None, unlisted=()) if self.hurried else kept
-            return kept.measuring(self.drawing.symbols, self.scene.length_unit, self.view.scale)
+        if before and (self.hurried or self._named_as(before, held=held)):
+            names = before.names if self.figure.shown == before.figure.shown else None
+            names = replace(names, table=None, unlisted=()) if names and self.hurried else names
+            unit, scale = self.scene.length_unit, self.view.scale
+            self.names = names and names.measuring(self.drawing.symbols, unit, scale)
+            return
         from linkanim.picture.labels.candidates import Surroundings
         from linkanim.picture.labels.names import names_of
 
@@ -431,7 +451,8 @@ class Picture:
             centres.ticks if centres else (),
             known is not None,
         )
-        return replace(names_of(around, self.drawing.setting, known, centres), scale=self.view.scale)
+        names = yield from names_of(around, self.drawing.setting, known, centres)
+        self.names = replace(names, scale=self.view.scale)
 
     def _table_size(self) -> tuple[int, float]:
         """Return how many rows a table of all dimensions has, and how wide they are."""
@@ -444,10 +465,8 @@ class Picture:
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
         """Return whether the names on another picture are this one's."""
-        alike = (self.theme, self.look.names) == (other.theme, other.look.names)
-        if self.hurried:
-            return alike and self.figure.shown == other.figure.shown
-        alike = alike and self.size == other.size and not other.hurried
+        looks = ((one.theme, one.look.names, one.size) for one in (self, other))
         same = (self.scene, self.fitted, self.layout) == (other.scene, other.fitted, other.layout)
-        follows = held or self.scene.towards is not None
-        return alike and (same or (follows and self.figure.shown == other.figure.shown))
+        follows = (held or self.scene.towards is not None) and self.figure.shown == other.figure.shown
+        whole = other.names is not None and not other.hurried and self._moment is None
+        return len(set(looks)) == 1 and (same or follows) and whole

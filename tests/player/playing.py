@@ -46,7 +46,9 @@ class Player:
             self.press(ord(letter), 0, letter)
 
     def settle(self) -> bytes:
-        """Let go by what answers a key for a while, and return the pixels then."""
+        """Let go by what answers a key for a while, with all names in place, and return the pixels then."""
+        while self.window.screen._framing.last.hurried:
+            self.tick(0)
         self.tick(CHIP_FRAMES)
         return self.pixels
 

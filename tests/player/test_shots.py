@@ -62,7 +62,8 @@ def _edit(player: Player) -> None:
 
 def _names(player: Player) -> None:
     player.type("nn")
-    player.tick(70)
+    player.settle()
+    player.tick(4)
 
 
 def _shelf(player: Player) -> None:

@@ -9,13 +9,16 @@ from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import pygame
 import pytest
 from playing import CTRL, SHIFT, SIZE, Player, fake_start
 
+from linkanim.picture.look import Look
 from linkanim.picture.panels.overlay import Quantities
+from linkanim.picture.placing import Placer
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import carried
 from linkanim.player.state.clock import STEP
@@ -23,6 +26,7 @@ from linkanim.player.state.glide import FRAMES
 from linkanim.player.state.state import TOAST_FRAMES, State, begin
 from linkanim.player.tape.tape_file import read
 from linkanim.player.window import display, rendering
+from linkanim.player.window.approach import Framing
 from linkanim.player.window.show import _FILES_HINT, overlay
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
@@ -599,24 +603,58 @@ def test_the_picture_follows_the_windows_size(player: Player) -> None:
     assert player.pixels == pixels
 
 
+def spots(player: Player) -> list[tuple[str, object]]:
+    names = player.window.screen._framing.last.names
+    return [(label.text, label.spot) for label in names.labels] if names else []
+
+
 @pytest.mark.slow
-def test_names_stand_as_in_a_fresh_window_once_its_size_has_stayed_for_a_frame(player: Player) -> None:
-    """In the first frame of a size they keep the places that they had: those are not looked for."""
+def test_names_stand_as_in_a_fresh_window_once_its_size_has_stayed_for_some_frames(player: Player) -> None:
+    """In the first frames of a size they keep the places that they had, while new ones are looked for."""
     for key in (pygame.K_n, pygame.K_n):
         player.press(key, text=chr(key))
     player.settle()
-    before = player.window.screen._framing.last.names
+    before = spots(player)
     pygame.display.set_mode((640, 400), pygame.RESIZABLE)
-    player.tick()
-    hurried = player.window.screen._framing.last.names
-    assert before
-    assert hurried
-    assert [label.spot for label in hurried.labels] == [label.spot for label in before.labels]
+    for _ in range(5):
+        player.tick()
+        assert spots(player) == before != []
     settled = player.settle()
-    assert player.window.screen._framing.last.names != before
+    assert spots(player) != before
     fresh = Player(player.state)
     assert fresh.pixels == settled
     pygame.display.set_mode(SIZE, pygame.RESIZABLE)
+
+
+@pytest.mark.slow
+def test_no_frame_waits_for_more_than_a_few_names(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    """N asks for them, then for dimensions; a recording, and a picture that is kept, have them at once."""
+    placed, first = [], Placer.first
+
+    def counted(*args: Any, **more: Any) -> Any:
+        placed.append(1)
+        return first(*args, **more)
+
+    monkeypatch.setattr(Placer, "first", counted)
+    for least in (2, 5):
+        placed.clear()
+        player.press(pygame.K_n, text="n")
+        count = 0
+        while player.window.screen._framing.last.hurried:
+            assert len(placed) <= 8  # one may be tried three times
+            placed.clear()
+            player.tick()
+            count += 1
+        assert count > least
+        assert player.settle() == Player(player.state).pixels
+    recorded = Framing()
+    recorded.at(replace(player.state, look=Look()), SIZE)
+    assert not recorded.at(player.state, SIZE).hurried
+    player.press(pygame.K_n, text="n")
+    player.press(pygame.K_n, text="n")
+    assert player.window.screen._framing.last.hurried
+    player.window.screen.picture(player.state, overlay(player.state))
+    assert not player.window.screen._framing.fitting(player.state, SIZE, hurried=True).hurried
 
 
 def test_a_picture_that_stands_still_is_painted_once(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:

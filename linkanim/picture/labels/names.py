@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Generator, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from math import ceil
 
 import numpy as np
@@ -197,23 +198,23 @@ Forms = Iterator[tuple[Form, ...]]
 
 def names_of(
     ground: Surroundings, setting: DrawSetting, known: Symbols | None, dead_centres: DeadCentres | None
-) -> Names:
+) -> Generator[None, None, Names]:
     """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too.
 
-    Lengths that do not stand on the picture at all times go into a table.
+    Lengths that do not stand on the picture at all times go into a table. Each label is a step.
     """
     fixed, shown = ground.figure.fixed, ground.figure.shown
-    planned = [*_joints(ground, setting, fixed), *_links(ground, setting)]
-    if known:
-        planned += [*_dimensions(ground, setting, known), *_angle(ground, setting, known)]
-    planned += [*_dead_centres(ground, setting, dead_centres)] if dead_centres else []
-    planned += _joints(ground, setting, [name for name in shown if name not in fixed])
+    moving = [name for name in shown if name not in fixed]
+    planned = [_joints(ground, setting, fixed), _links(ground, setting)]
+    planned += [_dimensions(ground, setting, known), _angle(ground, setting, known)] if known else []
+    planned += [_dead_centres(ground, setting, dead_centres)] if dead_centres else []
     placer, kept, left = Placer(ground.clutter()), [], []
-    for forms in planned:
+    for forms in chain(*planned, _joints(ground, setting, moving)):
         placed, (label, _) = list(_placed(placer, forms)), forms[0]
         kept += placed
         if label.about and not any(one.shown is not None and one.shown.all() for one in placed):
             left.append(label)
+        yield
     rows, found = tuple(left), (ground.figure.scene.period, setting.gauge.bar, _halo(setting))
     table = _tabled(ground, setting, placer, rows) if rows else None
     return Names(tuple(kept), *found, table, () if table else rows, ground.view.scale)

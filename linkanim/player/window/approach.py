@@ -15,6 +15,8 @@ from linkanim.player.state.sketch import Sketch
 from linkanim.player.state.state import State
 
 APPROACH_FRAMES = 14
+_NAMES = 2
+"""So many names are placed in a frame."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +56,14 @@ def between(one: View, other: View, share: float) -> View:
 class Framing:
     """The picture of each state that comes, and the last one; a list in a window takes its room.
 
-    Where it is `captioned`, as the window is, names come with the sentence on what to watch for.
+    Where it is `captioned`, as the window is, names come with the sentence on what to watch for, and a frame
+    does not wait for all of them to be placed.
     """
 
     def __init__(self, *, captioned: bool = False) -> None:
         self._captioned = captioned
         self._fitting: Picture | None = None
+        self._coming: Picture | None = None
         self._passing: Picture | None = None
         self._approach: Approach | None = None
 
@@ -80,24 +84,32 @@ class Framing:
     ) -> Picture:
         """Return the picture that fits the state; a view other than the last one's, it is approached.
 
-        One that is `hurried` keeps the names of the last, where that was of another size: those are placed
-        anew once the size has stayed for a frame. What stood still `earlier` is kept, too.
+        One that is `hurried` keeps the names of the last, where those have to be placed anew: some of them in
+        each frame that comes. What stood still `earlier` is kept, too.
         """
         before, sketch, look = self._fitting, state.sketch, self._look(state)
+        hurried = hurried and self._captioned
         held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
         row, listed = sketch is not None and bool(sketch.answers), state.listed
         home = state.building.home if state.building else state.home
-        if before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home):
+        fits = before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home)
+        if before and fits and not before.hurried:
             if not earlier:
                 before.catch_up()
             return before
         stays = before is not None and before.size == size
-        hurried = hurried and before is not None and before.names is not None and not stays
         make = partial(
             Picture, state.shown, size, look, before, listed=listed, held=held, row=row, sheet=home
         )
-        make = partial(make, hurried=hurried, earlier=earlier)
-        made = make(kept=before.fitted if before and sketch and stays else None)
+        if before and fits and not sketch:
+            self._coming = self._coming or make(gradual=True)
+            if not self._coming.place_names(_NAMES if hurried else None):
+                return before
+            made = self._coming
+        else:
+            make = partial(make, hurried=hurried and not (sketch and stays), earlier=earlier)
+            made = make(kept=before.fitted if before and sketch and stays else None)
+        self._coming = None
         if sketch and stays and not held and not _is_in_sight(made, sketch):
             made = make(kept=_seen_whole(made, sketch))
         if before and before.sheet != made.sheet:
@@ -138,6 +150,7 @@ class Framing:
             kept=kept,
             sheet=goal.sheet,
             earlier=earlier,
+            hurried=goal.hurried,
         )
         return self._passing
 
@@ -168,7 +181,7 @@ def _box(picture: Picture, sketch: Sketch) -> Box:
 
 def _has_moved(one: Picture, other: Picture) -> bool:
     """Return whether one linkage, of either closure, in one window is fitted into another place of it."""
-    return not one.hurried and _are_one(one, other) and one.size == other.size and one.fitted != other.fitted
+    return _are_one(one, other) and one.size == other.size and one.fitted != other.fitted
 
 
 def _is_framed_alike(one: Picture, other: Picture) -> bool:
