@@ -60,18 +60,14 @@ class Fonts:
         line.blit(drawn, (0, bundled.get_ascent() - font.get_ascent()))
         return line
 
-    def advance(self, char: str, em: int, *, face: str) -> int:
-        """Return how far the pen moves on over a character, in pixels."""
+    def advance(self, char: str, em: int, *, face: str, after: str = "") -> int:
+        """Return how far the pen moves on over a character, in pixels; to a neighbour `after` it, kerned."""
         home, text = self._spelling(char)
-        return self._font(face if home == REGULAR else home, em).size(text)[0]
-
-    def kerning(self, one: str, other: str, em: int, *, face: str) -> int:
-        """Return how many pixels more there are between two neighbours of the bundled face; or less."""
-        parts = [self._spelling(char) for char in (one, other)]
-        if any(home != REGULAR for home, _ in parts):
-            return 0
-        font, (left, right) = self._font(face, em), (text for _, text in parts)
-        return font.size(left + right)[0] - font.size(left)[0] - font.size(right)[0]
+        font = self._font(face if home == REGULAR else home, em)
+        beside, neighbour = self._spelling(after) if after else (REGULAR, "")
+        if home != REGULAR or beside != REGULAR:
+            return font.size(text)[0]
+        return font.size(text + neighbour)[0] - font.size(neighbour)[0]
 
     def _font(self, path: str, em: int) -> pygame.font.Font:
         if (path, em) not in self._opened:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Hashable, Iterable, Iterator
+from itertools import pairwise
 from math import prod
 from typing import Literal, NamedTuple
 from unicodedata import normalize
@@ -77,13 +78,8 @@ def subscripted(name: str) -> str:
     return _INDEX.sub(lambda found: found[1].translate(_LOWERED), name)
 
 
-class _Place(NamedTuple):
-    """A glyph of a line: which, at what size, how far right (in parts of a pixel) and how far down."""
-
-    char: str
-    size: int
-    x: int
-    y: int
+_Place = tuple[str, int, int, int]
+"""A glyph of a line: which, at what size, how far right (in parts of a pixel) and how far down."""
 
 
 class Inked(NamedTuple):
@@ -108,7 +104,8 @@ class Type:
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
         """Return how wide a line is in pixels; `strong` is the semibold weight."""
-        return -(-self._set(text, size, _face(strong))[-1].x // _FINE)
+        _, _, end, _ = self._set(text, size, _face(strong))[-1]
+        return -(-end // _FINE)
 
     def draw(
         self,
@@ -139,13 +136,13 @@ class Type:
         """
         key = (text, size, face, colour)
         if key not in self._inked:
-            *places, end = self._set(text, size, face)
+            *places, (_, _, end, _) = self._set(text, size, face)
             inks = (
                 (self._glyph(char, small, colour, face, x % _FINE), x // _FINE, y)
                 for char, small, x, y in places
             )
             inked = [Inked(ink, x + right, y + down) for (ink, right, down), x, y in inks if ink.get_width()]
-            width = -(-end.x // _FINE)
+            width = -(-end // _FINE)
             if key not in self._once:
                 if len(self._once) >= _KEPT:
                     self._once.clear()
@@ -187,31 +184,24 @@ class Type:
         x = 0
         for run in runs(text):
             small = max(round(_SUB * size), min(size, _LEAST)) if run.lowered else size
-            top, before = (round(_LOWER * size) if run.lowered else 0) - self._ascent(small), ""
-            for char in run.text:
-                x += self._step(before, char, small, face)
-                yield _Place(char, small, x, top)
-                before = char
-            x += self._step(before, "", small, face)
-        yield _Place("", size, x, 0)
+            top = (round(_LOWER * size) if run.lowered else 0) - self._ascent(small)
+            for char, after in pairwise((*run.text, "")):
+                yield char, small, x, top
+                key = char, after, small, face
+                if key not in self._steps:
+                    self._steps[key] = self._step(*key)
+                x += self._steps[key]
+        yield "", size, x, 0
 
     def _ascent(self, size: int) -> int:
         """Return how high glyphs reach above the baseline, in pixels."""
         return -(-self._fonts.ascent(_em(size)) // _FINE)
 
-    def _step(self, before: str, char: str, size: int, face: str) -> int:
+    def _step(self, char: str, after: str, size: int, face: str) -> int:
         """Return how far the pen moves from a character to the next of its run, in parts of a pixel."""
-        key = (before, char, size, face)
-        if before and key not in self._steps:
-            self._steps[key] = self._fonts.advance(before, _em(size), face=face) + self._gap(key)
-        return self._steps[key] if before else 0
-
-    def _gap(self, key: tuple[str, str, int, str]) -> int:
-        """Return what is between two neighbours beside the first one's width, in parts of a pixel."""
-        before, char, size, face = key
         if _x_height(size) <= _LOOSE:
-            return 1
-        return self._fonts.kerning(before, char, _em(size), face=face) if char else 0
+            return self._fonts.advance(char, _em(size), face=face) + 1
+        return self._fonts.advance(char, _em(size), face=face, after=after)
 
     def wrapped(
         self, text: str, size: int, width: float, *, gap: str = " ", strong: bool = False
@@ -276,6 +266,7 @@ def _averaged(drawn: pygame.Surface, part: int, ascent: int, colour: Colour) -> 
     room = (-(-(part + width) // _FINE) * _FINE, -(-(down + height) // _FINE) * _FINE)
     large = pygame.Surface(room, pygame.SRCALPHA, 32)
     large.fill((*colour, 0))
+    drawn.set_alpha(None)  # it is copied, not blended
     large.blit(drawn, (part, down))
     return pygame.transform.smoothscale(large, (room[0] // _FINE, room[1] // _FINE))
 
