@@ -5,8 +5,9 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from io import StringIO
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -64,15 +65,20 @@ def markdown(rows: Sequence[Sequence[str]]) -> str:
 
 def json_text(value: object, *, indent: int | None = None) -> str:
     """Return the value as strict JSON; NaN and infinities, at any depth, are null."""
-    return json.dumps(finite(value), indent=indent, allow_nan=False, ensure_ascii=False)
+    return json.dumps(mapped(_finite, value), indent=indent, allow_nan=False, ensure_ascii=False)
 
 
-def finite(value: object) -> object:
-    """Return the value with None in the place of every float that is not finite."""
-    if isinstance(value, float):
-        return float(value) if math.isfinite(value) else None
-    if isinstance(value, Mapping):
-        return {key: finite(part) for key, part in value.items()}
-    if isinstance(value, Sequence) and not isinstance(value, str):
-        return [finite(part) for part in value]
-    return value
+def _finite(part: object) -> object:
+    """Return a value; None in the place of a float that is not finite."""
+    if isinstance(part, float):
+        return float(part) if math.isfinite(part) else None
+    return part
+
+
+def mapped(change: Callable[[Any], Any], node: Any) -> Any:
+    """Return mappings and sequences, in each other to any depth, with what stands in them changed."""
+    if isinstance(node, list | tuple):
+        return [mapped(change, part) for part in node]
+    if isinstance(node, Mapping):
+        return {key: mapped(change, part) for key, part in node.items()}
+    return change(node)

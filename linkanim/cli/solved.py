@@ -11,12 +11,14 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from itertools import repeat
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim import units
+from linkanim.export import mapped
 from linkanim.mechanics.facts.register import Path, recorded
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes.scene import Scene
@@ -57,15 +59,6 @@ def _leaf(found: Any, motion: Motion) -> Leaf:
     return np.broadcast_to(np.asarray(np.nan if found is None else found, np.float64), np.shape(motion.phase))
 
 
-def mapped(change: Callable[[Any], Any], node: Any) -> Any:
-    """Return the tree with every leaf changed."""
-    if isinstance(node, Mapping):
-        return {key: mapped(change, part) for key, part in node.items()}
-    if isinstance(node, list):
-        return [mapped(change, part) for part in node]
-    return change(node)
-
-
 def leaves(node: Any, name: str = "") -> Iterator[tuple[str, Any]]:
     """Yield ("joints.B.position.x", leaf), ...: the keys on the way joined by dots.
 
@@ -83,13 +76,8 @@ def leaves(node: Any, name: str = "") -> Iterator[tuple[str, Any]]:
 
 def rows(node: Tree) -> Iterator[Tree]:
     """Yield the tree of each row, its leaves plain floats; what is no array is every row's."""
-    plain = mapped(lambda leaf: tuple(leaf.tolist()) if isinstance(leaf, np.ndarray) else leaf, node)
-    yield from (_row(plain, row) for row in range(len(plain["phase"])))
-
-
-def _row(plain: Tree, row: int) -> Tree:
-    # a tuple is a column; a list is a pair
-    return mapped(lambda leaf: leaf[row] if isinstance(leaf, tuple) else leaf, plain)  # type: ignore[no-any-return]
+    columns = mapped(lambda leaf: iter(leaf.tolist()) if isinstance(leaf, np.ndarray) else repeat(leaf), node)
+    yield from (mapped(next, columns) for _ in node["phase"])
 
 
 class RowBlock(NamedTuple):

@@ -16,10 +16,10 @@ import numpy as np
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.cli import table
 from linkanim.cli.options import EVERY_ANGLE
-from linkanim.cli.solved import Leaf, RowBlock, Steps, Tree, blocks, input_key, leaves, mapped, rows, tree
+from linkanim.cli.solved import Leaf, RowBlock, Steps, Tree, blocks, input_key, leaves, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
-from linkanim.export import csv_head, csv_rows, json_text, lines
+from linkanim.export import csv_head, csv_rows, json_text, lines, mapped
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.scenes import load
 from linkanim.scenes.editing.shown_unit import in_unit
