@@ -102,7 +102,9 @@ def ffmpeg() -> str:
 def _command(stream: Stream, form: Format, part: Path) -> list[str]:
     width, height = stream.size
     pixels = "pal8" if form == "gif" else "bgra" if stream.alpha else "bgr0"
-    raw = f"-f rawvideo -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
+    # without a tag the decoder copies indices byte by byte, with it rows have to be whole words
+    tag = "-tag:v BIT8" if form == "gif" and width % 4 == 0 else ""
+    raw = f"-f rawvideo {tag} -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
     match form:
         case "gif":
             into = [*_gif(stream), f"file:{part}"]
