@@ -147,6 +147,8 @@ USAGE = [
     (["solve", "press", "--angle", "-87"], "no unit"),
     (["solve", "press", "--angle", "nan deg"], "--angle"),
     (["solve", "press", "--angle", "87 deg", "--speed", "10 mph"], "mph"),
+    # what is to lie below a drawing
+    (["new", "--photo", "none.png"], "is no picture"),
     # options that do not go together
     (["solve", "press", "--angle", "1 deg", "--phase", "1 deg"], "one of"),
     (["solve", "press", "--angle", "1 deg", "--sweep", "0:1:1"], "--sweep"),

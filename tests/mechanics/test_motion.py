@@ -54,6 +54,13 @@ def test_speeds_may_differ_from_angle_to_angle() -> None:
         )
 
 
+@pytest.mark.parametrize("name", ["crank-rocker", "kite", "andrews"])
+def test_an_angle_s_phase_leads_back_to_it(name: str) -> None:
+    scene, angles = load(name), np.array([0.2, 1.4, 3.0])
+    found = scene.solve(phase=scene.solve(angle=angles).phase)
+    assert np.exp(1j * found.coordinate) == pytest.approx(np.exp(1j * angles), abs=1e-12)
+
+
 def test_results_cannot_be_written_to() -> None:
     motion = load("press").solve(angle=[0.1, 0.2])
     with pytest.raises(ValueError, match="read-only"):

@@ -98,6 +98,9 @@ def test_both_ends_of_the_transmission_angle_are_those_of_all_poses(name: str, l
     assert found[:2] == pytest.approx(sampled(linkage), abs=EXACT)
     there = mechanism(linkage).solve(phase=found.phase, speed=1.0, derivatives=0)
     assert transmission_angle(there, found.dyad) == pytest.approx(found.least, abs=EXACT)
+    for joint in linkage.joints:
+        if (angle := angle_at(there, joint)) is not None:
+            assert transmission_angle(there, joint.name) == pytest.approx(up_to_square(angle), abs=1e-7)
 
 
 ENDS: list[tuple[str, Callable[[], Linkage], tuple[float | None, float | None]]] = [

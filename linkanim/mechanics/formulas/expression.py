@@ -193,7 +193,7 @@ def _divide(a: Value, b: Value) -> Value:
         return a * (1.0 / b) if math.frexp(b)[0] in (0.5, -0.5) else graph.node("div", a, b)
     if not isinstance(a, Expr) and a == 0:
         return 0.0
-    return graph.node("div", a, b) if b.positive is None else -(a / b.positive)
+    return graph.node("div", a, b)
 
 
 def beside(number: float, value: Value) -> float:
