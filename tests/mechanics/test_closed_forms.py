@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from build import four_bar, slider_crank, slotted
 
 from linkanim.mechanics.facts.classify import Info
+from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.motion.mechanism import mechanism
 
 TURN = np.linspace(-7.0, 7.0, 201)
@@ -24,6 +26,15 @@ def test_a_slotted_lever_turns_as_its_closed_form_says() -> None:
     assert motion.angular_acceleration["slotted"] == pytest.approx(
         omega**2 * a * d * np.sin(TURN) * (d**2 - a**2) / square**2, rel=1e-13, abs=1e-14
     )
+
+
+def test_the_ends_of_two_bars_may_be_stated_in_either_order() -> None:
+    linkage = four_bar((100, 30, 90, 80))
+    other = RRR("B", ("O4", "A"), (80, 90), -1)
+    turned = replace(linkage, joints=(*linkage.joints[:3], other, *linkage.joints[4:]))
+    found, expected = (mechanism(one).solve(angle=TURN, speed=2.0) for one in (turned, linkage))
+    for kind in ("position", "velocity", "acceleration"):
+        assert getattr(found, kind)["B"] == pytest.approx(getattr(expected, kind)["B"], abs=1e-10)
 
 
 def test_a_scotch_yoke_is_the_limit_of_a_long_rod() -> None:

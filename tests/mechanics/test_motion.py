@@ -61,6 +61,17 @@ def test_an_angle_s_phase_leads_back_to_it(name: str) -> None:
     assert np.exp(1j * found.coordinate) == pytest.approx(np.exp(1j * angles), abs=1e-12)
 
 
+@pytest.mark.parametrize("name", ["press", "crank-rocker", "epicyclic-hypocycloid"])
+def test_a_body_s_angle_is_the_direction_of_its_first_two_joints(name: str) -> None:
+    scene = load(name)
+    motion = scene.solve(phase=[0.3, 2.0, 4.4])
+    for body in scene.linkage.bodies:
+        if body.slider is None:
+            first, second = (motion.position[joint] @ np.array([1.0, 1j]) for joint in body.joints[:2])
+            way = (second - first) / np.abs(second - first)
+            assert np.exp(1j * motion.angle[body.name]) == pytest.approx(way, abs=1e-12)
+
+
 def test_results_cannot_be_written_to() -> None:
     motion = load("press").solve(angle=[0.1, 0.2])
     with pytest.raises(ValueError, match="read-only"):

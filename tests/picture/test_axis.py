@@ -63,6 +63,7 @@ def test_a_wild_peak_is_cut_so_that_the_rest_can_be_seen() -> None:
     values = np.sin(np.linspace(0, 6, 100))
     values[50] = 1e9
     assert around(values).high < 10
+    assert around(1e-4 * values).high < 1e-3
     values[50] = 5.0
     assert around(values).high > 5
 

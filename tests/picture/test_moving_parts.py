@@ -412,6 +412,12 @@ def test_a_spring_of_no_length_is_still_drawn(press: Figure) -> None:
         assert all(np.isfinite(loop).all() for layer in layers for loop in layer.loops)
 
 
+def test_a_spring_s_wire_ends_where_its_joints_are() -> None:
+    coil = Coil(("A", "B"), 6.0, 20.0, 5, GAUGE, LIGHT)
+    low, high = _extent(coil.layers({"A": 10 + 0j, "B": 110 + 0j}), 1 + 0j)
+    assert (low, high) == pytest.approx((10, 110), abs=2 * coil.wire)
+
+
 def test_a_longer_window_scales_the_gauge() -> None:
     small, large = gauge(0.5, 50.0), gauge(1.0, 100.0)
     assert large == replace(
