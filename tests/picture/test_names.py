@@ -261,6 +261,16 @@ def test_the_ground_line_runs_from_pivot_to_pivot() -> None:
     assert 0.4 < (between > 20).any(axis=0).mean() < 0.95
 
 
+@pytest.mark.parametrize("shown", [0.0, 0.25, 1.0])
+def test_a_name_that_fades_lies_as_faintly_over_what_is_behind(shown: float) -> None:
+    lettering, surface = Lettering("O", Type(), 20, ((0, 0, 0), (0, 0, 0)), 2.0), offscreen((60, 40))
+    for strength in (1.0, shown):
+        surface.fill((200, 200, 200))
+        lettering.draw(surface, 30 + 20j, strength)
+    darkest = min(surface.get_at((x, y)).r for x in range(60) for y in range(40))
+    assert darkest == pytest.approx(200 * (1 - shown), abs=3)
+
+
 def test_words_glide_by_quarters_of_a_pixel() -> None:
     lettering = Lettering("O₂", Type(), 20, ((0, 0, 0), (255, 255, 255)), 2.0)
     centres = []

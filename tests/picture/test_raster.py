@@ -12,7 +12,7 @@ from pictures import alphas, coverage, filled
 
 from linkanim.picture.raster.offscreen import offscreen
 from linkanim.picture.raster.raster import Layer, Loop, Shapes, covers, paint, paints
-from linkanim.picture.raster.shapes import box, disc, rounded
+from linkanim.picture.raster.shapes import box, cut, disc, rounded
 
 WHITE = (255, 255, 255)
 
@@ -108,6 +108,14 @@ def _sampled(loop: Loop, size: tuple[int, int], samples: int = 8) -> Pixels:
 def test_shapes_agree_with_sixty_four_samples_a_pixel(loop: Loop) -> None:
     ours = coverage(filled([Layer(WHITE, [loop])], (80, 60)))
     assert psnr(255 * ours, 255 * _sampled(loop, (80, 60))) >= 44
+
+
+def test_what_reaches_right_of_a_limit_or_below_it_is_cut_off() -> None:
+    square = box(10, 6)
+    assert cut(square, 9) is square
+    right, below = cut(square, 2), cut(square, 1, down=True)
+    assert [right.real.min(), right.real.max(), np.ptp(right.imag)] == [-5, 2, 6]
+    assert [below.imag.min(), below.imag.max(), np.ptp(below.real)] == [-3, 1, 10]
 
 
 def test_layers_lie_over_those_before_them() -> None:

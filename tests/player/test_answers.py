@@ -282,6 +282,12 @@ def test_a_coupler_points_construction_is_on_the_picture(rocker: State) -> None:
     assert chosen.begin == other.end
 
 
+@pytest.mark.parametrize(("row", "words"), [(2, "to the right 12 cm"), (4, "to the left 80 cm")])
+def test_a_point_s_way_off_its_bar_says_to_which_side(row: int, words: str) -> None:
+    state = after(begin(load("excavator")), "edit", Action("choose", row))
+    assert overlay(state).measured[0].words == words
+
+
 # Everything that only the window shows changes the picture, and nothing of it stays.
 MARKS = {
     "a measure": Overlay(measured=(DimensionLine(("O2", "A"), 0, 1, "50 mm"),)),

@@ -204,8 +204,9 @@ def test_left_alone_it_walks_through_the_catalogue() -> None:
     assert seen == [*names()[1:4]]
 
 
-def test_it_walks_on_running() -> None:
-    state = run(after(begin(load("crank-rocker"), attract=True), "pause"), ATTRACT_AFTER + 60)
+def test_it_walks_on_running_with_nothing_over_it() -> None:
+    state = run(after(begin(load("crank-rocker"), attract=True), "pause", "help"), ATTRACT_AFTER + 60)
+    assert not state.is_covered
     assert math.isclose(state.phase, state.clock.speed, rel_tol=0.05)
 
 
