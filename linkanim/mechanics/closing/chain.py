@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import localcontext
 from fractions import Fraction
 from typing import NamedTuple
@@ -157,7 +157,7 @@ class Stationary:
         apart = sine.scaled(along) + cosine.scaled(-aside)
         if self.turns == 1 and math.sin(float(self.place)) > BESIDE_AN_END:
             both = sine.value * along + cosine.value * aside
-            apart = replace(apart, value=self._way_left(state, amplitude) / (both * (2.0 * amplitude)))
+            apart = apart._replace(value=self._way_left(state, amplitude) / (both * (2.0 * amplitude)))
         return apart, cosine.scaled(along) + sine.scaled(aside)
 
     def _way_left(self, state: InputState, amplitude: float) -> Value:
@@ -326,8 +326,7 @@ class ChainRoot:
             return found.with_lift(Reduced(far.lift.across, chosen(q.value * others, far.lift.q)))
         reduced = _vector(*(fit.at(way.argument) for fit in near.across))
         points = [
-            Vec(chosen(a.x, b.x), chosen(a.y, b.y))
-            for a, b in zip(reduced.parts, far.lift.across.parts, strict=True)
+            Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.lift.across, strict=True)
         ]
         return found.with_lift(
             Reduced(MovingPoint(*points), chosen(fitted.value * way.share * others, far.lift.q))

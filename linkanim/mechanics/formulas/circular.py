@@ -90,11 +90,22 @@ class Squares(NamedTuple):
 class Half:
     """Half an angle, worked out as far as it is read.
 
-    `sides` gives sine and cosine, signed over two turns, `squares` what is free of that sign, times a factor.
+    `sides` gives sine and cosine, signed over two turns, `times` what is free of that sign, times a factor.
     """
 
     sides: Callable[[], Pair]
-    squares: Callable[[float], Squares]
+    times: Callable[[float], Squares]
+
+    def squares(self, factor: float) -> Squares:
+        """Return what is free of the sign, times a factor."""
+        found = self._squares.get(factor)
+        if found is None:
+            found = self._squares[factor] = self.times(factor)
+        return found
+
+    @cached_property
+    def _squares(self) -> dict[float, Squares]:
+        return {}
 
     @cached_property
     def _sides(self) -> Pair:

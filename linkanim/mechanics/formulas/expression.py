@@ -38,8 +38,11 @@ class Graph:
 
     def node(self, op: str, *args: Expr | float | str) -> Expr:
         """Return the node for this operation, the one recorded before where there is one."""
-        if op in COMMUTES and _recorded_before(args[1], args[0]):
-            args = args[1], args[0]
+        if op in COMMUTES:
+            one, other = args
+            # constants go first, and nodes as they were recorded
+            if isinstance(one, Expr) and not (isinstance(other, Expr) and other.index >= one.index):
+                args = other, one
         key = (op, *args)
         found = self._nodes.get(key)
         if found is None:
@@ -70,13 +73,16 @@ class Expr:
         self.op = op
         self.args = args
         self.index = index
-        self.uniform: bool = all(arg.uniform for arg in args if isinstance(arg, Expr))
+        self.uniform = True
+        for arg in args:
+            if isinstance(arg, Expr) and not arg.uniform:
+                self.uniform = False
         negated = args[0] if op == "neg" else None
         self.positive = negated if isinstance(negated, Expr) else None
         """What is recorded as -x knows x."""
 
     def __add__(self, other: Value) -> Value:
-        if isinstance(other, (int, float)):
+        if not isinstance(other, Expr):
             other = self.graph.constant(other)
             if other == 0:
                 return self
@@ -95,7 +101,7 @@ class Expr:
         return _subtract(other, self)
 
     def __mul__(self, other: Value) -> Value:
-        if isinstance(other, (int, float)):
+        if not isinstance(other, Expr):
             return _scale(self, self.graph.constant(other))
         if self.uniform != other.uniform:
             x, y = (self, other) if self.uniform else (other, self)
@@ -125,11 +131,6 @@ class Expr:
 
 
 Value = Expr | float
-
-
-def _recorded_before(one: Expr | float | str, other: Expr | float | str) -> bool:
-    """Return whether one argument goes before another: constants do, and nodes as they were recorded."""
-    return isinstance(other, Expr) and (not isinstance(one, Expr) or one.index < other.index)
 
 
 def _factored(value: Expr) -> tuple[Value | None, Expr]:

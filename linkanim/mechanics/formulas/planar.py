@@ -5,19 +5,18 @@ A moving quantity is its value with the first and second derivative in time.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from linkanim.mechanics.formulas.expression import Value
 
 
-@dataclass(frozen=True, slots=True)
-class Vec:
+class Vec(NamedTuple):
     """A plane vector, read as a complex number where one multiplies another."""
 
     x: Value
     y: Value
 
-    def __add__(self, other: Vec) -> Vec:
+    def __add__(self, other: Vec) -> Vec:  # type: ignore[override]
         return Vec(self.x + other.x, self.y + other.y)
 
     def __sub__(self, other: Vec) -> Vec:
@@ -50,22 +49,21 @@ class Vec:
 ZERO = Vec(0.0, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
-class Moving:
+class Moving(NamedTuple):
     """A number and its first two derivatives in time."""
 
     value: Value
     rate: Value = 0.0
     second: Value = 0.0
 
-    def __mul__(self, other: Moving) -> Moving:
+    def __mul__(self, other: Moving) -> Moving:  # type: ignore[override]
         return Moving(
             self.value * other.value,
             self.rate * other.value + self.value * other.rate,
             self.second * other.value + self.rate * other.rate * 2.0 + self.value * other.second,
         )
 
-    def __add__(self, other: Moving) -> Moving:
+    def __add__(self, other: Moving) -> Moving:  # type: ignore[override]
         return Moving(self.value + other.value, self.rate + other.rate, self.second + other.second)
 
     def scaled(self, factor: Value) -> Moving:
@@ -78,34 +76,27 @@ class Moving:
         return Slope(self.value, self.rate)
 
 
-@dataclass(frozen=True, slots=True)
-class MovingPoint:
+class MovingPoint(NamedTuple):
     """A point with its velocity and acceleration."""
 
     position: Vec
     velocity: Vec = ZERO
     acceleration: Vec = ZERO
 
-    def __add__(self, other: MovingPoint) -> MovingPoint:
-        return MovingPoint(*(a + b for a, b in zip(self.parts, other.parts, strict=True)))
+    def __add__(self, other: MovingPoint) -> MovingPoint:  # type: ignore[override]
+        return MovingPoint(*[a + b for a, b in zip(self, other, strict=True)])
 
     def __sub__(self, other: MovingPoint) -> MovingPoint:
-        return MovingPoint(*(a - b for a, b in zip(self.parts, other.parts, strict=True)))
-
-    @property
-    def parts(self) -> tuple[Vec, Vec, Vec]:
-        """Position, velocity and acceleration."""
-        return self.position, self.velocity, self.acceleration
+        return MovingPoint(*[a - b for a, b in zip(self, other, strict=True)])
 
 
-@dataclass(frozen=True, slots=True)
-class Slope:
+class Slope(NamedTuple):
     """A number and its first derivative in time: a regular factor, or how fast a body turns."""
 
     value: Value
     rate: Value = 0.0
 
-    def __mul__(self, other: Slope) -> Slope:
+    def __mul__(self, other: Slope) -> Slope:  # type: ignore[override]
         return Slope(self.value * other.value, self.rate * other.value + self.value * other.rate)
 
     def __truediv__(self, other: Slope) -> Slope:

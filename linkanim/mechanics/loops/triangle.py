@@ -313,7 +313,7 @@ def moving_triangle(across: MovingPoint, lengths: tuple[float, float], signed: S
     """
     a, b = lengths
     reduced = signed.lift or Reduced(across, signed.q)
-    (d, rate, bend), excess = reduced.across.parts, (b - a) * (b + a)
+    (d, rate, bend), excess = reduced.across, (b - a) * (b + a)
     square = d.dot(d)
     share = 0.5 / square
     growth = d.dot(rate) * 4.0 * share
@@ -331,7 +331,7 @@ def moving_triangle(across: MovingPoint, lengths: tuple[float, float], signed: S
 
 def moving_square(across: MovingPoint) -> Moving:
     """Return L² between two points that move, D apart, with its rates."""
-    d, rate, bend = across.parts
+    d, rate, bend = across
     return Moving(d.dot(d), d.dot(rate) * 2.0, (d.dot(bend) + rate.dot(rate)) * 2.0)
 
 
