@@ -18,7 +18,8 @@ from linkanim.mechanics.facts.naming import (
     class_name,
     four_bar_of,
     link_names,
-    turning_links,
+    one_cycle,
+    turns_fully,
 )
 from linkanim.mechanics.facts.register import driven_body, input_symbol
 from linkanim.mechanics.facts.transmission import Transmission, transmission
@@ -201,12 +202,13 @@ class Info:
     @cached_property
     def turning_links(self) -> tuple[str, ...]:
         """The bodies that turn fully over one true period."""
-        return tuple(turning_links(self.mechanism))
+        bodies = self.mechanism.linkage.bodies
+        return tuple(body.name for body in bodies if turns_fully(self._cycle, body))
 
     @cached_property
     def link_names(self) -> Mapping[str, str]:
         """What each body is called by what it does, by the name that it has in the scene."""
-        return link_names(self.mechanism, self.turning_links)
+        return link_names(self._cycle)
 
     @cached_property
     def input_name(self) -> str:
@@ -231,6 +233,10 @@ class Info:
     def lines(self) -> tuple[tuple[str, str], ...]:
         """Label and value of each fact, in words."""
         return tuple((label, value) for label, value in _facts(self) if value)
+
+    @cached_property
+    def _cycle(self) -> Motion:
+        return one_cycle(self.mechanism, 0)
 
     @cached_property
     def _four_bar(self) -> FourBar | None:

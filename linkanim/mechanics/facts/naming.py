@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -204,19 +204,14 @@ def one_cycle(mechanism: Mechanism, derivatives: int) -> Motion:
     return mechanism.solve(phase=phases, speed=1.0, derivatives=derivatives)
 
 
-def turning_links(mechanism: Mechanism) -> Iterator[str]:
-    """Yield the bodies that turn fully over one true period: cranks with the input, others as they wind."""
-    linkage, cycle = mechanism.linkage, one_cycle(mechanism, 0)
-    for body in linkage.bodies:
-        if body.slider is not None:
-            continue
-        if cycle.setting.crank_of(body):
-            turns = mechanism.assembly.path.full_turn
-        else:
-            first, second = (cycle.position[joint] for joint in body.joints[:2])
-            turns = winds(*(second - first).T)
-        if turns:
-            yield body.name
+def turns_fully(cycle: Motion, body: Body) -> bool:
+    """Tell whether a body turns fully over one true period: a crank with the input, another as it winds."""
+    if body.slider is not None:
+        return False
+    if cycle.setting.crank_of(body):
+        return cycle.setting.assembly.path.full_turn
+    first, second = (cycle.position[joint] for joint in body.joints[:2])
+    return winds(*(second - first).T)
 
 
 def winds(x: Array, y: Array) -> bool:
@@ -227,21 +222,21 @@ def winds(x: Array, y: Array) -> bool:
     return bool(np.count_nonzero(up & (y1 >= 0)) != np.count_nonzero(down & (y1 < 0)))
 
 
-def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:
+def link_names(cycle: Motion) -> dict[str, str]:
     """Return what each body is called: one that a scene names crank, rocker or coupler by what it does.
 
     A crank turns fully about a fixed pin, a rocker swings about one, a coupler has none. Of cranks the
     input is the crank, others are driven cranks; of rockers the input is the input rocker. Further ones of
     a sort are counted: second coupler. Every other name stays.
     """
-    parts = {body.name: _part_of(mechanism, body, turning) for body in mechanism.linkage.bodies}
+    parts = {body.name: _part_of(cycle, body) for body in cycle.setting.linkage.bodies}
     driven = [name for name, (_, drives) in parts.items() if not drives]
     first = next((noun for noun, drives in parts.values() if drives and noun), None)
     count: dict[str, int] = {}
     names = {}
     for name, (noun, drives) in parts.items():
         words = noun or name
-        if noun == "crank" and not drives and first != "rocker" and mechanism.assembly.path.full_turn:
+        if noun == "crank" and not drives and first != "rocker" and cycle.setting.assembly.path.full_turn:
             words = "driven crank"
         elif noun == "rocker" and drives and any(parts[other][0] == "rocker" for other in driven):
             words = "input rocker"
@@ -250,9 +245,9 @@ def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]
     return names
 
 
-def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tuple[str | None, bool]:
+def _part_of(cycle: Motion, body: Body) -> tuple[str | None, bool]:
     """Return crank, rocker or coupler, None for a body with another name; and whether it is the input."""
-    linkage = mechanism.linkage
+    linkage = cycle.setting.linkage
     own = _PARTS.fullmatch(body.name)
     if own is None or body.slider is not None:
         return None, False
@@ -260,8 +255,10 @@ def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tupl
     if pivoted == (own[1] == "coupler"):
         return None, False
     drives = linkage.drive.joint in linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
-    turns = mechanism.assembly.path.full_turn if drives and pivoted else body.name in turning
-    return ("crank" if turns else "rocker") if pivoted else "coupler", drives and pivoted
+    if not pivoted:
+        return "coupler", False
+    turns = cycle.setting.assembly.path.full_turn if drives else turns_fully(cycle, body)
+    return "crank" if turns else "rocker", drives
 
 
 def _counted(words: str, number: int) -> str:
