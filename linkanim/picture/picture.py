@@ -93,6 +93,8 @@ class Picture:
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request
+        self.late = earlier is not None
+        """Whether what stands still is that of an earlier picture."""
         self._arrange(request, before, held=held)
         coloured = before is not None and before.theme == self.theme
         anew = before is not None and not self._named_as(before, held=held)
@@ -126,8 +128,8 @@ class Picture:
         self._behind: tuple[float, DrawnCurve | None, tuple[Group, ...]] | None = None
         place = self.size, self.view, self.layout, self.theme, self.look.chart
         self.late = earlier is not None and earlier.place == place
-        """Whether what stands still is that of an earlier picture."""
         self.earlier: Earlier = earlier if earlier and self.late else Earlier(place, {})
+        self._settled = earlier is None or self.fit.has_room
 
     def catch_up(self) -> None:
         """Have what stands still as it is, not as it was in an earlier picture."""
@@ -138,7 +140,9 @@ class Picture:
     def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:
         """Fit the scene into what is requested."""
         scene, look, last = self.scene, self.look, before.fit if before else None
-        self.fit: SceneFit = fitted(self._goal, self._beside, request, self.type, before=last, held=held)
+        self.fit: SceneFit = fitted(
+            self._goal, self._beside, request, self.type, before=last, held=held, late=self.late
+        )
         self.figure: Figure = figure(scene) if scene.towards else self.fit.subject.figure
         self.layout: Layout = self.fit.arrangement.layout
         self.fitted: View = self._kept or self._of_sheet or self.fit.view_of(self.figure)
@@ -170,7 +174,8 @@ class Picture:
         sheet: Box | None = None,
     ) -> bool:
         """Return whether it is made for these."""
-        return self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
+        same = self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
+        return same and self._settled
 
     def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""

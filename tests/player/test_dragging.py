@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import count
+from itertools import count, pairwise
 
 import pygame
 import pytest
@@ -341,7 +341,7 @@ def test_the_view_stands_still_under_the_hand_as_long_as_there_is_room() -> None
     assert framing.fitting(left, size).view != before
 
 
-def charted_drag(player: Player, seconds: float) -> Iterator[tuple[bool, bool, bool]]:
+def charted_drag(player: Player, seconds: float, far: float = 2.0) -> Iterator[tuple[bool, bool, bool]]:
     """Drag a joint where a frame takes so long; yield if the scene, the curve and the list have changed."""
     clock = iter(count(step=seconds))
     player.window._halving = Halving(lambda: next(clock))
@@ -352,7 +352,7 @@ def charted_drag(player: Player, seconds: float) -> Iterator[tuple[bool, bool, b
     player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
     for step in range(1, 8):
         scene, panel, behind = player.state.scene, player.window.screen.over.panel, behind_of(player)
-        player.mouse(pygame.MOUSEMOTION, (x + 2 * step, y), rel=(2, 0), buttons=(1, 0, 0))
+        player.mouse(pygame.MOUSEMOTION, (x + far * step, y), rel=(2, 0), buttons=(1, 0, 0))
         yield (
             player.state.scene is not scene,
             behind_of(player) is not behind,
@@ -380,6 +380,15 @@ def test_where_it_does_not_the_linkage_follows_in_one_frame_and_the_rest_in_the_
     picture = framing.at(player.state, SIZE)
     list(picture.groups(picture.scene.pose(player.state.phase)))
     assert behind_of(player).captions == picture.earlier.groups["behind"][-1].captions
+
+
+def test_what_no_longer_has_room_is_fitted_with_the_rest(player: Player) -> None:
+    drag_ = charted_drag(player, 0.02, far=14)
+    views = [(step, player.window.screen._framing.last.view) for step in drag_]
+    changed = [view != before for (_, before), (_, view) in pairwise(views)]
+    assert any(changed)
+    assert not any(change for change, (step, _) in zip(changed, views[1:], strict=True) if step[0])
+    assert player.window.screen._framing.last.fit.has_room
 
 
 def test_a_button_that_comes_up_does_not_wait(player: Player) -> None:

@@ -79,6 +79,17 @@ class SceneFit:
     request: FitRequest
     arrangement: Arrangement
 
+    @cached_property
+    def has_room(self) -> bool:
+        """Whether all that is swept is within the scene's room."""
+        room, view = self.arrangement.layout.stage, self.arrangement.view
+        boxes = [one.box for one in (self.subject.figure, *map(figure, self.subject.scenes[1:]))]
+        return all(
+            room.x <= x <= room.right and room.y <= y <= room.bottom
+            for box in boxes
+            for x, y in (view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low))
+        )
+
     def view_of(self, shown: Figure) -> View:
         """Return the view of the subject's figure; one on the way to it is as large, in the same place."""
         view, whole = self.arrangement.view, self.subject.figure
@@ -101,33 +112,25 @@ def fitted(
     *,
     before: SceneFit | None = None,
     held: bool = False,
+    late: bool = False,
 ) -> SceneFit:
     """Return how a scene fits, and one that must fit into its view too.
 
     What `before` has of the same scenes is taken over, all of it where the same is requested. What the hand
-    changes while it is `held` stays in its place, as long as it has room there.
+    changes while it is `held` stays in its place, as long as it has room there, and for a `late` frame.
     """
     known = before.subject if before else None
     if known is None or known.figure.scene is not scene or known.beside is not beside:
         subject = Subject(figure(scene), beside, type_)
-    elif before and before.request == request:
+    elif before and before.request == request and (late or not held or before.has_room):
         return before
     else:
         subject = known
-    if held and before and before.request == request and _has_room(before.arrangement, subject):
-        return SceneFit(subject, request, before.arrangement)
+    if held and before and before.request == request:
+        stays = SceneFit(subject, request, before.arrangement)
+        if late or stays.has_room:
+            return stays
     return SceneFit(subject, request, _arranged(subject, request, type_))
-
-
-def _has_room(arrangement: Arrangement, subject: Subject) -> bool:
-    """Return whether a subject is within the scene's room as something else is arranged."""
-    room, view = arrangement.layout.stage, arrangement.view
-    boxes = [one.box for one in (subject.figure, *map(figure, subject.scenes[1:]))]
-    return all(
-        room.x <= x <= room.right and room.y <= y <= room.bottom
-        for box in boxes
-        for x, y in (view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low))
-    )
 
 
 def _arranged(subject: Subject, request: FitRequest, type_: Type) -> Arrangement:

@@ -66,6 +66,7 @@ class Framing:
         self._coming: Picture | None = None
         self._passing: Picture | None = None
         self._approach: Approach | None = None
+        self._frame = 0
 
     @property
     def last(self) -> Picture:
@@ -130,15 +131,16 @@ class Framing:
     def at(self, state: State, size: tuple[int, int], *, late: bool = False) -> Picture:
         """Return the picture for this frame: one on the way to the fitting one while that is approached.
 
-        A `late` one has what stands still as it was in the last.
+        A `late` one has the view of the last, and what stands still as it was there.
         """
+        self._frame = self._frame if late else state.frame
         last = self._passing or self._fitting
         earlier = last.earlier if last and late else None
         goal, self._passing = self.fitting(state, size, hurried=True, earlier=earlier), None
-        if self._approach is None or self._approach.over(state.frame):
+        if self._approach is None or self._approach.over(self._frame):
             self._approach = None
             return goal
-        look = self._approach.look(self._look(state), goal.fitted, goal.view, size, state.frame)
+        look = self._approach.look(self._look(state), goal.fitted, goal.view, size, self._frame)
         kept = goal.fitted if state.sketch else None
         self._passing = Picture(
             state.shown,
