@@ -270,12 +270,11 @@ def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
     work, name, end = rates.work, joint.name, joint.end
     guide, frame = work.guide(joint.line, name), work.frame((end, name))
     bar, u = work.bar(end, name, joint.length), guide.direction
-    arm = work.points[name] - work.points[guide.through]
-    slid = u.times(rates.rate(name, 1)) if order == 2 else u
-    right = rates.of(end, order) - rates.guided(guide, arm, slid, order)
+    unknowns = UnknownRate(name, u), UnknownRate(frame, -bar.left())
+    right = rates.of(end, order) - rates.guided(guide, name, order, unknowns[0])
     if order == 2:
         right = right - rates.centripetal(frame, bar)
-    rates.solve(name, (UnknownRate(name, u), UnknownRate(frame, -bar.left())), right, order)
+    rates.solve(name, unknowns, right, order)
     if joint.line.on is None:
         rates.let_moving(name, u.times(rates.rate(name, order)), order)
     else:
@@ -359,16 +358,12 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
     """Add the two equations for how bar and pin slide, and how the joint moves."""
     work, name = rates.work, joint.name
     guide = work.guide(joint.line, name)
-    u, w = guide.direction, _along_slot(joint, work, guide)
-    base = work.points[guide.through]
-    slid = both = u
-    if order == 2:
-        slid = u.times(rates.rate(name, 1))
-        both = slid + w.times(rates.rate(name, 1, "t"))
-    right = rates.of(joint.pin, order) - rates.guided(guide, work.points[joint.pin] - base, both, order)
-    rates.solve(name, (UnknownRate(name, u), UnknownRate(name, w, "t")), right, order)
-    carried = rates.guided(guide, work.points[name] - base, slid, order)
-    rates.let_moving(name, carried + u.times(rates.rate(name, order)), order)
+    bar = UnknownRate(name, guide.direction)
+    unknowns = bar, UnknownRate(name, _along_slot(joint, work, guide), "t")
+    right = rates.of(joint.pin, order) - rates.guided(guide, joint.pin, order, *unknowns)
+    rates.solve(name, unknowns, right, order)
+    carried = rates.guided(guide, name, order, bar)
+    rates.let_moving(name, carried + bar.column.times(rates.rate(name, order)), order)
 
 
 def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
-from linkanim.explain.expression import TWO, ZERO, Components, Formula, Symbol, square
+from linkanim.explain.expression import NOWHERE, TWO, ZERO, Components, Formula, Symbol, square
 from linkanim.explain.lines import System
 from linkanim.explain.work import LENGTH, RATIO, GuideLine, Powers, Scale, Work, rounded
 from linkanim.mechanics.linkage.linkage import Damper, Spring
@@ -109,13 +109,17 @@ class Rates:
         """Return ω² times an arm."""
         return arm.times(square(self.rate(frame, 1)))
 
-    def guided(self, guide: GuideLine, arm: Components, slid: Components, order: Order) -> Components:
-        """Return how the point of a guide moves, `arm` from the joint that it runs through.
+    def guided(self, guide: GuideLine, joint: str, order: Order, *sliding: UnknownRate) -> Components:
+        """Return how the point moves of what carries a guide where a joint is.
 
-        Of the second order with what Coriolis adds, where `slid` is the first one along the guide.
+        Of the second order with what Coriolis adds for what is `sliding` there.
         """
+        arm = self.work.points[joint] - self.work.points[guide.through]
         base = self.of(guide.through, order) + self.carried(guide.frame, arm, order)
-        return base if order == 1 else base + slid.left().times(TWO * self.rate(guide.frame, 1))
+        if order == 1:
+            return base
+        slid = sum((one.column.times(self.rate(one.way, 1, one.letter)) for one in sliding), NOWHERE)
+        return base + slid.left().times(TWO * self.rate(guide.frame, 1))
 
     def solve(
         self, index: str, unknowns: tuple[UnknownRate, UnknownRate], right: Components, order: Order
