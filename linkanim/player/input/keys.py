@@ -158,89 +158,81 @@ _TOOLS = (
     for tool in TOOLS
     if len(tool.key) == 1
 )
-MODES: Mapping[Mode, Table] = {
-    "edit": {
-        "in E": (
-            KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
-            KeyRow("← → (Shift: ×10)", "nudge it", _steps("nudge")),
-            KeyRow("Tab, Shift+Tab", "the next row; what is typed here waits", _tabs("pass_on")),
-            KeyRow(
-                "digits, Enter",
-                "type a value, with or without a unit; take all values typed",
-                _enter("take", "erase"),
-            ),
-            KeyRow("Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),
-            KeyRow("Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
-            KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value"),
-            KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
-        )
-    },
-    "list": {
-        "in K": (
-            KeyRow(
-                "↑ ↓",
-                "choose a quantity",
-                _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
-            ),
-            KeyRow("type", "filter by what is in the name"),
-            KeyRow("Enter, click", "chart it", _enter("pick", "unsift")),
-        )
-    },
-    "shelf": {
-        "in O": (
-            KeyRow(
-                "arrows, mouse",
-                "choose a mechanism",
-                _both("left", "right", "move") + _both("up", "down", "row"),
-            ),
-            KeyRow("type", "filter by title or chapter"),
-            KeyRow("PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
-            KeyRow("Enter, click", "put it on", _enter("pick", "unsift")),
-        )
-    },
+_IN_A_MODE: Table = {
+    "in E": (
+        KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
+        KeyRow("← → (Shift: ×10)", "nudge it", _steps("nudge")),
+        KeyRow("Tab, Shift+Tab", "the next row; what is typed here waits", _tabs("pass_on")),
+        KeyRow(
+            "digits, Enter",
+            "type a value, with or without a unit; take all values typed",
+            _enter("take", "erase"),
+        ),
+        KeyRow("Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),
+        KeyRow("Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
+        KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value"),
+        KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
+    ),
+    "in K": (
+        KeyRow(
+            "↑ ↓",
+            "choose a quantity",
+            _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
+        ),
+        KeyRow("type", "filter by what is in the name"),
+        KeyRow("Enter, click", "chart it", _enter("pick", "unsift")),
+    ),
+    "in O": (
+        KeyRow(
+            "arrows, mouse",
+            "choose a mechanism",
+            _both("left", "right", "move") + _both("up", "down", "row"),
+        ),
+        KeyRow("type", "filter by title or chapter"),
+        KeyRow("PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
+        KeyRow("Enter, click", "put it on", _enter("pick", "unsift")),
+    ),
     # beside all others, while the picture stands still
-    "paused": {"paused": (KeyRow("digits, Enter", "go to that input angle", _enter("go", "erase_place")),)},
-    "pencil": {
-        "in W": (
-            KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
-            KeyRow("1–9, click", "take another answer", _digits("answer")),
-            KeyRow("Ctrl+Z", "take the last stroke or drag back", _on("ctrl+z", "take_back", held=True)),
-            KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
-        )
-    },
-    "game": {
-        "in a game": (
-            KeyRow("1–9, click", "choose an answer or a door", _digits("option")),
-            KeyRow("Enter, Space", "go on", _on("return kp_enter space", "next")),
-            KeyRow("← → (Shift: ×10)", "turn the crank", _steps("turn")),
-            KeyRow("↑ ↓", "choose", _both("down", "up", "raise")),
-            KeyRow("Esc", "out of it", ()),
-        )
-    },
-    "build": {
-        "in F2": (
-            KeyRow("click, drag", "a ground pin; from a pin or joint a bar; twice on a bar: a point of it"),
-            KeyRow("let go on a joint, line, bar", "joined there, a slider, a slot"),
-            KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
-            *_TOOLS,
-            KeyRow(
-                "digits, Enter",
-                "type what is chosen; Ctrl+↑ ↓ its other numbers",
-                _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
-            ),
-            KeyRow(
-                "arrows (Shift: fine), Enter", "a cursor; press and lift there", _aims() + _enter("enter")
-            ),
-            KeyRow("I", "a point of the body at the cursor", _on("i insert", "enter", 2)),
-            KeyRow("Tab, Shift+Tab", "choose", _tabs("further")),
-            KeyRow("Del", "remove it, and what hangs on it", _on("delete", "remove")),
-            KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
-            KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
-            KeyRow("Esc, F2", "let go; leave, the linkage being the scene; F2 goes on"),
-        )
-    },
+    "paused": (KeyRow("digits, Enter", "go to that input angle", _enter("go", "erase_place")),),
+    "in W": (
+        KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
+        KeyRow("1–9, click", "take another answer", _digits("answer")),
+        KeyRow("Ctrl+Z", "take the last stroke or drag back", _on("ctrl+z", "take_back", held=True)),
+        KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
+    ),
+    "in a game": (
+        KeyRow("1–9, click", "choose an answer or a door", _digits("option")),
+        KeyRow("Enter, Space", "go on", _on("return kp_enter space", "next")),
+        KeyRow("← → (Shift: ×10)", "turn the crank", _steps("turn")),
+        KeyRow("↑ ↓", "choose", _both("down", "up", "raise")),
+        KeyRow("Esc", "out of it", ()),
+    ),
+    "in F2": (
+        KeyRow("click, drag", "a ground pin; from a pin or joint a bar; twice on a bar: a point of it"),
+        KeyRow("let go on a joint, line, bar", "joined there, a slider, a slot"),
+        KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
+        *_TOOLS,
+        KeyRow(
+            "digits, Enter",
+            "type what is chosen; Ctrl+↑ ↓ its other numbers",
+            _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
+        ),
+        KeyRow("arrows (Shift: fine), Enter", "a cursor; press and lift there", _aims() + _enter("enter")),
+        KeyRow("I", "a point of the body at the cursor", _on("i insert", "enter", 2)),
+        KeyRow("Tab, Shift+Tab", "choose", _tabs("further")),
+        KeyRow("Del", "remove it, and what hangs on it", _on("delete", "remove")),
+        KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
+        KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
+        KeyRow("Esc, F2", "let go; leave, the linkage being the scene; F2 goes on"),
+    ),
 }
-"""What the keys do in a mode, before what they do else."""
+"""What the keys do in a mode, before what they do else, by its subject."""
+_SUBJECTS: Mapping[Mode, str] = {
+    **{"edit": "in E", "list": "in K", "shelf": "in O", "paused": "paused"},
+    **{"pencil": "in W", "game": "in a game", "build": "in F2"},
+}
+MODES: Mapping[Mode, Table] = {mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()}
+"""The same by mode."""
 PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PAD)}
 """What the buttons of a gamepad do."""
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
@@ -301,7 +293,7 @@ def _names(press: Press) -> tuple[str, ...]:
 
 def key_names() -> tuple[str, ...]:
     """Return every bound key's name once, without modifiers (a key alone may be '+')."""
-    names = (bind.key for table in (KEYS, *MODES.values()) for bind in _binds(table))
+    names = (bind.key for table in (KEYS, _IN_A_MODE) for bind in _binds(table))
     return tuple(dict.fromkeys(name.removeprefix("ctrl+").removeprefix("shift+") for name in names))
 
 
@@ -319,7 +311,7 @@ def help_groups(
 def _lines() -> Iterator[tuple[str, str]]:
     """Yield all lines of the table, those of a mode under its subject."""
     yield from ((row.keys, row.words) for rows in KEYS.values() for row in rows)
-    for table in (*MODES.values(), PAD_KEYS):
+    for table in (_IN_A_MODE, PAD_KEYS):
         yield from ((f"{subject}: {row.keys}", row.words) for subject, rows in table.items() for row in rows)
 
 

@@ -230,17 +230,12 @@ class Mouse:
         return (Action("zoom", (float(notches), x / screen.size[1], y / screen.size[1])),)
 
     def _moved(self, screen: Screen) -> tuple[Action, ...]:
-        if self._drag == "crank":
-            return (
-                Action(
-                    "scrub",
-                    phase_towards(screen.state.displayed, screen.state.phase, screen.world(*self._at)),
-                ),
-            )
         if self._drag == "joint":
             fine = _TENTHS if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1.0
             return (Action("carry", (*screen.world(*self._at), fine)),)
         phase = screen.charted(*self._at) if self._drag == "chart" else None
+        if self._drag == "crank":
+            phase = phase_towards(screen.state.displayed, screen.state.phase, screen.world(*self._at))
         return () if phase is None else (Action("scrub", phase),)
 
 
