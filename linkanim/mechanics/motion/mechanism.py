@@ -251,8 +251,10 @@ def _quantities(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, 
     for kind in VECTORS:
         part = ("position", "velocity", "acceleration")[DERIVATIVE_OF[kind]]
         points = (centres if kind.startswith("com_") else joints).items()
-        vectors = ((name, getattr(point, part).scaled(unscale)) for name, point in points)
-        yield kind, {name: (vector.x, vector.y) for name, vector in vectors}
+        vectors = ((name, getattr(point, part)) for name, point in points)
+        if unscale != 1.0:
+            vectors = ((name, vector.scaled(unscale)) for name, vector in vectors)
+        yield kind, dict(vectors)
     turnings = {name: (turning.value, turning.rate) for name, turning in walk.bodies.items()}
     sliding = ((body.name, walk.travels[body.slider]) for body in walk.linkage.bodies if body.slider)
     travels = {name: (way.value, way.rate, way.second) for name, way in sliding}
