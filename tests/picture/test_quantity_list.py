@@ -12,7 +12,7 @@ import pytest
 from linkanim.picture.layout import layout
 from linkanim.picture.panels.board import STEP, Board
 from linkanim.picture.panels.overlay import Quantities
-from linkanim.picture.panels.quantity_list import quantity_list
+from linkanim.picture.panels.quantity_list import quantity_list, quantity_rows
 from linkanim.picture.raster.raster import Colour
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
@@ -74,6 +74,15 @@ def test_rows_stand_line_by_line_below_the_title_and_the_hint_below_them(board: 
             )
     assert board.layout.lists.height - 1.5 * STEP * size < sheet.get_height() <= board.layout.lists.height
     assert sheet.get_width() == round(board.layout.lists.width)
+
+
+def test_each_row_is_found_where_its_words_stand(board: Noted) -> None:
+    shown = Quantities(ROWS, 25, "", HINT)
+    quantity_list(board, shown)
+    rows, half = quantity_rows(board, shown), 0.5 * board.layout.small_size
+    written = [(n, board.lines[words].at[1]) for n, (words, _) in enumerate(ROWS) if words in board.lines]
+    assert [rows.at(y + half) for _, y in written] == [n for n, _ in written]
+    assert rows.at(written[0][1] - half) is rows.at(written[-1][1] + 3 * half) is None
 
 
 def test_what_has_been_typed_stands_for_the_title_and_none_found_is_said(board: Noted) -> None:
