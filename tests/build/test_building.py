@@ -16,6 +16,7 @@ from linkanim.build.draft import Photo, restored, stored
 from linkanim.build.gestures import fit_photo, lay_photo, move_photo
 from linkanim.build.origin import draft_of
 from linkanim.errors import BadInput
+from linkanim.scenes import load
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.editing.write import text
 from linkanim.scenes.reading.read import scene_from
@@ -117,6 +118,13 @@ def test_wheels_touch_where_their_radii_are_as_their_ratio() -> None:
     building = drawn((*pivots, "drag gear 120 0 30 0", "type -2"))
     (wheels,) = (shape for shape in shapes.drawn(building.draft) if shape.kind == "gears")
     assert wheels.places == ((90, 0), (0, 0), (60, 0))
+
+
+def test_a_bar_is_drawn_with_the_points_of_its_own_body() -> None:
+    draft = draft_of(load("crank-rocker"))
+    bars = {shape.thing[1]: shape.places for shape in shapes.drawn(draft) if shape.kind == "bars"}
+    assert bars["A–B"] == tuple(draft.places[name] for name in "ABP")
+    assert [len(places) for places in bars.values()] == [2, 3, 2]
 
 
 def test_a_photograph_comes_to_two_known_points_and_into_the_file() -> None:

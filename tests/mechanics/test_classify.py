@@ -50,6 +50,16 @@ def test_a_four_bar_is_classed_by_its_lengths(
     assert (info.class_name, info.full_turn, info.circuits) == (name, turns, circuits)
 
 
+@pytest.mark.parametrize("lengths", [(100.0, 80.0, 30.0, 90.0), (100.0, 80.0, 90.0, 30.0)], ids=str)
+def test_the_class_is_the_same_from_whichever_end_the_bars_are_written(
+    lengths: tuple[float, float, float, float],
+) -> None:
+    linkage = four_bar(lengths)
+    other = RRR("B", ("O4", "A"), lengths[:1:-1], -1)
+    turned = replace(linkage, joints=(*linkage.joints[:3], other, *linkage.joints[4:]))
+    assert Info(mechanism(turned), "mm").class_name == Info(mechanism(linkage), "mm").class_name
+
+
 def test_the_crossed_parallelogram_is_the_antiparallelogram() -> None:
     assert Info(mechanism(four_bar((4, 2, 4, 2), side=-1)), "mm").class_name == "antiparallelogram"
 
