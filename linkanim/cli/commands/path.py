@@ -23,6 +23,8 @@ from linkanim.synthesis.request import path
 _UNIT = "mm"
 _POOR = 5.0
 """Percent of the curve's size, beyond which an answer hardly follows it."""
+_HANDED_ON = ("kind", "count", "box", "largest", "least_angle", "cognates")
+"""Options that are called alike here and there."""
 _TITLES = ("file", f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longest link", "class")
 
 
@@ -36,14 +38,9 @@ def run(options: Namespace) -> None:
         fits = path(
             curve.points,
             not options.open,
-            kind=options.kind,
             timing=_timing(options.timing, curve, named(options.curve)),
-            count=options.count,
-            box=options.box,
-            largest=options.largest,
-            least_angle=options.least_angle,
-            cognates=options.cognates,
             rounding=options.round,
+            **{name: getattr(options, name) for name in _HANDED_ON},
             name=target.stem,
             source=f"linkanim path for {named(options.curve.name)}",
             progress=progress,

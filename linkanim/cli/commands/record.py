@@ -24,8 +24,8 @@ from linkanim.recorder.scene_frames import record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
 
-_OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted", *TOGGLES)
-"""Options that a tape has its own answer to."""
+_OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted")
+"""Options that a tape has its own answer to, beside those of the look."""
 
 
 def run(options: Namespace) -> None:
@@ -51,22 +51,14 @@ def _of_scene(options: Namespace) -> Callable[..., Recording]:
     if options.photo:
         raise BadInput("--photo is for a tape, whose sheet has a photograph behind it")
     scene = load(options.scene)
-    return partial(
-        record,
-        scene,
-        speed=options.speed,
-        periods=options.periods or 1,
-        seconds=options.seconds,
-        reverse=options.reverse,
-        look=look_of(scene, options),
-        noted=options.noted,
-    )
+    asked = {name: getattr(options, name) for name in _OF_A_SCENE}
+    return partial(record, scene, **{**asked, "periods": options.periods or 1}, look=look_of(scene, options))
 
 
 def _of_tape(options: Namespace) -> Callable[..., Recording]:
     """Return what records a tape; `BadInput` for an option that the tape has its own answer to."""
     usual = parse(["record", options.scene])
-    for name in _OF_A_SCENE:
+    for name in (*_OF_A_SCENE, *TOGGLES):
         found = getattr(options, name, None)
         if found != getattr(usual, name, None):
             word = _word(name, found)
