@@ -36,11 +36,6 @@ class Mix(NamedTuple):
     keep: Singles
     add: Singles
 
-    def part(self, begin: int, end: int) -> Mix:
-        """Return some of the pixels."""
-        bytes_ = slice(4 * begin, 4 * end)
-        return Mix(self.place[begin:end], self.keep[bytes_], self.add[bytes_])
-
 
 def shares(cover: Counts | Floats) -> Shares:
     """Return coverage as it is mixed by."""
@@ -57,20 +52,25 @@ def mixed_in(place: Ints, share: Shares, ink: Words) -> Mix:
     return Mix(place, np.float32(1) - of_bytes, add)
 
 
-def mix(pixels: Words, what: Mix, *, clear: bool) -> None:
-    """Mix into pixels; `clear` where the surface itself lets light through: its colours are kept straight."""
-    levels = pixels.take(what.place).view(np.uint8).astype(np.float32)
+def mix(pixels: Words, what: Mix, begin: int, end: int, *, clear: bool) -> None:
+    """Mix some of what there is into pixels.
+
+    `clear` where the surface itself lets light through: its colours are kept straight.
+    """
+    place, bytes_ = what.place[begin:end], slice(4 * begin, 4 * end)
+    keep, add = what.keep[bytes_], what.add[bytes_]
+    levels = pixels.take(place).view(np.uint8).astype(np.float32)
     if clear:
-        levels = _straight(levels.reshape(-1, 4), what).ravel()
+        levels = _straight(levels.reshape(-1, 4), keep.reshape(-1, 4), add.reshape(-1, 4)).ravel()
     else:
-        levels *= what.keep
-        levels += what.add
-    pixels[what.place] = levels.astype(np.uint8).view(np.uint32)
+        levels *= keep
+        levels += add
+    pixels[place] = levels.astype(np.uint8).view(np.uint32)
 
 
-def _straight(below: Singles, what: Mix) -> Singles:
+def _straight(below: Singles, keep: Singles, add: Singles) -> Singles:
     """Return pixels (n, 4) whose opacity is their last byte, mixed: colours by their part in the opacity."""
-    keep, add = what.keep.reshape(-1, 4), what.add.reshape(-1, 4) - _HALF
+    add = add - _HALF
     opacity = below[:, 3:] * keep[:, 3:] + add[:, 3:]
     colours = below[:, :3] * (below[:, 3:] / np.float32(255)) * keep[:, :3] + add[:, :3]
     straight = colours * (np.float32(255) / np.maximum(opacity, np.float32(1 / 255)))

@@ -139,7 +139,7 @@ class Cover:
                 pixels[full.place[inside]] = full.ink[inside]
             for mixed, at in self._mixes:
                 if at[level] < at[level + 1]:
-                    mix(pixels, mixed.part(at[level], at[level + 1]), clear=clear)
+                    mix(pixels, mixed, at[level], at[level + 1], clear=clear)
 
 
 def covers(surface: pygame.Surface, parts: Sequence[Shapes]) -> list[Cover]:

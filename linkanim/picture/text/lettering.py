@@ -17,6 +17,8 @@ from linkanim.picture.text.text import Type
 
 _FINE = 4
 """Words are set so many times larger and averaged, and placed to such a part of a pixel."""
+_RING = directions(np.linspace(0, 2 * np.pi, 24, endpoint=False))
+"""Where a halo reaches from every point of a letter."""
 
 
 class Lettering:
@@ -91,7 +93,7 @@ def _haloed(cover: NDArray[np.uint8], halo: int, colours: tuple[Colour, Colour])
     # what is empty about them lets whole rows be shifted at once, as they lie in memory
     first, end = begin * room[1], (begin + high) * room[1]
     inked, flat = letters.ravel()[first:end], around.ravel()
-    ring = np.rint(halo * directions(np.linspace(0, 2 * np.pi, 24, endpoint=False)))
+    ring = np.rint(halo * _RING)
     for aside in (ring.imag * room[1] + ring.real).astype(int).tolist():
         under = flat[first + aside : end + aside]
         np.maximum(under, inked, out=under)
