@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Sequence
 
 from linkanim.cli.exits import guarded
+
+_SPARED = 10_000
+"""So many more things are made than go before rubbish is looked for: at the start nearly all of them stay."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -17,6 +21,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(argv: Sequence[str] | None) -> None:
+    gc.set_threshold(_SPARED)
     # Imported here so that Ctrl-C during start-up is answered like any other.
     from linkanim.cli import command_table as commands
 
