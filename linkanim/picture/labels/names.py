@@ -201,7 +201,8 @@ def names_of(
 ) -> Generator[None, None, Names]:
     """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too.
 
-    Lengths that do not stand on the picture at all times go into a table. Each label is a step.
+    Lengths that do not stand on the picture at all times go into a table. Each place that is looked for is a
+    step.
     """
     fixed, shown = ground.figure.fixed, ground.figure.shown
     moving = [name for name in shown if name not in fixed]
@@ -210,21 +211,22 @@ def names_of(
     planned += [_dead_centres(ground, setting, dead_centres)] if dead_centres else []
     placer, kept, left = Placer(ground.clutter()), [], []
     for forms in chain(*planned, _joints(ground, setting, moving)):
-        placed, (label, _) = list(_placed(placer, forms)), forms[0]
+        placed, (label, _) = (yield from _placed(placer, forms)), forms[0]
         kept += placed
         if label.about and not any(one.shown is not None and one.shown.all() for one in placed):
             left.append(label)
-        yield
     rows, found = tuple(left), (ground.figure.scene.period, setting.gauge.bar, _halo(setting))
-    table = _tabled(ground, setting, placer, rows) if rows else None
+    table = (yield from _tabled(ground, setting, placer, rows)) if rows else None
     return Names(tuple(kept), *found, table, () if table else rows, ground.view.scale)
 
 
-def _placed(placer: Placer, forms: tuple[Form, ...]) -> Iterator[Label]:
-    """Yield a label in its place; a name again in another for the time at which it cannot be there."""
+def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, list[Label]]:
+    """Return a label in its place; a name again in another for the time at which it cannot be there."""
+    found: list[Label] = []
     but = None
     measures = bool(forms[0][0].about)
     for least in (_LEAST_MEASURED,) if measures else (_LEAST_SHOWN, _LEAST_AGAIN, _LEAST_AGAIN):
+        yield
         enough = 1.0 if measures else _ENOUGH
         which, placed = placer.first([spots.candidates for _, spots in forms], enough, least=least, but=but)
         label, spots = forms[which]
@@ -232,11 +234,13 @@ def _placed(placer: Placer, forms: tuple[Form, ...]) -> Iterator[Label]:
         if placed.shown.any():
             number = -1 if spots.candidates.drawn is None else int(spots.candidates.drawn[placed.which])
             drawn = spots.lines[number] if number >= 0 else None
-            yield replace(label, spot=spots.spots.picked(placed.which), shown=placed.shown, drawn=drawn)
+            spot = spots.spots.picked(placed.which)
+            found.append(replace(label, spot=spot, shown=placed.shown, drawn=drawn))
         but = placed.shown > 0 if but is None else but | (placed.shown > 0)
         nowhere = least == _LEAST_AGAIN and not placed.shown.any()  # nor would it be a second time
         if nowhere or but.all():
-            return
+            break
+    return found
 
 
 def table_width(rows: Iterable[str], setting: DrawSetting) -> float:
@@ -247,7 +251,7 @@ def table_width(rows: Iterable[str], setting: DrawSetting) -> float:
 
 def _tabled(
     ground: Surroundings, setting: DrawSetting, placer: Placer, rows: tuple[Label, ...]
-) -> DimensionTable | None:
+) -> Generator[None, None, DimensionTable | None]:
     """Return the table where it has been given room, or where there is some; None where there is none."""
     size, strip = setting.layout.small_size, setting.layout.table
     wide = table_width((label.row for label in rows), setting)
@@ -261,25 +265,23 @@ def _tabled(
         columns, small = next(fits)
         rect = strip._replace(width=columns * wide * small / size)
         return DimensionTable(rows, columns, rect, small, setting.theme.dim, _halo(setting))
-    stage, shapes = setting.layout.stage.inset(setting.layout.margin), []
+    stage = setting.layout.stage.inset(setting.layout.margin)
     for columns in range(1, len(rows) + 1):
         around = complex(columns * wide, ceil(len(rows) / columns) * _ROW * size)
         first, room = complex(stage.x, stage.y) + around / 2, complex(stage.width, stage.height) - around
         if room.real > 0 and room.imag > 0:
+            yield
             across, down = (np.linspace(0, 1, count) for count in _GRID)
             grid = first + np.add.outer(across * room.real, 1j * down * room.imag)
             outer = np.add.outer(np.minimum(across, 1 - across), np.minimum(down, 1 - down)).ravel()
             order = outer.argsort(kind="stable")
-            shapes.append((columns, ground.still(grid.ravel()[order], (around.real, around.imag))))
-    if not shapes:
-        return None
-    which, placed = placer.first([spots.candidates for _, spots in shapes], 1.0, least=1.0)
-    if not placed.shown.all():
-        return None
-    columns, spots = shapes[which]
-    (wide, high), middle = spots.candidates.size, complex(spots.candidates.places[0, placed.which])
-    rect = Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)
-    return DimensionTable(rows, columns, rect, size, setting.theme.dim, _halo(setting))
+            spots = ground.still(grid.ravel()[order], (around.real, around.imag)).candidates
+            _, placed = placer.first([spots], least=1.0)
+            if placed.shown.all():
+                corner = complex(spots.places[0, placed.which]) - around / 2
+                rect = Rect(corner.real, corner.imag, around.real, around.imag)
+                return DimensionTable(rows, columns, rect, size, setting.theme.dim, _halo(setting))
+    return None
 
 
 def _joints(ground: Surroundings, setting: DrawSetting, names: Iterable[str]) -> Forms:
