@@ -116,7 +116,9 @@ class Picture:
         if self.look.names:
             yield from self._placed(before, held=held)
         if self.names and self.names.unlisted:
+            yield
             self._arrange(self.fit.request._replace(table=self._table_size()), before, held=False)
+            yield
             yield from self._placed(None, held=False)
         self._papered: tuple[Photo | None, Group] | None = None
         if (

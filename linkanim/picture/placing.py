@@ -9,7 +9,7 @@ of one moment, such as a chart or a figure, a label stands there or not at all.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -37,7 +37,6 @@ _ALONG = np.linspace(0.05, 0.95, 7)
 """Where along a line is looked whether it does."""
 _THICK = 1.0
 """Half as thick as lines that go with labels are taken to be, in pixels."""
-_NONE = np.zeros((1, 0), np.complex128)
 _GONE = 3
 """How many moments before it would lie on something a label is gone."""
 _SOFT = 3
@@ -144,14 +143,14 @@ class Placed(NamedTuple):
     shown: _Floats
 
 
-@dataclass
 class Placer:
     """Places one label after the other in a clutter, each off those before it."""
 
-    clutter: Clutter
-    _taken: Loop = field(default_factory=lambda: _NONE)
-    _sizes: _Floats = field(default_factory=lambda: np.zeros((2, 0)))
-    _lines: Loop = field(default_factory=lambda: np.zeros((1, 0, 2), np.complex128))
+    def __init__(self, clutter: Clutter) -> None:
+        self.clutter = clutter
+        self._taken = np.array([[rect.middle for rect in clutter.rects]], np.complex128)
+        self._sizes = np.array([(rect.width, rect.height) for rect in clutter.rects]).reshape(-1, 2).T
+        self._lines = np.zeros((1, 0, 2), np.complex128)
 
     def first(
         self,
@@ -198,8 +197,6 @@ class Placer:
         places, size = label.places, label.size
         forbidden: _Bools = np.logical_not(_within(places, size, clutter.inside))
         cost = np.zeros(places.shape)
-        for rect in clutter.rects:
-            forbidden |= _over(places - rect.middle, size, (rect.width, rect.height))
         taken, placed_lines = (
             all_[moments] if len(all_) > 1 else all_ for all_ in (self._taken, self._lines)
         )
@@ -224,8 +221,6 @@ class Placer:
         lines = np.concatenate(groups, axis=1)
         barred = np.asarray(np.logical_not(_within(lines, (2.0, 2.0), clutter.inside)).any(axis=2))
         barred |= _hits(taken, self._sizes, lines, _THICK).any(axis=1)
-        for rect in clutter.rects:
-            barred |= _hits(rect.middle, (rect.width, rect.height), lines, _THICK).any(axis=1)
         starts = np.cumsum([0, *(group.shape[1] for group in groups[:-1])])
         return np.asarray(np.logical_or.reduceat(barred, starts, axis=1))
 
@@ -250,15 +245,15 @@ def touching(places: Loop, size: tuple[float, float], solids: Solids) -> _Bools:
         return _hits(places, size, corners, half)
     hit = _straddles(corners.real, places.real[..., None], wide / 2 + half)
     hit &= _straddles(corners.imag, places.imag[..., None], high / 2 + half)
-    for n in range(corners.shape[2]):
-        along = corners[..., n] - corners[..., n - 1]
-        length = np.abs(along)
-        normal = 1j * along / np.where(length > 0, length, 1)
-        reach = np.abs(normal.real) * wide / 2 + np.abs(normal.imag) * high / 2 + half
-        across = corners.real * normal.real[..., None] + corners.imag * normal.imag[..., None]
-        right, down = normal.real[:, None], normal.imag[:, None]
-        middles = places.real[..., None] * right + places.imag[..., None] * down
-        hit &= _straddles(across, middles, reach[:, None])
+    moment, place_, solid = hit.nonzero()
+    near, half = corners[moment if len(corners) > 1 else 0, solid], half[solid, None]
+    along = near - np.roll(near, 1, axis=1)
+    length = np.abs(along)
+    back = -1j * along.conj() / np.where(length > 0, length, 1)
+    reach = np.abs(back.real) * wide / 2 + np.abs(back.imag) * high / 2 + half
+    across, middle = (back[..., None] * near[:, None]).real, (back * places[moment, place_, None]).real
+    apart = (across.min(axis=2) - middle >= reach) | (middle - across.max(axis=2) >= reach)
+    hit[moment, place_, solid] = ~apart.any(axis=1)
     return hit
 
 
@@ -284,7 +279,7 @@ def _hits(
 ) -> _Bools:
     """Return which boxes touch which of the lines (n, k, m)."""
     wide, high = (np.atleast_1d(side)[:, None] / 2 for side in size)
-    middle, reach = lines.mean(axis=2)[:, None], (lines[..., 1] - lines[..., 0])[:, None] / 2
+    middle, reach = (((lines[..., 1] + sign * lines[..., 0]) / 2)[:, None] for sign in (1, -1))
     away = np.atleast_2d(places)[:, :, None] - middle
     long, deep = np.abs(reach.real), np.abs(reach.imag)
     hit = (np.abs(away.real) < wide + half + long) & (np.abs(away.imag) < high + half + deep)
@@ -332,7 +327,7 @@ def _within(places: Loop, size: tuple[float, float], room: Rect) -> _Bools:
     return np.asarray(inside & (y - high / 2 >= room.y) & (y + high / 2 <= room.bottom))
 
 
-def _over(away: Loop, size: tuple[float, float], other: tuple[float, float] | _Floats) -> _Bools:
+def _over(away: Loop, size: tuple[float, float], other: _Floats) -> _Bools:
     wide, high = size[0] + other[0], size[1] + other[1]
     return np.asarray((2 * np.abs(away.real) < wide) & (2 * np.abs(away.imag) < high))
 
