@@ -38,17 +38,11 @@ class _State(NamedTuple):
     cost: Real
 
 
-def _merged(mine: _State, other: _State, where: NDArray[np.bool_]) -> _State:
-    """Return a state, the rows of another one where said."""
-
-    def part(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
-        return np.where(where.reshape(-1, *[1] * (a.ndim - 1)), b, a)
-
-    return _State(
-        Candidates(*map(part, mine.found, other.found)),
-        TracedPoints(*map(part, mine.traced, other.traced)),
-        *map(part, mine[2:], other[2:]),
-    )
+def _merged(mine: Any, other: Any, where: NDArray[np.bool_]) -> Any:
+    """Return a state, or a part of it, with the rows of another one where said."""
+    if isinstance(mine, tuple):
+        return type(mine)(*(_merged(*pair, where) for pair in zip(mine, other, strict=True)))
+    return np.where(where.reshape(-1, *[1] * (mine.ndim - 1)), other, mine)
 
 
 def refined(
