@@ -120,6 +120,15 @@ def test_wheels_touch_where_their_radii_are_as_their_ratio() -> None:
     assert wheels.places == ((90, 0), (0, 0), (60, 0))
 
 
+@pytest.mark.parametrize(("bar", "lengths"), [("A–B", (95, 89)), ("O4–B", (85, 95))])
+def test_a_length_that_is_typed_moves_the_joint_to_where_both_bars_meet(
+    bar: str, lengths: tuple[int, int]
+) -> None:
+    places = drawn((*FOUR_BAR, f"choose bars {bar}", "type 95")).draft.places
+    found = [np.hypot(*np.subtract(places["B"], places[end])) for end in ("A", "O4")]
+    assert found == pytest.approx(lengths)
+
+
 def test_a_bar_is_drawn_with_the_points_of_its_own_body() -> None:
     draft = draft_of(load("crank-rocker"))
     bars = {shape.thing[1]: shape.places for shape in shapes.drawn(draft) if shape.kind == "bars"}

@@ -146,10 +146,11 @@ def test_a_run_replays_to_the_same_score_from_its_start_and_from_its_midst() -> 
 )
 def test_a_run_that_is_over_is_compared_with_the_best(best: int, well: bool, words: str) -> None:
     state = on("follow scene=press")
-    run = replace(game(state), stage="over", passed=1_500_999, paper=1_600_000, best=best)
+    run = replace(game(state), stage="over", passed=1_500_999, outside=90, paper=1_600_000, best=best)
     panel = run.shown(state, Overlay()).game
     assert panel
     assert (panel.well, panel.verdict) == (well, words)
+    assert [bar.words for bar in panel.bars] == ["1.50 m", "1.5 s"]
     assert run.level == 1
 
 

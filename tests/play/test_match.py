@@ -70,6 +70,14 @@ def test_there_are_twenty_levels_in_their_order() -> None:
     assert {"hoecken", "dwell-arc", "d-film-gate", "foot"} <= set(LEVELS)
 
 
+@pytest.mark.parametrize(("steps", "further"), [(1, -1), (-1, 1)])
+def test_the_arrow_keys_go_to_the_level_above_and_below(steps: int, further: int) -> None:
+    known = level_names()
+    state = done(on(f"match level={known[3]}"), ("raise", steps))
+    (begun,) = state.effects
+    assert str(begun.value).startswith(f"match level={known[3 + further]}")
+
+
 @pytest.mark.parametrize("name", LEVELS)
 def test_every_level_is_solved_by_its_tape_with_full_score(name: str) -> None:
     tape = read(TAPES / f"{name}.tape.json", game_of)

@@ -11,6 +11,7 @@ import pytest
 
 from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.picture.figure import figure
+from linkanim.picture.labels.dimensions import symbols
 from linkanim.scenes import load
 from linkanim.scenes.editing.edit import dimensions, with_dimensions
 from linkanim.scenes.editing.handles import handles
@@ -128,6 +129,9 @@ def test_three_bars_of_a_triangle_are_drawn_as_one_plate() -> None:
 def test_a_link_of_three_bars_is_named_and_numbered_once() -> None:
     found = figure(load("jansen"))
     assert list(found.links.values()) == ["m", "j", "k", "b-d-e", "c", "f", "g-h-i"]
+    measured = sorted(one.value for one in symbols(found).dimensions if not one.angle)
+    assert measured[:2] == pytest.approx([15, 36.7])
+    assert measured[3:] == pytest.approx([39.3, 39.4, 40.1, 41.5, 49, 50, 55.8, 61.9, 65.7])
 
 
 def test_each_bar_of_a_triangle_keeps_its_own_angle() -> None:
