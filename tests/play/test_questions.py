@@ -69,6 +69,7 @@ def check(question: QuizQuestion) -> None:
                 assert ends == pytest.approx([degrees(end) for end in scene.info.input_range], abs=0.051)
         case "closure":
             assert answer.endswith("same closure" if scene.info.mechanism.retraced else "other closure")
+            assert ("the way it came" in question.why) == scene.info.mechanism.retraced
         case "grashof":
             s, p, q, longest = (float(word) for word in sums(question.why))
             sign = (s + longest > p + q) - (s + longest < p + q)
@@ -227,6 +228,7 @@ def test_a_chapter_is_asked_scene_by_scene_on_a_sheet_with_its_key_apart(tmp_pat
     assert text.index("class='key'") > text.rindex("</section>")
     for name in chapters()["exact and scaling"][:5]:
         assert load(name).title in text
+        assert f">{load(name).title}</text>" not in text  # no words in the figure that tell the answer
 
 
 @pytest.mark.parametrize(
