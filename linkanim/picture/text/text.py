@@ -126,7 +126,7 @@ class Type:
         """
         width, inked = self._inked_of(text, size, colour, _face(strong))
         x, y = _left(at[0], width, anchor), round(at[1]) + round(_BASE * size)
-        surface.fblits([(sprite, (x + right, y + down)) for sprite, right, down in inked])
+        surface.blits([(sprite, (x + right, y + down)) for sprite, right, down in inked], doreturn=False)
         return width
 
     def _inked_of(self, text: str, size: int, colour: Colour, face: str) -> tuple[int, list[Inked]]:
@@ -295,7 +295,7 @@ def _joined(run: list[Inked]) -> Inked:
     left, top = run[0].right, min(glyph.down for glyph in run)
     right, low = run[-1].right + run[-1].sprite.get_width(), max(g.down + g.sprite.get_height() for g in run)
     sheet = pygame.Surface((right - left, low - top), pygame.SRCALPHA, 32)
-    sheet.fblits([(glyph.sprite, (glyph.right - left, glyph.down - top)) for glyph in run])
+    sheet.blits([(glyph.sprite, (glyph.right - left, glyph.down - top)) for glyph in run], doreturn=False)
     return Inked(sheet, left, top)
 
 
