@@ -10,6 +10,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from linkanim.cli import main
@@ -114,6 +115,18 @@ def test_a_page_runs_at_the_speed_asked_for() -> None:
     found = held(document(Shared(load("press"), speed=-1.5)))
     assert found["speed"] == -1.5
     assert found["sides"][0]["rows"][1]["text"] == ["−14.32 rpm", "14.32 rpm"]
+
+
+def test_a_page_s_numbers_and_chart_are_what_is_solved() -> None:
+    scene = load("crank-rocker")
+    side = held(document(Shared(scene, speed=2.0, chart="B.velocity")))["sides"][0]
+    curves = [chart["curves"][0]["values"] for chart in side["charts"]]
+    packed = side["rows"][0]["values"][0], *curves
+    found = [np.frombuffer(base64.b64decode(some), "<f4") for some in packed]
+    motions = [scene.solve(phase=np.linspace(0, scene.period, len(some)), speed=2.0) for some in found]
+    assert found[0] == pytest.approx(np.degrees(motions[0].coordinate), abs=1e-3)
+    for values in found[1:]:
+        assert values == pytest.approx(np.hypot(*motions[1].velocity["B"].T), rel=1e-2)
 
 
 GEARED = """
