@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from decimal import Context, Decimal, localcontext
+from decimal import Context, Decimal, getcontext, localcontext
+from functools import lru_cache
 
 from linkanim.mechanics.formulas.constant import DIGITS, Constant, digits_of
 from linkanim.mechanics.formulas.exact import Sum, exact_angle, unit
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
+
+_LAST_TERM = Decimal(10) ** -(DIGITS + 5)
 
 
 def context() -> Context:
@@ -46,10 +49,16 @@ def sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
     """Return sine and cosine, by their series after whole right angles are taken off."""
     if not angle.is_finite():
         return Decimal("NaN"), Decimal("NaN")
+    return _series(angle, getcontext().prec)
+
+
+@lru_cache(maxsize=64)
+def _series(angle: Decimal, _digits: int) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine in the context's digits; formulas ask for the one and then for the other."""
     count = int((2 * angle / PI).to_integral_value())
     sums = [Decimal(0), Decimal(0)]
     term, rest, n = Decimal(1), angle - count * PI / 2, 0
-    while abs(term) > Decimal(10) ** -(DIGITS + 5) and n < 4 * DIGITS:
+    while abs(term) > _LAST_TERM and n < 4 * DIGITS:
         sums[n % 2] += term if n % 4 in (0, 1) else -term
         n += 1
         term = term * rest / n
