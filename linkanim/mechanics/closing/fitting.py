@@ -141,7 +141,7 @@ def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
 
 
 def _closing(assembly: Assembly, name: str) -> Closing:
-    return walk_at(precise(assembly), Graph(exact=True).input("x"), Slope(1.0)).closings[name]
+    return walk_at(precise(assembly), Graph(exact=True).input("x"), Slope(0.0)).closings[name]
 
 
 def _outputs(closing: Closing) -> tuple[Value, ...]:
