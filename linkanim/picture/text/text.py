@@ -40,8 +40,8 @@ _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 
 _KEPT = 2048
 """How many lines are remembered, set: as many as a turn of a scene with a dozen values has."""
-_INKED_BYTES = 16_000_000
-"""How much memory lines as they are drawn may take: a turn's at 1280 × 720 twice over."""
+_INKED_BYTES = 1_000_000
+"""How much memory new lines as they are drawn may take until those that were not drawn meanwhile go."""
 
 
 class Run(NamedTuple):
@@ -100,6 +100,7 @@ class Type:
         self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
         self._inked: dict[tuple[str, int, str, Colour], tuple[int, list[Inked]]] = {}
         self._inked_bytes = 0
+        self._drawn: set[Hashable] = set()
         self._once: set[Hashable] = set()
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
@@ -151,13 +152,15 @@ class Type:
             inked = [_joined(run) for run in _apart(inked)]
             self._make_room(sum(4 * prod(letters.sprite.get_size()) for letters in inked))
             self._inked[key] = width, inked
+        self._drawn.add(key)
         return self._inked[key]
 
     def _make_room(self, further: int) -> None:
-        """Forget the lines that were drawn where so many bytes more are too many."""
+        """Forget the lines not drawn since this was last done where so many bytes more are too many."""
         self._inked_bytes += further
         if self._inked_bytes > _INKED_BYTES or len(self._inked) >= _KEPT:
-            self._inked.clear()
+            self._inked = {key: line for key, line in self._inked.items() if key in self._drawn}
+            self._drawn.clear()
             self._inked_bytes = further
 
     def _glyph(self, char: str, size: int, colour: Colour, face: str, part: int) -> Inked:
