@@ -24,7 +24,7 @@ from linkanim.mechanics.closing.chain import ChainRoot, Dip, End, Touch
 from linkanim.mechanics.closing.fitting import fitted, refined
 from linkanim.mechanics.closing.kinds import walk_at
 from linkanim.mechanics.closing.search import ends_of
-from linkanim.mechanics.closing.separation import Separations, at_samples, separations
+from linkanim.mechanics.closing.separation import Separations, separations
 from linkanim.mechanics.closing.walk import Assembly
 from linkanim.mechanics.drive.input_path import Limit
 from linkanim.mechanics.drive.ranges import ONE_PLACE
@@ -75,12 +75,12 @@ def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Asse
 def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations, *, exact: bool) -> Assembly:
     """Return the assembly on the widest swing that every dyad lets the input run through, there and back.
 
-    Its ends are `exact`, and the dyads looked at between samples too.
+    Its ends are `exact`, or as floats know them.
     """
     swing, limited, on_limited = _cut(assembly, linkage, found, exact)
     for path in _smooth_paths(swing):
         if path is not swing:
-            limited, on_limited = _limited(assembly, path, exact)
+            limited, on_limited = _limited(assembly, path)
         limited, on_limited = through_change_points(limited, on_limited)
         if _runs_through(limited, on_limited):
             return limited
@@ -101,20 +101,20 @@ def _cut(
         swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing, exact)))
         if swing.amplitude < NO_WAY:
             raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
-        limited, on_swing = _limited(assembly, swing, exact)
+        limited, on_swing = _limited(assembly, swing)
         up = (on_swing.phases > 0) & (on_swing.phases < math.pi)  # at its ends rounding alone decides
         if not on_swing.shut[:, up].any():
             break
     return swing, limited, on_swing
 
 
-def _limited(assembly: Assembly, path: Swing, exact: bool) -> tuple[Assembly, Separations]:
+def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
     """Return the assembly on another path, its closures named anew, and how its dyads fare there."""
     dyads = [name for name in dict.fromkeys(path.ends) if name and name not in assembly.loops]
     ends = {name: tuple(End(upper) for upper in (False, True) if path.ends[upper] == name) for name in dyads}
     chain = {name: ChainRoot(ends[name], 0.0) for name in dyads}
     limited = replace(resigned(replace(assembly, path=path, chain={})), chain=chain)
-    return limited, separations(limited) if exact else at_samples(limited)
+    return limited, separations(limited)
 
 
 def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:

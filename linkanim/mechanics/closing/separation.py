@@ -166,16 +166,6 @@ def separations(assembly: Assembly) -> Separations:
     )
 
 
-def at_samples(assembly: Assembly) -> Separations:
-    """Return how the dyads fare along the path at samples alone, as far as floats can tell it there."""
-    phases, closings = _phases(assembly), walk_at(assembly, Graph().input("x"), Slope(0.0)).closings
-    run = _compiled([[closing.u * closing.w for closing in closings.values()]])
-    margins, none = run(phases)[0], dict.fromkeys(closings, ())
-    scale = np.fmax.reduce(np.abs(margins), axis=1)
-    scales, shut = dict(zip(closings, scale.tolist(), strict=True)), ~(-TOUCHING * scale <= margins.T).T
-    return Separations(scales, phases, shut, none, none, lambda places: run(places)[0] / scale[:, None])
-
-
 def _sampler(found: Collection[Closing], scale: Array) -> Callable[[Array], Sampled]:
     """Return the function of phases (N,) that gives s', s'', and over their scale U·W and U - W (4, D, N)."""
     run = _compiled(
