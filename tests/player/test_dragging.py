@@ -391,6 +391,17 @@ def test_what_no_longer_has_room_is_fitted_with_the_rest(player: Player) -> None
     assert player.window.screen._framing.last.fit.has_room
 
 
+def test_a_refusal_is_worked_out_in_one_frame_and_shown_in_the_next(player: Player) -> None:
+    frames = []
+    for _ in charted_drag(player, 0.02, far=90.0):
+        panel = player.window.screen.over.panel
+        assert panel
+        frames.append((player.state.editing.refusal, panel.error))
+    first = [found != shown for found, shown in frames]
+    assert any(first)
+    assert not any(one and other for one, other in pairwise(first))
+
+
 def test_a_button_that_comes_up_does_not_wait(player: Player) -> None:
     steps = charted_drag(player, 0.02)
     assert next(steps) == (True, False, False)

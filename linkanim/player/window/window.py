@@ -275,8 +275,10 @@ class Window:
 
     @property
     def _has_stepped(self) -> bool:
-        """Whether the hand has changed the scene since it was shown."""
-        return self.state.held is not None and self.state.scene is not self.screen.state.scene
+        """Whether the hand has changed the scene since it was shown, or has been refused to."""
+        now, before = self.state, self.screen.state
+        refused = now.editing.refusal != before.editing.refusal
+        return now.held is not None and (now.scene is not before.scene or refused)
 
     def _over_sheet(self) -> Hover | None:
         """Return what of an open sheet the mouse is over."""
