@@ -256,7 +256,8 @@ class Window:
 
     def _show(self) -> None:
         """Paint and flip; a scene that cannot be painted gives way to the last that could."""
-        hover = self._mouse.hovered(self.screen) if self._good else None
+        free = self._good is not None and not self.state.held  # what is held glows by itself
+        hover = self._mouse.hovered(self.screen) if free else None
         if hover not in self.state.shown.linkage.by_name:
             hover = None  # a joint of the scene that was there until now
         try:
