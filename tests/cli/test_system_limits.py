@@ -28,7 +28,7 @@ RECORD = ("record", "kite", "--size", "64x36", "--seconds", "0.1", "-o")
         pytest.param("RLIMIT_NOFILE", 5, (*RECORD, "a.mp4"), "too many open files", id="mp4"),
         pytest.param("RLIMIT_NOFILE", 4, ("report", "kite", "-o", "a"), "too many open files", id="report"),
         pytest.param("RLIMIT_AS", 60_000_000, ("info", "kite"), "not enough memory", id="numpy"),
-        pytest.param("RLIMIT_AS", 130_000_000, ("info", "kite"), "memory", id="threads"),
+        pytest.param("RLIMIT_AS", 85_000_000, ("info", "kite"), "memory", id="threads"),
     ],
 )
 @pytest.mark.slow
