@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from operator import attrgetter
 
@@ -142,8 +143,9 @@ class SurfacePrinter:
                 type_.draw(canvas, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
 
     def _panels_of(self, picture: Picture) -> Panels:
-        board = Board(picture.layout, picture.type, picture.theme)
-        if self._panels is None or self._panels.board != board:
+        before = self._panels.board if self._panels else Board(picture.layout, picture.type, picture.theme)
+        board = replace(before, layout=picture.layout, type=picture.type, theme=picture.theme)
+        if self._panels is None or before != board:
             self._panels = Panels(board)
         return self._panels
 

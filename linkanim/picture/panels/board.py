@@ -31,7 +31,7 @@ class Board:
     layout: Layout
     type: Type
     theme: Theme
-    _sheets: dict[tuple[int, int], pygame.Surface] = field(default_factory=dict, compare=False)
+    _sheets: dict[object, pygame.Surface] = field(default_factory=dict, compare=False)
     """The last empty panel: a list that changes keeps its size."""
     _bars: dict[object, Cover] = field(default_factory=dict, compare=False)
     """The last bars behind rows: a list that changes mostly keeps its chosen one."""
@@ -44,10 +44,11 @@ class Board:
     def sheet(self, width: float, height: float) -> pygame.Surface:
         """Return an empty panel: a framed sheet with round corners on nothing."""
         size = round(width), round(height)
-        if size not in self._sheets:
+        key = size, self.layout.unit, self.theme
+        if key not in self._sheets:
             self._sheets.clear()
-            self._sheets[size] = self._empty(size)
-        return self._sheets[size].copy()
+            self._sheets[key] = self._empty(size)
+        return self._sheets[key].copy()
 
     def _empty(self, size: tuple[int, int]) -> pygame.Surface:
         sheet = pygame.Surface(size, pygame.SRCALPHA, 32)
