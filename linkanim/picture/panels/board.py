@@ -22,6 +22,8 @@ _POINTED = 0.5
 """How much of the chosen row's colour a row has that the mouse is over."""
 
 _KEPT_BARS = 8
+_KEPT_SHEETS = 4
+"""A list has as many heights: without a refusal, and with one of one to three lines."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Board:
     type: Type
     theme: Theme
     _sheets: dict[object, pygame.Surface] = field(default_factory=dict, compare=False)
-    """The last empty panel: a list that changes keeps its size."""
+    """The last empty panels: a list that changes has few sizes."""
     _bars: dict[object, Cover] = field(default_factory=dict, compare=False)
     """The last bars behind rows: a list that changes mostly keeps its chosen one."""
 
@@ -46,7 +48,8 @@ class Board:
         size = round(width), round(height)
         key = size, self.layout.unit, self.theme
         if key not in self._sheets:
-            self._sheets.clear()
+            if len(self._sheets) >= _KEPT_SHEETS:
+                self._sheets.clear()
             self._sheets[key] = self._empty(size)
         return self._sheets[key].copy()
 
