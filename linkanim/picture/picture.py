@@ -313,8 +313,7 @@ class Picture:
     def _on_chart(self, pose: Pose, *, grasped: bool) -> Iterator[Group]:
         """Yield the chart's cursor and what is read there, and its grip where it can be grasped."""
         if self._chart:
-            reading = self._as_earlier("reading", self._read(self._chart, pose, grasped=grasped))
-            yield from reading
+            yield from self._as_earlier("reading", self._read(self._chart, pose, grasped=grasped))
 
     def _read(self, chart: ChartPanel, pose: Pose, *, grasped: bool) -> Iterator[Group]:
         items: list[Item] = [*chart.cursor(pose)]
