@@ -22,7 +22,7 @@ from linkanim.synthesis.cognates import cognates_of
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import FOUR_BAR
 from linkanim.synthesis.request import task_of
-from linkanim.synthesis.search import found, glimpsed, refitted
+from linkanim.synthesis.search import found, glimpsed, ranked, refitted
 
 COUNT = 6
 """Answers for a stroke."""
@@ -89,8 +89,10 @@ class Follower:
         if not request.search:
             return
         fits = found(task, 2 * COUNT, lambda *_: pulse(), widely=False)
-        shown = near if before and near else fits[0]
-        like = next((fit for fit in fits if fit.apart(shown) <= _ALIKE), shown)
+        if not (before and near):
+            yield _row(fits[0], fits), 0
+            return
+        like = next((fit for fit in fits if fit.apart(near) <= _ALIKE), near)
         row = _row(like, fits)
         yield row, row.index(like)
 
@@ -106,7 +108,7 @@ def _row(shown: Fit, fits: tuple[Fit, ...]) -> tuple[Fit, ...]:
         turns = fit.scene.info.full_turn or not shown.scene.info.full_turn
         if turns and not any(fit.apart(one) <= _ALIKE for one in kept):
             kept.append(fit)
-    return tuple(sorted(kept, key=lambda fit: fit.error))
+    return tuple(ranked(kept))
 
 
 def lines_of(stream: TextIO) -> SimpleQueue[str | None]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -46,6 +47,10 @@ _SAME = 1e-4
 """Of the curve's size: answers whose joints are apart by less are one."""
 _FITTED = 1e-6
 """Of the curve's size: answers better than this are equally good, and the one that turns best comes first."""
+_EQUAL = 6
+"""Decimals to which figures are told apart: those of a curve's cognates differ by rounding only."""
+_CLOSED = 1e-24
+"""A merit that is as good as none: candidates that are off by so little are equal."""
 
 
 def found(
@@ -123,7 +128,7 @@ def refined_through(
     for number, stage in enumerate(stages):
         if progress:
             progress(number, len(stages))
-        now = now.take(np.argsort(cost, kind="stable")[: stage.candidates])
+        now = now.take(_by_merit(cost)[: stage.candidates])
         before, chosen = chosen, task.normal.thinned(stage.points)
         now = now._replace(angles=_spread(task, now, before, chosen))
         problem = task.problem(chosen)
@@ -133,7 +138,12 @@ def refined_through(
     if progress:
         progress(len(stages), len(stages))
     now = now._replace(angles=_spread(task, now, chosen, np.arange(len(task.normal.points))))
-    return now.take(np.argsort(cost, kind="stable")[: int(np.isfinite(cost).sum())])
+    return now.take(_by_merit(cost)[: int(np.isfinite(cost).sum())])
+
+
+def _by_merit(cost: Real) -> Indices:
+    """Return the order of candidates by their merit; equal ones stay as they are."""
+    return np.argsort(np.round(np.log10(np.maximum(cost, _CLOSED)), _EQUAL), kind="stable")
 
 
 def refitted(task: PathTask, fit: Fit) -> Fit | None:
@@ -170,17 +180,38 @@ def _checked(task: PathTask, normal: Candidates) -> Iterator[Fit]:
             yield fit
 
 
-def best_of(fits: list[Fit] | Iterator[Fit], count: int) -> tuple[Fit, ...]:
+def best_of(fits: Iterable[Fit], count: int) -> tuple[Fit, ...]:
     """Return the best of those that differ by more than rounding."""
     kept: list[Fit] = []
-    for fit in sorted(fits, key=_rank):
+    for fit in ranked(fits):
         if not any(_same(fit, other) for other in kept):
             kept.append(fit)
     return tuple(kept[:count])
 
 
-def _rank(fit: Fit) -> tuple[float, float]:
-    return max(fit.error, _FITTED * fit.task.curve.size), -fit.transmission_angle
+def ranked(fits: Iterable[Fit]) -> list[Fit]:
+    """Return answers, the best first: by error, then transmission angle, longest link and place.
+
+    Each of these decides only among answers that rounding alone tells apart by those before it, so that the
+    order is the same wherever numbers come to lie in memory.
+    """
+    return _ranked([(_figures(fit), fit) for fit in fits])
+
+
+def _figures(fit: Fit) -> tuple[float, ...]:
+    size = fit.task.curve.size
+    error = math.log10(max(fit.error / size, _FITTED))
+    return error, -fit.transmission_angle, fit.size / size, *(fit.row / size)
+
+
+def _ranked(fits: Sequence[tuple[tuple[float, ...], Fit]], figure: int = 0) -> list[Fit]:
+    """Return answers in the order of a figure, those in which it is equal in the order of the next."""
+    if len(fits) < 2 or figure == len(fits[0][0]):
+        return [fit for _, fit in fits]
+    ordered = sorted(fits, key=lambda pair: pair[0][figure])
+    ends = [n for n in range(1, len(fits)) if ordered[n][0][figure] - ordered[n - 1][0][figure] > 10**-_EQUAL]
+    runs = [ordered[first:last] for first, last in pairwise([0, *ends, len(fits)])]
+    return [fit for run in runs for fit in _ranked(run, figure + 1)]
 
 
 def _same(one: Fit, other: Fit) -> bool:

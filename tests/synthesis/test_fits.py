@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -17,7 +18,7 @@ from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
 from linkanim.synthesis.match import matched
-from linkanim.synthesis.search import best_of
+from linkanim.synthesis.search import best_of, ranked
 
 PERCENT = 0.01
 KUNJUR = [
@@ -233,6 +234,26 @@ def test_a_point_may_be_passed_exactly() -> None:
     best = linkanim.path(SQUARE, exactly=[0], count=1)[0]
     assert abs(traced(best, angle=best.angles)[0]) < 1e-6
     assert best.rms > 0.01
+
+
+@pytest.mark.slow
+def test_answers_that_rounding_alone_tells_apart_come_in_one_order() -> None:
+    points = curves("four-bar", 1, seed=31)[0]
+    best, *cognates = linkanim.path(points, count=1, cognates=True)
+    # equally good, some with the same transmission angle, too
+    fits = [replace(fit, rms=0.01, largest=0.02, stray=0.0) for fit in (best, *cognates)]
+    fits += [replace(fits[1], size=fits[1].size * 2), replace(fits[2], parameters=best.parameters)]
+    fits = [replace(fit, angles=fit.angles.copy()) for fit in fits]
+    random, names = np.random.default_rng(1), {id(fit.angles): n for n, fit in enumerate(fits)}
+    orders = set()
+    for _ in range(30):
+        shaken = [
+            replace(fit, rms=fit.rms * one, transmission_angle=fit.transmission_angle * other)
+            for fit, (one, other) in zip(fits, random.normal(1.0, 1e-14, (len(fits), 2)), strict=True)
+        ]
+        random.shuffle(shaken)
+        orders.add(tuple(names[id(fit.angles)] for fit in ranked(shaken)))
+    assert len(orders) == 1
 
 
 @pytest.mark.slow
